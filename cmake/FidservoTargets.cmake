@@ -1,0 +1,48 @@
+# How every room of the house is compiled. Warnings are errors.
+
+set(FIDSERVO_SANITIZE "" CACHE STRING "Sanitizers for everything: address,undefined or thread")
+
+add_library(fidservo_compile_options INTERFACE)
+target_include_directories(fidservo_compile_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(fidservo_compile_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
+  -fno-math-errno)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(fidservo_compile_options INTERFACE -Wno-restrict) # false positives of g++ 12 in std::string
+endif()
+if(FIDSERVO_SANITIZE)
+  target_compile_options(fidservo_compile_options INTERFACE
+    -fsanitize=${FIDSERVO_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  if(FIDSERVO_SANITIZE MATCHES undefined)
+    # A null dereference stops the address sanitizer's run anyway; these checks of every pointer double the build.
+    target_compile_options(fidservo_compile_options INTERFACE -fno-sanitize=null,alignment,object-size)
+  endif()
+  target_link_options(fidservo_compile_options INTERFACE -fsanitize=${FIDSERVO_SANITIZE})
+endif()
+
+# fidservo_library(NAME SOURCES a.cpp ... USES targets...): the one library target of a room.
+function(fidservo_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES;PRIVATELY" ${ARGN})
+  add_library(fidservo_${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(fidservo_${name} PUBLIC fidservo_compile_options ${ARG_USES} PRIVATE ${ARG_PRIVATELY})
+endfunction()
+
+# fidservo_test(NAME [SERIAL] SOURCES a.cpp ... USES targets...): one GoogleTest program.
+# Tests whose name begins with Slow get the label slow, the others quick. SERIAL: no other test runs at the same
+# time, for tests that watch processes on the wall clock.
+include(GoogleTest)
+function(fidservo_test name)
+  cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;USES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE fidservo_compile_options ${ARG_USES} GTest::gtest_main GTest::gmock)
+  target_compile_definitions(${name} PRIVATE
+    FIDSERVO_ASSETS_DIR="${CMAKE_SOURCE_DIR}/assets"
+    FIDSERVO_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+    FIDSERVO_DATA_DIR="${FIDSERVO_DATA_DIR}")
+  gtest_discover_tests(${name} TEST_FILTER "-Slow*" PROPERTIES LABELS quick RUN_SERIAL ${ARG_SERIAL} TIMEOUT 300 DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(${name} TEST_FILTER "Slow*" PROPERTIES LABELS slow RUN_SERIAL ${ARG_SERIAL} TIMEOUT 1500 DISCOVERY_TIMEOUT 60)
+endfunction()
+
+# Data made by other people, kept out of the repository. Tests that use it skip where it is absent.
+set(FIDSERVO_DATA_DIR "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH "Folder of the shared data")
+cmake_path(NORMAL_PATH FIDSERVO_DATA_DIR)
