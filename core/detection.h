@@ -1,0 +1,29 @@
+#pragma once
+// A fiducial found in a frame, and what it says about where the camera is.
+#include "core/time.h"
+
+#include <array>
+
+#include <Eigen/Core>
+
+namespace fidservo {
+
+/// Corners in px, pixel centres at integers, in plate order: (-,+), (+,+), (+,-), (-,-) in plate x, y.
+struct TagDetection {
+    TimeNs time_ns = 0;  ///< middle of the frame's exposure
+    int tag_id = -1;
+    int corrected_bits = 0;        ///< code bits that differ from the code book
+    double decision_margin = 0.0;  ///< contrast between black and white bits, grey levels
+    std::array<Eigen::Vector2d, 4> corners_px;
+};
+
+/// Where the camera is, from one tag whose place on the plate is known.
+struct CameraPosition {
+    TimeNs time_ns;  ///< middle of the exposure
+    int tag_id;
+    double s_mm;      ///< plate x under the optical axis
+    double s_std_mm;  ///< one standard deviation
+    double y_mm;      ///< plate y under the optical axis; zero on an ideal stage
+};
+
+}  // namespace fidservo

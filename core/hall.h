@@ -1,0 +1,35 @@
+#pragma once
+// The linear Hall sensor that sees the micro platform: published S-shaped curve of voltage against position.
+//
+//     s = (x - centre) / half_range,     V = mid + span s (1 + cubic (1 - s^2))
+//
+// The curve rises up to |s| = sqrt((1 + cubic) / (3 cubic)); beyond, it has no inverse.
+
+namespace fidservo {
+
+struct HallParameters {
+    double mid_V;
+    double span_V;
+    double centre_mm;
+    double half_range_mm;
+    double cubic;  ///< >= 0
+    int adc_bits;
+    double adc_range_V;
+    double noise_lsb;  ///< r.m.s., before rounding
+};
+
+double hall_lsb_V(const HallParameters& hall);
+
+/// Sensor voltage in V at a platform position in mm.
+double hall_voltage_V(const HallParameters& hall, double position_mm);
+
+/// dV/dx in V/mm.
+double hall_slope_V_per_mm(const HallParameters& hall, double position_mm);
+
+/// Exact inverse, not clamped to the travel; voltages beyond the rising part give its end.
+double hall_position_mm(const HallParameters& hall, double voltage_V);
+
+/// Position in mm of an ADC reading.
+double hall_position_mm_of_adc(const HallParameters& hall, int adc);
+
+}  // namespace fidservo

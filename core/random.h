@@ -1,0 +1,26 @@
+#pragma once
+// One generator a noise source. Counter-based: draw k of a stream is a pure function of (seed, stream, k), so
+// a snapshot is one number, and adding a source does not disturb the others.
+#include <cstdint>
+#include <string_view>
+
+namespace fidservo {
+
+class NoiseStream {
+  public:
+    /// @param source  name of the noise source, e.g. "hall"
+    NoiseStream(std::uint64_t seed, std::string_view source);
+
+    std::uint64_t bits();
+    double uniform();  ///< in [0, 1)
+    double normal();   ///< mean 0, standard deviation 1
+
+    std::uint64_t position() const { return position_; }
+    void seek(std::uint64_t position) { position_ = position; }
+
+  private:
+    std::uint64_t key_;
+    std::uint64_t position_ = 0;
+};
+
+}  // namespace fidservo

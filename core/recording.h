@@ -1,0 +1,51 @@
+#pragma once
+// A recording in memory: one row per control tick, and the fiducials seen. Row k holds what was sampled at
+// tick k and the commands applied from tick k on (the voltages sent, after saturation).
+#include "core/detection.h"
+#include "core/time.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace fidservo {
+
+/// "Not in force": an empty field of the file.
+inline constexpr double not_in_force = std::numeric_limits<double>::quiet_NaN();
+
+struct StageRow {
+    TimeNs time_ns = 0;
+    double macro_setpoint_mm = not_in_force;
+    double macro_command_V = not_in_force;
+    double encoder_count = not_in_force;
+    double micro_setpoint_mm = not_in_force;
+    double micro_command_V = not_in_force;
+    double hall_adc = not_in_force;
+    double position_mm = not_in_force;  ///< in files that give it in place of a count
+};
+
+/// Which columns a recording has; a rig may lack some.
+struct StageColumns {
+    bool macro_setpoint = false, macro_command = false, encoder = false;
+    bool micro_setpoint = false, micro_command = false, hall = false;
+    bool position = false;  ///< the file gave "position [mm]" in place of "encoder [count]"
+};
+
+struct FrameName {
+    TimeNs time_ns;
+    std::string filename;  ///< relative to the recording's cam0/data
+};
+
+struct Recording {
+    std::string name;
+    std::string rig;
+    std::string experiment;
+    double tick_s = 0.0;
+    StageColumns columns;
+    std::vector<StageRow> rows;
+    std::vector<TagDetection> detections;
+    std::vector<FrameName> frames;
+};
+
+}  // namespace fidservo

@@ -1,0 +1,21 @@
+#pragma once
+// Time is a count of nanoseconds on one monotonic clock. A frame's time is the middle of its exposure.
+#include <cstdint>
+
+namespace fidservo {
+
+using TimeNs = std::int64_t;
+
+inline constexpr TimeNs ns_per_s = 1'000'000'000;
+inline constexpr TimeNs ns_per_ms = 1'000'000;
+
+constexpr double seconds(TimeNs t_ns) {
+    return static_cast<double>(t_ns) * 1e-9;
+}
+
+/// Nearest nanosecond to a duration in seconds.
+constexpr TimeNs nanoseconds(double t_s) {
+    return static_cast<TimeNs>(t_s * 1e9 + (t_s < 0 ? -0.5 : 0.5));
+}
+
+}  // namespace fidservo

@@ -1,0 +1,15 @@
+#pragma once
+// Stage positions are mm inside files and code, um where people read errors. Names carry the unit.
+
+namespace fidservo {
+
+inline constexpr double um_per_mm = 1000.0;
+
+constexpr double um_from_mm(double x_mm) {
+    return x_mm * um_per_mm;
+}
+constexpr double mm_from_um(double x_um) {
+    return x_um / um_per_mm;
+}
+
+}  // namespace fidservo
