@@ -1,0 +1,73 @@
+#include "plant/effects/catalogue.h"
+
+#include "core/failure.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace fidservo::plant {
+
+namespace effects {
+
+extern const Effect drive_gain, drive_offset, viscous_friction, payload, encoder_scale, ambient_temperature,
+    airflow, heater_gain, stroke_change, hall_gain, hall_offset, hall_nonlinearity, camera_latency;
+
+}  // namespace effects
+
+namespace {
+
+constinit const std::array catalogue{
+    &effects::drive_gain,     &effects::drive_offset,  &effects::viscous_friction,
+    &effects::payload,        &effects::encoder_scale, &effects::ambient_temperature,
+    &effects::airflow,        &effects::heater_gain,   &effects::stroke_change,
+    &effects::hall_gain,      &effects::hall_offset,   &effects::hall_nonlinearity,
+    &effects::camera_latency,
+};
+
+/// Whether the rig has the part that a block belongs to.
+bool has_part(const PlantParameters& plant, std::string_view block) {
+    if (block.starts_with("micro.")) return plant.micro.has_value();
+    if (block.starts_with("camera.")) return plant.camera.has_value();
+    return true;
+}
+
+}  // namespace
+
+std::span<const Effect* const> effect_catalogue() {
+    return catalogue;
+}
+
+const Effect* find_effect(std::string_view name) {
+    const auto found = std::ranges::find(catalogue, name, [](const Effect* effect) { return effect->name; });
+    return found == catalogue.end() ? nullptr : *found;
+}
+
+EffectSetting vanishing_setting(const Effect& effect) {
+    EffectSetting setting{&effect, {}};
+    for (const EffectParameter& parameter : effect.parameters) setting.values.push_back(parameter.vanishing);
+    return setting;
+}
+
+void apply_effects(PlantParameters& plant, std::span<const EffectSetting> effects) {
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+        const Effect& effect = *effects[k].effect;
+        FIDSERVO_DEMAND(effects[k].values.size() == effect.parameters.size());
+        const auto earlier = effects.first(k);
+        if (std::ranges::any_of(earlier, [&](const EffectSetting& other) { return other.effect == &effect; }))
+            throw InputError("--effect: " + std::string(effect.name) + ": an effect can be given once only");
+        if (!has_part(plant, effect.block))
+            throw InputError("--effect: " + std::string(effect.name) + ": the rig has no " +
+                             std::string(effect.block.substr(0, effect.block.find('.'))) +
+                             " part for it to act on");
+        effect.apply(plant, effects[k].values);
+    }
+}
+
+StagePlant make_stage_plant(const Rig& rig, std::span<const EffectSetting> effects) {
+    PlantParameters parameters = plant_parameters(rig);
+    apply_effects(parameters, effects);
+    return make_stage_plant(parameters);
+}
+
+}  // namespace fidservo::plant

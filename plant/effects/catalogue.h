@@ -1,0 +1,31 @@
+#pragma once
+// The effects that there are, by name, and how they are put into a plant.
+#include "plant/effects/effect.h"
+
+#include <span>
+#include <string_view>
+
+namespace fidservo::plant {
+
+/// All effects, in the order of the signal's way through the rig.
+std::span<const Effect* const> effect_catalogue();
+
+/// The effect of a name, or nullptr.
+const Effect* find_effect(std::string_view name);
+
+/// Reads "NAME" or "NAME:PARAMETER=VALUE,...", as the option --effect takes it. Parameters that are not given
+/// have their typical values. Throws InputError on an unknown effect or parameter, one given twice, a value
+/// that is no number or out of bounds.
+EffectSetting parse_effect(std::string_view text);
+
+/// A setting that changes nothing.
+EffectSetting vanishing_setting(const Effect& effect);
+
+/// Puts effects into a plant's parameters. The order does not matter. Throws InputError if an effect is given
+/// twice, or if the rig lacks the part that it acts on.
+void apply_effects(PlantParameters& plant, std::span<const EffectSetting> effects);
+
+/// A rig with effects that its file does not state.
+StagePlant make_stage_plant(const Rig& rig, std::span<const EffectSetting> effects);
+
+}  // namespace fidservo::plant

@@ -1,0 +1,95 @@
+// "NAME:PARAMETER=VALUE,..." as the option --effect takes it.
+#include "core/failure.h"
+#include "plant/effects/catalogue.h"
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+namespace fidservo::plant {
+
+namespace {
+
+[[noreturn]] void fail(std::string_view text, const std::string& message) {
+    throw InputError("--effect: " + std::string(text) + ": " + message);
+}
+
+std::string range_of(const EffectParameter& parameter) {
+    std::ostringstream range;
+    range << parameter.low << " .. " << parameter.high;
+    if (!parameter.unit.empty()) range << ' ' << parameter.unit;
+    range << " (" << parameter.vanishing << ": no effect)";
+    return range.str();
+}
+
+std::string known_effects() {
+    std::string names;
+    for (const Effect* effect : effect_catalogue())
+        names += (names.empty() ? "" : ", ") + std::string(effect->name);
+    return names;
+}
+
+std::string known_parameters(const Effect& effect) {
+    std::string names;
+    for (const EffectParameter& parameter : effect.parameters)
+        names += (names.empty() ? "" : ", ") + std::string(parameter.name) + " = " + range_of(parameter);
+    return names;
+}
+
+/// Cuts off what stands before the separator, which goes too. Without separator all of it.
+std::string_view take_until(std::string_view& rest, char separator) {
+    const std::size_t at = rest.find(separator);
+    const std::string_view taken = rest.substr(0, at);
+    rest = at == std::string_view::npos ? std::string_view{} : rest.substr(at + 1);
+    return taken;
+}
+
+std::size_t index_of(const Effect& effect, std::string_view name, std::string_view text) {
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k)
+        if (effect.parameters[k].name == name) return k;
+    fail(text, "\"" + std::string(name) + "\" is no parameter of " + std::string(effect.name) +
+                   "; allowed: " + known_parameters(effect));
+}
+
+double value_of(const EffectParameter& parameter, std::string_view digits, std::string_view text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+        fail(text, std::string(parameter.name) + ": \"" + std::string(digits) +
+                       "\" is not a number; allowed: " + range_of(parameter));
+    if (value < parameter.low || value > parameter.high)
+        fail(text, std::string(parameter.name) + ": " + std::string(digits) +
+                       " is out of bounds; allowed: " + range_of(parameter));
+    return value;
+}
+
+}  // namespace
+
+EffectSetting parse_effect(std::string_view text) {
+    std::string_view rest = text;
+    const bool has_parameters = text.find(':') != std::string_view::npos;
+    const Effect* effect = find_effect(take_until(rest, ':'));
+    if (effect == nullptr) fail(text, "no such effect; known: " + known_effects());
+
+    EffectSetting setting{effect, {}};
+    for (const EffectParameter& parameter : effect->parameters) setting.values.push_back(parameter.typical);
+    if (!has_parameters) return setting;
+    if (rest.empty() || rest.back() == ',')
+        fail(text, "PARAMETER=VALUE is missing; allowed: " + known_parameters(*effect));
+
+    std::vector<bool> given(effect->parameters.size(), false);
+    while (!rest.empty()) {
+        std::string_view digits = take_until(rest, ',');
+        if (digits.find('=') == std::string_view::npos)
+            fail(text, "\"" + std::string(digits) +
+                           "\" is not PARAMETER=VALUE; allowed: " + known_parameters(*effect));
+        const std::size_t k = index_of(*effect, take_until(digits, '='), text);
+        if (given[k]) fail(text, std::string(effect->parameters[k].name) + " is given twice");
+        given[k] = true;
+        setting.values[k] = value_of(effect->parameters[k], digits, text);
+    }
+    return setting;
+}
+
+}  // namespace fidservo::plant

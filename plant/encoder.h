@@ -1,0 +1,29 @@
+#pragma once
+// The macro stage's incremental encoder:  count = floor(y / resolution + 1/2) - origin.
+//
+// It counts from where it was switched on: before homing a count says nothing about the position. Recordings
+// of the reference rig are made after homing, with the origin at the left end of travel (origin 0).
+#include <cstdint>
+
+namespace fidservo::plant {
+
+struct Encoder {
+    double resolution_mm;
+};
+
+/// Where the count is zero.
+enum class EncoderOrigin {
+    power_up,       ///< where the carriage stands at the start
+    end_of_travel,  ///< y = 0: a rig that was homed before
+};
+
+struct EncoderState {
+    std::int64_t origin_count = 0;
+};
+
+EncoderState start(const Encoder& encoder, double position_mm, EncoderOrigin origin);
+
+/// The count at a carriage position in mm.
+std::int64_t sample(const Encoder& encoder, const EncoderState& state, double position_mm);
+
+}  // namespace fidservo::plant

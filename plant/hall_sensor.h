@@ -1,0 +1,24 @@
+#pragma once
+// The Hall sensor with its ADC: the published curve (core/hall.h), Gaussian noise, rounding, clamped to the
+// converter's range.
+#include "core/hall.h"
+#include "core/random.h"
+
+namespace fidservo::plant {
+
+/// Parameters and what follows from them. Immutable.
+struct HallSensor {
+    HallParameters parameters;
+    double lsb_per_V;
+    double highest_adc;
+};
+
+HallSensor make_hall_sensor(const HallParameters& parameters);
+
+/// The reading without noise and rounding, in LSB, at a platform position in mm.
+double mean_reading_lsb(const HallSensor& sensor, double position_mm);
+
+/// One reading. Draws once from the noise, whatever the parameters are.
+int sample(const HallSensor& sensor, NoiseStream& noise, double position_mm);
+
+}  // namespace fidservo::plant

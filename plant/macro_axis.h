@@ -1,0 +1,50 @@
+#pragma once
+// The macro stage: a printer carriage behind a saturated drive and a dead zone that stands for its friction.
+//
+//     w = g clamp(u, -limit, limit) + b                        drive: gain g, force on the carriage b (V)
+//     V = sgn(w) (a0 + d (|w| - w0))  for |w| >= w0, else 0     dead zone
+//     tau dv/dt = K V - v,   dy/dt = v                          carriage
+//
+// The command is held over a tick, so the motion has an exact solution. At either end of travel the carriage
+// stops dead. Friction acts at the input only: without effective voltage the carriage coasts to rest.
+#include "core/rig.h"
+
+namespace fidservo::plant {
+
+struct MacroAxisParameters {
+    double low_mm = 0.0;  ///< travel; may be infinite
+    double high_mm = 0.0;
+    double command_limit_V = 0.0;
+    double drive_gain = 1.0;    ///< of the amplifier
+    double drive_bias_V = 0.0;  ///< a force that also acts on the carriage at rest, held by the dead zone
+    DeadZone dead_zone;
+    double velocity_gain_mm_per_s_per_V = 0.0;
+    double time_constant_s = 0.0;
+};
+
+/// Position in the stage frame, velocity positive to the right.
+struct MacroAxisState {
+    double position_mm = 0.0;
+    double velocity_mm_per_s = 0.0;
+};
+
+/// Parameters and what follows from them for one tick. Immutable.
+struct MacroAxis {
+    MacroAxisParameters parameters;
+    double tick_s = 0.0;
+    double decay = 0.0;    ///< exp(-T / tau)
+    double glide_s = 0.0;  ///< tau (1 - decay): way per unit of velocity in excess of K V
+};
+
+/// The axis of a rig, without effects. tau = -T / ln(pole).
+MacroAxisParameters macro_axis_parameters(const Rig& rig);
+
+MacroAxis make_macro_axis(const MacroAxisParameters& parameters, double tick_s);
+
+/// The voltage V that is left for motion of a command u, both in V.
+double effective_voltage_V(const MacroAxisParameters& parameters, double command_V);
+
+/// Moves the carriage by one tick under a held command in V.
+void advance(const MacroAxis& axis, MacroAxisState& state, double command_V);
+
+}  // namespace fidservo::plant

@@ -1,0 +1,52 @@
+#include "plant/stage_plant.h"
+
+#include "core/failure.h"
+
+namespace fidservo::plant {
+
+PlantParameters plant_parameters(const Rig& rig) {
+    PlantParameters parameters{.tick_s = rig.tick_s,
+                               .axis = macro_axis_parameters(rig),
+                               .encoder = {rig.macro.encoder_resolution_mm},
+                               .micro = micro_stage_parameters(rig),
+                               .camera = std::nullopt};
+    if (rig.camera) parameters.camera.emplace();
+    return parameters;
+}
+
+StagePlant make_stage_plant(const PlantParameters& parameters) {
+    StagePlant plant{parameters.tick_s, make_macro_axis(parameters.axis, parameters.tick_s),
+                     parameters.encoder, std::nullopt, parameters.camera};
+    if (parameters.micro) plant.micro = make_micro_stage(*parameters.micro, parameters.tick_s);
+    return plant;
+}
+
+StagePlant make_stage_plant(const Rig& rig) {
+    return make_stage_plant(plant_parameters(rig));
+}
+
+StageState start(const StagePlant& plant, double carriage_mm, std::uint64_t seed, EncoderOrigin origin) {
+    FIDSERVO_DEMAND(carriage_mm >= plant.axis.parameters.low_mm &&
+                    carriage_mm <= plant.axis.parameters.high_mm);
+    StageState state{{carriage_mm, 0.0}, start(plant.encoder, carriage_mm, origin), std::nullopt};
+    if (plant.micro) state.micro.emplace(start(*plant.micro, seed));
+    return state;
+}
+
+StageReading sample(const StagePlant& plant, StageState& state) {
+    StageReading reading{sample(plant.encoder, state.encoder, state.axis.position_mm), 0};
+    if (state.micro)
+        reading.hall_adc = sample(plant.micro->hall, state.micro->hall_noise, state.micro->position_mm);
+    return reading;
+}
+
+void advance(const StagePlant& plant, StageState& state, double macro_V, double micro_V) {
+    advance(plant.axis, state.axis, macro_V);
+    if (state.micro) advance(*plant.micro, *state.micro, micro_V);
+}
+
+double camera_position_mm(const StageState& state) {
+    return state.axis.position_mm + (state.micro ? state.micro->position_mm : 0.0);
+}
+
+}  // namespace fidservo::plant

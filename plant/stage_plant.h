@@ -1,0 +1,80 @@
+#pragma once
+// The rig as physics, without images: two voltages in, two readings out, tick by tick.
+//
+// In each tick the sensors are sampled first; then the commands are held until the next tick:
+//
+//     const StagePlant plant = make_stage_plant(rig);
+//     StageState state = start(plant, 100.0, seed);
+//     for (;;) {
+//         const StageReading reading = sample(plant, state);
+//         advance(plant, state, macro_V, micro_V);
+//     }
+//
+// The state is the truth. It never leaves plant and tests: what runs on the rig sees readings only.
+#include "core/rig.h"
+#include "plant/encoder.h"
+#include "plant/macro_axis.h"
+#include "plant/micro_stage.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace fidservo::plant {
+
+/// How the camera's clock and link differ from the rig file. A frame whose exposure is centred at t is
+/// stamped t + delay_s, and arrives that much later too.
+struct CameraTiming {
+    double delay_s = 0.0;
+};
+
+/// All numbers of the physics, open to changes by effects. Parts that the rig does not have are empty.
+struct PlantParameters {
+    double tick_s = 0.0;
+    MacroAxisParameters axis;
+    Encoder encoder{};
+    std::optional<MicroStageParameters> micro;
+    std::optional<CameraTiming> camera;
+};
+
+/// The rig as its file describes it, ready to tick. Immutable.
+struct StagePlant {
+    double tick_s = 0.0;
+    MacroAxis axis;
+    Encoder encoder{};
+    std::optional<MicroStage> micro;
+    std::optional<CameraTiming> camera;
+};
+
+/// All that a run changes. A plain value: a copy is a snapshot.
+struct StageState {
+    MacroAxisState axis;
+    EncoderState encoder;
+    std::optional<MicroStageState> micro;
+};
+
+/// What the board samples at a tick. Without a micro stage hall_adc is 0.
+struct StageReading {
+    std::int64_t encoder_count = 0;
+    int hall_adc = 0;
+};
+
+/// The parameters of a rig without effects.
+PlantParameters plant_parameters(const Rig& rig);
+
+StagePlant make_stage_plant(const PlantParameters& parameters);
+StagePlant make_stage_plant(const Rig& rig);
+
+/// A rig at rest with a cold wire; the carriage stands at a position within the travel, in mm.
+StageState start(const StagePlant& plant, double carriage_mm, std::uint64_t seed,
+                 EncoderOrigin origin = EncoderOrigin::power_up);
+
+/// Samples the sensors. Draws from the sensors' noise, nothing else of the state changes.
+StageReading sample(const StagePlant& plant, StageState& state);
+
+/// One tick under held commands in V. Does not allocate.
+void advance(const StagePlant& plant, StageState& state, double macro_V, double micro_V);
+
+/// Plate x under the optical axis in mm: macro + micro.
+double camera_position_mm(const StageState& state);
+
+}  // namespace fidservo::plant

@@ -1,0 +1,13 @@
+#pragma once
+// How bright a perfect white would be at each pixel.
+#include "plant/view/view_options.h"
+
+#include <vector>
+
+namespace fidservo::plant::view {
+
+/// Grey level of reflectance 1 at each pixel, row by row: 255 times the light, times the pixel's fixed gain,
+/// which is drawn from the stream "pixel_gain" of the options' seed.
+std::vector<float> light_field(int width_px, int height_px, const ViewOptions& options);
+
+}  // namespace fidservo::plant::view

@@ -1,0 +1,35 @@
+#pragma once
+// What the camera's motion during the exposure does to the image: a convolution along u.
+#include <span>
+#include <vector>
+
+namespace fidservo::plant::view {
+
+/// Time average over the exposure of the position, from samples evenly spaced over it, both ends included;
+/// linear in between.
+double mean_position(std::span<const double> samples);
+
+/// Weights of the average over shifted copies of an image row. The shifts follow the motion, at steps of at
+/// most half a pixel (fine against any blur), and a copy shifted by a fraction of a pixel is interpolated
+/// from eight neighbours (Lagrange), which holds a blurred edge in even motion to 0.2 % of its contrast.
+class MotionKernel {
+  public:
+    /// @param shifts_px  of the image relative to where it is painted, evenly spaced over the exposure, both
+    ///                   ends included. A kernel that would be narrower than can be seen is none.
+    explicit MotionKernel(std::span<const double> shifts_px);
+
+    /// No motion: apply() is not needed.
+    bool is_identity() const { return taps_.empty(); }
+    /// Pixels beyond which a place has no influence.
+    int reach() const { return reach_; }
+
+    /// blurred[i] = sum over k = 0 .. 2 reach of tap[k] sharp[i + k]: sharp begins reach() pixels before
+    /// blurred and ends reach() after it.
+    void apply(std::span<const float> sharp, std::span<float> blurred) const;
+
+  private:
+    int reach_ = 0;
+    std::vector<float> taps_;  ///< a multiple of 4
+};
+
+}  // namespace fidservo::plant::view

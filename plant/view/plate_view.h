@@ -1,0 +1,43 @@
+#pragma once
+// The plate as the camera sees it.
+#include "core/plate.h"
+#include "core/rig.h"
+#include "plant/view/view_options.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <opencv2/core/mat.hpp>
+
+namespace fidservo::plant {
+
+/// Renders frames of a plate. The reflectance at a pixel is the printed pattern, blurred by the lens,
+/// averaged over the pixel's area and over the motion during the exposure; times the light, it is the mean
+/// signal, to which the sensor adds shot and read noise before it rounds to 8 bit. Places are exact: edges
+/// are painted from profiles in continuous distance, so that a shift of 0.01 px is one.
+///
+/// Things that overlap are composed as R <- R + coverage (reflectance - R) with blurred coverages; that is
+/// exact wherever their edges are further than the blur from each other, or cross at a right angle.
+///
+/// Immutable; render() may be called from several threads.
+class PlateView {
+  public:
+    /// Throws InputError for a tag that is not in the code book and for a shape without an area.
+    PlateView(const CameraParameters& camera, const Plate& plate, const ViewOptions& options);
+    ~PlateView();
+    PlateView(PlateView&&) noexcept;
+    PlateView& operator=(PlateView&&) noexcept;
+
+    /// The frame number `frame`, CV_8UC1, pixel centres at integer coordinates.
+    /// @param s_mm  the camera's true positions (macro + micro) over the exposure, evenly spaced, both ends
+    ///              included; one position stands for a camera at rest
+    /// The noise is a pure function of (seed, frame): the same call gives the same bytes.
+    cv::Mat render(std::span<const double> s_mm, std::uint64_t frame) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace fidservo::plant

@@ -1,0 +1,36 @@
+#pragma once
+// What there is to see on a plate, ready to be painted: shapes in px, in the order in which they lie.
+#include "core/plate.h"
+#include "plant/view/cell_grid.h"
+#include "plant/view/disc.h"
+#include "plant/view/image_map.h"
+#include "plant/view/scratch_path.h"
+#include "plant/view/view_options.h"
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace fidservo::plant::view {
+
+using Shape = std::variant<CellGrid, Disc, ScratchPath>;
+
+struct Item {
+    std::shared_ptr<const Shape> shape;
+    Eigen::Vector2d centre_mm;
+    float reflectance;
+};
+
+/// Tags, then the features in their order, then the occluders; later ones lie over earlier ones. Throws
+/// InputError for an unknown tag and for a shape without an area.
+std::vector<Item> scene_of(const Plate& plate, const std::vector<Feature>& occluders, double blur_px,
+                           const ImageMap& map);
+
+Eigen::Vector2d half_extent_px(const Shape& shape);
+
+/// Coverage of the pixels (du, dv), (du + 1, dv), ... relative to the shape's centre, in px.
+void cover(const Shape& shape, double du, double dv, std::span<float> coverage);
+
+}  // namespace fidservo::plant::view
