@@ -1,0 +1,37 @@
+#pragma once
+// The macro stage as its sensors allow: the nonlinear PD to a setpoint in counts, and whether it stands
+// still.
+#include "control/nonlinear_pd.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace fidservo::control {
+
+struct MacroControllerParams {
+    PdGains pd;
+    double limit_V;
+    double tick_s;
+    double quiet_s = 0.150;  ///< without command and without a count: several velocity time constants
+};
+
+struct MacroControllerState {
+    std::optional<double> setpoint_count;  ///< without one the motor is off
+    PdState pd;
+    std::optional<std::int64_t> last_count;
+    double quiet_s = 0.0;  ///< since the last command or count
+    double command_V = 0.0;
+};
+
+/// One tick. @return the command in V
+double macro_update(const MacroControllerParams& params, MacroControllerState& state,
+                    std::int64_t encoder_count);
+
+/// Goes to a count (rounded), from rest.
+void macro_go_to(MacroControllerState& state, double setpoint_count);
+
+/// The carriage stands, as far as the encoder and the command tell: it sees no less than a count, so a camera
+/// must confirm it.
+bool macro_is_quiet(const MacroControllerParams& params, const MacroControllerState& state);
+
+}  // namespace fidservo::control

@@ -1,0 +1,90 @@
+#pragma once
+// The micro stage, moved without hunting.
+//
+// The published PI hunts because its integrator drives the wire back and forth across the hysteresis. Here it
+// stays the inner loop, but what it is asked changes:
+//   approach  A temperature reference T_r runs towards the goal as fast as the heater allows and lands on it
+//             exponentially (landing time constant). The position reference is the hysteresis model along
+//             T_r, the feedforward the heater's inverse:
+//                 r = scale x(T_r),   c_ff = onset + (T_r - Ta + tau dT_r/dt) / gain
+//             The goal lies slightly beyond the target, so that the target is crossed at a known low speed.
+//   hold      At the crossing the PI is frozen and the wire is brought back from its turning point by a few
+//             degrees. There the hysteresis loop is flat: neither noise nor drift moves the platform.
+// A move up contracts (heats), a move down extends (cools); each turning point is one entry of the wire's
+// memory.
+#include "control/pi_antiwindup.h"
+#include "core/micro_model.h"
+
+#include <cstdint>
+
+namespace fidservo::control {
+
+struct MicroShaping {
+    double landing_tau_s = 0.010;       ///< of the exponential landing
+    double fine_landing_tau_s = 0.020;  ///< of moves shorter than fine_move_mm
+    double fine_move_mm = 0.005;
+    double overreach_mm = 0.0025;  ///< how far beyond the target the reference aims
+    double fine_overreach_mm = 0.001;
+    double authority = 0.97;               ///< share of the heater's reach that the reference may use
+    double hold_back_degC = 6.0;           ///< from the turning point to the hold temperature
+    double filter_tau_s = 0.008;           ///< of the deviation between sensor and reference
+    double observer_gain = 0.2;            ///< share of the deviation that corrects the temperature, per tick
+    double flat_slope_mm_per_degC = 0.01;  ///< a branch flatter than this tells little about the temperature
+    double ambient_learning = 0.25;  ///< share of a move's temperature surprise that is put down to the room
+    double ambient_step_degC = 0.5;  ///< at most, a move
+    double timeout_s = 6.0;
+};
+
+struct MicroControllerParams {
+    MicroModel model;
+    PiGains pi;
+    double tick_s;
+    MicroShaping shaping;
+};
+
+enum class MicroPhase : std::uint8_t {
+    off,        ///< no heat
+    open_loop,  ///< a command given from outside
+    approach,
+    hold,
+    failed  ///< the target was not reached in time; the command holds the last temperature
+};
+
+struct MicroControllerState {
+    MicroPhase phase = MicroPhase::off;
+    PreisachMemory wire{};      ///< the model's wire
+    HeaterParameters heater{};  ///< the model's, with the ambient temperature as learnt
+    double command_V = 0.0;
+    double position_mm = 0.0;  ///< of the last sample, through the Hall curve
+    double average_mm = 0.0;   ///< low-pass of position_mm
+    // of the approach
+    double target_mm = 0.0;
+    double reference_mm = 0.0;
+    double reference_degC = 0.0;
+    double goal_degC = 0.0;
+    double deviation_mm = 0.0;  ///< low-pass of position - reference
+    PreisachMemory start_wire;
+    PiState pi{0.0};
+    double surprise_degC = 0.0;  ///< sum of the observer's corrections
+    double elapsed_s = 0.0;
+    bool up = true;
+    bool fine = false;
+    // of the hold
+    double hold_V = 0.0;
+};
+
+MicroControllerState micro_start(const MicroControllerParams& params);
+
+/// Begins a move to `target_mm` (platform position). Moves of zero length begin too: they turn the wire back.
+void micro_begin_move(const MicroControllerParams& params, MicroControllerState& state, double target_mm);
+
+/// Heat off / a command given from outside, V.
+void micro_switch_off(MicroControllerState& state);
+void micro_open_loop(MicroControllerState& state, double command_V);
+
+/// One tick.
+/// @param hall_adc  the reading at this tick
+/// @return the command in V from this tick on
+double micro_update(const MicroControllerParams& params, MicroControllerState& state, double hall_adc);
+
+}  // namespace fidservo::control

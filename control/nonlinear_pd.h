@@ -1,0 +1,26 @@
+#pragma once
+// The macro stage's controllers: e in counts, command in V, saturated to the board's range.
+#include "core/rig.h"
+
+namespace fidservo::control {
+
+/// A run starts at rest with e[-1] = 0.
+struct PdState {
+    double last_error_count = 0.0;
+};
+
+/// PD with dead-zone inverse (publication, eq. 9 with the minus sign):
+///     u = e0 e[k] + e1 e[k-1];   u' = u + friction sgn(u), 0 at u = 0
+/// @return the command in V within +-limit_V
+double pd_update(const PdGains& gains, double limit_V, PdState& state, double error_count);
+
+struct PidState {
+    double integral_V = 0.0;
+    double last_error_count = 0.0;
+};
+
+/// The benchmark PID, without any knowledge of friction; the integral stops at the command's limit.
+///     u = kp e + ki T sum(e) + kd (e[k] - e[k-1]) / T
+double pid_update(const PidGains& gains, double limit_V, double tick_s, PidState& state, double error_count);
+
+}  // namespace fidservo::control

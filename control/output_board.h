@@ -1,0 +1,45 @@
+#pragma once
+// The boundary to the board that drives the stage: two D/A outputs that hold their last value, whatever
+// happens to the program that wrote them.
+#include "control/stage.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+namespace fidservo::control {
+
+/// Two D/A outputs. Opened by the guardian process, which owns them (control/guardian.h).
+class OutputBoard {
+  public:
+    OutputBoard() = default;
+    OutputBoard(const OutputBoard&) = delete;
+    OutputBoard& operator=(const OutputBoard&) = delete;
+    virtual ~OutputBoard() = default;
+
+    /// Sets both outputs, V; they hold until the next write. False if the device refused.
+    [[nodiscard]] virtual bool write(const StageCommand& command) noexcept = 0;
+};
+
+/// Opens the board; throws RunFault where that is not possible.
+using BoardFactory = std::function<std::unique_ptr<OutputBoard>()>;
+
+/// A board whose D/A registers are a file of two float64 (macro V, micro V), so that anybody can see what the
+/// "hardware" puts out, also after the program died: `od -A n -t f8 FILE`.
+class SimulatedBoard final : public OutputBoard {
+  public:
+    /// Opens the registers, both zero. Throws RunFault.
+    explicit SimulatedBoard(const std::filesystem::path& file);
+    ~SimulatedBoard() override;
+
+    bool write(const StageCommand& command) noexcept override;
+
+    /// What the board with these registers puts out now. Throws RunFault.
+    static StageCommand outputs(const std::filesystem::path& file);
+
+  private:
+    struct Registers;
+    Registers* registers_;  ///< mapped file
+};
+
+}  // namespace fidservo::control

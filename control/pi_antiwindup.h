@@ -1,0 +1,22 @@
+#pragma once
+// The micro stage's inner loop.
+#include "core/rig.h"
+
+namespace fidservo::control {
+
+struct PiState {
+    double integral_V;
+};
+
+/// The published start: the integrator at the heater's onset.
+inline PiState pi_start(const PiGains& gains) {
+    return {gains.low_V};
+}
+
+/// PI with back-calculation anti-windup; e in mm, output in V:
+///     w = feedforward + kp e + I;   c = clamp(w, low, high);   I += T (ki e + kaw (c - w))
+/// Without feedforward this is the published controller.
+double pi_update(const PiGains& gains, double tick_s, PiState& state, double error_mm,
+                 double feedforward_V = 0.0);
+
+}  // namespace fidservo::control

@@ -1,0 +1,102 @@
+#pragma once
+// The supervisor of a motion to a fiducial-relative target, ticked at 1 kHz.
+//
+//   macro_move   the macro stage goes where the micro stage can do the rest     } skipped where the micro
+//   macro_settle motor off; encoder quiet                                       } stage reaches it alone
+//   look         frames at rest say how far it still is; two that agree confirm the rest
+//   micro_move   one approach without hunting (micro_controller.h)
+//   micro_settle the hold takes over
+//   ...          look again; correct until within tolerance; re-centre where the micro stroke does not
+//   suffice
+//
+// What the camera saw enters as the distance still to go at the middle of a frame's exposure, so the
+// supervisor never sees an image; a frame exposed before the stage came to rest is not used, however late it
+// arrives.
+#include "control/macro_controller.h"
+#include "control/micro_controller.h"
+#include "control/stage.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace fidservo::control {
+
+/// From the camera's axis to the target along the stage axis, mm, at the middle of a frame's exposure.
+struct TargetOffset {
+    TimeNs time_ns;
+    double needed_mm;
+    double std_mm;
+};
+
+struct PositionerParams {
+    MacroControllerParams macro;
+    MicroControllerParams micro;
+    double count_mm;
+    double reach_low_mm, reach_high_mm;  ///< platform positions that moves may end at
+    double park_low_mm, park_high_mm;    ///< positions that the macro stage leaves as they are
+    double tolerance_mm = 0.001;
+    double micro_settle_s = 0.030;
+    double agreement_mm = 0.0005;  ///< of consecutive frames at rest, beside 4 standard deviations
+    double look_timeout_s = 0.5;
+    double macro_timeout_s = 8.0;
+    int macro_near_count = 1;  ///< the PD's last nudges are left to the micro stage
+    int most_moves = 8;
+    int most_recentres = 3;
+};
+
+enum class PositionerPhase : std::uint8_t {
+    idle,
+    macro_move,
+    macro_settle,
+    look,
+    micro_move,
+    micro_settle,
+    arrived,
+    failed
+};
+
+/// Encoder counts between which the carriage may be sent.
+struct CarriageTravel {
+    double low_count, high_count;
+};
+
+struct PositionerState {
+    PositionerPhase phase = PositionerPhase::idle;
+    MacroControllerState macro;
+    MicroControllerState micro;
+    CarriageTravel travel{};
+    Reason why = Reason::no_convergence;  ///< of a failure
+    double phase_s = 0.0;                 ///< since the phase began
+    double move_s = 0.0;                  ///< since the motion began
+    double macro_s = 0.0;                 ///< of the motion: until the macro stage was settled
+    double micro_s = 0.0;                 ///< of the motion: since the first micro move
+    TimeNs rest_since_ns = 0;
+    std::array<TargetOffset, 2> looks{};  ///< the last frames at rest
+    int frames = 0;
+    TargetOffset reached{};  ///< mean of the looks that agreed
+    int moves = 0;
+    int recentres = 0;
+};
+
+struct PositionerOutput {
+    StageCommand command;
+    bool wants_frames = false;
+};
+
+PositionerState positioner_start(const PositionerParams& params);
+
+/// Begins a motion. @param needed_mm  distance to go as the registration knows it, good to a fraction of the
+/// view
+void positioner_begin(const PositionerParams& params, PositionerState& state, double needed_mm,
+                      const CarriageTravel& travel);
+
+/// One tick.
+/// @param seen  what a frame that has just arrived says, if one has
+PositionerOutput positioner_update(const PositionerParams& params, PositionerState& state,
+                                   const StageSample& sample, const std::optional<TargetOffset>& seen);
+
+/// Whether a motion has ended, well or badly.
+bool positioner_is_done(const PositionerState& state);
+
+}  // namespace fidservo::control

@@ -1,0 +1,36 @@
+#pragma once
+// The boundary to a stage: real board, simulated rig or anything else that takes two voltages and gives two
+// readings.
+#include "core/failure.h"
+#include "core/time.h"
+
+namespace fidservo::control {
+
+/// What the board samples at a tick.
+struct StageSample {
+    TimeNs time_ns = 0;
+    std::int64_t encoder_count = 0;
+    int hall_adc = 0;
+};
+
+/// What the board holds until the next tick, V. Zero switches the motor and the heater off.
+struct StageCommand {
+    double macro_V = 0.0;
+    double micro_V = 0.0;
+};
+
+/// A stage that is ticked: read, then write, once a tick. Single-threaded.
+class Stage {
+  public:
+    Stage() = default;
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+    virtual ~Stage() = default;
+
+    /// Waits for the next tick and samples the sensors. Fails with Reason::device or Reason::stopped.
+    virtual Result<StageSample> read() = 0;
+    /// Applies a command until the next write.
+    virtual Status write(const StageCommand& command) = 0;
+};
+
+}  // namespace fidservo::control
