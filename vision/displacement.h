@@ -1,0 +1,45 @@
+#pragma once
+// How far tags moved in the image since they were first seen, in um. Needs no rig: the tag's own side is the
+// scale.
+#include "core/detection.h"
+#include "vision/tag_refinement.h"
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace fidservo::vision {
+
+/// Motion of a tag in the image: dx to the right, dy down. A camera that moves right (s grows) over a plate
+/// at rest sees its tags move left: dx = -(s - s_first).
+struct Displacement {
+    TimeNs time_ns;
+    int tag_id;
+    Eigen::Vector2d moved_um;
+    Eigen::Vector2d std_um;  ///< of the two centres and, far from the start, of the scale
+};
+
+/// Turns detections, frame after frame, into displacements from the frame in which each tag was first seen.
+/// Scale: the tag's mean side in the first frame, mm per px. Valid for a camera that looks straight at
+/// the plate. A tag that is seen twice in one frame is left out there: nobody knows which one moved.
+class DisplacementTracker {
+  public:
+    /// @param tag_side_mm  edge of the black border square
+    explicit DisplacementTracker(double tag_side_mm);
+
+    /// @param frame  all tags of one frame
+    std::vector<Displacement> add(const std::vector<RefinedTag>& frame);
+
+  private:
+    struct Origin {
+        int tag_id;
+        Eigen::Vector2d centre_px;
+        Eigen::Matrix2d covariance_px2;
+        double um_per_px;
+        double relative_scale_std;
+    };
+    double tag_side_mm_;
+    std::vector<Origin> origins_;
+};
+
+}  // namespace fidservo::vision

@@ -1,0 +1,23 @@
+#pragma once
+// A printed rectangle: where it is, how large, how turned.
+#include "core/failure.h"
+#include "core/plate.h"
+#include "vision/features/rest_image.h"
+
+namespace fidservo::vision {
+
+struct PadMeasurement {
+    Measured x_um;  ///< centre, plate frame; includes the camera position's uncertainty
+    Measured y_um;
+    Measured width_um;   ///< along the pad's own x
+    Measured height_um;  ///< along the pad's own y
+    Measured angle_rad;  ///< from plate x towards y
+    EdgeQuality quality;
+};
+
+/// Fits a rectangle to the edge found in sections along its four sides, away from the corners. Method and
+/// failures as for measure_dot; the pad's sides must be at least 16 px long.
+Result<PadMeasurement> measure_pad(const RestImage& image, const Pad& nominal,
+                                   const SearchOptions& options = {});
+
+}  // namespace fidservo::vision

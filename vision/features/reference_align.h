@@ -1,0 +1,35 @@
+#pragma once
+// Brings a reference image onto an image: shift, gain, offset and uneven light.
+#include "core/failure.h"
+#include "vision/features/grey_noise.h"
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+
+namespace fidservo::vision {
+
+/// What the image should read, if it shows what the reference shows.
+struct AlignedReference {
+    cv::Mat expected;          ///< CV_32FC1: light(u, v) R(u + shift) + offset
+    cv::Rect valid;            ///< where the reference covers the image
+    Eigen::Vector2d shift_px;  ///< reference place of an image place, less that place
+    double gain;               ///< light at the image's middle
+};
+
+/// The image moved by a fraction of a pixel: result(u) = image(u + shift). Lanczos kernel of 8 taps; the blur
+/// of a lens as of the reference rig leaves too little beyond its band to matter.
+cv::Mat shifted(const cv::Mat& image, const Eigen::Vector2d& shift_px);
+
+/// Robust least squares (Tukey's weights) of
+///     I(u, v) = (g0 + g1 x + g2 y + g3 x^2 + g4 x y + g5 y^2) R(u + dx, v + dy) + o,     x, y = -1 .. 1
+/// on a grid of pixels, first on both images smoothed, then as they are.
+/// @param grey, reference  CV_32FC1, same size
+/// @param start_px   the shift that the camera positions give
+/// @param search_px  how far from it the shift may be
+/// Fails with not_identifiable (too little overlap) or no_convergence (the images do not show the same
+/// place).
+Result<AlignedReference> align_reference(const cv::Mat& grey, const cv::Mat& reference,
+                                         const Eigen::Vector2d& start_px, double search_px,
+                                         const GreyNoise& noise);
+
+}  // namespace fidservo::vision

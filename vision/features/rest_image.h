@@ -1,0 +1,59 @@
+#pragma once
+// An image taken at rest with all that is known of how it came about, and how what is measured in it is
+// stated: a value with its standard uncertainty.
+#include "core/rig.h"
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+
+namespace fidservo::vision {
+
+/// A value and its standard uncertainty (1 sigma); the field that holds it names the unit.
+struct Measured {
+    double value = 0.0;
+    double std = 0.0;
+};
+
+/// One grey image, seen from a measured camera position. The uncertainty of that position enters every place
+/// on the plate, and no size.
+struct RestImage {
+    cv::Mat grey;                 ///< CV_8UC1, of the camera's width and height
+    CameraParameters camera;      ///< geometry, blur and noise
+    Eigen::Vector2d axis_mm;      ///< plate point under the optical axis: (s, y)
+    Eigen::Vector2d axis_std_mm;  ///< one standard deviation of it
+};
+
+/// Where to look for a printed feature and what counts as finding it.
+struct SearchOptions {
+    double margin_mm = 0.06;  ///< the feature lies this far from its nominal place at most
+    double expected_contrast =
+        0.889;                     ///< 1 - ink / paper reflectance; negative: brighter than its surroundings
+    double least_contrast = 0.35;  ///< less than this part of the expected contrast: not there
+    /// What is not known of the edge's shape, 1 sigma, for each edge as a whole; the default is what rendered
+    /// edges leave. A real lens and ink deserve more.
+    double edge_allowance_um = 0.001;
+};
+
+/// How well the model of an edge met the image.
+struct EdgeQuality {
+    double contrast = 0.0;  ///< 1 - inside / outside grey level
+    double blur_px = 0.0;   ///< optical blur found (standard deviation, without the pixel's own area)
+    int sections = 0;       ///< pieces of the outline that were looked at
+    int sections_used = 0;  ///< of these, not set aside as hidden or damaged
+    double excess =
+        1.0;  ///< r.m.s. of the residuals over their expectation; above 1 it widened the uncertainty
+};
+
+/// Image point in px of a plate point in mm.
+inline Eigen::Vector2d to_image(const RestImage& image, const Eigen::Vector2d& plate_mm) {
+    return project(image.camera.geometry, plate_mm - Eigen::Vector2d(0.0, image.axis_mm.y()),
+                   image.axis_mm.x());
+}
+
+/// Plate point in mm of an image point in px.
+inline Eigen::Vector2d to_plate(const RestImage& image, const Eigen::Vector2d& image_px) {
+    return back_project(image.camera.geometry, image_px, image.axis_mm.x()) +
+           Eigen::Vector2d(0.0, image.axis_mm.y());
+}
+
+}  // namespace fidservo::vision

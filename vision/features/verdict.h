@@ -1,0 +1,29 @@
+#pragma once
+// From a measured value to a decision, guarded against the measurement's own uncertainty.
+#include "vision/features/rest_image.h"
+
+#include <string_view>
+
+namespace fidservo::vision {
+
+enum class Verdict {
+    pass,
+    fail,
+    not_decidable,  ///< at this tolerance, with this uncertainty
+};
+
+/// The word that stands for a verdict in result files, e.g. "not_decidable".
+std::string_view name_of(Verdict verdict);
+
+/// Guarded acceptance and guarded rejection (JCGM 106:2012, 8.3.2 and 8.3.3), guard band k u on either side:
+///     pass            |value - nominal| + k u <= tolerance
+///     fail            |value - nominal| - k u >  tolerance
+///     not decidable   otherwise
+/// With k = 2 a wrong pass or fail has a probability of at most 2.3 % at the worst value.
+/// All in one unit; u >= 0, tolerance >= 0. A value that is not finite is not decidable.
+Verdict decide(const Measured& measured, double nominal, double tolerance, double coverage_factor = 2.0);
+
+/// One-sided: as above for value >= least (a line's narrowest place, a gap).
+Verdict decide_at_least(const Measured& measured, double least, double coverage_factor = 2.0);
+
+}  // namespace fidservo::vision

@@ -1,0 +1,124 @@
+#include "vision/tag_detector.h"
+
+#include <algorithm>
+#include <tuple>
+
+extern "C" {
+#include <apriltag/apriltag.h>
+#include <apriltag/tag36h11.h>
+}
+
+#include "core/failure.h"
+#include "vision/quad.h"
+#include "vision/tag_pattern.h"
+
+#include <opencv2/imgproc.hpp>
+
+namespace fidservo::vision {
+namespace {
+
+/// The library counts pixel edges at integers, we count pixel centres.
+constexpr double library_pixel_centre = 0.5;
+
+/// Images smaller than this in either direction cannot hold a tag; the library does not expect them.
+constexpr int smallest_image_px = 10;
+
+double longest_side_px(const TagDetection& tag) {
+    double longest = 0.0;
+    for (std::size_t k = 0; k < 4; ++k)
+        longest = std::max(longest, (tag.corners_px[(k + 1) % 4] - tag.corners_px[k]).norm());
+    return longest;
+}
+
+/// Two finds of one printed tag: nearer to each other than two printed tags can be.
+bool same_place(const TagDetection& a, const TagDetection& b) {
+    return (centre_of(a.corners_px) - centre_of(b.corners_px)).norm() <
+           0.5 * std::min(longest_side_px(a), longest_side_px(b));
+}
+
+}  // namespace
+
+TagDetectorOptions machine_camera_options() {
+    return {};
+}
+
+TagDetectorOptions thorough_options() {
+    TagDetectorOptions options;
+    options.min_contrast = 5;
+    options.magnify = true;
+    return options;
+}
+
+struct TagDetector::Impl {
+    explicit Impl(const TagDetectorOptions& with) : options(with) {
+        apriltag_detector_add_family_bits(detector.get(), family.get(), options.max_corrected_bits);
+        detector->nthreads = 1;
+        detector->quad_decimate = static_cast<float>(options.decimation);
+        detector->quad_sigma = 0.0F;  // with decimation 1 the library would blur the caller's own image
+        detector->qtp.min_white_black_diff = options.min_contrast;
+    }
+
+    /// One run of the library; `magnification` tells how much larger the image is than the original.
+    std::vector<TagDetection> search(const cv::Mat& image, TimeNs time_ns, const cv::Point& origin,
+                                     double magnification) {
+        image_u8_t view{image.cols, image.rows, static_cast<int>(image.step[0]), image.data};
+        const std::unique_ptr<zarray_t, decltype(&apriltag_detections_destroy)> found(
+            apriltag_detector_detect(detector.get(), &view), apriltag_detections_destroy);
+        std::vector<TagDetection> tags;
+        for (int k = 0; k < zarray_size(found.get()); ++k) {
+            apriltag_detection_t* seen = nullptr;
+            zarray_get(found.get(), k, static_cast<void*>(&seen));
+            TagDetection tag;
+            tag.time_ns = time_ns;
+            tag.tag_id = seen->id;
+            tag.corrected_bits = seen->hamming;
+            tag.decision_margin = seen->decision_margin;
+            for (std::size_t c = 0; c < 4; ++c)
+                tag.corners_px[c] =
+                    Eigen::Vector2d(seen->p[c][0], seen->p[c][1]) / magnification +
+                    Eigen::Vector2d(origin.x - library_pixel_centre, origin.y - library_pixel_centre);
+            tags.push_back(tag);
+        }
+        return tags;
+    }
+
+    TagDetectorOptions options;
+    std::unique_ptr<apriltag_family_t, decltype(&tag36h11_destroy)> family{tag36h11_create(),
+                                                                           tag36h11_destroy};
+    std::unique_ptr<apriltag_detector_t, decltype(&apriltag_detector_destroy)> detector{
+        apriltag_detector_create(), apriltag_detector_destroy};
+};
+
+TagDetector::TagDetector(const TagDetectorOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+TagDetector::~TagDetector() = default;
+TagDetector::TagDetector(TagDetector&&) noexcept = default;
+TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
+
+std::vector<TagDetection> TagDetector::detect(const cv::Mat& image, TimeNs time_ns, const cv::Rect& region) {
+    FIDSERVO_DEMAND(image.type() == CV_8UC1);
+    const cv::Rect whole(0, 0, image.cols, image.rows);
+    const cv::Rect part = region.empty() ? whole : (region & whole);
+    if (part.width < smallest_image_px || part.height < smallest_image_px) return {};
+
+    const cv::Mat view = image(part);
+    std::vector<TagDetection> tags = impl_->search(view, time_ns, part.tl(), 1.0);
+    if (impl_->options.magnify) {
+        cv::Mat larger;
+        cv::resize(view, larger, {}, 2.0, 2.0, cv::INTER_CUBIC);
+        for (const TagDetection& tag : impl_->search(larger, time_ns, part.tl(), 2.0))
+            if (std::none_of(tags.begin(), tags.end(),
+                             [&](const TagDetection& other) { return same_place(tag, other); }))
+                tags.push_back(tag);
+    }
+    std::erase_if(tags, [&](const TagDetection& tag) {
+        return explained_contrast(image, tag.corners_px, tag_pattern(tag.tag_id)) <
+               impl_->options.min_explained_contrast;
+    });
+    std::sort(tags.begin(), tags.end(), [](const TagDetection& a, const TagDetection& b) {
+        return std::tuple(a.tag_id, centre_of(a.corners_px).x()) <
+               std::tuple(b.tag_id, centre_of(b.corners_px).x());
+    });
+    return tags;
+}
+
+}  // namespace fidservo::vision

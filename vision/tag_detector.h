@@ -1,0 +1,57 @@
+#pragma once
+// Fiducials (tag36h11) in a grey image, found with libapriltag.
+#include "core/detection.h"
+#include "core/time.h"
+
+#include <memory>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+namespace fidservo::vision {
+
+/// How hard to look. Use one of the two presets below unless you know better.
+struct TagDetectorOptions {
+    /// Contrast in grey levels below which a neighbourhood holds no edge. 30 is twelve times as fast as the
+    /// library's 5 on a frame of the machine's camera, at the same precision.
+    int min_contrast = 30;
+    /// The quad search runs on an image this much smaller (>= 1); corners then move with focus.
+    double decimation = 1.0;
+    /// Code bits that may differ from the code book. The 587 codes are 11 bits apart.
+    int max_corrected_bits = 2;
+    /// Tags whose pattern explains less of what is seen in their outline are refused (tag_pattern.h). Real
+    /// tags reach 0.43 at 1.5 px a bit and 0.95 on the machine; chance agreements of texture with the code
+    /// book, 0.31 at most in 240 images of noise.
+    double min_explained_contrast = 0.4;
+    /// Look again at twice the resolution, for tags whose bits are about two pixels wide or less.
+    bool magnify = false;
+};
+
+/// For the machine's own camera: large, well lit tags, every frame in time.
+TagDetectorOptions machine_camera_options();
+
+/// For arbitrary photographs: every tag that can be read, however small, at some ten times the cost.
+TagDetectorOptions thorough_options();
+
+/// Finds tags. Holds working memory: use one detector a thread; different detectors are independent.
+class TagDetector {
+  public:
+    explicit TagDetector(const TagDetectorOptions& options = machine_camera_options());
+    ~TagDetector();
+    TagDetector(TagDetector&&) noexcept;
+    TagDetector& operator=(TagDetector&&) noexcept;
+
+    /// Every tag in the image, by id, then from left to right. The same id may come twice: then it is there
+    /// twice. Corners in px, pixel centres at integers (the library's own are at +0.5), as precise as the
+    /// library's: tag_refinement.h does better.
+    /// @param image    CV_8UC1; not modified
+    /// @param time_ns  middle of the exposure, passed on to the detections
+    /// @param region   where to look; empty: everywhere. It is cut to the image.
+    std::vector<TagDetection> detect(const cv::Mat& image, TimeNs time_ns, const cv::Rect& region = {});
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fidservo::vision
