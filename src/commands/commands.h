@@ -1,0 +1,40 @@
+#pragma once
+// The pattern of a command: a file of its own with an options struct, `int run_NAME(const NameOptions&)` that
+// returns an exit code, and `add_NAME`, which adds the subcommand to the program and, when it was chosen,
+// runs it and stores its exit code. src/cli.cpp lists them.
+//
+// A command throws InputError (exit 2) and RunFault (exit 3); it prints results on stdout.
+#include <filesystem>
+#include <string>
+
+#include <CLI/App.hpp>
+
+namespace fidservo {
+
+/// What the program's end tells a script.
+enum ExitCode : int {
+    exit_done = 0,
+    exit_answer_is_no = 1,  ///< done, but an inspection failed or a target was not reached
+    exit_wrong_input = 2,
+    exit_fault = 3,  ///< of a device or of the run
+};
+
+void add_goto(CLI::App& app, int& exit_code);
+void add_home(CLI::App& app, int& exit_code);
+void add_inspect(CLI::App& app, int& exit_code);
+void add_replay(CLI::App& app, int& exit_code);
+void add_record(CLI::App& app, int& exit_code);
+void add_cameras(CLI::App& app, int& exit_code);
+void add_simulate(CLI::App& app, int& exit_code);
+
+/// --rig RIG.yaml; the reference rig where it is not given.
+void add_rig_option(CLI::App& command, std::filesystem::path& rig_file);
+
+/// The example that ends a command's --help.
+void add_example(CLI::App& command, const std::string& example);
+
+/// Makes a new output folder. Throws InputError if something of that name exists or it cannot be made:
+/// nothing is ever overwritten.
+void make_output_folder(const std::filesystem::path& folder);
+
+}  // namespace fidservo

@@ -1,0 +1,39 @@
+// fidservo home: end stop, registration against a tag, tuning sweep.
+#include "src/commands/commands.h"
+#include "src/commands/session_options.h"
+#include "src/config/rig_file.h"
+#include "src/session/session.h"
+
+#include <memory>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+namespace fidservo {
+
+namespace {
+
+int run_home(const SessionOptions& options) {
+    const Rig rig = load_rig(options.rig_file);
+    const Plate plate = rig_plate(rig, options.rig_file);
+    Session session(options, rig, plate, plate);
+    if (const auto homed = session.home(); !homed) return end_of_run("home", homed.error());
+    fmt::print("homed after {:.1f} s; camera at x {:.3f} mm, y {:.3f} mm\n", session.now_s(),
+               session.camera_mm().x(), session.camera_mm().y());
+    return exit_done;
+}
+
+}  // namespace
+
+void add_home(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<SessionOptions>();
+    CLI::App* command = app.add_subcommand("home",
+                                           "Find the end stop, register against a fiducial, tune the micro "
+                                           "stage (other commands do it when needed)");
+    add_session_options(*command, *options);
+    add_example(*command, "fidservo home --rig assets/rig.yaml");
+    command->callback([options, &exit_code] { exit_code = run_home(*options); });
+}
+
+}  // namespace fidservo

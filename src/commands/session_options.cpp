@@ -1,0 +1,36 @@
+#include "src/commands/session_options.h"
+
+#include "src/commands/commands.h"
+#include "src/config/plate_file.h"
+
+#include <cstdio>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+namespace fidservo {
+
+void add_session_options(CLI::App& command, SessionOptions& options) {
+    add_rig_option(command, options.rig_file);
+    command.add_option("--stage", options.stage, "Stage: sim")->type_name("STAGE")->capture_default_str();
+    command.add_option("--camera", options.camera, "Camera: sim")->type_name("CAMERA")->capture_default_str();
+    command.add_option("--seed", options.seed, "Seed of the simulated rig's noise")->capture_default_str();
+}
+
+Plate rig_plate(const Rig& rig, const std::filesystem::path& rig_file) {
+    if (!rig.fiducials)
+        throw InputError(
+            fmt::format("{}: fiducials: missing; needed to find the way on the plate", rig_file.string()));
+    return plate_of(*rig.fiducials);
+}
+
+int end_of_run(std::string_view what, const Failure& why) {
+    const std::string line = fmt::format("{}: {}: {}", what, name_of(why.reason), why.text);
+    if (why.reason == Reason::device || why.reason == Reason::stopped || why.reason == Reason::timeout)
+        throw RunFault(line);
+    fmt::print(stderr, "fidservo: {}\n", line);
+    return exit_answer_is_no;
+}
+
+}  // namespace fidservo

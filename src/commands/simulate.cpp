@@ -1,0 +1,104 @@
+// fidservo simulate: recordings of the simulated rig, with or without effects.
+#include "src/simulation/simulate.h"
+
+#include "core/failure.h"
+#include "plant/effects/catalogue.h"
+#include "src/commands/commands.h"
+#include "src/config/rig_file.h"
+#include "src/progress.h"
+#include "src/recording/writer.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fidservo {
+
+namespace {
+
+constexpr const char* whole_campaign = "campaign";
+
+struct SimulateOptions {
+    std::string experiment;
+    std::filesystem::path rig_file;
+    std::vector<std::string> effects;
+    std::uint64_t seed = 1;
+    std::filesystem::path out;
+};
+
+/// One recording of a run.
+struct Task {
+    std::string kind;
+    std::string name;
+    std::filesystem::path folder;
+};
+
+std::vector<Task> tasks_of(const SimulateOptions& options, const Rig& rig) {
+    if (options.experiment != whole_campaign)
+        return {{options.experiment, options.experiment + "-1", options.out}};
+    std::vector<Task> tasks;
+    for (const std::string_view kind : experiment_kinds())
+        for (int copy = 1; copy <= 2 && missing_for(kind, rig).empty(); ++copy) {
+            const std::string name = fmt::format("{}-{}", kind, copy);
+            tasks.push_back({std::string(kind), name, options.out / name});
+        }
+    return tasks;
+}
+
+int run_simulate(const SimulateOptions& options) {
+    const Rig rig = load_rig(options.rig_file);
+    std::vector<plant::EffectSetting> effects;
+    for (const std::string& text : options.effects) effects.push_back(plant::parse_effect(text));
+
+    std::vector<std::pair<Task, Experiment>> runs;
+    for (const Task& task : tasks_of(options, rig))
+        runs.emplace_back(task, make_experiment(task.kind, rig, options.seed, task.name));
+    plant::PlantParameters parameters = plant::plant_parameters(rig);
+    plant::apply_effects(parameters, effects);
+
+    if (options.experiment == whole_campaign) make_output_folder(options.out);
+    Progress progress("recordings", runs.size());
+    for (const auto& [task, experiment] : runs) {
+        write_recording(task.folder, simulate(rig, effects, experiment, task.name, options.seed), rig.camera);
+        progress.advance();
+    }
+    progress.finish();
+    fmt::print("{} recording{} in {}\n", runs.size(), runs.size() == 1 ? "" : "s", options.out.string());
+    return exit_done;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<SimulateOptions>();
+    CLI::App* command = app.add_subcommand("simulate", "Record experiments on the simulated rig");
+    command
+        ->add_option("EXPERIMENT", options->experiment,
+                     fmt::format("{}, or campaign: two of each that the rig can do",
+                                 fmt::join(experiment_kinds(), ", ")))
+        ->required()
+        ->option_text(" ");
+    add_rig_option(*command, options->rig_file);
+    command
+        ->add_option(
+            "--effect", options->effects,
+            "What the rig has and its file does not state: NAME or NAME:PARAMETER=VALUE,...; may be repeated")
+        ->type_name("EFFECT")
+        ->expected(1)
+        ->take_all();
+    command->add_option("--seed", options->seed, "Determines excitation and noise; same seed, same bytes")
+        ->capture_default_str();
+    command->add_option("--out", options->out, "New folder for the recordings")->type_name("DIR")->required();
+    add_example(
+        *command,
+        "fidservo simulate campaign --effect ambient_temperature:shift_degC=8 --seed 7 --out warm-room");
+    command->callback([options, &exit_code] { exit_code = run_simulate(*options); });
+}
+
+}  // namespace fidservo

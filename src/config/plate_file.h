@@ -1,0 +1,23 @@
+#pragma once
+#include "core/plate.h"
+#include "core/rig.h"
+#include "src/config/yaml_reader.h"
+
+#include <filesystem>
+
+namespace fidservo {
+
+/// Reads a plate file (docs/formats.md): tags and printed features at known places. Throws InputError.
+Plate load_plate(const std::filesystem::path& file);
+
+/// The same from a map inside another file, e.g. a recipe's `plate`.
+Plate read_plate(const YamlValue& map);
+
+/// One printed feature of a plate file's `features`.
+/// @param ink_reflectance  where the feature does not say
+Feature read_feature(const YamlValue& map, double ink_reflectance);
+
+/// The plate that a rig file describes: its grid of fiducials and nothing else.
+Plate plate_of(const FiducialParameters& fiducials);
+
+}  // namespace fidservo

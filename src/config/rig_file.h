@@ -1,0 +1,15 @@
+#pragma once
+#include "core/rig.h"
+
+#include <filesystem>
+
+namespace fidservo {
+
+/// Reads a rig file (assets/rig.yaml is the reference rig) and the FOD table it names. Parts that the rig
+/// does not have may be left out. Throws InputError.
+Rig load_rig(const std::filesystem::path& file);
+
+/// The reference rig that is installed with the program: used where --rig is not given.
+std::filesystem::path reference_rig_file();
+
+}  // namespace fidservo

@@ -1,0 +1,117 @@
+#include "src/inspect/inspection_run.h"
+
+#include "src/commands/commands.h"
+#include "src/config/plate_file.h"
+#include "src/config/rig_file.h"
+#include "src/inspect/identity.h"
+#include "src/inspect/inspection_report.h"
+#include "src/inspect/journal.h"
+#include "src/inspect/nominal_drawing.h"
+#include "src/inspect/reference_check.h"
+#include "src/inspect/run_json.h"
+#include "src/inspect/site_visit.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace fidservo::inspect {
+namespace {
+
+void home(Session& session, const OutputFolder& output) {
+    const std::filesystem::path recording = output.root / "recordings/homing";
+    set_aside(recording);
+    session.record_to(recording, "homing");
+    const auto homed = session.home();
+    const auto closed = session.end_recording();
+    if (!homed)
+        throw RunFault(fmt::format("homing: {}: {}", name_of(homed.error().reason), homed.error().text));
+    if (!closed) throw RunFault(closed.error().text);
+}
+
+std::string one_line(const Visit& visit) {
+    std::string text =
+        fmt::format("site {:>3}  {:<9}", visit.site,
+                    visit.end == Visit::End::measured ? name_of(outcome_of(visit)) : name_of(visit.end));
+    if (visit.end == Visit::End::measured) {
+        const auto bad = std::ranges::count_if(
+            visit.rows, [](const ResultRow& row) { return row.verdict != Outcome::pass; });
+        text += bad == 0 ? fmt::format("  {} checks", visit.rows.size())
+                         : fmt::format("  {} of {} checks", bad, visit.rows.size());
+    } else {
+        text += "  " + visit.failures.back().reason + ": " + visit.failures.back().text;
+    }
+    return text;
+}
+
+/// Sites that are visited a second time.
+std::size_t deferred(const std::vector<Visit>& visits) {
+    return static_cast<std::size_t>(std::ranges::count(visits, Visit::End::deferred, &Visit::end));
+}
+
+/// A reference image that cannot serve ends the run before it begins.
+void demand_reference_images(const Recipe& recipe, const CameraParameters& camera) {
+    for (const Site& site : recipe.sites)
+        for (const View& view : site.views)
+            for (const Check& check : view.checks)
+                if (const auto* reference = std::get_if<ReferenceCheck>(&check);
+                    reference && reference->image)
+                    (void)load_reference(*reference->image, camera, recipe.nominal, site.tag_id);
+}
+
+}  // namespace
+
+Counts run_inspection(const InspectionOptions& options) {
+    const Rig rig = load_rig(options.session.rig_file);
+    const Recipe recipe = load_recipe(options.recipe, rig);
+    demand_reference_images(recipe, rig.camera.value());
+    const Plate printed = recipe.simulation.plate ? load_plate(*recipe.simulation.plate) : recipe.nominal;
+    SessionOptions session_options = options.session;
+    session_options.seed = options.seed.value_or(recipe.simulation.seed);
+    const RunIdentity identity = identity_of(recipe, rig, session_options);
+
+    const OutputFolder output{options.out};
+    JournalContent content{identity, {}, {}, 0};
+    std::optional<Journal> journal;
+    const bool begins = !options.resume || killed_before_it_began(output.journal());
+    if (!begins) {
+        auto [taken_up, so_far] = Journal::resume(output.journal(), identity);
+        journal.emplace(std::move(taken_up));
+        content = std::move(so_far);
+    }
+    Session session(session_options, rig, recipe.nominal, printed);
+    if (!options.resume) make_output_folder(output.root);
+    if (begins) {
+        std::filesystem::remove(output.journal());  // a first line cut short
+        journal.emplace(output.journal(), identity);
+    }
+    std::filesystem::create_directories(output.root / "images");
+    std::filesystem::create_directories(output.root / "recordings");
+
+    const bool simulated = session_options.stage == "sim";
+    const bool all_done = content.checkpoint && !next_visit(recipe.sites, content.visits);
+    if (content.checkpoint && (simulated || all_done)) {
+        if (simulated) session.restore(*content.checkpoint);
+    } else {
+        fmt::print("homing\n");
+        home(session, output);
+        journal->homed(session.checkpoint());
+    }
+    const DrawNominal draw_nominal = nominal_drawing(*rig.camera, recipe.nominal);
+    vision::TagDetector detector;
+    const VisitContext context{recipe, *rig.camera, output, draw_nominal, session, detector};
+    while (const auto next = next_visit(recipe.sites, content.visits)) {
+        const Visit visit = visit_site(context, *next);
+        journal->ended(visit, session.checkpoint());
+        content.visits.push_back(visit);
+        fmt::print("{:>3} of {}  {}\n", content.visits.size(), recipe.sites.size() + deferred(content.visits),
+                   one_line(visit));
+        std::fflush(stdout);
+    }
+    write_results(output.results(), content.visits);
+    write_run_json(output.run_json(), recipe, content);
+    write_inspection_report(output, recipe, rig, content);
+    return count(content.visits);
+}
+
+}  // namespace fidservo::inspect

@@ -1,0 +1,25 @@
+#pragma once
+// A whole inspection, from the recipe to the report; or what is left of one that was killed.
+#include "src/inspect/results.h"
+#include "src/session/session.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace fidservo::inspect {
+
+struct InspectionOptions {
+    std::filesystem::path recipe;
+    SessionOptions session;  ///< its seed is the recipe's unless `seed` is given
+    std::optional<std::uint64_t> seed;
+    std::filesystem::path out;
+    bool resume = false;
+};
+
+/// Runs it, and leaves results.csv, run.json, report.html, images and recordings in the output folder.
+/// Everything measured at a site is on the disk before the next one begins. Throws InputError before anything
+/// is moved or written, RunFault if the run cannot go on.
+/// @return the number of rows by outcome
+Counts run_inspection(const InspectionOptions& options);
+
+}  // namespace fidservo::inspect

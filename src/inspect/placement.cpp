@@ -1,0 +1,78 @@
+#include "src/inspect/placement.h"
+
+#include "core/units.h"
+#include "src/inspect/recipe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace fidservo::inspect {
+namespace {
+
+/// Mean of what several images say about one neighbour.
+struct Difference {
+    Eigen::Array2d sum_um{0.0, 0.0};
+    Eigen::Array2d variance_sum_um2{0.0, 0.0};
+    int count = 0;
+
+    Eigen::Array2d mean_um() const { return sum_um / count; }
+    Eigen::Array2d variance_um2() const { return variance_sum_um2 / (count * count); }
+};
+
+void add_image(const Snapshot& snapshot, const Plate& nominal, int tag_id,
+               std::map<int, Difference>& differences) {
+    const auto own =
+        std::ranges::find_if(snapshot.tags, [&](const auto& tag) { return tag.detection.tag_id == tag_id; });
+    if (own == snapshot.tags.end()) return;
+    const double um_per_px = um_from_mm(mm_per_px(snapshot.image.camera.geometry));
+    const auto variance_px2 = [](const vision::RefinedTag& tag) {
+        return vision::centre_covariance_px2(tag.covariance_px2).diagonal().array().eval();
+    };
+    for (const vision::RefinedTag& other : snapshot.tags) {
+        if (other.detection.tag_id == tag_id) continue;
+        const Eigen::Vector2d nominal_mm =
+            find_tag(nominal, tag_id)->centre_mm - find_tag(nominal, other.detection.tag_id)->centre_mm;
+        const Eigen::Vector2d seen_px =
+            vision::centre_px(own->detection) - vision::centre_px(other.detection);
+        Difference& difference = differences[other.detection.tag_id];
+        difference.sum_um += (seen_px * um_per_px - nominal_mm * um_per_mm).array();
+        difference.variance_sum_um2 += (variance_px2(*own) + variance_px2(other)) * um_per_px * um_per_px;
+        ++difference.count;
+    }
+}
+
+}  // namespace
+
+Result<Placement> measure_placement(const std::vector<Snapshot>& snapshots, const Plate& nominal,
+                                    int tag_id) {
+    std::map<int, Difference> differences;
+    for (const Snapshot& snapshot : snapshots) add_image(snapshot, nominal, tag_id, differences);
+    if (differences.empty())
+        return failure(Reason::no_tag,
+                       fmt::format("no other fiducial was seen together with fiducial {}", tag_id));
+
+    const auto n = static_cast<double>(differences.size());
+    Eigen::Array2d mean{0.0, 0.0}, variance{0.0, 0.0}, spread{0.0, 0.0};
+    Eigen::Array2d low = differences.begin()->second.mean_um(), high = low;
+    Placement placement;
+    for (const auto& [id, difference] : differences) {
+        placement.neighbours.push_back(id);
+        mean += difference.mean_um() / n;
+        variance += difference.variance_um2() / (n * n);
+        low = low.min(difference.mean_um());
+        high = high.max(difference.mean_um());
+    }
+    if (n > 1.0)
+        for (const auto& [id, difference] : differences)
+            spread += (difference.mean_um() - mean).square() / (n - 1.0);
+    const Eigen::Array2d std = (variance + spread / n).sqrt();
+    placement.x_um = {mean.x(), std.x()};
+    placement.y_um = {mean.y(), std.y()};
+    placement.disagreement_um = (high - low).matrix();
+    return placement;
+}
+
+}  // namespace fidservo::inspect

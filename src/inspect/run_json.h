@@ -1,0 +1,14 @@
+#pragma once
+// The run in one file for scripts.
+#include "src/inspect/journal.h"
+#include "src/inspect/recipe.h"
+
+#include <filesystem>
+
+namespace fidservo::inspect {
+
+/// Writes run.json: fingerprints, seed, version, counts, the outcome, and each visit with its times on the
+/// rig's clock and what went wrong. Throws RunFault if the disk does not take it.
+void write_run_json(const std::filesystem::path& file, const Recipe& recipe, const JournalContent& content);
+
+}  // namespace fidservo::inspect

@@ -1,0 +1,24 @@
+#include "src/inspect/snapshot.h"
+
+#include "src/inspect/recipe.h"
+#include "vision/camera_position.h"
+
+namespace fidservo::inspect {
+Result<Snapshot> read_snapshot(const vision::Frame& frame, const CameraParameters& camera,
+                               const Plate& nominal, int tag_id, vision::TagDetector& detector) {
+    const std::vector<TagDetection> found = detector.detect(frame.image, frame.time_ns);
+    const auto fit = vision::locate_camera(camera.geometry, nominal, frame, found, tag_id);
+    if (!fit) return tl::make_unexpected(fit.error());
+    Snapshot snapshot{{frame.image,
+                       camera,
+                       {fit->position.s_mm, fit->position.y_mm},
+                       {fit->position.s_std_mm, fit->y_std_mm}},
+                      {}};
+    for (const TagDetection& tag : found) {
+        if (find_tag(nominal, tag.tag_id) == nullptr) continue;
+        if (const auto refined = vision::refine_tag(frame.image, tag)) snapshot.tags.push_back(*refined);
+    }
+    return snapshot;
+}
+
+}  // namespace fidservo::inspect

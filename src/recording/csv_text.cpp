@@ -1,0 +1,96 @@
+#include "src/recording/csv_text.h"
+
+#include "core/failure.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+namespace fidservo {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(" \t");
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+void split(std::string_view line, std::vector<std::string_view>& fields) {
+    fields.clear();
+    while (true) {
+        const auto comma = line.find(',');
+        fields.push_back(trimmed(line.substr(0, comma)));
+        if (comma == std::string_view::npos) return;
+        line.remove_prefix(comma + 1);
+    }
+}
+
+template <class T>
+bool parse_all(std::string_view text, T& value) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+}  // namespace
+
+CsvText CsvText::load(const std::filesystem::path& file) {
+    std::error_code ignored;
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream || std::filesystem::is_directory(file, ignored))
+        throw InputError(fmt::format("{}: cannot be opened", file.string()));
+    std::string text;
+    text.reserve(static_cast<std::size_t>(std::filesystem::file_size(file, ignored)));
+    text.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    return {std::move(text), file};
+}
+
+CsvText::CsvText(std::string text, std::filesystem::path file)
+    : text_(std::move(text)), file_(std::move(file)) {
+    if (text_.empty()) throw InputError(fmt::format("{}: is empty", file_.string()));
+}
+
+bool CsvText::next() {
+    while (position_ < text_.size()) {
+        ++line_;
+        const std::size_t end = text_.find('\n', position_);
+        if (end == std::string::npos) fail("the last line does not end: the file was cut off");
+        std::string_view line(text_.data() + position_, end - position_);
+        position_ = end + 1;
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        if (trimmed(line).empty()) continue;
+        split(line, fields_);
+        return true;
+    }
+    return false;
+}
+
+double CsvText::number(std::size_t i) const {
+    double value = 0.0;
+    if (!parse_all(fields_[i], value))
+        fail(fmt::format("column {}: '{}': must be a number", i + 1, fields_[i]));
+    if (!std::isfinite(value)) fail(fmt::format("column {}: '{}': must be finite", i + 1, fields_[i]));
+    return value;
+}
+
+std::int64_t CsvText::integer(std::size_t i) const {
+    std::int64_t value = 0;
+    if (!parse_all(fields_[i], value))
+        fail(fmt::format("column {}: '{}': must be a whole number", i + 1, fields_[i]));
+    return value;
+}
+
+void CsvText::expect_fields(std::size_t count) const {
+    if (fields_.size() != count)
+        fail(fmt::format("has {} fields; the header names {}", fields_.size(), count));
+}
+
+void CsvText::fail(std::string_view message) const {
+    throw InputError(fmt::format("{}:{}: {}", file_.string(), line_, message));
+}
+
+}  // namespace fidservo

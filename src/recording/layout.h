@@ -1,0 +1,35 @@
+#pragma once
+// The names and columns of a recording folder, for reader and writer alike (docs/formats.md).
+#include "core/recording.h"
+
+#include <array>
+#include <string_view>
+
+namespace fidservo {
+
+inline constexpr std::string_view recording_format = "fidservo-recording/1";
+inline constexpr std::string_view time_title = "timestamp [ns]";
+
+/// A column of stage0/data.csv after the time.
+struct StageColumn {
+    std::string_view title;
+    double StageRow::*value;
+    bool StageColumns::*present;
+    int decimals;  ///< written after the point
+};
+
+/// In the order in which they are written.
+inline constexpr std::array stage_columns{
+    StageColumn{"macro_setpoint [mm]", &StageRow::macro_setpoint_mm, &StageColumns::macro_setpoint, 4},
+    StageColumn{"macro_command [V]", &StageRow::macro_command_V, &StageColumns::macro_command, 7},
+    StageColumn{"encoder [count]", &StageRow::encoder_count, &StageColumns::encoder, 0},
+    StageColumn{"position [mm]", &StageRow::position_mm, &StageColumns::position, 6},
+    StageColumn{"micro_setpoint [mm]", &StageRow::micro_setpoint_mm, &StageColumns::micro_setpoint, 7},
+    StageColumn{"micro_command [V]", &StageRow::micro_command_V, &StageColumns::micro_command, 7},
+    StageColumn{"hall [adc]", &StageRow::hall_adc, &StageColumns::hall, 0}};
+
+inline constexpr std::array<std::string_view, 8> corner_titles{
+    "p0_x [px]", "p0_y [px]", "p1_x [px]", "p1_y [px]", "p2_x [px]", "p2_y [px]", "p3_x [px]", "p3_y [px]"};
+inline constexpr int corner_decimals = 4;
+
+}  // namespace fidservo

@@ -1,0 +1,26 @@
+#pragma once
+// Recording folders in the ASL/EuRoC layout (docs/formats.md).
+#include "core/recording.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace fidservo {
+
+/// Reads a recording: recording.yaml, and whichever there are of stage0/data.csv, cam0/data.csv and
+/// cam0/detections.csv. Columns are known by name and unit and may stand in any order. Throws InputError
+/// "FILE:LINE: ..." on anything that is not as it should be: a file cut off in mid-line, numbers that are not
+/// finite, time that does not increase, columns that are missing, unknown or in another unit.
+Recording read_recording(const std::filesystem::path& folder);
+
+/// The recordings that a path stands for: itself if it holds recording.yaml, else the folders in it that do,
+/// by name. Throws InputError if there are none.
+std::vector<std::filesystem::path> find_recordings(const std::filesystem::path& path);
+
+/// cam0/data.csv: the frames of a camera folder, by time. Throws InputError.
+std::vector<FrameName> read_frame_names(const std::filesystem::path& file);
+
+/// cam0/detections.csv: a row per tag and frame, by time. Throws InputError.
+std::vector<TagDetection> read_detections(const std::filesystem::path& file);
+
+}  // namespace fidservo

@@ -1,0 +1,89 @@
+#include "src/recording/row_format.h"
+
+#include "src/recording/layout.h"
+
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fidservo {
+
+namespace {
+
+/// The shortest text that reads back as the same number.
+std::string shortest(double value) {
+    return fmt::format("{}", value);
+}
+
+/// Half of the last decimal's step: what is smaller is written as zero, which has no sign.
+constexpr std::array zero_below{0.5, 0.5e-1, 0.5e-2, 0.5e-3, 0.5e-4, 0.5e-5, 0.5e-6, 0.5e-7};
+
+void append_number(std::string& text, double value, int decimals) {
+    text += ',';
+    if (std::isnan(value)) return;
+    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{:.{}f}"),
+                   std::abs(value) < zero_below[static_cast<std::size_t>(decimals)] ? 0.0 : value, decimals);
+}
+
+}  // namespace
+
+std::string stage_header(const StageColumns& columns) {
+    std::string text = fmt::format("#{}", time_title);
+    for (const StageColumn& column : stage_columns)
+        if (columns.*column.present) text += fmt::format(",{}", column.title);
+    return text + '\n';
+}
+
+std::string detections_header() {
+    return fmt::format("#{},tag_id,{}\n", time_title, fmt::join(corner_titles, ","));
+}
+
+std::string frames_header() {
+    return fmt::format("#{},filename\n", time_title);
+}
+
+void append_row(std::string& text, const StageRow& row, const StageColumns& columns) {
+    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), row.time_ns);
+    for (const StageColumn& column : stage_columns)
+        if (columns.*column.present) append_number(text, row.*column.value, column.decimals);
+    text += '\n';
+}
+
+void append_corners(std::string& text, const TagDetection& detection) {
+    for (const Eigen::Vector2d& corner : detection.corners_px)
+        for (const double coordinate : {corner.x(), corner.y()})
+            append_number(text, coordinate, corner_decimals);
+}
+
+void append_detection(std::string& text, const TagDetection& detection) {
+    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{},{}"), detection.time_ns, detection.tag_id);
+    append_corners(text, detection);
+    text += '\n';
+}
+
+void append_frame(std::string& text, const FrameName& frame) {
+    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{},{}\n"), frame.time_ns, frame.filename);
+}
+
+std::string description_yaml(const std::string& name, const std::string& rig, double tick_s,
+                             const std::string& experiment) {
+    return fmt::format("format: {}\nname: {}\nrig: {}\ntick_s: {}\nexperiment: {}\n", recording_format, name,
+                       rig, shortest(tick_s), experiment);
+}
+
+std::string sensor_yaml(const CameraParameters& camera) {
+    const CameraGeometry& geometry = camera.geometry;
+    return fmt::format(
+        "sensor_type: camera\nrate_hz: {}\nresolution: [{}, {}]\ncamera_model: pinhole\n"
+        "intrinsics: [{}, {}, {}, {}]  # fu, fv, cu, cv in px; pixel centres at integers\n"
+        "distortion_model: radial-tangential\ndistortion_coefficients: [0, 0, 0, 0]\n",
+        shortest(camera.frame_rate_hz), geometry.width_px, geometry.height_px, shortest(geometry.focal_px),
+        shortest(geometry.focal_px), shortest(geometry.principal_point_px.x()),
+        shortest(geometry.principal_point_px.y()));
+}
+
+}  // namespace fidservo

@@ -1,0 +1,26 @@
+#pragma once
+// Recordings as text, byte for byte.
+#include "core/recording.h"
+#include "core/rig.h"
+
+#include <string>
+
+namespace fidservo {
+
+std::string stage_header(const StageColumns& columns);
+std::string detections_header();
+std::string frames_header();
+
+/// Each appends one line with its end. A value that is not in force is an empty field; zero has no sign.
+void append_row(std::string& text, const StageRow& row, const StageColumns& columns);
+void append_detection(std::string& text, const TagDetection& detection);
+/// The corners alone, with a comma before each number.
+void append_corners(std::string& text, const TagDetection& detection);
+void append_frame(std::string& text, const FrameName& frame);
+
+/// recording.yaml and cam0/sensor.yaml.
+std::string description_yaml(const std::string& name, const std::string& rig, double tick_s,
+                             const std::string& experiment);
+std::string sensor_yaml(const CameraParameters& camera);
+
+}  // namespace fidservo

@@ -1,0 +1,68 @@
+#pragma once
+// Writes a recording folder while it is being made: the control loop hands over rows without waiting, a
+// thread formats and writes them.
+#include "core/failure.h"
+#include "core/recording.h"
+#include "core/rig.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <opencv2/core/mat.hpp>
+
+namespace fidservo {
+
+/// What to do when the disk is slower than the loop and the ring is full.
+enum class WhenFull {
+    fail,  ///< say so at once: the run must stop safely; on a real stage
+    wait,  ///< until there is room; in simulation, which can be faster than any disk
+};
+
+struct RecordingOptions {
+    std::string name;
+    std::string rig;
+    std::string experiment;
+    double tick_s = 0.001;
+    StageColumns columns;                    ///< to be written
+    std::optional<CameraParameters> camera;  ///< gives cam0/sensor.yaml and detections.csv
+    bool detections = false;                 ///< to be added although no camera is given
+    bool frames = false;                     ///< to be kept as images
+    double ring_s = 12.0;                    ///< how long the disk may stall
+    WhenFull when_full = WhenFull::fail;
+};
+
+/// The columns that a rig's recordings have.
+StageColumns columns_of(const Rig& rig);
+
+class RecordingWriter {
+  public:
+    /// Makes the folder, which must not exist, and starts the writing thread. Throws InputError.
+    RecordingWriter(const std::filesystem::path& folder, const RecordingOptions& options);
+    /// Closes; a failure of the disk is then lost, so call close() before.
+    ~RecordingWriter();
+    RecordingWriter(const RecordingWriter&) = delete;
+    RecordingWriter& operator=(const RecordingWriter&) = delete;
+
+    // One thread at a time may call these. They neither allocate nor wait (WhenFull::fail). They fail with
+    // Reason::device once the disk has failed or the ring is full: nothing was lost up to then.
+    Status add(const StageRow& row);
+    Status add(const TagDetection& detection);
+    /// Keeps a frame as cam0/data/TIME.png. The image is shared, not copied: do not write to it afterwards.
+    Status add_frame(TimeNs time_ns, const cv::Mat& image);
+
+    /// Writes all that was handed over and waits until the disk has it. Fails with Reason::device.
+    Status close();
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Writes a recording that is complete in memory (its frames are names only and are not written). Throws
+/// InputError if the folder exists, RunFault if the disk fails.
+void write_recording(const std::filesystem::path& folder, const Recording& recording,
+                     const std::optional<CameraParameters>& camera);
+
+}  // namespace fidservo

@@ -1,0 +1,22 @@
+#pragma once
+#include "src/replay/images.h"
+
+#include <cstddef>
+#include <filesystem>
+
+namespace fidservo {
+
+struct ReplayCount {
+    std::size_t images = 0;
+    std::size_t tags = 0;
+};
+
+/// Finds the tags of all frames on `threads` cores, and writes detections.csv and displacements.csv into a
+/// folder that exists, in the frames' order. One timed series gives files with times, as in a recording;
+/// anything else has the image's name in the first column instead. Displacements are those of
+/// vision/displacement.h, counted from each series' own first frames. Throws InputError on a frame that
+/// cannot be read, RunFault if the disk fails.
+ReplayCount replay(ReplayFrames& frames, double tag_side_mm, const std::filesystem::path& folder,
+                   unsigned threads);
+
+}  // namespace fidservo

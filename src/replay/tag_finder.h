@@ -1,0 +1,31 @@
+#pragma once
+// From a frame to its fiducials, as precise as they can be had.
+#include "core/detection.h"
+#include "src/replay/images.h"
+#include "vision/tag_detector.h"
+#include "vision/tag_refinement.h"
+
+#include <vector>
+
+namespace fidservo {
+
+struct FrameResult {
+    ReplayFrame frame;                        ///< without its image
+    std::vector<TagDetection> tags;           ///< all, with refined corners where there are any
+    std::vector<vision::RefinedTag> refined;  ///< those whose border is large and clear enough to be measured
+};
+
+/// Decodes a frame and finds its tags; one a thread. Recordings are searched as the rig's own camera's,
+/// everything else as photographs.
+class TagFinder {
+  public:
+    TagFinder();
+    /// Throws InputError if the frame cannot be read.
+    FrameResult operator()(ReplayFrame frame);
+
+  private:
+    vision::TagDetector machine_;
+    vision::TagDetector thorough_;
+};
+
+}  // namespace fidservo

@@ -1,0 +1,66 @@
+#include "src/session/devices.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace fidservo {
+
+namespace {
+
+/// Where the guardian's files are. A folder of the program's own in the temporary folder goes when the
+/// program ends in order, unless the guardian has logged something.
+class GuardianFolder {
+  public:
+    explicit GuardianFolder(const SessionOptions& options) : temporary_(options.guardian_folder.empty()) {
+        path_ = temporary_ ? std::filesystem::temp_directory_path() / fmt::format("fidservo-{}", getpid())
+                           : options.guardian_folder;
+        if (temporary_) std::filesystem::create_directories(path_);
+    }
+    ~GuardianFolder() {
+        std::error_code ignored;
+        if (temporary_ && !std::filesystem::exists(log_file(), ignored))
+            std::filesystem::remove_all(path_, ignored);
+    }
+    GuardianFolder(const GuardianFolder&) = delete;
+    GuardianFolder& operator=(const GuardianFolder&) = delete;
+
+    std::filesystem::path log_file() const { return path_ / "guardian.log"; }
+    std::filesystem::path board_file() const { return path_ / "stage-outputs"; }
+
+  private:
+    bool temporary_;
+    std::filesystem::path path_;
+};
+
+/// A guardian process and its folder, which outlives it.
+struct SimulationGuardian {
+    explicit SimulationGuardian(const SessionOptions& options)
+        : folder(options),
+          guardian({.heartbeat = control::Heartbeat::process, .log_file = folder.log_file()},
+                   [file = folder.board_file()] { return std::make_unique<control::SimulatedBoard>(file); }) {
+    }
+
+    GuardianFolder folder;
+    control::Guardian guardian;
+};
+
+void demand_simulation(const char* option, const std::string& value) {
+    if (value != "sim") throw InputError(fmt::format("{} {}: no such device; allowed: sim", option, value));
+}
+
+}  // namespace
+
+SimulatedDevices make_simulated_devices(const SessionOptions& options, const Rig& rig, const Plate& printed) {
+    demand_simulation("--stage", options.stage);
+    demand_simulation("--camera", options.camera);
+    SimulatedDevices devices;
+    const auto guarding = std::make_shared<SimulationGuardian>(options);
+    devices.guardian = std::shared_ptr<control::Guardian>(guarding, &guarding->guardian);
+    devices.rig = std::make_shared<SimulatedRig>(plant::plant_parameters(rig), rig.camera.value(), printed,
+                                                 options.seed);
+    devices.stage = std::make_shared<SimulatedStage>(devices.rig, devices.guardian);
+    devices.camera = std::make_shared<SimulatedCamera>(devices.rig);
+    return devices;
+}
+
+}  // namespace fidservo

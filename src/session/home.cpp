@@ -1,0 +1,125 @@
+#include "src/session/home.h"
+
+#include "src/session/motion_params.h"
+#include "src/session/tuning_sweep.h"
+#include "vision/tag_choice.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace fidservo {
+
+namespace {
+
+constexpr double registration_lead_mm =
+    1.7;  ///< of the tag before the axis, so that the sweep keeps it in view
+
+Status seek_end_stop(Pilot& pilot) {
+    const control::HomingParams homing = homing_params(pilot.rig);
+    control::HomingState seeking;
+    while (seeking.phase == control::HomingPhase::seeking ||
+           !control::macro_is_quiet(homing.macro, seeking.macro)) {
+        auto ticked = pilot.machine.tick([&](const control::StageSample& sample) -> control::StageCommand {
+            return {control::homing_update(homing, seeking, sample.encoder_count), 0.0};
+        });
+        if (!ticked) return ticked;
+        if (seeking.phase == control::HomingPhase::failed)
+            return failure(Reason::no_convergence,
+                           "homing: the end stop was not found over the whole travel");
+    }
+    pilot.count_zero_mm =
+        pilot.rig.macro.low_mm - static_cast<double>(seeking.stop_count) * pilot.params.count_mm;
+    pilot.state.macro.last_count = seeking.stop_count;
+    return {};
+}
+
+/// The end stop is good to a count; a tag's id and place fix the absolute position.
+Status register_by_tag(Pilot& pilot) {
+    const auto tags = vision::reachable_rows(pilot.rig.camera->geometry, pilot.nominal);
+    const double low = pilot.rig.macro.low_mm + registration_lead_mm,
+                 high = pilot.rig.macro.high_mm + registration_lead_mm;
+    const PlateTag* nearest = nullptr;
+    for (const PlateTag& tag : tags) {
+        const bool reachable = tag.centre_mm.x() >= low && tag.centre_mm.x() <= high;
+        const auto way = [&](const PlateTag& t) { return std::abs(t.centre_mm.x() - pilot.believed_s_mm()); };
+        if (reachable && (nearest == nullptr || way(tag) < way(*nearest))) nearest = &tag;
+    }
+    if (nearest == nullptr)
+        return failure(Reason::out_of_reach, "homing: no fiducial of the plate can be brought into view");
+    Failure why{Reason::no_tag, ""};
+    for (const double offset_mm : search_offsets_mm) {
+        if (auto carried = pilot.carry_to(nearest->centre_mm.x() - registration_lead_mm + offset_mm);
+            !carried)
+            return carried;
+        const auto fit = pilot.look_anywhere();
+        if (fit) {
+            pilot.register_at(fit->position.s_mm);
+            pilot.saw(fit->position);
+            return {};
+        }
+        why = fit.error();
+    }
+    return failure(why.reason, fmt::format("homing: tag {} not found near {:.1f} mm: {}", nearest->id,
+                                           nearest->centre_mm.x(), why.text));
+}
+
+Result<SweepRecord> sweep(Pilot& pilot) {
+    SweepRecord record;
+    SweepProfile profile(pilot.params.micro.model);
+    record.hall.tick_ns = nanoseconds(pilot.rig.tick_s);
+    for (bool over = false; !over;) {
+        auto ticked = pilot.machine.tick([&](const control::StageSample& sample) -> control::StageCommand {
+            const auto command_V = profile.next(sample.hall_adc);
+            over = !command_V.has_value();
+            if (record.command_V.empty()) record.hall.start_ns = sample.time_ns;
+            record.hall.adc.push_back(sample.hall_adc);
+            record.command_V.push_back(command_V.value_or(pilot.params.micro.model.heater.onset_V));
+            pilot.state.micro.position_mm = pilot.state.micro.average_mm =
+                platform_position_mm(pilot.params.micro.model, sample.hall_adc);
+            return {0.0, record.command_V.back()};
+        });
+        if (!ticked) return forward(ticked.error());
+        auto frame = pilot.machine.poll_camera();
+        if (!frame) return forward(frame.error());
+        if (!*frame) continue;
+        const auto fit = pilot.sight.locate_anywhere(**frame);
+        if (fit) record.sights.push_back({(*frame)->time_ns, fit->position.s_mm, fit->position.s_std_mm});
+        if (auto kept = pilot.machine.keep(pilot.sight.found()); !kept) return forward(kept.error());
+    }
+    return record;
+}
+
+Status tune_by_sweep(Pilot& pilot) {
+    const auto record = sweep(pilot);
+    if (!record) return forward(record.error());
+    const auto tuning =
+        tune(pilot.params.micro.model, *record, pilot.rig.tick_s, pilot.rig.camera->exposure_s);
+    if (tuning) {
+        pilot.params.micro.model = tuning->model;
+        pilot.camera_delay_s = tuning->camera_delay_s;
+    } else {
+        spdlog::warn("the rig file's numbers are used for the micro stage: {}", tuning.error().text);
+    }
+    const auto count = pilot.state.macro.last_count;
+    pilot.state = control::positioner_start(pilot.params);
+    pilot.state.macro.last_count = count;
+    pilot.state.micro.wire = wire_after(pilot.params.micro.model, record->command_V, pilot.rig.tick_s);
+    pilot.state.micro.average_mm = platform_position_mm(pilot.params.micro.model, record->hall.adc.back());
+    control::micro_begin_move(pilot.params.micro, pilot.state.micro,
+                              0.5 * (pilot.params.park_low_mm + pilot.params.park_high_mm));
+    return pilot.step_until([&] { return pilot.state.micro.phase != control::MicroPhase::approach; },
+                            pilot.params.micro.shaping.timeout_s + 1.0,
+                            "the micro stage did not reach the middle of its travel");
+}
+
+}  // namespace
+
+Status home(Pilot& pilot) {
+    if (auto done = seek_end_stop(pilot); !done) return done;
+    if (auto done = register_by_tag(pilot); !done) return done;
+    return tune_by_sweep(pilot);
+}
+
+}  // namespace fidservo

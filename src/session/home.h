@@ -1,0 +1,10 @@
+#pragma once
+#include "src/session/pilot.h"
+
+namespace fidservo {
+
+/// Slowly to the end stop, registration against a tag, whose id and place fix the absolute position, and the
+/// tuning sweep of the micro stage (tuning_sweep.h). Ends with the platform in the middle of its travel.
+Status home(Pilot& pilot);
+
+}  // namespace fidservo

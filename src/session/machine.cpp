@@ -1,0 +1,54 @@
+#include "src/session/machine.h"
+
+#include "src/interrupt.h"
+
+namespace fidservo {
+
+Machine::~Machine() {
+    (void)switch_off();
+}
+
+Result<control::StageSample> Machine::begin_tick() {
+    if (interrupt_requested()) return failure(Reason::stopped, "stopped by the user");
+    auto sample = devices_.stage->read();
+    if (sample) now_ns_ = sample->time_ns;
+    return sample;
+}
+
+Status Machine::end_tick(const control::StageSample& sample, const control::StageCommand& command,
+                         const Setpoints& setpoints) {
+    if (auto written = devices_.stage->write(command); !written) return written;
+    if (!recorder_) return {};
+    StageRow row;
+    row.time_ns = sample.time_ns;
+    row.macro_setpoint_mm = setpoints.macro_mm;
+    row.macro_command_V = command.macro_V;
+    row.encoder_count = static_cast<double>(sample.encoder_count);
+    row.micro_setpoint_mm = setpoints.micro_mm;
+    row.micro_command_V = command.micro_V;
+    row.hall_adc = sample.hall_adc;
+    return recorder_->add(row);
+}
+
+Result<std::optional<vision::Frame>> Machine::poll_camera() {
+    return devices_.camera->poll(now_ns_);
+}
+
+Status Machine::keep(const std::vector<TagDetection>& detections) {
+    if (!recorder_) return {};
+    for (const TagDetection& detection : detections)
+        if (auto kept = recorder_->add(detection); !kept) return kept;
+    return {};
+}
+
+Status Machine::end_recording() {
+    if (!recorder_) return {};
+    const auto recorder = std::move(recorder_);
+    return recorder->close();
+}
+
+Status Machine::switch_off() {
+    return devices_.stage->write({});
+}
+
+}  // namespace fidservo

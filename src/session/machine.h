@@ -1,0 +1,70 @@
+#pragma once
+// The one loop: sample, control, write, record; a tick at a time.
+#include "control/stage.h"
+#include "core/recording.h"
+#include "core/rig.h"
+#include "src/recording/writer.h"
+#include "vision/camera.h"
+
+#include <concepts>
+#include <memory>
+#include <optional>
+
+namespace fidservo {
+
+/// The hardware, or what stands for it.
+struct Devices {
+    std::shared_ptr<control::Stage> stage;
+    std::shared_ptr<vision::Camera> camera;
+};
+
+/// Set points to be recorded beside a command; NaN: not in force.
+struct Setpoints {
+    double macro_mm = not_in_force;
+    double micro_mm = not_in_force;
+};
+
+class Machine {
+  public:
+    explicit Machine(Devices devices) : devices_(std::move(devices)) {}
+    /// Leaves both commands at zero.
+    ~Machine();
+    Machine(const Machine&) = delete;
+    Machine& operator=(const Machine&) = delete;
+
+    /// One tick: control(sample) gives the command. Fails with Reason::stopped if the user interrupts, with
+    /// Reason::device if stage or recorder fail; the commands are then zero.
+    template <std::invocable<const control::StageSample&> Control>
+    Status tick(Control&& control, const Setpoints& setpoints = {}) {
+        const auto sample = begin_tick();
+        if (!sample) return tl::make_unexpected(sample.error());
+        return end_tick(*sample, control(*sample), setpoints);
+    }
+
+    /// The newest frame, if a new one has arrived by the last tick.
+    Result<std::optional<vision::Frame>> poll_camera();
+    /// Keeps detections in the recording.
+    Status keep(const std::vector<TagDetection>& detections);
+
+    /// All ticks from now on go to this recording; null: none.
+    void record_to(std::unique_ptr<RecordingWriter> recorder) { recorder_ = std::move(recorder); }
+    /// Closes the recording; all of it is on the disk then.
+    Status end_recording();
+
+    TimeNs now_ns() const { return now_ns_; }
+    void set_now(TimeNs now_ns) { now_ns_ = now_ns; }
+
+    /// Both commands to zero.
+    Status switch_off();
+
+  private:
+    Result<control::StageSample> begin_tick();
+    Status end_tick(const control::StageSample& sample, const control::StageCommand& command,
+                    const Setpoints& setpoints);
+
+    Devices devices_;
+    std::unique_ptr<RecordingWriter> recorder_;
+    TimeNs now_ns_ = 0;
+};
+
+}  // namespace fidservo

@@ -1,0 +1,21 @@
+#pragma once
+#include "control/homing.h"
+#include "control/positioner.h"
+#include "core/rig.h"
+
+namespace fidservo {
+
+/// The positioner of a rig as its file describes it. Throws InputError if the rig lacks what positioning
+/// needs: micro stage, camera, and the gains of both controllers.
+control::PositionerParams positioner_params(const Rig& rig, double tolerance_mm);
+
+/// Camera positions that motions may end at, plate x, mm: the macro stage's travel, and the platform's but
+/// for its ends.
+struct CameraTravel {
+    double low_mm, high_mm;
+};
+CameraTravel camera_travel(const Rig& rig);
+
+control::HomingParams homing_params(const Rig& rig);
+
+}  // namespace fidservo

@@ -1,0 +1,118 @@
+#include "src/session/pilot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace fidservo {
+
+namespace {
+
+constexpr double frame_timeout_s = 0.5;
+
+}  // namespace
+
+Pilot::Pilot(const Rig& of, const Plate& plate, const control::PositionerParams& positioning, Devices devices)
+    : rig(of),
+      nominal(plate),
+      machine(std::move(devices)),
+      sight(of.camera.value().geometry, plate),
+      params(positioning),
+      state(control::positioner_start(params)) {}
+
+double Pilot::believed_s_mm() const {
+    const auto count = static_cast<double>(state.macro.last_count.value_or(0));
+    return count_zero_mm + count * params.count_mm + state.micro.average_mm;
+}
+
+Status Pilot::step(const std::optional<control::TargetOffset>& seen) {
+    return machine.tick(
+        [&](const control::StageSample& sample) {
+            const auto out = control::positioner_update(params, state, sample, seen);
+            wants_frames_ = out.wants_frames;
+            return out.command;
+        },
+        setpoints);
+}
+
+Result<vision::Frame> Pilot::next_frame(TimeNs after_ns) {
+    const TimeNs whole_ns = after_ns + nanoseconds(0.5 * rig.camera->exposure_s);
+    const TimeNs end = machine.now_ns() + nanoseconds(frame_timeout_s);
+    while (machine.now_ns() <= end) {
+        if (auto stepped = step(); !stepped) return forward(stepped.error());
+        auto frame = machine.poll_camera();
+        if (!frame) return forward(frame.error());
+        if (*frame && exposed_at(**frame) >= whole_ns) return std::move(**frame);
+    }
+    return failure(Reason::timeout, "no frame from the camera");
+}
+
+TimeNs Pilot::exposed_at(const vision::Frame& frame) const {
+    return frame.time_ns - nanoseconds(camera_delay_s);
+}
+
+Status Pilot::carry_to(double s_mm) {
+    const double carriage = std::clamp(s_mm - state.micro.average_mm, rig.macro.low_mm, rig.macro.high_mm);
+    control::macro_go_to(state.macro, (carriage - count_zero_mm) / params.count_mm);
+    setpoints.macro_mm = carriage;
+    auto quiet = step_until([&] { return control::macro_is_quiet(params.macro, state.macro); },
+                            params.macro_timeout_s, "the macro stage did not settle");
+    state.macro.setpoint_count.reset();
+    setpoints.macro_mm = not_in_force;
+    return quiet;
+}
+
+Result<vision::PositionFit> Pilot::look_anywhere() {
+    const auto frame = next_frame(machine.now_ns());
+    if (!frame) return forward(frame.error());
+    auto fit = sight.locate_anywhere(*frame);
+    if (auto kept = machine.keep(sight.found()); !kept) return forward(kept.error());
+    return fit;
+}
+
+/// A frame that has just arrived, as the way still to go.
+Result<std::optional<control::TargetOffset>> Pilot::watch(double target_s_mm, int tag_id,
+                                                          std::optional<Failure>& trouble) {
+    auto frame = machine.poll_camera();
+    if (!frame) return forward(frame.error());
+    if (!*frame || exposed_at(**frame) < state.rest_since_ns) return std::nullopt;
+    const auto fit = sight.locate(**frame, believed_s_mm(), tag_id);
+    if (auto kept = machine.keep(sight.found()); !kept) return forward(kept.error());
+    if (!fit) {
+        trouble = fit.error();
+        return std::nullopt;
+    }
+    trouble.reset();
+    saw(fit->position);
+    const vision::ServoMove move = sight.move_to(*fit, target_s_mm);
+    return control::TargetOffset{exposed_at(**frame), move.move_mm, move.std_mm};
+}
+
+Status Pilot::drive_to(double target_s_mm, int tag_id) {
+    std::optional<Failure> trouble;
+    control::positioner_begin(params, state, target_s_mm - believed_s_mm(),
+                              {std::ceil((rig.macro.low_mm - count_zero_mm) / params.count_mm),
+                               std::floor((rig.macro.high_mm - count_zero_mm) / params.count_mm)});
+    setpoints.macro_mm = target_s_mm - state.micro.average_mm;
+    std::optional<control::TargetOffset> seen;
+    while (!control::positioner_is_done(state)) {
+        setpoints.micro_mm =
+            state.micro.phase == control::MicroPhase::approach ? state.micro.target_mm : setpoints.micro_mm;
+        if (auto stepped = step(std::exchange(seen, std::nullopt)); !stepped) return stepped;
+        if (!wants_frames_) continue;
+        auto watched = watch(target_s_mm, tag_id, trouble);
+        if (!watched) return forward(watched.error());
+        seen = *watched;
+    }
+    if (state.phase == control::PositionerPhase::arrived) {
+        register_at(target_s_mm - state.reached.needed_mm);
+        return {};
+    }
+    if (trouble) return forward(*trouble);
+    return failure(state.why,
+                   fmt::format("motion to {:.3f} mm ended after {} micro moves", target_s_mm, state.moves));
+}
+
+}  // namespace fidservo

@@ -1,0 +1,79 @@
+#pragma once
+// The rig under way: machine, sight and positioner together, and the registration that tells where the camera
+// is.
+#include "control/positioner.h"
+#include "core/plate.h"
+#include "core/rig.h"
+#include "src/session/machine.h"
+#include "src/session/sight.h"
+
+#include <array>
+#include <concepts>
+#include <optional>
+#include <utility>
+
+namespace fidservo {
+
+/// Where the camera looks for a fiducial that is not where it should be: offsets along the stage axis, mm.
+inline constexpr std::array search_offsets_mm{0.0, 0.7, -0.7};
+
+inline tl::unexpected<Failure> forward(Failure why) {
+    return tl::make_unexpected(std::move(why));
+}
+
+class Pilot {
+  public:
+    /// The rig must have all that `params` were made of (motion_params.h).
+    Pilot(const Rig& rig, const Plate& nominal, const control::PositionerParams& params, Devices devices);
+
+    /// Where the registration believes the camera to be, plate x, mm.
+    double believed_s_mm() const;
+    /// What a frame has just shown moves the registration, not the rig.
+    void register_at(double s_mm) { count_zero_mm += s_mm - believed_s_mm(); }
+
+    /// One tick of the positioner.
+    Status step(const std::optional<control::TargetOffset>& seen = {});
+
+    /// Ticks until a condition holds. Fails with Reason::timeout.
+    Status step_until(const std::predicate auto& condition, double timeout_s, const char* what) {
+        for (const TimeNs end = machine.now_ns() + nanoseconds(timeout_s); !condition();) {
+            if (machine.now_ns() > end) return failure(Reason::timeout, what);
+            if (auto stepped = step(); !stepped) return stepped;
+        }
+        return {};
+    }
+
+    /// The next frame exposed wholly after a time, in true exposure time. Fails with Reason::timeout.
+    Result<vision::Frame> next_frame(TimeNs after_ns);
+    /// A frame's true middle of exposure: its stamp without the delay that the tuning found.
+    TimeNs exposed_at(const vision::Frame& frame) const;
+
+    /// Brings the macro stage so that the camera stands at s, by the registration alone; nothing is
+    /// confirmed.
+    Status carry_to(double s_mm);
+    /// Where the camera is by whatever tag the next frame shows.
+    Result<vision::PositionFit> look_anywhere();
+    /// A motion under the supervisor to camera position s, measured by a tag, confirmed at rest.
+    Status drive_to(double target_s_mm, int tag_id);
+
+    void saw(const CameraPosition& position) { camera_mm = {position.s_mm, position.y_mm}; }
+
+    const Rig rig;
+    const Plate nominal;
+    Machine machine;
+    Sight sight;
+    control::PositionerParams params;
+    control::PositionerState state;
+    double count_zero_mm = 0.0;  ///< carriage position at count 0, by the registration
+    double camera_delay_s = 0.0;
+    Eigen::Vector2d camera_mm{0.0, 0.0};
+    Setpoints setpoints;
+
+  private:
+    Result<std::optional<control::TargetOffset>> watch(double target_s_mm, int tag_id,
+                                                       std::optional<Failure>& trouble);
+
+    bool wants_frames_ = false;
+};
+
+}  // namespace fidservo

@@ -1,0 +1,192 @@
+#include "src/session/session.h"
+
+#include "core/units.h"
+#include "src/session/devices.h"
+#include "src/session/home.h"
+#include "src/session/motion_params.h"
+#include "src/session/simulated_rig.h"
+#include "src/session/state_json.h"
+#include "vision/tag_choice.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+namespace fidservo {
+
+namespace {
+
+constexpr double still_mm = 0.002;  ///< of the platform, by the Hall sensor, while a frame is taken
+
+}  // namespace
+
+struct Session::Impl {
+    Impl(const Rig& rig, const Plate& nominal, const control::PositionerParams& params, Devices devices)
+        : pilot(rig, nominal, params, std::move(devices)) {}
+
+    Pilot pilot;
+    std::shared_ptr<SimulatedRig> simulated;
+    std::shared_ptr<control::Guardian> guardian;
+};
+
+Session::Session(const SessionOptions& options, const Rig& rig, const Plate& nominal, Devices devices)
+    : impl_(std::make_unique<Impl>(rig, nominal, positioner_params(rig, mm_from_um(options.tolerance_um)),
+                                   std::move(devices))) {}
+
+Session::Session(const SessionOptions& options, const Rig& rig, const Plate& nominal, const Plate& printed) {
+    const auto params = positioner_params(rig, mm_from_um(options.tolerance_um));
+    SimulatedDevices simulated = make_simulated_devices(options, rig, printed);
+    impl_ = std::make_unique<Impl>(rig, nominal, params, Devices{simulated.stage, simulated.camera});
+    impl_->simulated = std::move(simulated.rig);
+    impl_->guardian = std::move(simulated.guardian);
+}
+
+Session::~Session() {
+    (void)impl_->pilot.machine.switch_off();
+    if (!impl_->guardian) return;
+    if (const auto off = impl_->guardian->finish(); !off) spdlog::error("{}", off.error().text);
+}
+
+void Session::record_to(const std::filesystem::path& folder, const std::string& experiment) {
+    RecordingOptions recording;
+    recording.name = folder.filename().string();
+    recording.rig = impl_->pilot.rig.name;
+    recording.experiment = experiment;
+    recording.tick_s = impl_->pilot.rig.tick_s;
+    recording.columns = columns_of(impl_->pilot.rig);
+    recording.camera = impl_->pilot.rig.camera;
+    recording.when_full = impl_->simulated ? WhenFull::wait : WhenFull::fail;
+    impl_->pilot.machine.record_to(std::make_unique<RecordingWriter>(folder, recording));
+}
+
+Status Session::end_recording() {
+    return impl_->pilot.machine.end_recording();
+}
+
+Status Session::home() {
+    return fidservo::home(impl_->pilot);
+}
+
+Result<Arrival> Session::go_to(int tag_id, double dx_mm) {
+    Pilot& pilot = impl_->pilot;
+    const auto tag = vision::find_tag(pilot.nominal, tag_id);
+    if (!tag) return failure(Reason::wrong_tag, fmt::format("tag {} is not on the plate", tag_id));
+    const double target_s_mm = tag->centre_mm.x() + dx_mm;
+    const CameraTravel travel = camera_travel(pilot.rig);
+    if (target_s_mm < travel.low_mm || target_s_mm > travel.high_mm)
+        return failure(Reason::out_of_reach, fmt::format("{:.3f} mm is out of travel", target_s_mm));
+    Status driven = failure(Reason::no_tag, "");
+    for (const double offset_mm : search_offsets_mm) {
+        if (offset_mm != 0.0) {
+            // Elsewhere the fiducial may be in view; what is seen there corrects the registration.
+            if (auto carried = pilot.carry_to(target_s_mm + offset_mm); !carried)
+                return forward(carried.error());
+            const auto fit = pilot.look_anywhere();
+            if (!fit) continue;
+            pilot.register_at(fit->position.s_mm);
+        }
+        driven = pilot.drive_to(target_s_mm, tag_id);
+        if (driven || driven.error().reason != Reason::no_tag) break;
+    }
+    if (!driven) return forward(driven.error());
+    const control::PositionerState& state = pilot.state;
+    Arrival arrival;
+    arrival.tag_id = tag_id;
+    arrival.target_dx_um = um_from_mm(dx_mm);
+    arrival.reached_dx_um = um_from_mm(dx_mm - state.reached.needed_mm);
+    arrival.reached_std_um = um_from_mm(state.reached.std_mm);
+    arrival.reached_dy_um = um_from_mm(pilot.camera_mm.y() - tag->centre_mm.y());
+    arrival.macro_time_s = state.macro_s;
+    arrival.micro_time_s = state.micro_s;
+    arrival.micro_moves = state.moves;
+    arrival.within_tolerance = std::abs(state.reached.needed_mm) <= pilot.params.tolerance_mm;
+    return arrival;
+}
+
+Result<vision::Frame> Session::capture() {
+    Pilot& pilot = impl_->pilot;
+    const auto count = pilot.state.macro.last_count;
+    const double platform_mm = pilot.state.micro.average_mm;
+    auto frame = pilot.next_frame(pilot.machine.now_ns());
+    if (!frame) return frame;
+    if (pilot.state.macro.last_count != count ||
+        std::abs(pilot.state.micro.average_mm - platform_mm) > still_mm)
+        return failure(Reason::not_at_rest, "the stage moved while the picture was taken");
+    if (const auto fit = pilot.sight.locate(*frame, pilot.believed_s_mm())) pilot.saw(fit->position);
+    if (auto kept = pilot.machine.keep(pilot.sight.found()); !kept) return forward(kept.error());
+    return frame;
+}
+
+Status Session::hold(double duration_s) {
+    for (auto ticks = std::lround(duration_s / impl_->pilot.rig.tick_s); ticks > 0; --ticks)
+        if (auto stepped = impl_->pilot.step(); !stepped) return stepped;
+    return {};
+}
+
+Status Session::observe(double duration_s) {
+    Pilot& pilot = impl_->pilot;
+    for (auto ticks = std::lround(duration_s / pilot.rig.tick_s); ticks > 0; --ticks) {
+        if (auto stepped = pilot.step(); !stepped) return stepped;
+        const auto frame = pilot.machine.poll_camera();
+        if (!frame) return forward(frame.error());
+        if (!*frame) continue;
+        if (const auto fit = pilot.sight.locate_anywhere(**frame)) pilot.saw(fit->position);
+        if (auto kept = pilot.machine.keep(pilot.sight.found()); !kept) return kept;
+    }
+    return {};
+}
+
+Eigen::Vector2d Session::camera_mm() const {
+    return impl_->pilot.camera_mm;
+}
+
+double Session::now_s() const {
+    return seconds(impl_->pilot.machine.now_ns());
+}
+
+namespace {
+
+/// Under which a checkpoint has the setpoints that are in force.
+constexpr std::array setpoint_names{std::pair{"macro_setpoint_mm", &Setpoints::macro_mm},
+                                    std::pair{"micro_setpoint_mm", &Setpoints::micro_mm}};
+
+}  // namespace
+
+std::string Session::checkpoint() const {
+    const Pilot& pilot = impl_->pilot;
+    nlohmann::json json{{"positioner", json_of(pilot.state)},
+                        {"heater", json_of(pilot.params.micro.model.heater)},
+                        {"stroke_scale", pilot.params.micro.model.stroke_scale},
+                        {"hall_correction", pilot.params.micro.model.hall_correction},
+                        {"count_zero_mm", pilot.count_zero_mm},
+                        {"camera_delay_s", pilot.camera_delay_s},
+                        {"camera_mm", {pilot.camera_mm.x(), pilot.camera_mm.y()}},
+                        {"now_ns", pilot.machine.now_ns()}};
+    for (const auto& [name, setpoint] : setpoint_names)
+        if (!std::isnan(pilot.setpoints.*setpoint)) json[name] = pilot.setpoints.*setpoint;
+    if (impl_->simulated) json["rig"] = impl_->simulated->snapshot();
+    return json.dump();
+}
+
+void Session::restore(const std::string& checkpoint) {
+    const auto json = nlohmann::json::parse(checkpoint);
+    Pilot& pilot = impl_->pilot;
+    read_json(json.at("heater"), pilot.params.micro.model.heater);
+    pilot.params.micro.model.stroke_scale = json.at("stroke_scale");
+    json.at("hall_correction").get_to(pilot.params.micro.model.hall_correction);
+    read_json(json.at("positioner"), pilot.state);
+    pilot.count_zero_mm = json.at("count_zero_mm");
+    pilot.camera_delay_s = json.at("camera_delay_s");
+    pilot.camera_mm =
+        Eigen::Vector2d(json.at("camera_mm").at(0).get<double>(), json.at("camera_mm").at(1).get<double>());
+    for (const auto& [name, setpoint] : setpoint_names)
+        pilot.setpoints.*setpoint = json.value(name, not_in_force);
+    pilot.machine.set_now(json.at("now_ns"));
+    if (impl_->simulated) impl_->simulated->restore(json.at("rig"));
+}
+
+}  // namespace fidservo

@@ -1,0 +1,86 @@
+#pragma once
+// A rig in use: stage, camera, controllers and vision put together, and the recording of all that happens.
+// In simulation one thread runs everything in virtual time; same seed, same bytes.
+#include "core/failure.h"
+#include "core/plate.h"
+#include "core/rig.h"
+#include "src/session/machine.h"
+#include "vision/camera.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace fidservo {
+
+/// What a motion to a fiducial-relative target reached, as the camera measured it at rest.
+struct Arrival {
+    int tag_id = -1;            ///< the fiducial that was measured
+    double target_dx_um = 0.0;  ///< of the camera's axis from that fiducial's centre
+    double reached_dx_um = 0.0;
+    double reached_std_um = 0.0;
+    double reached_dy_um = 0.0;
+    double macro_time_s = 0.0;  ///< from the command to the settled macro stage
+    double micro_time_s = 0.0;  ///< from the first micro setpoint to the confirmed arrival
+    int micro_moves = 0;        ///< the approach and its corrections
+    bool within_tolerance = false;
+};
+
+/// What the session was told.
+struct SessionOptions {
+    std::filesystem::path rig_file;
+    std::string stage = "sim";   ///< sim | comedi:/dev/comedi0
+    std::string camera = "sim";  ///< sim | v4l2:/dev/video0 | images:DIR
+    std::uint64_t seed = 1;      ///< of the simulated rig's noise
+    double tolerance_um = 1.0;   ///< of a motion's arrival
+    /// What the guardian's board file and log are called: FOLDER/stage-outputs, FOLDER/guardian.log. Empty: a
+    /// temporary folder.
+    std::filesystem::path guardian_folder;
+};
+
+/// Puts a machine together, homes it, moves it and takes pictures at rest. Ends with both stage commands
+/// zero, whatever happens.
+class Session {
+  public:
+    /// @param nominal  the plate as it should be: what the program knows
+    /// @param printed  the plate as it is: only the simulated camera sees it
+    Session(const SessionOptions& options, const Rig& rig, const Plate& nominal, const Plate& printed);
+    /// The same on devices that somebody else made; such a session has no checkpoints of its hardware.
+    Session(const SessionOptions& options, const Rig& rig, const Plate& nominal, Devices devices);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Starts a recording folder (EuRoC layout); all ticks and detections go there until the next call.
+    void record_to(const std::filesystem::path& folder, const std::string& experiment);
+    /// Closes the recording; all of it is on the disk then.
+    Status end_recording();
+
+    /// End stop, registration against a tag, and the tuning sweep of the micro stage.
+    Status home();
+    /// Brings the camera's axis to tag + dx along the stage axis, and confirms it at rest.
+    Result<Arrival> go_to(int tag_id, double dx_mm);
+    /// A frame taken at rest, with the stage confirmed at rest before and after the exposure.
+    Result<vision::Frame> capture();
+    /// Holds the position for a while.
+    Status hold(double duration_s);
+    /// The same, and keeps what every frame shows in the recording.
+    Status observe(double duration_s);
+
+    /// Where the camera's axis was at the last confirmed arrival, plate frame, mm.
+    Eigen::Vector2d camera_mm() const;
+    /// Session time on the rig's clock.
+    double now_s() const;
+
+    /// All that a later process needs to go on from here as if nothing had happened (JSON text). On a
+    /// simulated rig that includes the rig itself.
+    std::string checkpoint() const;
+    void restore(const std::string& checkpoint);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fidservo

@@ -1,0 +1,42 @@
+#pragma once
+// What the camera sees of the plate: frame -> tag -> where the camera is.
+#include "core/plate.h"
+#include "core/rig.h"
+#include "vision/camera_position.h"
+#include "vision/servo/servo_law.h"
+#include "vision/tag_detector.h"
+
+#include <optional>
+
+namespace fidservo {
+
+class Sight {
+  public:
+    /// @param nominal  the plate as it should be
+    Sight(const CameraGeometry& camera, const Plate& nominal);
+
+    /// Where the camera was when the frame was taken.
+    /// @param expected_s_mm  where the registration believes it to be; chooses the tag by the plate's
+    /// geometry
+    /// @param preferred_tag  measured by where it is wholly in view
+    Result<vision::PositionFit> locate(const vision::Frame& frame, double expected_s_mm,
+                                       std::optional<int> preferred_tag = {});
+    /// The stage's move from where the camera was in a frame to a target, by the servo law on the tag's
+    /// corners.
+    vision::ServoMove move_to(const vision::PositionFit& seen, double target_s_mm) const;
+    /// Where the camera was, by the plate's tag nearest to the image's middle: for a camera that is lost.
+    Result<vision::PositionFit> locate_anywhere(const vision::Frame& frame);
+
+    /// What was found in the last frame.
+    const std::vector<TagDetection>& found() const { return found_; }
+
+  private:
+    cv::Rect region_of(const PlateTag& tag, double s_mm) const;
+
+    CameraGeometry camera_;
+    Plate nominal_;
+    vision::TagDetector detector_;
+    std::vector<TagDetection> found_;
+};
+
+}  // namespace fidservo

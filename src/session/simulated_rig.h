@@ -1,0 +1,74 @@
+#pragma once
+// The simulated rig: one truth behind a stage and a camera, in virtual time. Time passes when a command is
+// written, a tick at a time; frames are rendered only when somebody asks for them.
+#include "control/guardian.h"
+#include "control/stage.h"
+#include "core/plate.h"
+#include "core/rig.h"
+#include "plant/stage_plant.h"
+#include "plant/view/plate_view.h"
+#include "vision/camera.h"
+
+#include <array>
+#include <memory>
+#include <string>
+
+namespace fidservo {
+
+class SimulatedRig {
+  public:
+    /// @param physics  the rig as it is, which may differ from its file
+    /// @param printed  the plate as it is
+    SimulatedRig(const plant::PlantParameters& physics, const CameraParameters& camera, const Plate& printed,
+                 std::uint64_t seed);
+
+    control::StageSample read();
+    void write(const control::StageCommand& command);
+    /// The newest frame that has arrived and was not handed out.
+    std::optional<vision::Frame> poll();
+
+    TimeNs now_ns() const { return tick_ * tick_ns_; }
+    /// The truth: for tests and for drawing, never for what runs on the rig.
+    const plant::StageState& truth() const { return state_; }
+    const plant::StagePlant& physics() const { return plant_; }
+
+    /// The whole physical state as JSON text, exact.
+    std::string snapshot() const;
+    void restore(const std::string& snapshot);
+
+  private:
+    double position_mm(double time_s) const;
+
+    plant::StagePlant plant_;
+    CameraParameters camera_;
+    plant::PlateView view_;
+    plant::StageState state_;
+    TimeNs tick_ns_;
+    std::int64_t tick_ = 0;
+    std::int64_t next_frame_ = 0;
+    std::array<double, 512> past_mm_;  ///< camera position at the last ticks, by tick modulo its size
+};
+
+/// The rig's stage side. Every command also goes to the guardian's board, where there is a guardian.
+class SimulatedStage final : public control::Stage {
+  public:
+    SimulatedStage(std::shared_ptr<SimulatedRig> rig, std::shared_ptr<control::Guardian> guardian)
+        : rig_(std::move(rig)), guardian_(std::move(guardian)) {}
+    Result<control::StageSample> read() override;
+    Status write(const control::StageCommand& command) override;
+
+  private:
+    std::shared_ptr<SimulatedRig> rig_;
+    std::shared_ptr<control::Guardian> guardian_;
+};
+
+class SimulatedCamera final : public vision::Camera {
+  public:
+    explicit SimulatedCamera(std::shared_ptr<SimulatedRig> rig) : rig_(std::move(rig)) {}
+    Result<std::optional<vision::Frame>> poll(TimeNs now_ns) override;
+
+  private:
+    std::shared_ptr<SimulatedRig> rig_;
+};
+
+}  // namespace fidservo

@@ -1,0 +1,88 @@
+#include "src/session/state_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace fidservo {
+
+using nlohmann::json;
+
+json json_of(const PreisachMemory& wire) {
+    json loops = json::array();
+    for (const PreisachLoop& loop : wire.loops)
+        loops.push_back({loop.peak_degC, loop.valley_degC, loop.contraction_mm});
+    return {{"loops", loops},
+            {"temp_degC", wire.temp_degC},
+            {"last_peak_degC", wire.last_peak_degC},
+            {"contraction_mm", wire.contraction_mm}};
+}
+
+void read_json(const json& from, PreisachMemory& wire) {
+    wire.loops.clear();
+    for (const json& loop : from.at("loops")) wire.loops.push_back({loop.at(0), loop.at(1), loop.at(2)});
+    wire.temp_degC = from.at("temp_degC");
+    wire.last_peak_degC = from.at("last_peak_degC");
+    wire.contraction_mm = from.at("contraction_mm");
+}
+
+json json_of(const HeaterParameters& heater) {
+    return {heater.onset_V,       heater.limit_V,       heater.gain_degC_per_V,
+            heater.heating_tau_s, heater.cooling_tau_s, heater.ambient_degC};
+}
+
+void read_json(const json& from, HeaterParameters& heater) {
+    heater = {from.at(0), from.at(1), from.at(2), from.at(3), from.at(4), from.at(5)};
+}
+
+json json_of(const plant::StageState& state) {
+    json result{{"carriage_mm", state.axis.position_mm},
+                {"velocity_mm_per_s", state.axis.velocity_mm_per_s},
+                {"encoder_origin", state.encoder.origin_count}};
+    if (state.micro) {
+        result["wire_degC"] = state.micro->heater.temp_degC;
+        result["wire"] = json_of(state.micro->wire);
+        result["platform_mm"] = state.micro->position_mm;
+        result["hall_noise"] = state.micro->hall_noise.position();
+    }
+    return result;
+}
+
+void read_json(const json& from, plant::StageState& state) {
+    state.axis.position_mm = from.at("carriage_mm");
+    state.axis.velocity_mm_per_s = from.at("velocity_mm_per_s");
+    state.encoder.origin_count = from.at("encoder_origin");
+    if (!state.micro) return;
+    state.micro->heater.temp_degC = from.at("wire_degC");
+    read_json(from.at("wire"), state.micro->wire);
+    state.micro->position_mm = from.at("platform_mm");
+    state.micro->hall_noise.seek(from.at("hall_noise"));
+}
+
+json json_of(const control::PositionerState& state) {
+    const control::MicroControllerState& micro = state.micro;
+    return {{"count", state.macro.last_count.value_or(0)},
+            {"quiet_s", state.macro.quiet_s},
+            {"micro_phase", static_cast<int>(micro.phase)},
+            {"wire", json_of(micro.wire)},
+            {"heater", json_of(micro.heater)},
+            {"command_V", micro.command_V},
+            {"hold_V", micro.hold_V},
+            {"position_mm", micro.position_mm},
+            {"average_mm", micro.average_mm}};
+}
+
+void read_json(const json& from, control::PositionerState& state) {
+    control::MicroControllerState& micro = state.micro;
+    state.phase = control::PositionerPhase::idle;
+    state.macro.setpoint_count.reset();
+    state.macro.last_count = from.at("count").get<std::int64_t>();
+    state.macro.quiet_s = from.at("quiet_s");
+    micro.phase = static_cast<control::MicroPhase>(from.at("micro_phase").get<int>());
+    read_json(from.at("wire"), micro.wire);
+    read_json(from.at("heater"), micro.heater);
+    micro.command_V = from.at("command_V");
+    micro.hold_V = from.at("hold_V");
+    micro.position_mm = from.at("position_mm");
+    micro.average_mm = from.at("average_mm");
+}
+
+}  // namespace fidservo

@@ -1,0 +1,48 @@
+#pragma once
+// The tuning sweep: the platform once over its travel, up and down, under known commands. What the camera and
+// the Hall sensor see of it calibrates the sensor, the camera's time stamps and the model of the actuator.
+#include "calib/hall_map.h"
+#include "core/micro_model.h"
+
+#include <optional>
+#include <vector>
+
+namespace fidservo {
+
+/// What a sweep recorded.
+struct SweepRecord {
+    calib::HallTrace hall;
+    std::vector<double> command_V;
+    std::vector<calib::CameraSight> sights;
+};
+
+/// Open-loop commands of the sweep: rest, heat until contracted, cool until extended.
+class SweepProfile {
+  public:
+    explicit SweepProfile(const MicroModel& model) : model_(model) {}
+    static constexpr int rest_ticks = 100;
+
+    /// The command from this tick on, V; empty when the sweep is over.
+    std::optional<double> next(double hall_adc);
+
+  private:
+    MicroModel model_;
+    int ticks_ = 0;
+    bool cooling_ = false;
+};
+
+/// The model that the sweep shows, and by how much the camera's stamps are late.
+struct Tuning {
+    MicroModel model;
+    double camera_delay_s;
+    double hall_residual_mm;
+    double actuator_residual_mm;
+};
+
+/// Fails with Reason::not_identifiable if the sweep does not determine it.
+Result<Tuning> tune(const MicroModel& nominal, const SweepRecord& sweep, double tick_s, double exposure_s);
+
+/// The model's wire at the end of a sweep that began cold.
+PreisachMemory wire_after(const MicroModel& model, const std::vector<double>& command_V, double tick_s);
+
+}  // namespace fidservo

@@ -1,0 +1,38 @@
+#pragma once
+// The experiments that tell a rig apart from its simulation: what is commanded, over time.
+#include "core/rig.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fidservo {
+
+/// A course over time, t in s from the start; an empty one is not in force.
+using Course = std::function<double(double t_s)>;
+
+/// What one recording commands. A stage follows its setpoint with its controller where there is one,
+/// otherwise its voltage; where there is neither, the command is zero.
+struct Experiment {
+    std::string kind;
+    double duration_s = 0.0;
+    double carriage_mm = 0.0;  ///< at the start, at rest, homed before; the wire is cold
+    Course macro_setpoint_mm = {}, macro_V = {};
+    Course micro_setpoint_mm = {}, micro_V = {};
+};
+
+/// rest, macro-pulses, macro-sweep, macro-square, micro-steps, micro-triangle, micro-servo, integrated.
+const std::vector<std::string_view>& experiment_kinds();
+
+/// An experiment with its excitation drawn at random: amplitudes, periods and places, scaled to the rig's
+/// travel, dead zone and heater.
+/// @param name  of the recording; together with the seed it determines the draw
+/// Throws InputError on an unknown kind and where the rig lacks the part or the controller that it needs.
+Experiment make_experiment(std::string_view kind, const Rig& rig, std::uint64_t seed, std::string_view name);
+
+/// Why a rig cannot do an experiment; empty if it can.
+std::string missing_for(std::string_view kind, const Rig& rig);
+
+}  // namespace fidservo

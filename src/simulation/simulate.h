@@ -1,0 +1,20 @@
+#pragma once
+#include "core/recording.h"
+#include "core/rig.h"
+#include "plant/effects/effect.h"
+#include "src/simulation/experiments.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace fidservo {
+
+/// Runs an experiment on the simulated rig under the published controllers, and records it as the real one
+/// would be recorded: what the sensors read, what was commanded, the fiducials that the camera saw.
+/// @param effects  what the rig has and its file does not state
+/// @param name     of the recording; together with the seed it determines all noise
+Recording simulate(const Rig& rig, std::span<const plant::EffectSetting> effects,
+                   const Experiment& experiment, const std::string& name, std::uint64_t seed);
+
+}  // namespace fidservo
