@@ -1,0 +1,98 @@
+// Frames a second of the simulated camera, on one core, beside what a run in real time and more asks for.
+#include "plant/view/plate_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+namespace fidservo::plant {
+namespace {
+
+constexpr double limit_frames_per_s = 200.0;
+
+CameraParameters reference_camera() {
+    return {.geometry = {1280, 960, 5000.0, {639.5, 479.5}, 20.0},
+            .frame_rate_hz = 50.0,
+            .exposure_s = 0.002,
+            .full_well_e = 10000.0,
+            .read_noise_e = 5.0,
+            .blur_px = 0.8,
+            .latency_s = 0.03,
+            .corner_noise_px = 0.0,
+            .max_speed_mm_per_s = 0.0};
+}
+
+Plate one_tag() {
+    Plate plate;
+    plate.tags.push_back({.id = 0, .centre_mm = {0.0, 0.0}, .side_mm = 1.2, .angle_rad = 0.012});
+    return plate;
+}
+
+/// One tag among dots, pads, lines and scratches, all in view.
+Plate one_tag_and_twelve_features() {
+    Plate plate = one_tag();
+    for (int k = 0; k < 4; ++k) {
+        const double x = -1.5 + k, y = 1.0;
+        plate.features.push_back({"dot", Dot{{x, y}, 0.3}, 0.1});
+        plate.features.push_back({"pad", Pad{{x, y + 0.5}, {0.5, 0.3}, 0.1 * k}, 0.1});
+        plate.features.push_back({"line", Line{{x - 0.4, -1.2}, {x + 0.4, -1.1}, 0.05}, 0.1});
+    }
+    plate.features.back().shape = Scratch{{{-0.5, 0.8}, {0.1, 1.0}, {0.4, 1.4}}, 0.02};
+    return plate;
+}
+
+double quantile(std::vector<double>& sorted, double p) {
+    return sorted[static_cast<std::size_t>(p * static_cast<double>(sorted.size() - 1))];
+}
+
+/// Time that this thread had on a core: other programs on the machine do not count.
+double core_time_ms() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+/// Renders one frame an iteration, the camera at speed_mm_per_s.
+void render(benchmark::State& state, const Plate& plate, double speed_mm_per_s) {
+    const CameraParameters camera = reference_camera();
+    const PlateView view(camera, plate, {});
+    std::vector<double> s_mm(speed_mm_per_s == 0.0 ? 1 : 9);
+    std::vector<double> times_ms;
+    std::uint64_t frame = 0;
+    for (auto _ : state) {
+        const double start_mm = 0.3 * std::sin(0.1 * static_cast<double>(frame));
+        for (std::size_t k = 0; k < s_mm.size(); ++k) {
+            s_mm[k] = start_mm + speed_mm_per_s * camera.exposure_s * static_cast<double>(k) / 8.0;
+        }
+        const double begin_ms = core_time_ms();
+        cv::Mat image = view.render(s_mm, frame++);
+        benchmark::DoNotOptimize(image.data);
+        times_ms.push_back(core_time_ms() - begin_ms);
+    }
+    std::sort(times_ms.begin(), times_ms.end());
+    state.counters["frames_per_s"] = 1000.0 / quantile(times_ms, 0.5);
+    state.counters["limit_frames_per_s"] = limit_frames_per_s;
+    state.counters["median_ms"] = quantile(times_ms, 0.5);
+    state.counters["p99_ms"] = quantile(times_ms, 0.99);
+    state.counters["worst_ms"] = times_ms.back();
+}
+
+BENCHMARK_CAPTURE(render, one_tag_at_rest, one_tag(), 0.0)->Unit(benchmark::kMillisecond)->MinTime(2.0);
+BENCHMARK_CAPTURE(render, one_tag_at_10_mm_per_s, one_tag(), 10.0)
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(2.0);
+BENCHMARK_CAPTURE(render, one_tag_at_300_mm_per_s, one_tag(), 300.0)
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(2.0);
+BENCHMARK_CAPTURE(render, one_tag_and_twelve_features, one_tag_and_twelve_features(), 0.0)
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(2.0);
+
+}  // namespace
+}  // namespace fidservo::plant
+
+BENCHMARK_MAIN();

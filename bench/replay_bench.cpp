@@ -1,0 +1,258 @@
+// Replay on all cores, from the files to the tables, against the work itself on one: decode and detect, image
+// by image. The demand is 85 % of  cores / (s per image to decode and detect on one core).
+//
+// Both run in turns, several rounds. A machine that is busy otherwise gives replay's threads the cores only
+// part of the time; what they spent waiting for one is counted apart:
+//     of_ideal       = n t1 / (cores wall - waited)     t1: core time per image, decode and detect alone
+//     of_ideal_wall  = n t1 / (cores wall)              the same on an idle machine
+// Medians over the rounds, the worst round beside them. `load` is the share of the cores' time that replay's
+// threads waited.
+#include "plant/view/plate_view.h"
+#include "src/recording/writer.h"
+#include "src/replay/replay.h"
+#include "vision/tag_detector.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+namespace fidservo {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr double tag_side_mm = 1.2;
+
+/// A new folder for as long as it lives.
+class Scratch {
+  public:
+    Scratch() {
+        std::string name = (fs::temp_directory_path() / "fidservo-replay-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) throw RunFault(name + ": cannot be made");
+        path_ = name;
+    }
+    ~Scratch() { fs::remove_all(path_); }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    fs::path operator/(const std::string& name) const { return path_ / name; }
+
+  private:
+    fs::path path_;
+};
+
+cv::Mat machine_frame(int k) {
+    static const plant::PlateView view = [] {
+        Plate plate;
+        for (int tag = 0; tag < 20; ++tag) plate.tags.push_back({tag, {2.0 * tag, 0.0}, tag_side_mm});
+        return plant::PlateView({.geometry = {1280, 960, 5000.0, {639.5, 479.5}, 20.0},
+                                 .frame_rate_hz = 50.0,
+                                 .exposure_s = 0.002,
+                                 .full_well_e = 10000.0,
+                                 .read_noise_e = 5.0,
+                                 .blur_px = 0.8,
+                                 .latency_s = 0.03,
+                                 .corner_noise_px = 0.0,
+                                 .max_speed_mm_per_s = 0.0},
+                                plate, {});
+    }();
+    return view.render(std::array{10.0 + 0.0317 * k}, static_cast<std::uint64_t>(k));
+}
+
+/// A recording of the machine's own camera.
+void make_recording(const fs::path& folder, int frames) {
+    RecordingWriter writer(folder, {.name = "bench",
+                                    .rig = "reference-rig",
+                                    .experiment = "inspect",
+                                    .columns = {.encoder = true},
+                                    .camera = std::nullopt,
+                                    .frames = true,
+                                    .when_full = WhenFull::wait});
+    for (int k = 0; k < frames; ++k)
+        if (!writer.add_frame((k + 1) * 20 * ns_per_ms, machine_frame(k))) throw RunFault("disk");
+    if (!writer.close()) throw RunFault("disk");
+}
+
+/// The same frames as files that nobody knows more about.
+void make_image_folder(const fs::path& folder, int frames) {
+    fs::create_directories(folder);
+    for (int k = 0; k < frames; ++k)
+        cv::imwrite((folder / fmt::format("{:04}.pgm", k)).string(), machine_frame(k));
+}
+
+/// The shared photographs, many times.
+void make_photographs(const fs::path& folder, int copies) {
+    fs::create_directories(folder);
+    for (const auto& entry : fs::directory_iterator(fs::path(FIDSERVO_DATA_DIR) / "photos")) {
+        const std::string ending = entry.path().extension();
+        if (ending != ".jpg" && ending != ".pgm" && ending != ".png") continue;
+        for (int copy = 0; copy < copies; ++copy)
+            fs::copy(entry.path(), folder / fmt::format("{:03}-{}", copy, entry.path().filename().string()));
+    }
+}
+
+double core_time_s(clockid_t clock) {
+    timespec time{};
+    ::clock_gettime(clock, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Watches how long threads that it did not find at its start were ready to run while no core was free
+/// (/proc/self/task/N/schedstat: ns on a core, ns waiting for one). Threads report no more once they have
+/// ended, so it looks every 5 ms.
+class WaitWatch {
+  public:
+    WaitWatch() : known_(look()), watcher_([this](const std::stop_token& stop) { watch(stop); }) {}
+    double stop_s() {
+        watcher_.request_stop();
+        watcher_.join();
+        double sum_s = 0.0;
+        for (const auto& [thread, waited_ns] : seen_)
+            if (!known_.contains(thread)) sum_s += 1e-9 * waited_ns;
+        return sum_s;
+    }
+
+  private:
+    using WaitedNs = std::map<std::string, double>;
+
+    static WaitedNs look() {
+        WaitedNs waits;
+        const std::string watcher = std::to_string(::gettid());
+        for (const auto& task : fs::directory_iterator("/proc/self/task")) {
+            std::ifstream file(task.path() / "schedstat");
+            double ran_ns = 0.0, waited_ns = 0.0;
+            if (task.path().filename() != watcher && file >> ran_ns >> waited_ns)
+                waits[task.path().filename()] = waited_ns;
+        }
+        return waits;
+    }
+    void watch(const std::stop_token& stop) {
+        for (; !stop.stop_requested(); std::this_thread::sleep_for(5ms))
+            for (const auto& [thread, waited_ns] : look()) seen_[thread] = waited_ns;
+    }
+
+    WaitedNs known_, seen_;
+    std::jthread watcher_;
+};
+
+struct Round {
+    std::size_t images = 0;
+    double alone_core_s = 0.0;  ///< decode and detect
+    double wall_s = 0.0;        ///< replay
+    double core_s = 0.0;        ///< of all its threads
+    double waited_s = 0.0;
+
+    double ideal_wall_s(unsigned cores) const { return alone_core_s / cores; }
+};
+
+void decode_and_detect(const fs::path& input, Round& round) {
+    ReplayFrames frames({input});
+    vision::TagDetector machine(vision::machine_camera_options()), thorough(vision::thorough_options());
+    const double begin_s = core_time_s(CLOCK_THREAD_CPUTIME_ID);
+    while (const auto frame = frames.next()) {
+        auto& detector = frame->from_recording ? machine : thorough;
+        benchmark::DoNotOptimize(detector.detect(decode(*frame), frame->time_ns.value_or(0)));
+        ++round.images;
+    }
+    round.alone_core_s = core_time_s(CLOCK_THREAD_CPUTIME_ID) - begin_s;
+}
+
+void replay_all(const fs::path& input, const fs::path& out, unsigned cores, Round& round) {
+    fs::create_directories(out);
+    WaitWatch waits;
+    const double begin_core_s = core_time_s(CLOCK_PROCESS_CPUTIME_ID);
+    const auto begin = std::chrono::steady_clock::now();
+    ReplayFrames frames({input});
+    replay(frames, tag_side_mm, out, cores);
+    round.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    round.core_s = core_time_s(CLOCK_PROCESS_CPUTIME_ID) - begin_core_s;
+    round.waited_s = waits.stop_s();
+    fs::remove_all(out);
+}
+
+template <class Value>
+std::vector<double> sorted(const std::vector<Round>& rounds, Value value) {
+    std::vector<double> values;
+    for (const Round& round : rounds) values.push_back(value(round));
+    std::sort(values.begin(), values.end());
+    return values;
+}
+
+template <class Value>
+double median(const std::vector<Round>& rounds, Value value) {
+    return sorted(rounds, value)[rounds.size() / 2];
+}
+
+void run_rounds(benchmark::State& state, const fs::path& input, const fs::path& out) {
+    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+    cv::setNumThreads(1);  // the reference is one core's work
+    std::vector<Round> rounds;
+    for (auto _ : state) {
+        Round& round = rounds.emplace_back();
+        decode_and_detect(input, round);
+        replay_all(input, out, cores, round);
+        state.SetIterationTime(round.wall_s);
+    }
+    const auto of_ideal = [=](const Round& round) {
+        return round.alone_core_s / (cores * round.wall_s - round.waited_s);
+    };
+    const auto images = [](const Round& round) { return static_cast<double>(round.images); };
+    state.counters["of_ideal"] = median(rounds, of_ideal);
+    state.counters["of_ideal_worst"] = sorted(rounds, of_ideal).front();
+    state.counters["demand"] = 0.85;
+    state.counters["of_ideal_wall"] =
+        median(rounds, [=](const Round& round) { return round.ideal_wall_s(cores) / round.wall_s; });
+    state.counters["core_time_ratio"] =
+        median(rounds, [](const Round& round) { return round.core_s / round.alone_core_s; });
+    state.counters["load"] =
+        median(rounds, [=](const Round& round) { return round.waited_s / (cores * round.wall_s); });
+    state.counters["images_per_s"] =
+        median(rounds, [=](const Round& round) { return images(round) / round.wall_s; });
+    state.counters["one_core_images_per_s"] =
+        median(rounds, [=](const Round& round) { return images(round) / round.alone_core_s; });
+    state.counters["cores"] = cores;
+}
+
+void replay_recording(benchmark::State& state) {
+    const Scratch scratch;
+    make_recording(scratch / "in", 200);
+    run_rounds(state, scratch / "in", scratch / "out");
+}
+
+void replay_image_folder(benchmark::State& state) {
+    const Scratch scratch;
+    make_image_folder(scratch / "in", 40);
+    run_rounds(state, scratch / "in", scratch / "out");
+}
+
+void replay_photographs(benchmark::State& state) {
+    if (!fs::exists(fs::path(FIDSERVO_DATA_DIR) / "photos")) {
+        state.SkipWithError("no shared data");
+        return;
+    }
+    const Scratch scratch;
+    make_photographs(scratch / "in", 8);
+    run_rounds(state, scratch / "in", scratch / "out");
+}
+
+BENCHMARK(replay_recording)->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
+BENCHMARK(replay_image_folder)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);
+BENCHMARK(replay_photographs)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace fidservo
+
+BENCHMARK_MAIN();

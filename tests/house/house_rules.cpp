@@ -1,0 +1,176 @@
+#include "tests/house/house_rules.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <string_view>
+
+namespace fidservo::house {
+
+namespace {
+
+using Rooms = std::set<std::string>;
+
+constexpr std::size_t longest_file_lines = 400;
+
+/// What each room may include besides itself.
+const std::map<std::string, Rooms>& arrows() {
+    static const std::map<std::string, Rooms> allowed{
+        {"core", {}},
+        {"vision", {"core"}},
+        {"control", {"core"}},
+        {"plant", {"core"}},
+        {"reference", {"core"}},
+        {"calib", {"core", "vision"}},
+        {"gap", {"core", "plant", "calib", "control"}},
+        {"src", {"core", "vision", "control", "calib", "plant", "gap", "reference"}},
+    };
+    return allowed;
+}
+
+std::string room_of(const std::string& path) {
+    return path.substr(0, path.find('/'));
+}
+
+std::string finding(const SourceFile& file, const std::string& what, const std::string& why) {
+    return file.path + ": " + what + ": " + why;
+}
+
+std::string folder_of(const std::string& path) {
+    return std::filesystem::path(path).parent_path().string();
+}
+
+bool is_header(const std::string& path) {
+    return path.ends_with(".h");
+}
+
+std::vector<std::string> matches(const std::string& text, const std::regex& pattern) {
+    std::vector<std::string> found;
+    for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
+        found.push_back((*match)[1]);
+    }
+    return found;
+}
+
+std::vector<std::string> quoted_includes(const std::string& text) {
+    static const std::regex pattern(R"re((?:^|\n)\s*#include "([^"]+)")re");
+    return matches(text, pattern);
+}
+
+std::vector<std::string> angle_includes(const std::string& text) {
+    static const std::regex pattern(R"re((?:^|\n)\s*#include <([^>]+)>)re");
+    return matches(text, pattern);
+}
+
+/// Neither the standard library nor the system, nor one of the libraries that may be seen everywhere.
+bool is_hidden_library(const std::string& header) {
+    constexpr std::string_view shown[] = {"Eigen/", "opencv2/core", "tl/expected.hpp", "sys/", "linux/"};
+    const bool plain = header.find('/') == std::string::npos;
+    return !plain && std::none_of(std::begin(shown), std::end(shown),
+                                  [&](std::string_view name) { return header.starts_with(name); });
+}
+
+bool has_file(const std::vector<SourceFile>& house, const std::string& path) {
+    return std::any_of(house.begin(), house.end(), [&](const SourceFile& file) { return file.path == path; });
+}
+
+}  // namespace
+
+std::vector<SourceFile> read_house(const std::string& top) {
+    std::vector<SourceFile> house;
+    Rooms folders{"tests", "bench"};
+    for (const auto& [room, allowed] : arrows()) folders.insert(room);
+    for (const auto& folder : folders) {
+        const auto root = std::filesystem::path(top) / folder;
+        if (!std::filesystem::is_directory(root)) continue;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+            const auto extension = entry.path().extension();
+            if (extension != ".h" && extension != ".cpp") continue;
+            std::ifstream in(entry.path());
+            house.push_back({std::filesystem::relative(entry.path(), top).string(),
+                             {std::istreambuf_iterator<char>(in), {}}});
+        }
+    }
+    return house;
+}
+
+Findings forbidden_arrows(const SourceFile& file) {
+    Findings findings;
+    const std::string room = room_of(file.path);
+    const auto allowed = arrows().find(room);
+    if (allowed == arrows().end()) return findings;  // tests and benchmarks see all rooms
+    for (const auto& include : quoted_includes(file.text)) {
+        const std::string seen = room_of(include);
+        if (seen == room || allowed->second.contains(seen)) continue;
+        findings.push_back(finding(file, "includes " + include, "which " + room + " must not see"));
+    }
+    return findings;
+}
+
+Findings includes_not_from_the_top(const SourceFile& file, const std::vector<SourceFile>& house) {
+    Findings findings;
+    for (const auto& include : quoted_includes(file.text)) {
+        if (!has_file(house, include))
+            findings.push_back(file.path + ": no such file from the top: " + include);
+    }
+    return findings;
+}
+
+Findings leaking_third_party(const SourceFile& file, const std::vector<SourceFile>& house) {
+    Findings findings;
+    if (!is_header(file.path)) return findings;
+    for (const auto& include : angle_includes(file.text)) {
+        if (!is_hidden_library(include)) continue;
+        for (const auto& other : house) {
+            const auto seen = quoted_includes(other.text);
+            const bool inside = folder_of(other.path) == folder_of(file.path) ||
+                                other.path.starts_with("tests/") ||
+                                (room_of(file.path) == "src" && room_of(other.path) == "src");
+            if (inside || std::find(seen.begin(), seen.end(), file.path) == seen.end()) continue;
+            findings.push_back(file.path + ": shows <" + include + "> to " + other.path);
+        }
+    }
+    return findings;
+}
+
+Findings wrong_namespace(const SourceFile& file) {
+    const std::string room = room_of(file.path);
+    if (!arrows().contains(room) || file.path == "src/main.cpp") return {};
+    const bool plain = room == "core" || room == "src";
+    const std::string expected = plain ? "namespace fidservo" : "namespace fidservo::" + room;
+    if (file.text.find(expected) != std::string::npos) return {};
+    return {file.path + ": not in " + expected};
+}
+
+Findings unguarded_header(const SourceFile& file) {
+    if (!is_header(file.path) || file.text.starts_with("#pragma once\n")) return {};
+    return {file.path + ": does not begin with #pragma once"};
+}
+
+Findings too_long(const SourceFile& file) {
+    const auto lines = static_cast<std::size_t>(std::count(file.text.begin(), file.text.end(), '\n'));
+    if (lines <= longest_file_lines) return {};
+    return {file.path + ": " + std::to_string(lines) + " lines; at most " +
+            std::to_string(longest_file_lines)};
+}
+
+Findings machine_paths(const SourceFile& file) {
+    static const std::regex pattern(R"re((/(?:home|root|work|Users|usr/local)/[^"\s]*))re");
+    Findings findings;
+    for (const auto& path : matches(file.text, pattern))
+        findings.push_back(file.path + ": machine path " + path);
+    return findings;
+}
+
+Findings notes_to_self(const SourceFile& file) {
+    static const std::regex pattern(R"re(((?:\b(?:TO)(?:DO)\b|\b(?:FIX)(?:ME)\b|\bXX(?:X)\b|#if[ ]0\b)))re");
+    Findings findings;
+    for (const auto& note : matches(file.text, pattern)) findings.push_back(file.path + ": " + note);
+    return findings;
+}
+
+}  // namespace fidservo::house

@@ -1,0 +1,36 @@
+#pragma once
+// The house's rules that can be read off the text of its files (CONTRIBUTING.md).
+#include <string>
+#include <vector>
+
+namespace fidservo::house {
+
+struct SourceFile {
+    std::string path;  ///< from the top of the repository, e.g. "vision/camera.h"
+    std::string text;
+};
+
+/// One line a finding: file, and what is wrong with it. Empty: clean.
+using Findings = std::vector<std::string>;
+
+/// All .h and .cpp files of the rooms, tests and benchmarks below `top`.
+std::vector<SourceFile> read_house(const std::string& top);
+
+/// Includes that go against the arrows between rooms.
+Findings forbidden_arrows(const SourceFile& file);
+/// Quoted includes that are not written from the top of the repository.
+Findings includes_not_from_the_top(const SourceFile& file, const std::vector<SourceFile>& house);
+/// Headers that show third-party types (Eigen, cv::Mat and tl::expected excepted) outside their own folder.
+Findings leaking_third_party(const SourceFile& file, const std::vector<SourceFile>& house);
+/// Files of a room without the room's namespace.
+Findings wrong_namespace(const SourceFile& file);
+/// Headers without #pragma once.
+Findings unguarded_header(const SourceFile& file);
+/// Files that nobody reads in one sitting.
+Findings too_long(const SourceFile& file);
+/// Paths that only exist on somebody's machine.
+Findings machine_paths(const SourceFile& file);
+/// Work that is left to somebody, and code that is switched off.
+Findings notes_to_self(const SourceFile& file);
+
+}  // namespace fidservo::house

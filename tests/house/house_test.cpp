@@ -1,0 +1,90 @@
+// The house is as CONTRIBUTING.md says. Each rule is first shown a file that breaks it.
+#include "tests/house/house_rules.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace fidservo::house {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+const std::vector<SourceFile>& house() {
+    static const std::vector<SourceFile> files = read_house(FIDSERVO_SOURCE_DIR);
+    return files;
+}
+
+/// Findings of a rule in the whole house.
+template <class Rule>
+Findings in_the_house(const Rule& rule) {
+    Findings all;
+    for (const auto& file : house()) {
+        const Findings findings = rule(file);
+        all.insert(all.end(), findings.begin(), findings.end());
+    }
+    return all;
+}
+
+TEST(House, Read_HasFilesOfEveryRoomThatShips) {
+    for (const char* room : {"core/", "vision/", "control/", "plant/", "src/", "tests/"}) {
+        EXPECT_TRUE(std::any_of(house().begin(), house().end(), [&](const SourceFile& file) {
+            return file.path.starts_with(room);
+        })) << room;
+    }
+}
+
+TEST(House, Arrows_RunOneWay) {
+    EXPECT_THAT(forbidden_arrows({"vision/a.cpp", "#include \"plant/b.h\"\n"}), SizeIs(1));
+    EXPECT_THAT(forbidden_arrows({"plant/a.cpp", "#include <a>\n#include \"reference/b.h\"\n"}), SizeIs(1));
+    EXPECT_THAT(forbidden_arrows({"calib/a.cpp", "#include \"vision/b.h\"\n"}), IsEmpty());
+    EXPECT_THAT(in_the_house(forbidden_arrows), IsEmpty());
+}
+
+TEST(House, Includes_AreWrittenFromTheTop) {
+    const std::vector<SourceFile> two{{"vision/a.h", ""}, {"vision/b.cpp", "#include \"a.h\"\n"}};
+    EXPECT_THAT(includes_not_from_the_top(two[1], two), SizeIs(1));
+    EXPECT_THAT(in_the_house([](const auto& file) { return includes_not_from_the_top(file, house()); }),
+                IsEmpty());
+}
+
+TEST(House, ThirdPartyTypes_StayInside) {
+    const std::vector<SourceFile> two{{"vision/a.h", "#pragma once\n#include <visp3/core/vpMatrix.h>\n"},
+                                      {"src/b.cpp", "#include \"vision/a.h\"\n"}};
+    EXPECT_THAT(leaking_third_party(two[0], two), SizeIs(1));
+    EXPECT_THAT(in_the_house([](const auto& file) { return leaking_third_party(file, house()); }), IsEmpty());
+}
+
+TEST(House, Namespaces_AreTheRooms) {
+    EXPECT_THAT(wrong_namespace({"plant/a.h", "namespace fidservo {"}), SizeIs(1));
+    EXPECT_THAT(in_the_house(wrong_namespace), IsEmpty());
+}
+
+TEST(House, Headers_AreGuarded) {
+    EXPECT_THAT(unguarded_header({"core/a.h", "namespace fidservo {}"}), SizeIs(1));
+    EXPECT_THAT(in_the_house(unguarded_header), IsEmpty());
+}
+
+TEST(House, Files_AreReadInOneSitting) {
+    EXPECT_THAT(too_long({"core/a.cpp", std::string(401, '\n')}), SizeIs(1));
+    EXPECT_THAT(in_the_house(too_long), IsEmpty());
+}
+
+TEST(House, Files_NameNoMachine) {
+    const std::string path = std::string("/ho") + "me/me/data";
+    EXPECT_THAT(machine_paths({"core/a.cpp", "open(\"" + path + "\")"}), SizeIs(1));
+    EXPECT_THAT(in_the_house(machine_paths), IsEmpty());
+}
+
+TEST(House, Files_HoldNoNotesToSelf) {
+    EXPECT_THAT(notes_to_self({"core/a.cpp", std::string("// TO") + "DO: later"}), Not(IsEmpty()));
+    EXPECT_THAT(in_the_house(notes_to_self), IsEmpty());
+}
+
+}  // namespace
+}  // namespace fidservo::house

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace fidservo::plant {
+
+/// How often this test program has allocated so far.
+long allocation_count();
+
+}  // namespace fidservo::plant

@@ -1,0 +1,92 @@
+#include "tests/session/watched_rig.h"
+#include "tests/src/temporary_folder.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace fidservo {
+namespace {
+
+TEST(Session, Home_FindsWhereTheCameraIs) {
+    WatchedRig rig(reference_physics(), reference_plate(), 5);
+    const auto homed = rig.session.home();
+    ASSERT_TRUE(homed) << homed.error().text;
+    const auto arrival = rig.session.go_to(3, 0.25);
+    ASSERT_TRUE(arrival) << arrival.error().text;
+    EXPECT_NEAR(plant::camera_position_mm(rig.rig->truth()), 6.25, 0.002);
+    EXPECT_NEAR(rig.session.camera_mm().x(), plant::camera_position_mm(rig.rig->truth()), 0.0005);
+}
+
+TEST(Session, SameSeed_SameCommands) {
+    const auto run = [] {
+        WatchedRig rig(reference_physics(), reference_plate(), 9);
+        EXPECT_TRUE(rig.session.home());
+        EXPECT_TRUE(rig.session.go_to(5, 0.1));
+        return rig.stage->commands;
+    };
+    const auto first = run(), second = run();
+    ASSERT_EQ(first.size(), second.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+        ASSERT_EQ(first[k].macro_V, second[k].macro_V);
+        ASSERT_EQ(first[k].micro_V, second[k].micro_V);
+    }
+}
+
+TEST(Session, End_LeavesBothCommandsZero) {
+    auto rig = std::make_unique<WatchedRig>(reference_physics(), reference_plate(), 5);
+    ASSERT_TRUE(rig->session.home());
+    const auto stage = rig->stage;
+    EXPECT_GT(stage->commands.back().micro_V, 1.3);
+    rig.reset();
+    EXPECT_EQ(stage->commands.back().micro_V, 0.0);
+    EXPECT_EQ(stage->commands.back().macro_V, 0.0);
+}
+
+TEST(Session, CheckpointRestoredInANewSession_GoesOnBitForBit) {
+    const auto physics = reference_physics();
+    WatchedRig first(physics, reference_plate(), 11);
+    ASSERT_TRUE(first.session.home());
+    ASSERT_TRUE(first.session.go_to(7, -0.3));
+    const std::string rig_state = first.rig->snapshot(), checkpoint = first.session.checkpoint();
+    const testing::TemporaryFolder folder;
+    first.session.record_to(folder / "first", "");
+    const auto expected = first.session.go_to(40, 0.2);
+    ASSERT_TRUE(expected);
+    ASSERT_TRUE(first.session.end_recording());
+
+    WatchedRig second(physics, reference_plate(), 11);
+    second.rig->restore(rig_state);
+    second.session.restore(checkpoint);
+    second.session.record_to(folder / "second", "");
+    const auto again = second.session.go_to(40, 0.2);
+    ASSERT_TRUE(again);
+    ASSERT_TRUE(second.session.end_recording());
+    for (const char* file : {"stage0/data.csv", "cam0/detections.csv"})
+        EXPECT_EQ(testing::text_of(folder / "first" / file), testing::text_of(folder / "second" / file))
+            << file;
+    EXPECT_EQ(again->reached_dx_um, expected->reached_dx_um);
+    EXPECT_EQ(plant::camera_position_mm(second.rig->truth()), plant::camera_position_mm(first.rig->truth()));
+}
+
+TEST(Session, PlateWithoutTheTag_FailsWithAReasonAndStaysSafe) {
+    Plate printed = reference_plate();
+    std::erase_if(printed.tags, [](const PlateTag& tag) { return tag.id >= 28 && tag.id <= 32; });
+    WatchedRig rig(reference_physics(), printed, 5);
+    ASSERT_TRUE(rig.session.home());
+    const auto arrival = rig.session.go_to(30, 0.0);
+    ASSERT_FALSE(arrival);
+    EXPECT_TRUE(arrival.error().reason == Reason::no_tag || arrival.error().reason == Reason::wrong_tag)
+        << arrival.error().text;
+    EXPECT_TRUE(rig.session.go_to(10, 0.0));
+}
+
+TEST(Session, TagOutOfTravelOrNotOnThePlate_IsRefused) {
+    WatchedRig rig(reference_physics(), reference_plate(), 5);
+    ASSERT_TRUE(rig.session.home());
+    EXPECT_EQ(rig.session.go_to(100, 5.0).error().reason, Reason::out_of_reach);
+    EXPECT_EQ(rig.session.go_to(500, 0.0).error().reason, Reason::wrong_tag);
+}
+
+}  // namespace
+}  // namespace fidservo

@@ -1,0 +1,58 @@
+#pragma once
+// A simulated rig whose truth a test writes down, tick by tick, while a session drives it through its
+// devices.
+#include "core/plate.h"
+#include "src/config/plate_file.h"
+#include "src/config/rig_file.h"
+#include "src/session/session.h"
+#include "src/session/simulated_rig.h"
+
+#include <memory>
+#include <vector>
+
+namespace fidservo {
+
+class WatchedStage final : public control::Stage {
+  public:
+    explicit WatchedStage(std::shared_ptr<SimulatedRig> rig) : rig_(rig), stage_(std::move(rig), nullptr) {}
+
+    Result<control::StageSample> read() override { return stage_.read(); }
+    Status write(const control::StageCommand& command) override {
+        history.push_back(rig_->truth());
+        commands.push_back(command);
+        return stage_.write(command);
+    }
+
+    std::vector<plant::StageState> history;  ///< before each command
+    std::vector<control::StageCommand> commands;
+
+  private:
+    std::shared_ptr<SimulatedRig> rig_;
+    SimulatedStage stage_;
+};
+
+/// The reference rig's file, a rig that may differ from it, and a session that knows the file only.
+struct WatchedRig {
+    WatchedRig(const plant::PlantParameters& physics, const Plate& printed, std::uint64_t seed)
+        : file(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml")),
+          nominal(plate_of(file.fiducials.value())),
+          rig(std::make_shared<SimulatedRig>(physics, file.camera.value(), printed, seed)),
+          stage(std::make_shared<WatchedStage>(rig)),
+          session(SessionOptions{}, file, nominal, Devices{stage, std::make_shared<SimulatedCamera>(rig)}) {}
+
+    Rig file;
+    Plate nominal;
+    std::shared_ptr<SimulatedRig> rig;
+    std::shared_ptr<WatchedStage> stage;
+    Session session;
+};
+
+inline plant::PlantParameters reference_physics() {
+    return plant::plant_parameters(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"));
+}
+
+inline Plate reference_plate() {
+    return plate_of(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml").fiducials.value());
+}
+
+}  // namespace fidservo
