@@ -1,12 +1,10 @@
 // Replay on all cores, from the files to the tables, against the work itself on one: decode and detect, image
 // by image. The demand is 85 % of  cores / (s per image to decode and detect on one core).
 //
-// Both run in turns, several rounds. A machine that is busy otherwise gives replay's threads the cores only
-// part of the time; what they spent waiting for one is counted apart:
-//     of_ideal       = n t1 / (cores wall - waited)     t1: core time per image, decode and detect alone
-//     of_ideal_wall  = n t1 / (cores wall)              the same on an idle machine
-// Medians over the rounds, the worst round beside them. `load` is the share of the cores' time that replay's
-// threads waited.
+// Both run in turns, several rounds, on a machine that does nothing else:
+//     of_ideal        = n t1 / (cores wall)         t1: core time per image, decode and detect alone
+//     core_time_ratio = core time of replay / n t1
+// Medians over the rounds, the worst round beside them.
 #include "plant/view/plate_view.h"
 #include "src/recording/writer.h"
 #include "src/replay/replay.h"
@@ -14,12 +12,9 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,7 +28,6 @@ namespace fidservo {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 
 constexpr double tag_side_mm = 1.2;
 
@@ -110,50 +104,11 @@ double core_time_s(clockid_t clock) {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Watches how long threads that it did not find at its start were ready to run while no core was free
-/// (/proc/self/task/N/schedstat: ns on a core, ns waiting for one). Threads report no more once they have
-/// ended, so it looks every 5 ms.
-class WaitWatch {
-  public:
-    WaitWatch() : known_(look()), watcher_([this](const std::stop_token& stop) { watch(stop); }) {}
-    double stop_s() {
-        watcher_.request_stop();
-        watcher_.join();
-        double sum_s = 0.0;
-        for (const auto& [thread, waited_ns] : seen_)
-            if (!known_.contains(thread)) sum_s += 1e-9 * waited_ns;
-        return sum_s;
-    }
-
-  private:
-    using WaitedNs = std::map<std::string, double>;
-
-    static WaitedNs look() {
-        WaitedNs waits;
-        const std::string watcher = std::to_string(::gettid());
-        for (const auto& task : fs::directory_iterator("/proc/self/task")) {
-            std::ifstream file(task.path() / "schedstat");
-            double ran_ns = 0.0, waited_ns = 0.0;
-            if (task.path().filename() != watcher && file >> ran_ns >> waited_ns)
-                waits[task.path().filename()] = waited_ns;
-        }
-        return waits;
-    }
-    void watch(const std::stop_token& stop) {
-        for (; !stop.stop_requested(); std::this_thread::sleep_for(5ms))
-            for (const auto& [thread, waited_ns] : look()) seen_[thread] = waited_ns;
-    }
-
-    WaitedNs known_, seen_;
-    std::jthread watcher_;
-};
-
 struct Round {
     std::size_t images = 0;
     double alone_core_s = 0.0;  ///< decode and detect
     double wall_s = 0.0;        ///< replay
     double core_s = 0.0;        ///< of all its threads
-    double waited_s = 0.0;
 
     double ideal_wall_s(unsigned cores) const { return alone_core_s / cores; }
 };
@@ -172,14 +127,12 @@ void decode_and_detect(const fs::path& input, Round& round) {
 
 void replay_all(const fs::path& input, const fs::path& out, unsigned cores, Round& round) {
     fs::create_directories(out);
-    WaitWatch waits;
     const double begin_core_s = core_time_s(CLOCK_PROCESS_CPUTIME_ID);
     const auto begin = std::chrono::steady_clock::now();
     ReplayFrames frames({input});
     replay(frames, tag_side_mm, out, cores);
     round.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     round.core_s = core_time_s(CLOCK_PROCESS_CPUTIME_ID) - begin_core_s;
-    round.waited_s = waits.stop_s();
     fs::remove_all(out);
 }
 
@@ -206,19 +159,13 @@ void run_rounds(benchmark::State& state, const fs::path& input, const fs::path& 
         replay_all(input, out, cores, round);
         state.SetIterationTime(round.wall_s);
     }
-    const auto of_ideal = [=](const Round& round) {
-        return round.alone_core_s / (cores * round.wall_s - round.waited_s);
-    };
+    const auto of_ideal = [=](const Round& round) { return round.ideal_wall_s(cores) / round.wall_s; };
     const auto images = [](const Round& round) { return static_cast<double>(round.images); };
     state.counters["of_ideal"] = median(rounds, of_ideal);
     state.counters["of_ideal_worst"] = sorted(rounds, of_ideal).front();
     state.counters["demand"] = 0.85;
-    state.counters["of_ideal_wall"] =
-        median(rounds, [=](const Round& round) { return round.ideal_wall_s(cores) / round.wall_s; });
     state.counters["core_time_ratio"] =
         median(rounds, [](const Round& round) { return round.core_s / round.alone_core_s; });
-    state.counters["load"] =
-        median(rounds, [=](const Round& round) { return round.waited_s / (cores * round.wall_s); });
     state.counters["images_per_s"] =
         median(rounds, [=](const Round& round) { return images(round) / round.wall_s; });
     state.counters["one_core_images_per_s"] =

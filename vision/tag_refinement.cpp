@@ -16,8 +16,8 @@ constexpr double widest_strip_px = 5.0;
 
 /// The side from corner k to corner k + 1, white outside.
 EdgeGuess guess_of_side(const std::array<Eigen::Vector2d, 4>& corners, std::size_t k) {
-    const Eigen::Vector2d from = corners[k];
-    const Eigen::Vector2d to = corners[(k + 1) % 4];
+    const Eigen::Vector2d& from = corners[k];
+    const Eigen::Vector2d& to = corners[(k + 1) % 4];
     const double length = (to - from).norm();
     const Eigen::Vector2d along = (to - from) / length;
     const Eigen::Vector2d inwards = corners[(k + 2) % 4] - from;
