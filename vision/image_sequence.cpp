@@ -69,6 +69,7 @@ std::vector<FrameReference> read_folder(const fs::path& folder) {
         return natural_less(a.filename().string(), b.filename().string());
     });
     std::vector<FrameReference> frames;
+    frames.reserve(files.size());
     for (const fs::path& file : files) frames.push_back({file, 0, false, frames.size()});
     return frames;
 }
