@@ -1,48 +1,14 @@
 #include "src/simulation/simulate.h"
 
-#include "control/nonlinear_pd.h"
-#include "control/pi_antiwindup.h"
-#include "core/random.h"
 #include "plant/effects/catalogue.h"
-#include "src/recording/writer.h"
 #include "src/simulation/practice_detections.h"
+#include "src/simulation/run_experiment.h"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace fidservo {
 
 namespace {
-
-/// The published controllers, as far as the experiment closes their loops.
-struct Loops {
-    control::PdState pd;
-    std::optional<control::PiState> pi;
-};
-
-double macro_command_V(const Rig& rig, const Experiment& experiment, Loops& loops, StageRow& row,
-                       double t_s) {
-    const double limit_V = rig.macro.command_limit_V;
-    if (experiment.macro_setpoint_mm) {
-        row.macro_setpoint_mm = experiment.macro_setpoint_mm(t_s);
-        const double setpoint_count =
-            std::floor(row.macro_setpoint_mm / rig.macro.encoder_resolution_mm + 0.5);
-        return control::pd_update(*rig.macro.pd, limit_V, loops.pd, setpoint_count - row.encoder_count);
-    }
-    return experiment.macro_V ? std::clamp(experiment.macro_V(t_s), -limit_V, limit_V) : 0.0;
-}
-
-double micro_command_V(const Rig& rig, const Experiment& experiment, Loops& loops, StageRow& row,
-                       double t_s) {
-    if (experiment.micro_setpoint_mm) {
-        row.micro_setpoint_mm = experiment.micro_setpoint_mm(t_s);
-        const double position_mm = hall_position_mm_of_adc(rig.micro->hall, static_cast<int>(row.hall_adc));
-        if (!loops.pi) loops.pi = control::pi_start(*rig.micro->pi);
-        return control::pi_update(*rig.micro->pi, rig.tick_s, *loops.pi, row.micro_setpoint_mm - position_mm);
-    }
-    return experiment.micro_V ? std::clamp(experiment.micro_V(t_s), 0.0, rig.micro->heater.limit_V) : 0.0;
-}
 
 /// Frames fall between ticks: the plant is moved on from the last tick for the rest of the way, exactly.
 class PracticeCamera {
@@ -88,43 +54,43 @@ class PracticeCamera {
     TimeNs next_frame_ns_ = first_frame_ns;
 };
 
+class PlantHardware final : public SimulatedHardware {
+  public:
+    PlantHardware(const Rig& rig, const plant::PlantParameters& parameters, double carriage_mm,
+                  std::uint64_t seed)
+        : stage_(plant::make_stage_plant(parameters)),
+          state_(plant::start(stage_, carriage_mm, seed, plant::EncoderOrigin::end_of_travel)) {
+        if (rig.camera && rig.fiducials) camera_.emplace(rig, parameters, seed);
+    }
+
+    Reading sample() override {
+        const plant::StageReading reading = plant::sample(stage_, state_);
+        return {reading.encoder_count, reading.hall_adc};
+    }
+
+    void look(TimeNs time_ns, double macro_V, double micro_V,
+              std::vector<TagDetection>& detections) override {
+        if (camera_) camera_->look(state_, time_ns, macro_V, micro_V, detections);
+    }
+
+    void advance(double macro_V, double micro_V) override {
+        plant::advance(stage_, state_, macro_V, micro_V);
+    }
+
+  private:
+    plant::StagePlant stage_;
+    plant::StageState state_;
+    std::optional<PracticeCamera> camera_;
+};
+
 }  // namespace
 
 Recording simulate(const Rig& rig, std::span<const plant::EffectSetting> effects,
                    const Experiment& experiment, const std::string& name, std::uint64_t seed) {
-    const std::uint64_t noise_seed = NoiseStream(seed, "noise/" + name).bits();
     plant::PlantParameters parameters = plant::plant_parameters(rig);
     plant::apply_effects(parameters, effects);
-    const plant::StagePlant stage = plant::make_stage_plant(parameters);
-    plant::StageState state =
-        plant::start(stage, experiment.carriage_mm, noise_seed, plant::EncoderOrigin::end_of_travel);
-    std::optional<PracticeCamera> camera;
-    if (rig.camera && rig.fiducials) camera.emplace(rig, parameters, noise_seed);
-
-    Recording recording;
-    recording.name = name;
-    recording.rig = rig.name;
-    recording.experiment = experiment.kind;
-    recording.tick_s = rig.tick_s;
-    recording.columns = columns_of(rig);
-    const TimeNs tick_ns = nanoseconds(rig.tick_s);
-    const auto ticks = static_cast<TimeNs>(std::llround(experiment.duration_s / rig.tick_s));
-    recording.rows.reserve(static_cast<std::size_t>(ticks));
-    Loops loops;
-    for (TimeNs k = 0; k < ticks; ++k) {
-        const plant::StageReading reading = plant::sample(stage, state);
-        StageRow row{.time_ns = k * tick_ns};
-        row.encoder_count = static_cast<double>(reading.encoder_count);
-        row.hall_adc = reading.hall_adc;
-        const double t_s = static_cast<double>(k) * rig.tick_s;
-        row.macro_command_V = macro_command_V(rig, experiment, loops, row, t_s);
-        row.micro_command_V = micro_command_V(rig, experiment, loops, row, t_s);
-        recording.rows.push_back(row);
-        if (camera)
-            camera->look(state, row.time_ns, row.macro_command_V, row.micro_command_V, recording.detections);
-        plant::advance(stage, state, row.macro_command_V, row.micro_command_V);
-    }
-    return recording;
+    PlantHardware hardware(rig, parameters, experiment.carriage_mm, noise_seed(name, seed));
+    return run_experiment(rig, experiment, name, hardware);
 }
 
 }  // namespace fidservo
