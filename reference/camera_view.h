@@ -1,0 +1,36 @@
+#pragma once
+// The fiducial that the camera sees, without images: a pinhole that may look askew, its corners with noise.
+#include "core/detection.h"
+#include "core/random.h"
+#include "core/rig.h"
+#include "reference/departures.h"
+
+#include <optional>
+
+namespace fidservo::reference {
+
+struct CameraModel {
+    CameraParameters camera;
+    FiducialParameters fiducials;
+    CameraDepartures departures;
+};
+
+/// Image of a plate point, seen from camera position s: the point on the plate under the optical axis, at the
+/// rig's distance along the axis. In px, pixel centres at integers. The camera is tilted by theta about its v
+/// axis, its image turned by rho:
+///
+///     x = cos theta (X - s) / (Z + sin theta (X - s)),   y = Y / (Z + sin theta (X - s))
+///     (u, v) = (u0, v0) + scale f R(rho) (x, y) (1 + k1 (x^2 + y^2))
+Eigen::Vector2d image_of(const CameraModel& model, const Eigen::Vector2d& plate_mm, double s_mm);
+
+/// The tag nearest to the image centre, if all of it is in the image and the camera is not too fast.
+std::optional<TagDetection> see(const CameraModel& model, double s_mm, double speed_mm_per_s,
+                                NoiseStream& noise);
+
+/// Time in s at which frame k is exposed: the camera counts its frames by its own clock.
+double exposure_s(const CameraModel& model, std::int64_t frame);
+
+/// The time that frame k is stamped with.
+TimeNs stamp_ns(const CameraModel& model, std::int64_t frame);
+
+}  // namespace fidservo::reference

@@ -1,0 +1,150 @@
+#include "reference/carriage.h"
+
+#include "reference/dry_friction.h"
+#include "reference/runge_kutta.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace fidservo::reference {
+
+namespace {
+
+/// position, speed, bristle, q, w
+using Motion = std::array<double, 5>;
+
+Motion motion_of(const CarriageState& state) {
+    return {state.position_mm, state.speed_mm_per_s, state.bristle_mm, state.swing_mm, state.swing_mm_per_s};
+}
+
+CarriageState state_of(const Motion& x) {
+    return {x[0], x[1], x[2], x[3], x[4]};
+}
+
+double sign_of(double x) {
+    return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : 0.0);
+}
+
+double dead_zone_V(const DeadZone& zone, double u_V) {
+    const double beyond_V = std::abs(u_V) - zone.threshold_V;
+    return beyond_V < 0.0 ? 0.0 : sign_of(u_V) * (zone.offset_V + zone.slope * beyond_V);
+}
+
+/// The forces under a held command. Dry friction has the direction given: within a step the carriage moves
+/// one way only.
+class Forces {
+  public:
+    Forces(const CarriageModel& model, double command_V) : model_(model), command_V_(command_V) {}
+
+    double driving_V(double position_mm) const { return driving_force_V(model_, command_V_, position_mm); }
+
+    double viscous_V(double speed_mm_per_s, double direction) const {
+        const FrictionDepartures& friction = model_.friction;
+        return model_.damping_V_s_per_mm * speed_mm_per_s *
+               (direction < 0.0 ? friction.viscous_backward : friction.viscous_forward);
+    }
+
+    Motion rate(const Motion& x, double direction, Contact contact) const {
+        const double omega = 2.0 * std::numbers::pi * model_.flexure.frequency_hz;
+        const double swing = x[4] - model_.flexure.coupling * x[1];
+        const double swing_rate = -2.0 * model_.flexure.damping_ratio * omega * swing - omega * omega * x[3];
+        if (direction == 0.0) return {0.0, 0.0, 0.0, swing, swing_rate};
+        const DryFriction dry = dry_friction(model_, x[0], x[1], x[2], direction, contact);
+        const double net_V = driving_V(x[0]) - dry.force_V - viscous_V(x[1], x[1] == 0.0 ? direction : x[1]);
+        return {x[1], net_V / model_.inertia_V_s2_per_mm, dry.bristle_mm_per_s, swing, swing_rate};
+    }
+
+    /// Which way the carriage moves next: +1, -1, or 0 for held by friction or by an end stop.
+    double direction(const Motion& x) const {
+        double way = sign_of(x[1]);
+        if (way == 0.0) {
+            const double force_V = driving_V(x[0]) - bristle_force_V(model_, x[2]);
+            way = std::abs(force_V) > breakaway_V(model_, x[0]) ? sign_of(force_V) : 0.0;
+        }
+        const bool blocked = (way > 0.0 && x[0] >= model_.high_mm) || (way < 0.0 && x[0] <= model_.low_mm);
+        return blocked ? 0.0 : way;
+    }
+
+  private:
+    const CarriageModel& model_;
+    double command_V_;
+};
+
+/// Has the motion passed the end of its phase: an end stop, or a reversal under rigid dry friction?
+bool is_past(const CarriageModel& model, const Motion& x, double direction) {
+    return x[0] > model.high_mm || x[0] < model.low_mm ||
+           (!has_bristles(model.friction) && x[1] * direction < 0.0);
+}
+
+/// One step within a phase, cut short where the phase ends. @return its length in s
+double step_phase(const CarriageModel& model, const Forces& forces, Motion& x, double direction,
+                  Contact contact, double h_s) {
+    const auto moved = [&](double way_s) {
+        return runge_kutta_step(x, way_s,
+                                [&](const Motion& there) { return forces.rate(there, direction, contact); });
+    };
+    const Motion whole = moved(h_s);
+    if (direction == 0.0 || !is_past(model, whole, direction)) {
+        x = whole;
+        return h_s;
+    }
+    double before_s = 0.0, after_s = h_s;
+    constexpr int bisections = 60;
+    for (int i = 0; i < bisections; ++i) {
+        const double middle_s = 0.5 * (before_s + after_s);
+        (is_past(model, moved(middle_s), direction) ? after_s : before_s) = middle_s;
+    }
+    x = moved(after_s);
+    x[0] = std::clamp(x[0], model.low_mm, model.high_mm);
+    x[1] = 0.0;
+    return after_s;
+}
+
+}  // namespace
+
+CarriageModel make_carriage(const Rig& rig, const Departures& departures) {
+    CarriageModel model;
+    const double tau_s = -rig.tick_s / std::log(rig.macro.velocity_pole);
+    model.low_mm = rig.macro.low_mm;
+    model.high_mm = rig.macro.high_mm;
+    model.damping_V_s_per_mm = 1.0 / rig.macro.velocity_gain_mm_per_s_per_V;
+    model.inertia_V_s2_per_mm = departures.mechanics.payload * tau_s * model.damping_V_s_per_mm;
+    model.command_limit_V = rig.macro.command_limit_V;
+    model.dead_zone = rig.macro.dead_zone;
+    model.drive = departures.drive;
+    model.friction = departures.friction;
+    model.mechanics = departures.mechanics;
+    model.flexure = departures.flexure;
+    return model;
+}
+
+double driving_force_V(const CarriageModel& model, double command_V, double position_mm) {
+    const MechanicsDepartures& place = model.mechanics;
+    const double saturated_V = std::clamp(command_V, -model.command_limit_V, model.command_limit_V);
+    double u_V = model.drive.gain * saturated_V + model.drive.offset_V;
+    if (place.cogging_V != 0.0) {
+        const double angle = 2.0 * std::numbers::pi * position_mm / place.cogging_period_mm;
+        u_V += place.cogging_V * std::sin(angle + place.cogging_phase_rad);
+    }
+    u_V -= place.cable_V_per_mm * (position_mm - place.cable_centre_mm);
+    const double on_motion = model.friction.dead_zone_on_motion;
+    return (1.0 - on_motion) * dead_zone_V(model.dead_zone, u_V) + on_motion * model.dead_zone.slope * u_V;
+}
+
+void advance(const CarriageModel& model, CarriageState& state, double command_V, double h_s) {
+    const Forces forces(model, command_V);
+    Motion x = motion_of(state);
+    constexpr int most_phases = 10'000;  // a guard: a step has one phase, or two where the carriage stops
+    for (int phase = 0; h_s > 0.0 && phase < most_phases; ++phase) {
+        const double direction = forces.direction(x);
+        const ContactStep contact = contact_step(model, x[0], x[1], h_s);
+        h_s -= step_phase(model, forces, x, direction, contact.kind, contact.length_s);
+        if (contact.kind == Contact::bristles_in_equilibrium)
+            x[2] = sign_of(x[1]) * equilibrium_bristle_mm(model, x[0], x[1]);
+    }
+    state = state_of(x);
+}
+
+}  // namespace fidservo::reference

@@ -1,0 +1,48 @@
+#pragma once
+// The macro stage as a balance of forces, with the platform's flexure on top of it.
+//
+//     m dv/dt = V(u + g(y)) - F(v, y) - b v,     dy/dt = v
+//
+// m = tau / K and b = 1 / K make the unit of force the volt; V is the dead zone of the rig file on the sum of
+// the driving voltage u and the forces by place g; F is dry friction. The carriage sticks when its speed
+// comes to zero and the forces do not exceed the friction at rest; the time of that is located within the
+// step. At either end of travel it stops dead.
+//
+// The flexure: q = platform's swing against the wire's end, w = dq/dt + coupling v, so that no acceleration
+// is needed and an impact of the carriage passes on:
+//
+//     dq/dt = w - coupling v,     dw/dt = -2 zeta omega dq/dt - omega^2 q
+#include "core/rig.h"
+#include "reference/departures.h"
+
+namespace fidservo::reference {
+
+struct CarriageModel {
+    double low_mm = 0.0, high_mm = 0.0;
+    double inertia_V_s2_per_mm = 0.0;
+    double damping_V_s_per_mm = 0.0;
+    double command_limit_V = 0.0;
+    DeadZone dead_zone = {};
+    DriveDepartures drive = {};
+    FrictionDepartures friction = {};
+    MechanicsDepartures mechanics = {};
+    FlexureDepartures flexure = {};
+};
+
+struct CarriageState {
+    double position_mm = 0.0;
+    double speed_mm_per_s = 0.0;
+    double bristle_mm = 0.0;      ///< deflection
+    double swing_mm = 0.0;        ///< q
+    double swing_mm_per_s = 0.0;  ///< w
+};
+
+CarriageModel make_carriage(const Rig& rig, const Departures& departures);
+
+/// Driving force in V of a saturated command at a place: gain, offset, forces by place, dead zone.
+double driving_force_V(const CarriageModel& model, double command_V, double position_mm);
+
+/// Moves the carriage on for h_s seconds under a held command in V.
+void advance(const CarriageModel& model, CarriageState& state, double command_V, double h_s);
+
+}  // namespace fidservo::reference

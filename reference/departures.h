@@ -1,0 +1,115 @@
+#pragma once
+// What a rig may have and its file does not state. Every field's default is neutral: the rig as its file
+// describes it. Forces on the carriage are in volts at the motor, as the rig file's gain is.
+#include <optional>
+
+namespace fidservo::reference {
+
+/// What lies between the commanded and the driving voltage.
+struct DriveDepartures {
+    double gain = 1.0;
+    double offset_V = 0.0;  ///< a constant force, held by the dead zone while the carriage stands
+    double delay_s = 0.0;
+};
+
+/// The elastic contact of the LuGre model (Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE TAC 40, 1995).
+struct Bristles {
+    double stiffness_V_per_mm = 100.0;
+    double damping_V_s_per_mm = 0.1;
+};
+
+/// Friction on the motion, opposing it.
+struct FrictionDepartures {
+    double coulomb_V = 0.0;
+    /// The share of the file's dead zone that is dry friction on the motion instead: it acts as before while
+    /// the carriage is driven, and brakes it while it coasts. 0..1.
+    double dead_zone_on_motion = 0.0;
+    double stribeck_V = 0.0;  ///< friction at rest in excess of that at speed; by bristles
+    double stribeck_speed_mm_per_s = 20.0;
+    std::optional<Bristles> bristles = {};  ///< dry friction by bristles, even without a Stribeck excess
+    double viscous_forward = 1.0;           ///< factor on the file's damping while moving right
+    double viscous_backward = 1.0;          ///< likewise while moving left
+    double patch_V = 0.0;                   ///< dry friction in excess at the centre of a patch of the rail
+    double patch_centre_mm = 100.0;
+    double patch_width_mm = 5.0;  ///< standard deviation of its bell shape
+};
+
+/// Forces by place, which act on a carriage at rest too, and the moving mass.
+struct MechanicsDepartures {
+    double payload = 1.0;  ///< factor on the moving mass
+    double cogging_V = 0.0;
+    double cogging_period_mm = 2.0;
+    double cogging_phase_rad = 0.0;
+    double cable_V_per_mm = 0.0;  ///< a spring towards cable_centre_mm
+    double cable_centre_mm = 100.0;
+};
+
+struct EncoderDepartures {
+    double scale = 1.0;  ///< counts a count of the rig file
+    double ripple_mm = 0.0;
+    double ripple_period_mm = 2.0;
+    double ripple_phase_rad = 0.0;
+};
+
+/// A rod that the wire ends in: it takes up heat, conducts it along, and gives it to the room.
+struct Mount {
+    double conductance_per_s = 0.0;  ///< from the wire to the rod's near end, over the wire's heat capacity
+    double capacity_ratio = 4.0;     ///< heat capacity of the rod over that of the wire
+    double diffusion_s = 4.0;        ///< length^2 / diffusivity
+    double loss_s = 30.0;            ///< time constant of the rod's loss to the room
+};
+
+struct HeaterDepartures {
+    double ambient_degC = 0.0;  ///< the room is warmer by
+    double gain = 1.0;          ///< factor on the heating power
+    double heating_tau = 1.0;   ///< factor
+    double cooling_tau = 1.0;   ///< factor: air flow below 1
+    double delay_s = 0.0;
+    Mount mount = {};
+};
+
+enum class HysteresisLaw { preisach, duhem };
+
+struct HysteresisDepartures {
+    HysteresisLaw law = HysteresisLaw::preisach;
+    double stress_shift_degC = 0.0;  ///< transformation temperatures are higher by
+    double stroke = 1.0;             ///< factor on the contraction
+};
+
+/// The platform on its flexure, a resonator whose base is the carriage.
+struct FlexureDepartures {
+    double coupling = 0.0;  ///< 0 rigid; 1 all of the carriage's acceleration acts on the platform
+    double frequency_hz = 25.0;
+    double damping_ratio = 0.03;
+};
+
+struct HallDepartures {
+    double gain = 1.0;  ///< factor on the curve about its middle voltage
+    double offset_V = 0.0;
+    double cubic = 0.0;  ///< added to the file's coefficient
+    double drift_V_per_s = 0.0;
+    double crosstalk_V_per_V = 0.0;  ///< of the held motor command
+};
+
+struct CameraDepartures {
+    double scale = 1.0;         ///< pixels a pixel of the rig file
+    double rotation_rad = 0.0;  ///< of the image about the optical axis, from u towards v
+    double tilt_rad = 0.0;      ///< of the camera about its v axis; the axis still meets the plate at s
+    double distortion = 0.0;    ///< radial, k1 of x (1 + k1 r^2) in normalised coordinates
+    double latency_s = 0.0;     ///< by which frames are stamped late
+    double clock_skew = 0.0;    ///< the camera's clock gains this share
+};
+
+struct Departures {
+    DriveDepartures drive = {};
+    FrictionDepartures friction = {};
+    MechanicsDepartures mechanics = {};
+    EncoderDepartures encoder = {};
+    HeaterDepartures heater = {};
+    HysteresisDepartures hysteresis = {};
+    FlexureDepartures flexure = {};
+    HallDepartures hall = {};
+    CameraDepartures camera = {};
+};
+
+}  // namespace fidservo::reference

@@ -1,0 +1,73 @@
+#include "reference/dry_friction.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fidservo::reference {
+
+namespace {
+
+/// In how many parts a step is cut at most before the bristles count as being in equilibrium.
+constexpr double most_parts = 32.0;
+
+double level_V(const CarriageModel& model, double position_mm) {
+    const FrictionDepartures& friction = model.friction;
+    const DeadZone& zone = model.dead_zone;
+    double level = friction.coulomb_V;
+    level += friction.dead_zone_on_motion * (zone.slope * zone.threshold_V - zone.offset_V);
+    if (friction.patch_V != 0.0) {
+        const double r = (position_mm - friction.patch_centre_mm) / friction.patch_width_mm;
+        level += friction.patch_V * std::exp(-0.5 * r * r);
+    }
+    return level;
+}
+
+double steady_V(const CarriageModel& model, double position_mm, double speed_mm_per_s) {
+    const double r = speed_mm_per_s / model.friction.stribeck_speed_mm_per_s;
+    return level_V(model, position_mm) + model.friction.stribeck_V * std::exp(-r * r);
+}
+
+Bristles bristles_of(const FrictionDepartures& friction) {
+    return friction.bristles.value_or(Bristles{});
+}
+
+}  // namespace
+
+bool has_bristles(const FrictionDepartures& friction) {
+    return friction.bristles.has_value() || friction.stribeck_V != 0.0;
+}
+
+ContactStep contact_step(const CarriageModel& model, double position_mm, double speed_mm_per_s, double h_s) {
+    if (!has_bristles(model.friction)) return {Contact::rigid, h_s};
+    const double stiffness_V_per_mm = bristles_of(model.friction).stiffness_V_per_mm;
+    const double relaxations =
+        h_s * stiffness_V_per_mm * std::abs(speed_mm_per_s) / steady_V(model, position_mm, speed_mm_per_s);
+    if (relaxations > most_parts) return {Contact::bristles_in_equilibrium, h_s};
+    return {Contact::bristles, h_s / std::max(1.0, std::ceil(relaxations))};
+}
+
+DryFriction dry_friction(const CarriageModel& model, double position_mm, double speed_mm_per_s,
+                         double bristle_mm, double direction, Contact contact) {
+    if (contact == Contact::rigid) return {direction * level_V(model, position_mm), 0.0};
+    const double steady = steady_V(model, position_mm, speed_mm_per_s);
+    if (contact == Contact::bristles_in_equilibrium) return {std::copysign(steady, speed_mm_per_s), 0.0};
+    const Bristles bristles = bristles_of(model.friction);
+    const double elastic_V = bristles.stiffness_V_per_mm * bristle_mm;
+    const double bristle_rate = speed_mm_per_s - elastic_V * std::abs(speed_mm_per_s) / steady;
+    return {elastic_V + bristles.damping_V_s_per_mm * bristle_rate, bristle_rate};
+}
+
+double breakaway_V(const CarriageModel& model, double position_mm) {
+    if (has_bristles(model.friction)) return 0.0;
+    return level_V(model, position_mm) + model.friction.dead_zone_on_motion * model.dead_zone.offset_V;
+}
+
+double bristle_force_V(const CarriageModel& model, double bristle_mm) {
+    return has_bristles(model.friction) ? bristles_of(model.friction).stiffness_V_per_mm * bristle_mm : 0.0;
+}
+
+double equilibrium_bristle_mm(const CarriageModel& model, double position_mm, double speed_mm_per_s) {
+    return steady_V(model, position_mm, speed_mm_per_s) / bristles_of(model.friction).stiffness_V_per_mm;
+}
+
+}  // namespace fidservo::reference

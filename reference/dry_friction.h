@@ -1,0 +1,48 @@
+#pragma once
+// Dry friction of the carriage, in volts at the motor.
+//
+// Rigid: a constant level (Coulomb, rail patch, the share of the dead zone that acts on the motion); at rest
+// it holds up to the break-away force. By bristles (LuGre): the contact is elastic with deflection z,
+//
+//     g(v) = F_level + F_stribeck exp(-(v / v_s)^2)
+//     dz/dt = v - s0 |v| z / g(v),     F = s0 z + s1 dz/dt
+//
+// At speed the bristles relax in g / (s0 |v|). Steps are cut to that time; where it is below a small share of
+// the step the bristles are taken to be in equilibrium, F = g(v).
+// Source: Canudas de Wit, Olsson, Astrom, Lischinsky, "A new model for control of systems with friction",
+// IEEE Transactions on Automatic Control 40 (1995).
+#include "reference/carriage.h"
+
+namespace fidservo::reference {
+
+enum class Contact { rigid, bristles, bristles_in_equilibrium };
+
+struct DryFriction {
+    double force_V;  ///< positive against motion to the right
+    double bristle_mm_per_s;
+};
+
+/// How the contact is to be treated in the next step, and the step's length.
+struct ContactStep {
+    Contact kind;
+    double length_s;
+};
+
+bool has_bristles(const FrictionDepartures& friction);
+
+ContactStep contact_step(const CarriageModel& model, double position_mm, double speed_mm_per_s, double h_s);
+
+/// @param direction  of the motion, +1 or -1; it stands for the sign of a speed of zero
+DryFriction dry_friction(const CarriageModel& model, double position_mm, double speed_mm_per_s,
+                         double bristle_mm, double direction, Contact contact);
+
+/// Force that the carriage at rest withstands, beside that of the bristles' present deflection.
+double breakaway_V(const CarriageModel& model, double position_mm);
+
+/// Elastic force of the bristles; zero for a rigid contact.
+double bristle_force_V(const CarriageModel& model, double bristle_mm);
+
+/// g(v) / s0, the deflection at a steady speed.
+double equilibrium_bristle_mm(const CarriageModel& model, double position_mm, double speed_mm_per_s);
+
+}  // namespace fidservo::reference

@@ -1,0 +1,29 @@
+#pragma once
+// From the wire's temperature to its contraction, by the law chosen.
+#include "reference/departures.h"
+#include "reference/duhem.h"
+#include "reference/preisach_plane.h"
+
+#include <variant>
+
+namespace fidservo::reference {
+
+/// A load moves the transformation temperatures: the law sees temperature - shift. Immutable.
+struct HysteresisModel {
+    std::variant<PreisachPlane, DuhemLaw> law;
+    double shift_degC;
+    double stroke;
+};
+
+using HysteresisState = std::variant<Staircase, DuhemState>;
+
+HysteresisModel make_hysteresis(const FodTable& table, const HysteresisDepartures& departures);
+
+/// A wire that was heated from negative saturation to a temperature.
+HysteresisState heated_to(const HysteresisModel& model, double temp_degC);
+
+void move_to(const HysteresisModel& model, HysteresisState& state, double temp_degC);
+
+double contraction_mm(const HysteresisModel& model, const HysteresisState& state);
+
+}  // namespace fidservo::reference

@@ -1,0 +1,134 @@
+#include "reference/reference_rig.h"
+
+#include "core/failure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fidservo::reference {
+
+namespace {
+
+constexpr double probe_s = 1e-5;  ///< over which the camera's speed is taken
+
+/// Runs what acts within the first `way_s` of a tick in equal sub-steps: step(volts, length in s).
+template <class Step>
+void run(const RigModel& model, const std::array<HeldCommand, 2>& commands, double way_s, const Step& step) {
+    const double longest_s = model.tick_s / model.substeps;
+    for (const HeldCommand& held : commands) {
+        const double length_s = std::min(held.length_s, way_s);
+        way_s -= length_s;
+        if (length_s <= 0.0) continue;
+        constexpr double whole = 1e-9;  // of a sub-step: rounding does not add another
+        const int steps = std::max(1, static_cast<int>(std::ceil(length_s / longest_s - whole)));
+        for (int i = 0; i < steps; ++i) step(held.volts, length_s / steps);
+    }
+}
+
+/// The part of a tick from its beginning on.
+void move(const RigModel& model, State& state, double macro_V, double micro_V, double way_s) {
+    const auto motor = command(state.macro_commands, model.departures.drive.delay_s, model.tick_s, macro_V);
+    run(model, motor, way_s,
+        [&](double volts, double h_s) { advance(model.carriage, state.carriage, volts, h_s); });
+    state.macro_V = macro_V;
+    if (!model.platform) return;
+    const PlatformModel& platform = *model.platform;
+    PlatformState& there = *state.platform;
+    const auto heater = command(there.commands, model.departures.heater.delay_s, model.tick_s, micro_V);
+    run(model, heater, way_s, [&](double volts, double h_s) {
+        advance(platform.wire, there.wire_degC, volts, h_s);
+        move_to(platform.hysteresis, there.hysteresis, there.wire_degC[0]);
+    });
+}
+
+double camera_position_mm(const RigModel& model, const State& state) {
+    const Truth there = truth(model, state);
+    return there.carriage_mm + there.platform_mm;
+}
+
+}  // namespace
+
+RigModel make_rig_model(const Rig& rig, const Departures& departures, int substeps) {
+    FIDSERVO_DEMAND(substeps >= 1);
+    RigModel model;
+    model.tick_s = rig.tick_s;
+    model.substeps = substeps;
+    model.encoder_resolution_mm = rig.macro.encoder_resolution_mm;
+    model.departures = departures;
+    model.carriage = make_carriage(rig, departures);
+    if (rig.micro)
+        model.platform =
+            PlatformModel{make_wire(rig.micro->heater, departures.heater),
+                          make_hysteresis(*rig.micro->fod, departures.hysteresis), rig.micro->hall};
+    if (rig.camera && rig.fiducials)
+        model.camera = CameraModel{*rig.camera, *rig.fiducials, departures.camera};
+    return model;
+}
+
+State start(const RigModel& model, double carriage_mm, std::uint64_t seed) {
+    State state;
+    state.carriage.position_mm = carriage_mm;
+    state.macro_commands = idle_line(model.departures.drive.delay_s, model.tick_s);
+    if (model.platform) {
+        const WireState wire_degC = cold_wire(model.platform->wire);
+        state.platform = PlatformState{wire_degC, heated_to(model.platform->hysteresis, wire_degC[0]),
+                                       idle_line(model.departures.heater.delay_s, model.tick_s),
+                                       NoiseStream(seed, "reference/hall")};
+    }
+    if (model.camera) state.camera = CameraState{0, NoiseStream(seed, "reference/corners")};
+    return state;
+}
+
+Reading sample(const RigModel& model, State& state) {
+    Reading reading;
+    reading.encoder_count =
+        encoder_count(model.encoder_resolution_mm, model.departures.encoder, state.carriage.position_mm);
+    if (model.platform) {
+        const HallInput input{truth(model, state).platform_mm, state.macro_V,
+                              static_cast<double>(state.tick) * model.tick_s};
+        const HallParameters& hall = model.platform->hall;
+        reading.hall_adc =
+            hall_reading(hall, hall_volts(hall, model.departures.hall, input), state.platform->noise);
+    }
+    return reading;
+}
+
+void look(const RigModel& model, State& state, double macro_V, double micro_V,
+          std::vector<TagDetection>& detections) {
+    if (!model.camera) return;
+    const double tick_start_s = static_cast<double>(state.tick) * model.tick_s;
+    for (; exposure_s(*model.camera, state.camera->next_frame) < tick_start_s + model.tick_s;
+         ++state.camera->next_frame) {
+        const double way_s = exposure_s(*model.camera, state.camera->next_frame) - tick_start_s;
+        const auto position_mm = [&](double time_s) {
+            State there = state;
+            move(model, there, macro_V, micro_V, time_s);
+            return camera_position_mm(model, there);
+        };
+        const double from_s = std::min(way_s, model.tick_s - probe_s);
+        const double speed_mm_per_s = (position_mm(from_s + probe_s) - position_mm(from_s)) / probe_s;
+        const double s_mm = position_mm(way_s);
+        if (auto seen = see(*model.camera, s_mm, speed_mm_per_s, state.camera->noise)) {
+            seen->time_ns = stamp_ns(*model.camera, state.camera->next_frame);
+            detections.push_back(*seen);
+        }
+    }
+}
+
+void advance(const RigModel& model, State& state, double macro_V, double micro_V) {
+    move(model, state, macro_V, micro_V, model.tick_s);
+    ++state.tick;
+}
+
+Truth truth(const RigModel& model, const State& state) {
+    Truth result{state.carriage.position_mm, state.carriage.speed_mm_per_s, 0.0, 0.0};
+    if (model.platform) {
+        result.wire_degC = state.platform->wire_degC[0];
+        result.platform_mm =
+            contraction_mm(model.platform->hysteresis, state.platform->hysteresis) + state.carriage.swing_mm;
+    }
+    return result;
+}
+
+}  // namespace fidservo::reference

@@ -1,0 +1,102 @@
+#pragma once
+// An independent model of a rig, for checking what identifies and diagnoses rigs. It shares no formula with
+// plant/: forces in balance, time continuous and integrated by Runge-Kutta in sub-steps, events located in
+// time, hysteresis by areas of the Preisach plane.
+//
+//     const RigModel model = make_rig_model(rig);
+//     State state = start(model, 100.0, seed);
+//     for (;;) {
+//         const Reading reading = sample(model, state);
+//         look(model, state, macro_V, micro_V, detections);     // where the rig has a camera
+//         advance(model, state, macro_V, micro_V);
+//     }
+#include "core/recording.h"
+#include "core/rig.h"
+#include "reference/camera_view.h"
+#include "reference/carriage.h"
+#include "reference/delay_line.h"
+#include "reference/departures.h"
+#include "reference/hysteresis.h"
+#include "reference/sensors.h"
+#include "reference/wire_temperature.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace fidservo::reference {
+
+inline constexpr int default_substeps = 20;
+
+struct PlatformModel {
+    WireModel wire;
+    HysteresisModel hysteresis;
+    HallParameters hall;
+};
+
+/// The rig ready to tick. Parts that it does not have are empty. Immutable.
+struct RigModel {
+    double tick_s = 0.0;
+    int substeps = default_substeps;  ///< a tick
+    double encoder_resolution_mm = 0.0;
+    Departures departures = {};
+    CarriageModel carriage = {};
+    std::optional<PlatformModel> platform = {};
+    std::optional<CameraModel> camera = {};
+};
+
+struct PlatformState {
+    WireState wire_degC;
+    HysteresisState hysteresis;
+    DelayLine commands;
+    NoiseStream noise;
+};
+
+struct CameraState {
+    std::int64_t next_frame = 0;
+    NoiseStream noise;
+};
+
+/// All that a run changes. A plain value: a copy is a snapshot.
+struct State {
+    std::int64_t tick = 0;
+    double macro_V = 0.0;  ///< the command in force
+    CarriageState carriage = {};
+    DelayLine macro_commands = {};
+    std::optional<PlatformState> platform = {};
+    std::optional<CameraState> camera = {};
+};
+
+struct Reading {
+    std::int64_t encoder_count = 0;
+    int hall_adc = 0;  ///< 0 without a micro stage
+};
+
+/// What no sensor tells.
+struct Truth {
+    double carriage_mm;
+    double carriage_mm_per_s;
+    double wire_degC;    ///< 0 without a micro stage
+    double platform_mm;  ///< likewise
+};
+
+/// @param substeps  of the integration a tick, >= 1
+RigModel make_rig_model(const Rig& rig, const Departures& departures = {}, int substeps = default_substeps);
+
+/// A rig at rest with a cold wire; counts are from the lower end of travel.
+State start(const RigModel& model, double carriage_mm, std::uint64_t seed);
+
+/// Samples the sensors. Draws from the Hall sensor's noise, nothing else of the state changes.
+Reading sample(const RigModel& model, State& state);
+
+/// What the camera sees in the tick that begins, under the commands given: appends to `detections`. Nothing
+/// of the state but the camera's changes.
+void look(const RigModel& model, State& state, double macro_V, double micro_V,
+          std::vector<TagDetection>& detections);
+
+/// One tick under held commands in V.
+void advance(const RigModel& model, State& state, double macro_V, double micro_V);
+
+Truth truth(const RigModel& model, const State& state);
+
+}  // namespace fidservo::reference

@@ -1,0 +1,32 @@
+#include "reference/sensors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fidservo::reference {
+
+std::int64_t encoder_count(double resolution_mm, const EncoderDepartures& departures, double position_mm) {
+    double seen_mm = departures.scale * position_mm;
+    if (departures.ripple_mm != 0.0) {
+        const double angle = 2.0 * std::numbers::pi * position_mm / departures.ripple_period_mm;
+        seen_mm += departures.ripple_mm * std::sin(angle + departures.ripple_phase_rad);
+    }
+    return static_cast<std::int64_t>(std::floor(seen_mm / resolution_mm + 0.5));
+}
+
+double hall_volts(const HallParameters& hall, const HallDepartures& departures, const HallInput& input) {
+    const double s = (input.platform_mm - hall.centre_mm) / hall.half_range_mm;
+    const double cubic = hall.cubic + departures.cubic;
+    const double curve_V = hall.span_V * s * ((1.0 + cubic) - cubic * s * s);
+    return hall.mid_V + departures.gain * curve_V + departures.offset_V +
+           departures.drift_V_per_s * input.time_s + departures.crosstalk_V_per_V * input.macro_V;
+}
+
+int hall_reading(const HallParameters& hall, double volts, NoiseStream& noise) {
+    const int codes = 1 << hall.adc_bits;
+    const double lsb = volts * codes / hall.adc_range_V + hall.noise_lsb * noise.normal();
+    return std::clamp(static_cast<int>(std::lround(lsb)), 0, codes - 1);
+}
+
+}  // namespace fidservo::reference

@@ -1,0 +1,28 @@
+#pragma once
+// What the board reads: the carriage's encoder and the platform's Hall sensor.
+#include "core/random.h"
+#include "core/rig.h"
+#include "reference/departures.h"
+
+#include <cstdint>
+
+namespace fidservo::reference {
+
+/// Count of a carriage position: the nearest, halves upwards.
+std::int64_t encoder_count(double resolution_mm, const EncoderDepartures& departures, double position_mm);
+
+/// What the Hall sensor's voltage depends on.
+struct HallInput {
+    double platform_mm;
+    double macro_V;  ///< the motor command in force
+    double time_s;   ///< since the start
+};
+
+/// Voltage before noise and rounding:
+/// V = mid + gain span ((1 + c) s - c s^3) + offset + drift t + crosstalk u,  s = (x - centre) / half range.
+double hall_volts(const HallParameters& hall, const HallDepartures& departures, const HallInput& input);
+
+/// The ADC's reading, 0 .. 2^bits - 1, of a voltage with noise.
+int hall_reading(const HallParameters& hall, double volts, NoiseStream& noise);
+
+}  // namespace fidservo::reference

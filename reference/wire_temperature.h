@@ -1,0 +1,39 @@
+#pragma once
+// The wire's temperature, integrated.
+//
+//     dT/dt = (phi(c) - (T - Ta)) / tau - k (T - R_1),     tau by whether phi > T - Ta
+//
+// phi is the temperature rise that the driver's voltage c keeps up. R_1..R_n are the temperatures of the
+// mount: a rod in n equal volumes that conducts along and loses heat to the room,
+//
+//     dR_i/dt = (R_{i-1} - 2 R_i + R_{i+1}) n^2 / tau_d - (R_i - Ta) / tau_l  (+ k (T - R_1) n / C for i = 1)
+#include "core/rig.h"
+#include "reference/departures.h"
+
+#include <array>
+#include <cstddef>
+
+namespace fidservo::reference {
+
+inline constexpr std::size_t mount_nodes = 6;
+
+struct WireModel {
+    double onset_V, limit_V;
+    double rise_degC_per_V;
+    double heating_tau_s, cooling_tau_s;
+    double ambient_degC;
+    Mount mount;
+};
+
+/// The wire's temperature, then the mount's from the near end to the far end, degC.
+using WireState = std::array<double, 1 + mount_nodes>;
+
+WireModel make_wire(const HeaterParameters& heater, const HeaterDepartures& departures);
+
+/// Wire and mount at the temperature of the room.
+WireState cold_wire(const WireModel& model);
+
+/// Moves the temperatures on for h_s seconds under a held command in V.
+void advance(const WireModel& model, WireState& state, double command_V, double h_s);
+
+}  // namespace fidservo::reference

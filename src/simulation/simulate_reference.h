@@ -1,0 +1,18 @@
+#pragma once
+#include "core/recording.h"
+#include "core/rig.h"
+#include "reference/departures.h"
+#include "src/simulation/experiments.h"
+
+#include <cstdint>
+#include <string>
+
+namespace fidservo {
+
+/// As `simulate`, but on the independent model of the rig (reference/): for checking, against a rig whose
+/// physics the diagnosis did not write.
+/// @param departures  what the rig has and its file does not state
+Recording simulate_reference(const Rig& rig, const reference::Departures& departures,
+                             const Experiment& experiment, const std::string& name, std::uint64_t seed);
+
+}  // namespace fidservo

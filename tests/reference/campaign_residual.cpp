@@ -1,0 +1,124 @@
+#include "tests/reference/campaign_residual.h"
+
+#include "src/recording/reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <span>
+
+#include <gtest/gtest.h>
+
+namespace fidservo::reference {
+
+namespace {
+
+/// The carriage alone: how far it is from the recorded counts.
+struct EncoderError {
+    double squares = 0.0, count_squares = 0.0, largest = 0.0;
+};
+
+EncoderError encoder_error(const RigModel& carriage_only, std::span<const StageRow> rows, double start_mm) {
+    State state = start(carriage_only, start_mm, 1);
+    EncoderError error;
+    for (const StageRow& row : rows) {
+        const double place = state.carriage.position_mm * carriage_only.departures.encoder.scale /
+                             carriage_only.encoder_resolution_mm;
+        const double count = static_cast<double>(sample(carriage_only, state).encoder_count);
+        error.squares += (place - row.encoder_count) * (place - row.encoder_count);
+        error.count_squares += (count - row.encoder_count) * (count - row.encoder_count);
+        error.largest = std::max(error.largest, std::abs(place - row.encoder_count));
+        advance(carriage_only, state, row.macro_command_V, 0.0);
+    }
+    return error;
+}
+
+/// The start moves the whole path, so that it is found from the path of any start, but for end stops: then
+/// the path from the start found is looked at again.
+EncoderError best_encoder_error(const RigModel& model, std::span<const StageRow> rows) {
+    RigModel carriage_only = model;
+    carriage_only.platform.reset();
+    carriage_only.camera.reset();
+    const double count_mm = model.encoder_resolution_mm / model.departures.encoder.scale;
+    double start_mm =
+        std::clamp(rows.front().encoder_count * count_mm, model.carriage.low_mm, model.carriage.high_mm);
+    for (int round = 0; round < 2; ++round) {
+        State state = start(carriage_only, start_mm, 1);
+        double low = 0.0, high = 0.0;
+        bool first = true;
+        for (const StageRow& row : rows) {
+            const double difference = row.encoder_count - state.carriage.position_mm / count_mm;
+            low = first ? difference : std::min(low, difference);
+            high = first ? difference : std::max(high, difference);
+            first = false;
+            advance(carriage_only, state, row.macro_command_V, 0.0);
+        }
+        const double shift = std::clamp(0.5 * (low + high), -1.0, 1.0);
+        start_mm = std::clamp(start_mm + shift * count_mm, model.carriage.low_mm, model.carriage.high_mm);
+    }
+    return encoder_error(carriage_only, rows, start_mm);
+}
+
+/// Mean and variance of (reading - mean)^2 in LSB^2 for a Gaussian before rounding, by summing over readings.
+struct SquareStatistics {
+    double mean = 0.0, variance = 0.0;
+};
+
+SquareStatistics rounded_gaussian(double mean_lsb, double sigma_lsb) {
+    const auto share_below = [&](double level) {
+        return 0.5 * (1.0 + std::erf((level - mean_lsb) / (sigma_lsb * std::numbers::sqrt2)));
+    };
+    SquareStatistics sum;
+    double fourth = 0.0;
+    const double centre = std::round(mean_lsb);
+    for (int i = -5; i <= 5; ++i) {
+        const double reading = centre + i;
+        const double share = share_below(reading + 0.5) - share_below(reading - 0.5);
+        const double square = (reading - mean_lsb) * (reading - mean_lsb);
+        sum.mean += share * square;
+        fourth += share * square * square;
+    }
+    sum.variance = fourth - sum.mean * sum.mean;
+    return sum;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> campaign(std::string_view name) {
+    const auto folder = std::filesystem::path(FIDSERVO_DATA_DIR) / "campaigns" / name;
+    if (std::filesystem::is_directory(folder)) return find_recordings(folder);
+    EXPECT_EQ(std::getenv("FIDSERVO_REQUIRE_DATA"), nullptr) << "the shared data are absent: " << folder;
+    return {};
+}
+
+Residual residual(const RigModel& model, const Recording& recording) {
+    const std::span<const StageRow> rows = recording.rows;
+    const auto ticks = static_cast<double>(rows.size());
+    const EncoderError encoder = best_encoder_error(model, rows);
+    Residual result;
+    result.encoder_rms_count = std::sqrt(encoder.squares / ticks);
+    result.count_rms = std::sqrt(encoder.count_squares / ticks);
+    result.encoder_largest_count = encoder.largest;
+
+    const HallParameters& hall = model.platform->hall;
+    State state = start(model, rows.front().encoder_count * model.encoder_resolution_mm, 1);
+    double squares = 0.0, expected = 0.0, variance = 0.0;
+    for (const StageRow& row : rows) {
+        const HallInput input{truth(model, state).platform_mm, state.macro_V,
+                              static_cast<double>(state.tick) * model.tick_s};
+        const double lsb_V = hall.adc_range_V / static_cast<double>(1 << hall.adc_bits);
+        const double mean_lsb = hall_volts(hall, model.departures.hall, input) / lsb_V;
+        const SquareStatistics statistics = rounded_gaussian(mean_lsb, hall.noise_lsb);
+        squares += (row.hall_adc - mean_lsb) * (row.hall_adc - mean_lsb);
+        expected += statistics.mean;
+        variance += statistics.variance;
+        advance(model, state, row.macro_command_V, row.micro_command_V);
+    }
+    result.hall_rms_lsb = std::sqrt(squares / ticks);
+    result.hall_expected_rms_lsb = std::sqrt(expected / ticks);
+    result.hall_rms_std_lsb = std::sqrt(variance) / ticks / (2.0 * result.hall_expected_rms_lsb);
+    return result;
+}
+
+}  // namespace fidservo::reference

@@ -1,0 +1,32 @@
+#pragma once
+// How well the reference model, fed with the commands of a recording, follows its readings.
+#include "core/recording.h"
+#include "reference/reference_rig.h"
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace fidservo::reference {
+
+/// The recordings of a campaign of the shared data. Empty where the shared data are absent, unless the
+/// environment says FIDSERVO_REQUIRE_DATA: then that is a test failure.
+std::vector<std::filesystem::path> campaign(std::string_view name);
+
+/// Model readings minus recorded ones, and what noise and rounding alone would leave.
+struct Residual {
+    double encoder_rms_count = 0.0;      ///< position before rounding minus recorded count
+    double encoder_largest_count = 0.0;  ///< up to 1/2 is rounding
+    double count_rms = 0.0;              ///< counts of the model minus recorded ones
+    double hall_rms_lsb = 0.0;
+    double hall_expected_rms_lsb = 0.0;
+    double hall_rms_std_lsb = 0.0;  ///< by which the r.m.s. scatters about its expected value
+
+    double hall_sigma() const { return (hall_rms_lsb - hall_expected_rms_lsb) / hall_rms_std_lsb; }
+};
+
+/// Runs the recording's commands. Where in its first count the carriage stood is not known: the start that
+/// keeps the largest encoder residual smallest is taken.
+Residual residual(const RigModel& model, const Recording& recording);
+
+}  // namespace fidservo::reference

@@ -1,0 +1,49 @@
+// The shared campaigns were recorded on another model of the same machine. Fed with their commands, this one
+// must follow their readings to the noise floor.
+#include "src/config/rig_file.h"
+#include "src/recording/reader.h"
+#include "tests/reference/campaign_residual.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+namespace fidservo::reference {
+namespace {
+
+struct Worst {
+    double beyond_rounding_count = 0.0, count_rms = 0.0, hall_sigma = 0.0;
+    std::size_t recordings = 0;
+};
+
+Worst worst_residual(std::string_view name, const Departures& departures) {
+    const RigModel model = make_rig_model(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), departures);
+    Worst worst;
+    for (const auto& path : campaign(name)) {
+        const Recording recording = read_recording(path);
+        const Residual r = residual(model, recording);
+        std::printf(
+            "%-16s encoder %.4f counts r.m.s., largest %.5f, counts %.4f; Hall %.4f (%.4f) LSB, %+.2f "
+            "sigma\n",
+            recording.name.c_str(), r.encoder_rms_count, r.encoder_largest_count, r.count_rms, r.hall_rms_lsb,
+            r.hall_expected_rms_lsb, r.hall_sigma());
+        worst.beyond_rounding_count = std::max(worst.beyond_rounding_count, r.encoder_largest_count - 0.5);
+        worst.count_rms = std::max(worst.count_rms, r.count_rms);
+        worst.hall_sigma = std::max(worst.hall_sigma, std::abs(r.hall_sigma()));
+        ++worst.recordings;
+    }
+    return worst;
+}
+
+TEST(Campaign, NoEffect_IsFollowedToTheNoiseFloor) {
+    const Worst worst = worst_residual("no-effect", {});
+    if (worst.recordings == 0) GTEST_SKIP() << "the shared data are absent";
+    EXPECT_EQ(worst.recordings, 16u);
+    EXPECT_LE(worst.beyond_rounding_count, 1e-4);  // commands are recorded to 1e-7 V
+    EXPECT_LE(worst.hall_sigma, 4.0);
+}
+
+}  // namespace
+}  // namespace fidservo::reference

@@ -1,0 +1,69 @@
+// Two models of one machine, written apart: in closed form (plant/) and integrated (reference/). Under the
+// same commands they must go the same way. Each checks the other.
+#include "core/random.h"
+#include "plant/stage_plant.h"
+#include "reference/reference_rig.h"
+#include "src/config/rig_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+namespace fidservo::reference {
+namespace {
+
+/// Commands of random length and height, held for 1 to 400 ticks, beyond the limits and within the dead zone.
+class RandomCommand {
+  public:
+    RandomCommand(std::uint64_t seed, std::string_view name, double low_V, double high_V)
+        : draw_(seed, name), low_V_(low_V), high_V_(high_V) {}
+
+    double next() {
+        if (left_-- > 0) return volts_;
+        left_ = static_cast<int>(400.0 * draw_.uniform());
+        volts_ = low_V_ + (high_V_ - low_V_) * draw_.uniform();
+        return volts_;
+    }
+
+  private:
+    NoiseStream draw_;
+    double low_V_, high_V_;
+    double volts_ = 0.0;
+    int left_ = 0;
+};
+
+TEST(PlantAgreement, RandomCommands_MoveBothModelsAlike) {
+    const Rig rig = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
+    const RigModel model = make_rig_model(rig);
+    const plant::StagePlant stage = plant::make_stage_plant(rig);
+    double worst_carriage_mm = 0.0, worst_platform_mm = 0.0, worst_degC = 0.0;
+    constexpr int ticks = 20'000;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        RandomCommand motor(seed, "motor", -6.0, 6.0), heater(seed, "heater", 1.0, 2.0);
+        State state = start(model, 20.0 * static_cast<double>(seed) - 10.0, seed);
+        plant::StageState other = plant::start(stage, state.carriage.position_mm, seed);
+        for (int k = 0; k < ticks; ++k) {
+            const double macro_V = motor.next(), micro_V = heater.next();
+            advance(model, state, macro_V, micro_V);
+            plant::advance(stage, other, macro_V, micro_V);
+            const Truth here = truth(model, state);
+            const auto apart = [](double& worst, double a, double b) {
+                worst = std::max(worst, std::abs(a - b));
+            };
+            apart(worst_carriage_mm, here.carriage_mm, other.axis.position_mm);
+            apart(worst_platform_mm, here.platform_mm, other.micro->position_mm);
+            apart(worst_degC, here.wire_degC, other.micro->heater.temp_degC);
+        }
+    }
+    std::printf("largest differences: carriage %.2e mm, wire %.2e degC, platform %.2e mm\n",
+                worst_carriage_mm, worst_degC, worst_platform_mm);
+    EXPECT_LE(worst_carriage_mm, 1e-6);
+    EXPECT_LE(worst_degC, 1e-6);
+    EXPECT_LE(worst_platform_mm, 1e-6);
+}
+
+}  // namespace
+}  // namespace fidservo::reference
