@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace fidservo {
 
@@ -95,6 +96,16 @@ struct FiducialParameters {
     int first_id;
 };
 
+/// An effect beyond the model that the rig is known to have, by its name in the simulator's catalogue.
+struct StatedEffect {
+    struct Parameter {
+        std::string name;
+        double value;
+    };
+    std::string name;
+    std::vector<Parameter> parameters;
+};
+
 struct Rig {
     std::string name;
     double tick_s;
@@ -102,6 +113,7 @@ struct Rig {
     std::optional<MicroParameters> micro;
     std::optional<CameraParameters> camera;
     std::optional<FiducialParameters> fiducials;
+    std::vector<StatedEffect> effects;  ///< the simulator has them; controllers know nothing of them
 };
 
 }  // namespace fidservo

@@ -1,6 +1,7 @@
 #include "plant/stage_plant.h"
 
 #include "core/failure.h"
+#include "plant/effects/catalogue.h"
 
 namespace fidservo::plant {
 
@@ -11,6 +12,10 @@ PlantParameters plant_parameters(const Rig& rig) {
                                .micro = micro_stage_parameters(rig),
                                .camera = std::nullopt};
     if (rig.camera) parameters.camera.emplace();
+    for (const StatedEffect& stated : rig.effects) {
+        const EffectSetting setting = setting_of(stated);
+        apply_effects(parameters, {&setting, 1});
+    }
     return parameters;
 }
 

@@ -58,7 +58,7 @@ struct StageReading {
     int hall_adc = 0;
 };
 
-/// The parameters of a rig without effects.
+/// The parameters of a rig as its file describes it, with the effects that the file states.
 PlantParameters plant_parameters(const Rig& rig);
 
 StagePlant make_stage_plant(const PlantParameters& parameters);

@@ -18,6 +18,10 @@ const Effect* find_effect(std::string_view name);
 /// that is no number or out of bounds.
 EffectSetting parse_effect(std::string_view text);
 
+/// The setting that a rig file states. Parameters that are not given have their typical values. Throws
+/// InputError like parse_effect.
+EffectSetting setting_of(const StatedEffect& stated);
+
 /// A setting that changes nothing.
 EffectSetting vanishing_setting(const Effect& effect);
 

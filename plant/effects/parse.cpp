@@ -2,6 +2,7 @@
 #include "core/failure.h"
 #include "plant/effects/catalogue.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -11,8 +12,9 @@ namespace fidservo::plant {
 
 namespace {
 
-[[noreturn]] void fail(std::string_view text, const std::string& message) {
-    throw InputError("--effect: " + std::string(text) + ": " + message);
+/// @param where  what the user wrote, and where
+[[noreturn]] void fail(std::string_view where, const std::string& message) {
+    throw InputError(std::string(where) + ": " + message);
 }
 
 std::string range_of(const EffectParameter& parameter) {
@@ -45,51 +47,66 @@ std::string_view take_until(std::string_view& rest, char separator) {
     return taken;
 }
 
-std::size_t index_of(const Effect& effect, std::string_view name, std::string_view text) {
+std::size_t index_of(const Effect& effect, std::string_view name, std::string_view where) {
     for (std::size_t k = 0; k < effect.parameters.size(); ++k)
         if (effect.parameters[k].name == name) return k;
-    fail(text, "\"" + std::string(name) + "\" is no parameter of " + std::string(effect.name) +
-                   "; allowed: " + known_parameters(effect));
+    fail(where, "\"" + std::string(name) + "\" is no parameter of " + std::string(effect.name) +
+                    "; allowed: " + known_parameters(effect));
 }
 
-double value_of(const EffectParameter& parameter, std::string_view digits, std::string_view text) {
+double value_of(const EffectParameter& parameter, std::string_view digits, std::string_view where) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-        fail(text, std::string(parameter.name) + ": \"" + std::string(digits) +
-                       "\" is not a number; allowed: " + range_of(parameter));
+        fail(where, std::string(parameter.name) + ": \"" + std::string(digits) +
+                        "\" is not a number; allowed: " + range_of(parameter));
     if (value < parameter.low || value > parameter.high)
-        fail(text, std::string(parameter.name) + ": " + std::string(digits) +
-                       " is out of bounds; allowed: " + range_of(parameter));
+        fail(where, std::string(parameter.name) + ": " + std::string(digits) +
+                        " is out of bounds; allowed: " + range_of(parameter));
     return value;
 }
 
-}  // namespace
-
-EffectSetting parse_effect(std::string_view text) {
+EffectSetting parse(std::string_view text, std::string_view where) {
     std::string_view rest = text;
     const bool has_parameters = text.find(':') != std::string_view::npos;
     const Effect* effect = find_effect(take_until(rest, ':'));
-    if (effect == nullptr) fail(text, "no such effect; known: " + known_effects());
+    if (effect == nullptr) fail(where, "no such effect; known: " + known_effects());
 
     EffectSetting setting{effect, {}};
     for (const EffectParameter& parameter : effect->parameters) setting.values.push_back(parameter.typical);
     if (!has_parameters) return setting;
     if (rest.empty() || rest.back() == ',')
-        fail(text, "PARAMETER=VALUE is missing; allowed: " + known_parameters(*effect));
+        fail(where, "PARAMETER=VALUE is missing; allowed: " + known_parameters(*effect));
 
     std::vector<bool> given(effect->parameters.size(), false);
     while (!rest.empty()) {
         std::string_view digits = take_until(rest, ',');
         if (digits.find('=') == std::string_view::npos)
-            fail(text, "\"" + std::string(digits) +
-                           "\" is not PARAMETER=VALUE; allowed: " + known_parameters(*effect));
-        const std::size_t k = index_of(*effect, take_until(digits, '='), text);
-        if (given[k]) fail(text, std::string(effect->parameters[k].name) + " is given twice");
+            fail(where, "\"" + std::string(digits) +
+                            "\" is not PARAMETER=VALUE; allowed: " + known_parameters(*effect));
+        const std::size_t k = index_of(*effect, take_until(digits, '='), where);
+        if (given[k]) fail(where, std::string(effect->parameters[k].name) + " is given twice");
         given[k] = true;
-        setting.values[k] = value_of(effect->parameters[k], digits, text);
+        setting.values[k] = value_of(effect->parameters[k], digits, where);
     }
     return setting;
+}
+
+}  // namespace
+
+EffectSetting parse_effect(std::string_view text) {
+    return parse(text, "--effect: " + std::string(text));
+}
+
+EffectSetting setting_of(const StatedEffect& stated) {
+    std::string text = stated.name;
+    for (const StatedEffect::Parameter& parameter : stated.parameters) {
+        std::array<char, 32> digits{};
+        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), parameter.value).ptr;
+        text += (text.size() == stated.name.size() ? ':' : ',') + parameter.name + '=';
+        text.append(digits.data(), end);
+    }
+    return parse(text, text);
 }
 
 }  // namespace fidservo::plant

@@ -25,6 +25,8 @@ void add_inspect(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_record(CLI::App& app, int& exit_code);
 void add_cameras(CLI::App& app, int& exit_code);
+void add_identify(CLI::App& app, int& exit_code);
+void add_calibrate(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 
 /// --rig RIG.yaml; the reference rig where it is not given.

@@ -83,4 +83,16 @@ FodTable load_fod(const std::filesystem::path& file) {
     return {nodes, std::move(triangle)};
 }
 
+std::string fod_text(const FodTable& table) {
+    std::string text = "peak_temp_degC,temp_degC,contraction_mm\n";
+    const auto node_degC = [&](std::size_t i) {
+        return table.low_degC() + table.step_degC() * static_cast<double>(i);
+    };
+    for (std::size_t peak = 0; peak < table.nodes(); ++peak)
+        for (std::size_t temp = 0; temp <= peak; ++temp)
+            text += fmt::format("{:.9g},{:.9g},{:.5f}\n", node_degC(peak), node_degC(temp),
+                                table.node_mm(peak, temp));
+    return text;
+}
+
 }  // namespace fidservo

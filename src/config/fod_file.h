@@ -2,6 +2,7 @@
 #include "core/preisach.h"
 
 #include <filesystem>
+#include <string>
 
 namespace fidservo {
 
@@ -9,5 +10,8 @@ namespace fidservo {
 /// contraction_mm, a row for each peak and each lower temperature of one equally spaced grid, in any order.
 /// Throws InputError that names file and line.
 FodTable load_fod(const std::filesystem::path& file);
+
+/// The same table as text, contraction to 0.01 um.
+std::string fod_text(const FodTable& table);
 
 }  // namespace fidservo

@@ -1,6 +1,7 @@
 #include "src/config/rig_file.h"
 
 #include "core/failure.h"
+#include "plant/effects/catalogue.h"
 #include "src/config/fod_file.h"
 #include "src/config/yaml_reader.h"
 
@@ -197,18 +198,36 @@ FiducialParameters read_fiducials(const YamlValue& map) {
     return fiducials;
 }
 
+/// A list of maps: the effect's name, then its parameters; those that are left out have typical values.
+std::vector<StatedEffect> read_effects(const YamlValue& list) {
+    std::vector<StatedEffect> effects;
+    for (const YamlValue& item : list.items()) {
+        StatedEffect& effect = effects.emplace_back();
+        effect.name = item.at("name").text();
+        for (const std::string& key : item.keys())
+            if (key != "name") effect.parameters.push_back({key, item.at(key).number()});
+        try {
+            plant::setting_of(effect);
+        } catch (const InputError& error) {
+            item.fail(error.what());
+        }
+    }
+    return effects;
+}
+
 }  // namespace
 
 Rig load_rig(const std::filesystem::path& file) {
     const YamlValue root = YamlValue::load(file);
-    root.allow_only({"name", "tick_s", "macro", "micro", "camera", "fiducials"});
+    root.allow_only({"name", "tick_s", "macro", "micro", "camera", "fiducials", "effects", "identified"});
     const double tick_s = root.at("tick_s").number({0.0, 1.0, true});
     return {.name = root.at("name").text(),
             .tick_s = tick_s,
             .macro = read_macro(root.at("macro"), tick_s),
             .micro = read_if_given(root, "micro", read_micro),
             .camera = read_if_given(root, "camera", read_camera),
-            .fiducials = read_if_given(root, "fiducials", read_fiducials)};
+            .fiducials = read_if_given(root, "fiducials", read_fiducials),
+            .effects = read_if_given(root, "effects", read_effects).value_or(std::vector<StatedEffect>{})};
 }
 
 std::filesystem::path reference_rig_file() {

@@ -19,14 +19,23 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-void split(std::string_view line, std::vector<std::string_view>& fields) {
+void split(std::string_view line, char separator, std::vector<std::string_view>& fields) {
     fields.clear();
+    if (separator == ' ') line = trimmed(line);
     while (true) {
-        const auto comma = line.find(',');
-        fields.push_back(trimmed(line.substr(0, comma)));
-        if (comma == std::string_view::npos) return;
-        line.remove_prefix(comma + 1);
+        const auto end = line.find(separator);
+        fields.push_back(trimmed(line.substr(0, end)));
+        if (end == std::string_view::npos) return;
+        line.remove_prefix(end + 1);
+        if (separator == ' ') line = trimmed(line);
     }
+}
+
+char separator_in(std::string_view text) {
+    const std::string_view first_line = text.substr(0, text.find('\n'));
+    for (const char separator : {',', ';', '\t'})
+        if (first_line.find(separator) != std::string_view::npos) return separator;
+    return ' ';
 }
 
 template <class T>
@@ -38,7 +47,7 @@ bool parse_all(std::string_view text, T& value) {
 
 }  // namespace
 
-CsvText CsvText::load(const std::filesystem::path& file) {
+CsvText CsvText::load(const std::filesystem::path& file, Separator separator) {
     std::error_code ignored;
     std::ifstream stream(file, std::ios::binary);
     if (!stream || std::filesystem::is_directory(file, ignored))
@@ -46,11 +55,13 @@ CsvText CsvText::load(const std::filesystem::path& file) {
     std::string text;
     text.reserve(static_cast<std::size_t>(std::filesystem::file_size(file, ignored)));
     text.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-    return {std::move(text), file};
+    return {std::move(text), file, separator};
 }
 
-CsvText::CsvText(std::string text, std::filesystem::path file)
-    : text_(std::move(text)), file_(std::move(file)) {
+CsvText::CsvText(std::string text, std::filesystem::path file, Separator separator)
+    : text_(std::move(text)),
+      file_(std::move(file)),
+      separator_(separator == Separator::comma ? ',' : separator_in(text_)) {
     if (text_.empty()) throw InputError(fmt::format("{}: is empty", file_.string()));
 }
 
@@ -63,7 +74,7 @@ bool CsvText::next() {
         position_ = end + 1;
         if (line.ends_with('\r')) line.remove_suffix(1);
         if (trimmed(line).empty()) continue;
-        split(line, fields_);
+        split(line, separator_, fields_);
         return true;
     }
     return false;

@@ -8,14 +8,21 @@
 
 namespace fidservo {
 
+/// What stands between two fields.
+enum class Separator {
+    comma,
+    of_first_line,  ///< the first of comma, semicolon, tab that the first line holds; else blanks, many as
+                    ///< one
+};
+
 class CsvText {
   public:
     /// Reads the whole file. Throws InputError if it cannot be read or is empty.
-    static CsvText load(const std::filesystem::path& file);
+    static CsvText load(const std::filesystem::path& file, Separator separator = Separator::comma);
     /// The same from text; `file` only appears in messages.
-    CsvText(std::string text, std::filesystem::path file);
+    CsvText(std::string text, std::filesystem::path file, Separator separator = Separator::comma);
 
-    /// The next line without its end, split at commas; false at the end of the file. A last line that does
+    /// The next line without its end, split into fields; false at the end of the file. A last line that does
     /// not end is an error: the file was cut off. Blank lines are passed over.
     bool next();
     int line() const { return line_; }
@@ -33,6 +40,7 @@ class CsvText {
   private:
     std::string text_;
     std::filesystem::path file_;
+    char separator_;
     std::size_t position_ = 0;
     int line_ = 0;
     std::vector<std::string_view> fields_;

@@ -1,5 +1,6 @@
 #include "core/failure.h"
 #include "plant/effects/catalogue.h"
+#include "tests/plant/reference_rig.h"
 
 #include <string>
 #include <utility>
@@ -53,6 +54,15 @@ TEST(ParseEffect, Mistakes_AreOneLineThatNamesThemAndWhatIsAllowed) {
             EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
         }
     }
+}
+
+TEST(StatedEffect, InTheRigFile_IsInThePlant) {
+    Rig rig = reference_rig();
+    const double nominal = plant_parameters(rig).axis.drive_gain;
+    rig.effects = {{"drive_gain", {{"factor", 1.07}}}};
+    EXPECT_DOUBLE_EQ(plant_parameters(rig).axis.drive_gain, 1.07 * nominal);
+    rig.effects[0].parameters[0].value = 1.0;
+    EXPECT_EQ(plant_parameters(rig).axis.drive_gain, nominal);
 }
 
 }  // namespace

@@ -1,0 +1,151 @@
+// fidservo identify and fidservo calibrate: models' numbers from recordings, into a rig file.
+#include "src/identify/identify.h"
+
+#include "core/failure.h"
+#include "src/commands/commands.h"
+#include "src/config/rig_file.h"
+#include "src/recording/reader.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fidservo {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> drive_roles{"input", "output", "time"};
+constexpr std::array<std::string_view, 4> heater_roles{"input", "output", "ambient", "time"};
+
+constexpr std::array identifications{
+    Identification{"macro", "Dead zone, gain, time constant and friction of the macro stage", identify_macro,
+                   drive_roles, 2},
+    Identification{"hysteresis", "The wire's first-order descending curves (Preisach model)",
+                   identify_hysteresis, drive_roles, 2},
+    Identification{"heater", "Onset, gain and time constants of the wire's heater", identify_heater,
+                   heater_roles, 2}};
+
+constexpr std::array calibrations{Identification{
+    "hall", "The Hall sensor's curve against a reference displacement", calibrate_hall, drive_roles, 2}};
+
+struct IdentifyOptions {
+    std::vector<std::filesystem::path> recordings;
+    std::filesystem::path table;
+    std::string columns;
+    double rate_hz = 0.0;
+    std::filesystem::path rig_file;
+    std::filesystem::path json;
+    std::filesystem::path write_rig;
+};
+
+IdentifyInput read_table_input(const IdentifyOptions& options, const Identification& identification) {
+    IdentifyInput input{load_rig(options.rig_file), {}, std::nullopt, options.rate_hz};
+    if (options.columns.empty())
+        throw InputError(fmt::format("--columns: missing: which column of the table is what, e.g. {}=1,{}=2",
+                                     identification.roles[0], identification.roles[1]));
+    input.table = read_text_table(
+        options.table, parse_columns(options.columns, identification.roles, identification.required));
+    if (options.rate_hz < 0.0)
+        throw InputError(fmt::format("--rate-hz: {}: must be above 0", options.rate_hz));
+    if ((options.rate_hz > 0.0) == (input.table->find("time") != nullptr))
+        throw InputError(
+            "--rate-hz: a table needs either this, rows a second, or a column with the role time");
+    return input;
+}
+
+IdentifyInput read_input(const IdentifyOptions& options, const Identification& identification) {
+    if (options.table.empty() == options.recordings.empty())
+        throw InputError("RECORDING: give recordings or --table, one of the two");
+    if (!options.table.empty()) return read_table_input(options, identification);
+    if (!options.columns.empty() || options.rate_hz > 0.0)
+        throw InputError("--columns, --rate-hz: are for --table only");
+    IdentifyInput input{load_rig(options.rig_file), {}, std::nullopt, 0.0};
+    for (const std::filesystem::path& path : options.recordings)
+        for (const std::filesystem::path& folder : find_recordings(path)) {
+            input.recordings.push_back(read_recording(folder));
+            if (input.recordings.back().rows.empty())
+                throw InputError(
+                    fmt::format("{}: holds no rows of the stage (stage0/data.csv)", folder.string()));
+        }
+    return input;
+}
+
+void demand_new_file(const char* option, const std::filesystem::path& file) {
+    std::error_code error;
+    if (!file.empty() &&
+        std::filesystem::symlink_status(file, error).type() != std::filesystem::file_type::not_found)
+        throw InputError(
+            fmt::format("{}: {}: exists already; give the name of a new file", option, file.string()));
+}
+
+int run_identification(const IdentifyOptions& options, const Identification& identification) {
+    demand_new_file("--json", options.json);
+    demand_new_file("--write-rig", options.write_rig);
+    const Identified identified = identification.run(read_input(options, identification));
+    fmt::print("{}", describe(identified));
+    if (!options.json.empty()) write_identification_json(options.json, identified);
+    if (!options.write_rig.empty() && !identified.values.empty()) {
+        write_identified_rig(options.write_rig, options.rig_file, identified);
+        fmt::print("rig file: {}\n", options.write_rig.string());
+    }
+    return identified.undetermined.empty() ? exit_done : exit_answer_is_no;
+}
+
+void add_identification(CLI::App& parent, const Identification& identification, int& exit_code) {
+    auto options = std::make_shared<IdentifyOptions>();
+    CLI::App* command =
+        parent.add_subcommand(std::string(identification.name), std::string(identification.help));
+    command->add_option("RECORDING", options->recordings, "Recording folders, or folders that hold some")
+        ->option_text("...");
+    command->add_option("--table", options->table, "A text table in place of recordings")->type_name("FILE");
+    command
+        ->add_option(
+            "--columns", options->columns,
+            fmt::format(
+                "ROLE=COLUMN,...: a column's number or title, its unit in brackets: input=1,output=5[um]; "
+                "roles: {}",
+                fmt::join(identification.roles, ", ")))
+        ->type_name("COLUMNS");
+    command->add_option("--rate-hz", options->rate_hz, "Rows of the table a second")->type_name("HZ");
+    add_rig_option(*command, options->rig_file);
+    command->add_option("--json", options->json, "New file for values, standard errors and residuals")
+        ->type_name("FILE");
+    command->add_option("--write-rig", options->write_rig, "New rig file with the identified values")
+        ->type_name("FILE.yaml");
+    add_example(*command, fmt::format("fidservo {} {} recordings/ --write-rig identified.yaml",
+                                      parent.get_name(), identification.name));
+    command->callback(
+        [options, &identification, &exit_code] { exit_code = run_identification(*options, identification); });
+}
+
+void add_group(CLI::App& app, const std::string& name, const std::string& help,
+               std::span<const Identification> members, int& exit_code) {
+    CLI::App* group = app.add_subcommand(name, help);
+    group->require_subcommand(0, 1);
+    for (const Identification& member : members) add_identification(*group, member, exit_code);
+    group->callback([group, name, members] {
+        std::vector<std::string_view> names(members.size());
+        std::ranges::transform(members, names.begin(), &Identification::name);
+        if (group->get_subcommands().empty())
+            throw InputError(fmt::format("{}: what? One of: {}", name, fmt::join(names, ", ")));
+    });
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app, int& exit_code) {
+    add_group(app, "identify", "Identify a model's numbers from recordings", identifications, exit_code);
+}
+
+void add_calibrate(CLI::App& app, int& exit_code) {
+    add_group(app, "calibrate", "Calibrate a sensor from recordings", calibrations, exit_code);
+}
+
+}  // namespace fidservo

@@ -1,0 +1,138 @@
+#include "src/config/rig_edit.h"
+
+#include "core/failure.h"
+#include "src/config/fod_file.h"
+#include "src/config/rig_file.h"
+#include "src/recording/durable_file.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+namespace fidservo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* numerator_key = "velocity_numerator_count_per_V";
+
+std::string digits_of(double value) {
+    return fmt::format("{:.9g}", value);
+}
+
+/// Makes the value at a dotted path, below `node`.
+void set_below(YAML::Node node, std::string_view key, const std::string& value) {
+    const auto dot = key.find('.');
+    const std::string first(key.substr(0, dot));
+    if (dot == std::string_view::npos)
+        node[first] = value;
+    else
+        set_below(node[first], key.substr(dot + 1), value);
+}
+
+void write_new(const fs::path& file, const std::string& text) {
+    if (const Status written = write_durably(file, text); !written) throw RunFault(written.error().text);
+}
+
+void demand_new(const fs::path& file) {
+    std::error_code error;
+    if (fs::symlink_status(file, error).type() != fs::file_type::not_found)
+        throw InputError(fmt::format("{}: exists already; give the name of a new file", file.string()));
+}
+
+/// The numerator of the transfer function repeats gain, pole, tick and resolution; it follows them.
+void update_numerator(YAML::Node root) {
+    YAML::Node macro = root["macro"];
+    if (!macro[numerator_key]) return;
+    const double numerator = macro["velocity_gain_mm_per_s_per_V"].as<double>() *
+                             (1.0 - macro["velocity_pole"].as<double>()) * root["tick_s"].as<double>() /
+                             macro["encoder_resolution_mm"].as<double>();
+    macro[numerator_key] = digits_of(numerator);
+}
+
+YAML::Node map_of(const std::vector<std::pair<std::string, double>>& values) {
+    YAML::Node map(YAML::NodeType::Map);
+    for (const auto& [key, value] : values)
+        if (std::isfinite(value)) map[key] = digits_of(value);
+    return map;
+}
+
+}  // namespace
+
+struct RigEdit::Impl {
+    fs::path source;
+    YAML::Node root;
+    std::shared_ptr<const FodTable> fod;
+};
+
+RigEdit::RigEdit(const fs::path& source) : impl_(std::make_unique<Impl>()) {
+    load_rig(source);
+    impl_->source = source;
+    impl_->root = YAML::LoadFile(source.string());
+}
+
+RigEdit::~RigEdit() = default;
+
+void RigEdit::set(std::string_view key, double value) {
+    set_below(impl_->root, key, digits_of(value));
+}
+
+void RigEdit::state_effect(const StatedEffect& effect) {
+    YAML::Node entry(YAML::NodeType::Map);
+    entry.SetStyle(YAML::EmitterStyle::Flow);
+    entry["name"] = effect.name;
+    for (const StatedEffect::Parameter& parameter : effect.parameters)
+        entry[parameter.name] = digits_of(parameter.value);
+    YAML::Node effects = impl_->root["effects"];
+    for (std::size_t i = 0; i < effects.size(); ++i)
+        if (effects[i]["name"].as<std::string>() == effect.name) {
+            effects[i] = entry;
+            return;
+        }
+    effects.push_back(entry);
+}
+
+void RigEdit::set_fod(std::shared_ptr<const FodTable> table) {
+    impl_->fod = std::move(table);
+}
+
+void RigEdit::set_provenance(const RigProvenance& provenance) {
+    YAML::Node part = impl_->root["identified"][provenance.part];
+    part["recordings"] = provenance.recordings;
+    part["standard_errors"] = map_of(provenance.standard_errors);
+    part["residual_rms"] = map_of(provenance.residuals);
+}
+
+void RigEdit::save(const fs::path& file) const {
+    const Impl& edit = *impl_;
+    YAML::Node root = YAML::Clone(edit.root);
+    update_numerator(root);
+    const fs::path folder = fs::absolute(file).parent_path();
+    const fs::path fod_file = folder / (file.stem().string() + "_fod.csv");
+    demand_new(file);
+    if (edit.fod) {
+        demand_new(fod_file);
+        root["micro"]["preisach_fod"] = fod_file.filename().string();
+    } else if (root["micro"]) {
+        const fs::path table =
+            fs::absolute(edit.source).parent_path() / root["micro"]["preisach_fod"].as<std::string>();
+        root["micro"]["preisach_fod"] = fs::proximate(table, folder).string();
+    }
+    YAML::Emitter text;
+    text << root;
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (edit.fod) write_new(fod_file, fod_text(*edit.fod));
+    write_new(file, std::string(text.c_str()) + '\n');
+    try {
+        load_rig(file);
+    } catch (const InputError&) {
+        fs::remove(file);
+        if (edit.fod) fs::remove(fod_file);
+        throw;
+    }
+}
+
+}  // namespace fidservo

@@ -1,0 +1,95 @@
+#include "src/identify/identified.h"
+
+#include "src/config/rig_edit.h"
+#include "src/recording/durable_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace fidservo {
+
+namespace {
+
+nlohmann::json finite_or_null(double value) {
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+/// As many digits as the standard error has meaning.
+std::string with_error(double value, double std) {
+    if (!std::isfinite(std) || std <= 0.0) return fmt::format("{:.6g}", value);
+    const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(std))), 0, 12);
+    return fmt::format("{:.{}f} +- {:.{}f}", value, decimals, std, decimals);
+}
+
+std::string describe(const FitResidual& residual) {
+    std::string text = fmt::format("{} {:.4g} {} r.m.s.", residual.signal, residual.rms, residual.unit);
+    if (residual.floor) text += fmt::format(" (noise and rounding: {:.4g})", *residual.floor);
+    return text;
+}
+
+}  // namespace
+
+std::string describe(const Identified& identified) {
+    std::size_t width = 0;
+    for (const IdentifiedValue& value : identified.values) width = std::max(width, value.key.size());
+    std::string text = fmt::format("{}, from {}\n", identified.part, fmt::join(identified.recordings, ", "));
+    for (const IdentifiedValue& value : identified.values)
+        text += fmt::format("  {:<{}}  {} {}\n", value.key, width, with_error(value.value, value.std),
+                            value.unit);
+    for (const FitResidual& residual : identified.residuals)
+        text += fmt::format("  residual: {}\n", describe(residual));
+    for (const std::string& note : identified.notes) text += fmt::format("  {}\n", note);
+    for (const Undetermined& undetermined : identified.undetermined)
+        text += fmt::format("  not determined: {}: {}\n", undetermined.key, undetermined.reason);
+    return text;
+}
+
+void write_identification_json(const std::filesystem::path& file, const Identified& identified) {
+    nlohmann::ordered_json json{
+        {"format", "fidservo-identification/1"}, {"part", identified.part},
+        {"recordings", identified.recordings},   {"values", nlohmann::json::array()},
+        {"residuals", nlohmann::json::array()},  {"undetermined", nlohmann::json::array()},
+        {"effects", nlohmann::json::array()},    {"notes", identified.notes}};
+    for (const IdentifiedValue& value : identified.values)
+        json["values"].push_back({{"key", value.key},
+                                  {"unit", value.unit},
+                                  {"value", finite_or_null(value.value)},
+                                  {"std", finite_or_null(value.std)}});
+    for (const FitResidual& residual : identified.residuals)
+        json["residuals"].push_back({{"signal", residual.signal},
+                                     {"unit", residual.unit},
+                                     {"rms", finite_or_null(residual.rms)},
+                                     {"floor", finite_or_null(residual.floor.value_or(NAN))}});
+    for (const Undetermined& undetermined : identified.undetermined)
+        json["undetermined"].push_back({{"key", undetermined.key}, {"reason", undetermined.reason}});
+    for (const StatedEffect& effect : identified.effects) {
+        nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
+        for (const StatedEffect::Parameter& parameter : effect.parameters)
+            parameters[parameter.name] = parameter.value;
+        json["effects"].push_back({{"name", effect.name}, {"parameters", parameters}});
+    }
+    if (const Status written = write_durably(file, json.dump(2) + '\n'); !written)
+        throw RunFault(written.error().text);
+}
+
+void write_identified_rig(const std::filesystem::path& file, const std::filesystem::path& source_rig_file,
+                          const Identified& identified) {
+    RigEdit edit(source_rig_file);
+    RigProvenance provenance{identified.part, identified.recordings, {}, {}};
+    for (const IdentifiedValue& value : identified.values) {
+        if (value.in_rig_file) edit.set(value.key, value.value);
+        provenance.standard_errors.emplace_back(value.key, value.std);
+    }
+    for (const FitResidual& residual : identified.residuals)
+        provenance.residuals.emplace_back(fmt::format("{}_{}", residual.signal, residual.unit), residual.rms);
+    for (const StatedEffect& effect : identified.effects) edit.state_effect(effect);
+    if (identified.fod) edit.set_fod(identified.fod);
+    edit.set_provenance(provenance);
+    edit.save(file);
+}
+
+}  // namespace fidservo

@@ -1,0 +1,55 @@
+#include "src/identify/input.h"
+
+#include "core/failure.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace fidservo {
+
+std::vector<double> table_times_s(const IdentifyInput& input) {
+    const TextTable& table = input.table.value();
+    if (table.find("time") == nullptr) {
+        FIDSERVO_DEMAND(input.table_rate_hz > 0.0);
+        std::vector<double> times_s(table.rows());
+        for (std::size_t k = 0; k < times_s.size(); ++k)
+            times_s[k] = static_cast<double>(k) / input.table_rate_hz;
+        return times_s;
+    }
+    std::vector<double> times_s = values_in(table, "time", "s");
+    for (std::size_t k = 1; k < times_s.size(); ++k)
+        if (times_s[k] <= times_s[k - 1])
+            throw InputError(fmt::format("{}: row {}: time: {}: must be after the row before, {}",
+                                         table.file.string(), k + 1, times_s[k], times_s[k - 1]));
+    return times_s;
+}
+
+Recording table_as_macro_recording(const IdentifyInput& input) {
+    const TextTable& table = input.table.value();
+    const std::vector<double> times_s = table_times_s(input);
+    const std::vector<double> command_V = values_in(table, "input", "V");
+    const std::vector<double> position_mm = values_in(table, "output", "mm");
+    Recording recording;
+    recording.name = table.file.filename().string();
+    recording.rig = input.rig.name;
+    recording.tick_s = times_s.size() < 2
+                           ? input.rig.tick_s
+                           : (times_s.back() - times_s.front()) / static_cast<double>(times_s.size() - 1);
+    recording.columns.macro_command = recording.columns.position = true;
+    recording.rows.resize(times_s.size());
+    for (std::size_t k = 0; k < times_s.size(); ++k) {
+        constexpr double largest_jitter = 0.01;
+        const double regular_s = times_s.front() + static_cast<double>(k) * recording.tick_s;
+        if (std::abs(times_s[k] - regular_s) > largest_jitter * recording.tick_s)
+            throw InputError(
+                fmt::format("{}: row {}: time: {}: rows must be equally spaced; {:.9g} was expected",
+                            table.file.string(), k + 1, times_s[k], regular_s));
+        recording.rows[k].time_ns = nanoseconds(times_s[k]);
+        recording.rows[k].macro_command_V = command_V[k];
+        recording.rows[k].position_mm = position_mm[k];
+    }
+    return recording;
+}
+
+}  // namespace fidservo

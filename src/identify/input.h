@@ -1,0 +1,26 @@
+#pragma once
+// What identifications read: recordings of a rig, or a text table.
+#include "core/recording.h"
+#include "core/rig.h"
+#include "src/identify/text_table.h"
+
+#include <optional>
+#include <vector>
+
+namespace fidservo {
+
+struct IdentifyInput {
+    Rig rig;                            ///< the numbers that are believed so far
+    std::vector<Recording> recordings;  ///< empty if a table is given
+    std::optional<TextTable> table;
+    double table_rate_hz = 0.0;  ///< rows a second; 0: the table has a column with the role time
+};
+
+/// Times in s of a table's rows. Throws InputError where time does not increase.
+std::vector<double> table_times_s(const IdentifyInput& input);
+
+/// A table as a recording of the macro stage: roles input [V] and output [mm]. A row a tick; throws
+/// InputError unless the times are equally spaced to 1 %.
+Recording table_as_macro_recording(const IdentifyInput& input);
+
+}  // namespace fidservo
