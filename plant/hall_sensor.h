@@ -19,6 +19,7 @@ HallSensor make_hall_sensor(const HallParameters& parameters);
 double mean_reading_lsb(const HallSensor& sensor, double position_mm);
 
 /// One reading. Draws once from the noise, whatever the parameters are.
-int sample(const HallSensor& sensor, NoiseStream& noise, double position_mm);
+/// @param disturbance_V  added to the curve's voltage
+int sample(const HallSensor& sensor, NoiseStream& noise, double position_mm, double disturbance_V = 0.0);
 
 }  // namespace fidservo::plant

@@ -2,21 +2,63 @@
 
 #include "core/failure.h"
 #include "core/micro_model.h"
+#include "plant/thermal_pair.h"
 
 #include <cmath>
 
 namespace fidservo::plant {
 
-Heater make_heater(const HeaterParameters& parameters, double tick_s) {
+namespace {
+
+/// Any part of a tick, with or without a second mass.
+void heat(const Heater& heater, HeaterState& state, double command_V, double time_s) {
+    const HeaterParameters& wire = heater.parameters;
+    if (heater.mass.coupling == 0.0) {
+        state.temp_degC = heater_step_degC(wire, state.temp_degC, command_V, time_s);
+        return;
+    }
+    const ThermalPair pair{wire.heating_tau_s, wire.cooling_tau_s, heater.mass.coupling, heater.mass.tau_s,
+                           heater.mass.retention};
+    const Eigen::Vector2d rise_degC =
+        advance(pair, {state.temp_degC - wire.ambient_degC, state.mass_rise_degC},
+                heater_rise_degC(wire, command_V), time_s);
+    state.temp_degC = wire.ambient_degC + rise_degC.x();
+    state.mass_rise_degC = rise_degC.y();
+}
+
+}  // namespace
+
+Heater make_heater(const HeaterParameters& parameters, double tick_s, const SecondMass& mass,
+                   double delay_s) {
     FIDSERVO_DEMAND(tick_s > 0.0 && parameters.heating_tau_s > 0.0 && parameters.cooling_tau_s > 0.0);
-    return {parameters, -std::expm1(-tick_s / parameters.heating_tau_s),
-            -std::expm1(-tick_s / parameters.cooling_tau_s)};
+    FIDSERVO_DEMAND(mass.coupling >= 0.0 && mass.tau_s > 0.0 && delay_s >= 0.0);
+    return {parameters,
+            -std::expm1(-tick_s / parameters.heating_tau_s),
+            -std::expm1(-tick_s / parameters.cooling_tau_s),
+            tick_s,
+            mass,
+            delay_s,
+            mass.coupling == 0.0 && delay_s == 0.0};
+}
+
+HeaterState start(const Heater& heater) {
+    HeaterState state{heater.parameters.ambient_degC};
+    if (heater.delay_s > 0.0) state.line = start_delay_line(heater.delay_s, heater.tick_s);
+    return state;
 }
 
 void advance(const Heater& heater, HeaterState& state, double command_V) {
-    const double way_degC =
-        heater_rise_degC(heater.parameters, command_V) - (state.temp_degC - heater.parameters.ambient_degC);
-    state.temp_degC += way_degC * (way_degC > 0.0 ? heater.heating_share : heater.cooling_share);
+    if (heater.is_plain) {
+        const double way_degC = heater_rise_degC(heater.parameters, command_V) -
+                                (state.temp_degC - heater.parameters.ambient_degC);
+        state.temp_degC += way_degC * (way_degC > 0.0 ? heater.heating_share : heater.cooling_share);
+        return;
+    }
+    const auto heated = [&](double acting_V, double time_s) { heat(heater, state, acting_V, time_s); };
+    if (heater.delay_s == 0.0)
+        heated(command_V, heater.tick_s);
+    else
+        pass(state.line, heater.delay_s, heater.tick_s, command_V, heated);
 }
 
 }  // namespace fidservo::plant

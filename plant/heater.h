@@ -7,23 +7,42 @@
 // phi is held over a tick, and T - Ta approaches it without crossing it: whether the wire heats or cools
 // cannot change within a tick, and an exponential with one tau is the exact solution.
 //
-// This is heater_step_degC of core/micro_model.h with the exponentials taken once.
+// This is heater_step_degC of core/micro_model.h with the exponentials taken once. A wire that shares its
+// heat with a second mass follows plant/thermal_pair.h instead; a heater that acts late, plant/delay_line.h.
 #include "core/rig.h"
+#include "plant/delay_line.h"
 
 namespace fidservo::plant {
+
+/// Plates or a mount that the wire warms: plant/thermal_pair.h. Without coupling there is none.
+struct SecondMass {
+    double coupling = 0.0;
+    double tau_s = 20.0;
+    double retention = 1.0;
+};
 
 /// Parameters and what follows from them for one tick. Immutable.
 struct Heater {
     HeaterParameters parameters;
     double heating_share;  ///< 1 - exp(-T / heating tau): the part of the way to phi that a tick covers
     double cooling_share;
+    double tick_s;
+    SecondMass mass;
+    double delay_s;  ///< from a command to its effect
+    bool is_plain;   ///< neither second mass nor delay
 };
 
 struct HeaterState {
     double temp_degC;
+    double mass_rise_degC = 0.0;  ///< of the second mass above ambient
+    DelayLineState line = {};
 };
 
-Heater make_heater(const HeaterParameters& parameters, double tick_s);
+Heater make_heater(const HeaterParameters& parameters, double tick_s, const SecondMass& mass = {},
+                   double delay_s = 0.0);
+
+/// All at ambient temperature.
+HeaterState start(const Heater& heater);
 
 /// One tick under a held command in V.
 void advance(const Heater& heater, HeaterState& state, double command_V);

@@ -90,10 +90,13 @@ MacroAxis make_macro_axis(const MacroAxisParameters& parameters, double tick_s) 
     return {parameters, tick_s, 1.0 - lost, parameters.time_constant_s * lost};
 }
 
-double effective_voltage_V(const MacroAxisParameters& parameters, double command_V) {
+double drive_voltage_V(const MacroAxisParameters& parameters, double command_V) {
     const double limit_V = parameters.command_limit_V;
-    const double drive_V =
-        parameters.drive_gain * std::clamp(command_V, -limit_V, limit_V) + parameters.drive_bias_V;
+    return parameters.drive_gain * std::clamp(command_V, -limit_V, limit_V);
+}
+
+double effective_voltage_V(const MacroAxisParameters& parameters, double command_V) {
+    const double drive_V = drive_voltage_V(parameters, command_V) + parameters.drive_bias_V;
     const DeadZone& zone = parameters.dead_zone;
     const double size_V = std::abs(drive_V);
     if (size_V < zone.threshold_V || size_V == 0.0) return 0.0;

@@ -41,6 +41,9 @@ MacroAxisParameters macro_axis_parameters(const Rig& rig);
 
 MacroAxis make_macro_axis(const MacroAxisParameters& parameters, double tick_s);
 
+/// What the drive puts out, in V: the amplified command, without forces on the carriage.
+double drive_voltage_V(const MacroAxisParameters& parameters, double command_V);
+
 /// The voltage V that is left for motion of a command u, both in V.
 double effective_voltage_V(const MacroAxisParameters& parameters, double command_V);
 

@@ -2,7 +2,21 @@
 
 #include "core/failure.h"
 
+#include <algorithm>
+
 namespace fidservo::plant {
+
+namespace {
+
+double hall_disturbance_V(const MicroStage& stage, const MicroStageState& state) {
+    const HallDisturbance& disturbance = stage.hall_disturbance;
+    if (disturbance.is_none()) return 0.0;
+    constexpr double limit_V = HallDisturbance::drift_limit_V;
+    return std::clamp(disturbance.drift_V_per_s * seconds(state.time_ns), -limit_V, limit_V) +
+           disturbance.leak_V_per_V * state.drive_V;
+}
+
+}  // namespace
 
 std::optional<MicroStageParameters> micro_stage_parameters(const Rig& rig) {
     if (!rig.micro) return std::nullopt;
@@ -11,20 +25,40 @@ std::optional<MicroStageParameters> micro_stage_parameters(const Rig& rig) {
 
 MicroStage make_micro_stage(const MicroStageParameters& parameters, double tick_s) {
     FIDSERVO_DEMAND(parameters.fod != nullptr);
-    return {make_heater(parameters.heater, tick_s), parameters.fod, parameters.stroke_factor,
-            make_hall_sensor(parameters.hall)};
+    MicroStage stage{make_heater(parameters.heater, tick_s, parameters.mass, parameters.heater_delay_s),
+                     parameters.fod,
+                     parameters.table_shift_degC,
+                     parameters.stroke_factor,
+                     std::nullopt,
+                     make_hall_sensor(parameters.hall),
+                     parameters.hall_disturbance,
+                     nanoseconds(tick_s)};
+    if (parameters.swing.gain != 0.0) stage.swing = make_platform_swing(parameters.swing, tick_s);
+    return stage;
 }
 
 MicroStageState start(const MicroStage& stage, std::uint64_t seed) {
-    const double ambient_degC = stage.heater.parameters.ambient_degC;
-    MicroStageState state{{ambient_degC}, preisach_start(*stage.fod, ambient_degC), 0.0, {seed, "hall"}};
+    const double table_degC = stage.heater.parameters.ambient_degC - stage.table_shift_degC;
+    MicroStageState state{start(stage.heater), preisach_start(*stage.fod, table_degC), 0.0, {seed, "hall"}};
     state.position_mm = stage.stroke_factor * state.wire.contraction_mm;
     return state;
 }
 
-void advance(const MicroStage& stage, MicroStageState& state, double command_V) {
+int sample(const MicroStage& stage, MicroStageState& state) {
+    return sample(stage.hall, state.hall_noise, state.position_mm, hall_disturbance_V(stage, state));
+}
+
+void advance(const MicroStage& stage, MicroStageState& state, double command_V,
+             const CarriageInfluence& carriage) {
     advance(stage.heater, state.heater, command_V);
-    state.position_mm = stage.stroke_factor * preisach_step(*stage.fod, state.wire, state.heater.temp_degC);
+    const double table_degC = state.heater.temp_degC - stage.table_shift_degC;
+    state.position_mm = stage.stroke_factor * preisach_step(*stage.fod, state.wire, table_degC);
+    if (stage.swing) {
+        advance(*stage.swing, state.swing, carriage.acceleration_mm_per_s2);
+        state.position_mm += state.swing.position_mm;
+    }
+    state.time_ns += stage.tick_ns;
+    state.drive_V = carriage.drive_V;
 }
 
 }  // namespace fidservo::plant

@@ -1,28 +1,55 @@
 #pragma once
 // The micro stage: heater -> wire with hysteresis -> flexure platform -> Hall sensor. The platform moves with
-// the wire:  x = stroke factor * Preisach(T).
+// the wire, and swings about it when the carriage accelerates:
+//
+//     x = stroke factor * Preisach(T - table shift) + z           z: plant/platform_swing.h
+//     V = Hall(x) + clamp(drift t, -1 V, 1 V) + leak * u          t from the start, u: the macro drive's
+//     voltage
 #include "core/preisach.h"
+#include "core/time.h"
 #include "plant/hall_sensor.h"
 #include "plant/heater.h"
+#include "plant/platform_swing.h"
 
 #include <memory>
 #include <optional>
 
 namespace fidservo::plant {
 
+/// What comes to the Hall sensor's voltage beside the platform's position.
+struct HallDisturbance {
+    static constexpr double drift_limit_V = 1.0;
+    double drift_V_per_s = 0.0;
+    double leak_V_per_V = 0.0;  ///< of the macro drive
+
+    bool is_none() const { return drift_V_per_s == 0.0 && leak_V_per_V == 0.0; }
+};
+
 struct MicroStageParameters {
     HeaterParameters heater;
+    SecondMass mass = {};
+    double heater_delay_s = 0.0;
     std::shared_ptr<const FodTable> fod;
-    double stroke_factor = 1.0;  ///< contraction per contraction of the table
+    double table_shift_degC = 0.0;  ///< of the transformation temperatures against the table
+    double stroke_factor = 1.0;     ///< contraction per contraction of the table
+    SwingParameters swing = {};
     HallParameters hall;
+    HallDisturbance hall_disturbance = {};
 };
 
 /// Immutable.
 struct MicroStage {
     Heater heater;
     std::shared_ptr<const FodTable> fod;
+    double table_shift_degC;
     double stroke_factor;
+    std::optional<PlatformSwing> swing;  ///< empty: none
     HallSensor hall;
+    HallDisturbance hall_disturbance;
+    TimeNs tick_ns;
+
+    /// Whether a tick depends on what the carriage does.
+    bool feels_carriage() const { return swing || hall_disturbance.leak_V_per_V != 0.0; }
 };
 
 struct MicroStageState {
@@ -30,6 +57,15 @@ struct MicroStageState {
     PreisachMemory wire;
     double position_mm;  ///< of the platform, 0 where the wire is fully extended
     NoiseStream hall_noise;
+    SwingState swing = {};  ///< contained in position_mm
+    TimeNs time_ns = 0;
+    double drive_V = 0.0;  ///< the macro drive's voltage in the last tick
+};
+
+/// What the carriage does to the platform on it during a tick.
+struct CarriageInfluence {
+    double acceleration_mm_per_s2 = 0.0;  ///< mean over the tick
+    double drive_V = 0.0;                 ///< voltage of the macro drive
 };
 
 /// The micro stage of a rig, without effects; empty if it has none.
@@ -40,7 +76,11 @@ MicroStage make_micro_stage(const MicroStageParameters& parameters, double tick_
 /// A wire that was cold for long: at ambient temperature, fully extended.
 MicroStageState start(const MicroStage& stage, std::uint64_t seed);
 
+/// One reading of the Hall sensor, in LSB. Draws once from its noise.
+int sample(const MicroStage& stage, MicroStageState& state);
+
 /// One tick under a held command in V. The cost does not grow with the run (core/preisach.h).
-void advance(const MicroStage& stage, MicroStageState& state, double command_V);
+void advance(const MicroStage& stage, MicroStageState& state, double command_V,
+             const CarriageInfluence& carriage = {});
 
 }  // namespace fidservo::plant

@@ -40,14 +40,19 @@ StageState start(const StagePlant& plant, double carriage_mm, std::uint64_t seed
 
 StageReading sample(const StagePlant& plant, StageState& state) {
     StageReading reading{sample(plant.encoder, state.encoder, state.axis.position_mm), 0};
-    if (state.micro)
-        reading.hall_adc = sample(plant.micro->hall, state.micro->hall_noise, state.micro->position_mm);
+    if (state.micro) reading.hall_adc = sample(*plant.micro, *state.micro);
     return reading;
 }
 
 void advance(const StagePlant& plant, StageState& state, double macro_V, double micro_V) {
+    const double before_mm_per_s = state.axis.velocity_mm_per_s;
     advance(plant.axis, state.axis, macro_V);
-    if (state.micro) advance(*plant.micro, *state.micro, micro_V);
+    if (!state.micro) return;
+    CarriageInfluence carriage;
+    if (plant.micro->feels_carriage())
+        carriage = {(state.axis.velocity_mm_per_s - before_mm_per_s) / plant.tick_s,
+                    drive_voltage_V(plant.axis.parameters, macro_V)};
+    advance(*plant.micro, *state.micro, micro_V, carriage);
 }
 
 double camera_position_mm(const StageState& state) {

@@ -11,18 +11,24 @@ namespace fidservo::plant {
 namespace effects {
 
 extern const Effect drive_gain, drive_offset, viscous_friction, payload, encoder_scale, ambient_temperature,
-    airflow, heater_gain, stroke_change, hall_gain, hall_offset, hall_nonlinearity, camera_latency;
+    airflow, heater_gain, heating_lag, second_thermal_mass, heater_delay, stress_shift, stroke_change,
+    macro_coupling, hall_gain, hall_offset, hall_nonlinearity, hall_drift, hall_crosstalk, camera_latency;
 
 }  // namespace effects
 
 namespace {
 
 constinit const std::array catalogue{
-    &effects::drive_gain,     &effects::drive_offset,  &effects::viscous_friction,
-    &effects::payload,        &effects::encoder_scale, &effects::ambient_temperature,
-    &effects::airflow,        &effects::heater_gain,   &effects::stroke_change,
-    &effects::hall_gain,      &effects::hall_offset,   &effects::hall_nonlinearity,
-    &effects::camera_latency,
+    &effects::drive_gain,        &effects::drive_offset,
+    &effects::viscous_friction,  &effects::payload,
+    &effects::encoder_scale,     &effects::ambient_temperature,
+    &effects::airflow,           &effects::heater_gain,
+    &effects::heating_lag,       &effects::second_thermal_mass,
+    &effects::heater_delay,      &effects::stress_shift,
+    &effects::stroke_change,     &effects::macro_coupling,
+    &effects::hall_gain,         &effects::hall_offset,
+    &effects::hall_nonlinearity, &effects::hall_drift,
+    &effects::hall_crosstalk,    &effects::camera_latency,
 };
 
 /// Whether the rig has the part that a block belongs to.

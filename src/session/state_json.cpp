@@ -33,12 +33,34 @@ void read_json(const json& from, HeaterParameters& heater) {
     heater = {from.at(0), from.at(1), from.at(2), from.at(3), from.at(4), from.at(5)};
 }
 
+json json_of(const plant::DelayLineState& line) {
+    json pending = json::array();
+    for (const auto& change : line.pending) pending.push_back({change.given_ns, change.command});
+    return {{"pending", pending},  {"first", line.first},   {"count", line.count},
+            {"given", line.given}, {"acting", line.acting}, {"now_ns", line.now_ns}};
+}
+
+void read_json(const json& from, plant::DelayLineState& line) {
+    line.pending.clear();
+    for (const json& change : from.at("pending")) line.pending.push_back({change.at(0), change.at(1)});
+    line.first = from.at("first");
+    line.count = from.at("count");
+    line.given = from.at("given");
+    line.acting = from.at("acting");
+    line.now_ns = from.at("now_ns");
+}
+
 json json_of(const plant::StageState& state) {
     json result{{"carriage_mm", state.axis.position_mm},
                 {"velocity_mm_per_s", state.axis.velocity_mm_per_s},
                 {"encoder_origin", state.encoder.origin_count}};
     if (state.micro) {
         result["wire_degC"] = state.micro->heater.temp_degC;
+        result["mass_rise_degC"] = state.micro->heater.mass_rise_degC;
+        result["heater_line"] = json_of(state.micro->heater.line);
+        result["swing"] = {state.micro->swing.position_mm, state.micro->swing.velocity_mm_per_s};
+        result["time_ns"] = state.micro->time_ns;
+        result["drive_V"] = state.micro->drive_V;
         result["wire"] = json_of(state.micro->wire);
         result["platform_mm"] = state.micro->position_mm;
         result["hall_noise"] = state.micro->hall_noise.position();
@@ -52,6 +74,11 @@ void read_json(const json& from, plant::StageState& state) {
     state.encoder.origin_count = from.at("encoder_origin");
     if (!state.micro) return;
     state.micro->heater.temp_degC = from.at("wire_degC");
+    state.micro->heater.mass_rise_degC = from.at("mass_rise_degC");
+    read_json(from.at("heater_line"), state.micro->heater.line);
+    state.micro->swing = {from.at("swing").at(0), from.at("swing").at(1)};
+    state.micro->time_ns = from.at("time_ns");
+    state.micro->drive_V = from.at("drive_V");
     read_json(from.at("wire"), state.micro->wire);
     state.micro->position_mm = from.at("platform_mm");
     state.micro->hall_noise.seek(from.at("hall_noise"));

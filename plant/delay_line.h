@@ -1,0 +1,59 @@
+#pragma once
+// A command that acts late by any time, not only by whole ticks: what was given at t acts from t + delay on,
+// which may be within a tick. Before the first one 0 is in force.
+#include "core/failure.h"
+#include "core/time.h"
+
+#include <cmath>
+#include <vector>
+
+namespace fidservo::plant {
+
+struct DelayLineState {
+    struct Change {
+        TimeNs given_ns;
+        double command;
+    };
+    std::vector<Change> pending;  ///< a ring; its size is fixed at the start
+    std::size_t first = 0, count = 0;
+    double given = 0.0;   ///< the last command
+    double acting = 0.0;  ///< the one in force
+    TimeNs now_ns = 0;
+};
+
+/// A line on which nothing was ever given. Changes at up to every tick find room.
+inline DelayLineState start_delay_line(double delay_s, double tick_s) {
+    constexpr std::size_t spare = 4;  // frames end ticks early, twice at most
+    DelayLineState state;
+    state.pending.resize(static_cast<std::size_t>(std::ceil(delay_s / tick_s)) + spare);
+    return state;
+}
+
+/// Gives a command that is held over a tick, and calls piece(command, duration_s) for all that acts during
+/// it, one after the other. Does not allocate.
+template <class Piece>
+void pass(DelayLineState& state, double delay_s, double tick_s, double command, Piece piece) {
+    const std::size_t size = state.pending.size();
+    if (command != state.given) {
+        FIDSERVO_DEMAND(state.count < size);
+        state.pending[(state.first + state.count++) % size] = {state.now_ns, command};
+        state.given = command;
+    }
+    double done_s = 0.0;
+    while (state.count > 0) {
+        const DelayLineState::Change& next = state.pending[state.first];
+        const double acts_s = seconds(next.given_ns - state.now_ns) + delay_s;
+        if (acts_s >= tick_s) break;
+        if (acts_s > done_s) {
+            piece(state.acting, acts_s - done_s);
+            done_s = acts_s;
+        }
+        state.acting = next.command;
+        state.first = (state.first + 1) % size;
+        --state.count;
+    }
+    piece(state.acting, tick_s - done_s);
+    state.now_ns += nanoseconds(tick_s);
+}
+
+}  // namespace fidservo::plant

@@ -1,0 +1,30 @@
+#include "plant/effects/effect.h"
+
+namespace fidservo::plant::effects {
+
+namespace {
+
+constexpr EffectParameter parameters[] = {
+    {"leak_mV_per_V", "mV/V", -50.0, 50.0, 0.0, 4.0,
+     "voltage on the sensor's line per volt of the macro drive"},
+};
+
+void apply(PlantParameters& plant, std::span<const double> values) {
+    constexpr double V_per_mV = 1e-3;
+    plant.micro->hall_disturbance.leak_V_per_V += V_per_mV * values[0];
+}
+
+}  // namespace
+
+extern constexpr Effect hall_crosstalk{
+    .name = "hall_crosstalk",
+    .block = "micro.hall",
+    .text =
+        "The macro drive's voltage u leaks into the reading: V = nominal V + leak u, u as it stood on "
+        "the drive up to the sampling instant.",
+    .source = "Ott, Electromagnetic Compatibility Engineering, 2009, ch. 2 and 3: common impedance coupling",
+    .parameters = parameters,
+    .apply = apply,
+};
+
+}  // namespace fidservo::plant::effects

@@ -1,0 +1,31 @@
+#include "plant/effects/effect.h"
+
+namespace fidservo::plant::effects {
+
+namespace {
+
+constexpr EffectParameter parameters[] = {
+    {"rate_mV_per_s", "mV/s", -20.0, 20.0, 0.0, 1.0, "of the sensor's zero, from the start of the run"},
+};
+
+void apply(PlantParameters& plant, std::span<const double> values) {
+    constexpr double V_per_mV = 1e-3;
+    plant.micro->hall_disturbance.drift_V_per_s += V_per_mV * values[0];
+}
+
+}  // namespace
+
+extern constexpr Effect hall_drift{
+    .name = "hall_drift",
+    .block = "micro.hall",
+    .text =
+        "The sensor's zero moves with time: V = nominal V + rate t, t from the start of the run, up "
+        "to 1 V either way.",
+    .source =
+        "Popovic, Hall Effect Devices, 2nd ed., 2004, ch. 5: offset drift by temperature and package "
+        "stress",
+    .parameters = parameters,
+    .apply = apply,
+};
+
+}  // namespace fidservo::plant::effects

@@ -1,0 +1,31 @@
+#include "plant/effects/effect.h"
+
+namespace fidservo::plant::effects {
+
+namespace {
+
+constexpr EffectParameter parameters[] = {
+    {"shift_degC", "degC", -40.0, 40.0, 0.0, 6.0, "of all transformation temperatures, upwards with load"},
+};
+
+void apply(PlantParameters& plant, std::span<const double> values) {
+    plant.micro->table_shift_degC += values[0];
+}
+
+}  // namespace
+
+extern constexpr Effect stress_shift{
+    .name = "stress_shift",
+    .block = "micro.hysteresis",
+    .text =
+        "Load on the wire moves its transformation temperatures by (load stress - nominal stress) / "
+        "C, C some 7 MPa/degC for NiTi: x = f(T - shift). A warmer room does the same with the other "
+        "sign.",
+    .source =
+        "Clausius-Clapeyron relation for martensitic transformations: Wollants, De Bonte, Roos, Z. "
+        "Metallkunde 70, 1979; Otsuka, Wayman (eds.), Shape Memory Materials, 1998, ch. 1",
+    .parameters = parameters,
+    .apply = apply,
+};
+
+}  // namespace fidservo::plant::effects

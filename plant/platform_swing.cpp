@@ -1,0 +1,30 @@
+#include "plant/platform_swing.h"
+
+#include "core/failure.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace fidservo::plant {
+
+PlatformSwing make_platform_swing(const SwingParameters& parameters, double tick_s) {
+    const double w = 2.0 * std::numbers::pi * parameters.frequency_Hz;
+    const double zeta = parameters.damping_ratio;
+    FIDSERVO_DEMAND(w > 0.0 && zeta >= 0.0 && zeta < 1.0);
+    const double damped = w * std::sqrt(1.0 - zeta * zeta);
+    const double envelope = std::exp(-zeta * w * tick_s);
+    const double c = envelope * std::cos(damped * tick_s);
+    const double s = envelope * std::sin(damped * tick_s) / damped;
+    Eigen::Matrix2d decay;
+    decay << c + zeta * w * s, s, -w * w * s, c - zeta * w * s;
+    return {parameters, decay, parameters.gain / (w * w)};
+}
+
+void advance(const PlatformSwing& swing, SwingState& state, double acceleration_mm_per_s2) {
+    const double held_mm = -swing.compliance_s2 * acceleration_mm_per_s2;
+    const Eigen::Vector2d after =
+        swing.decay * Eigen::Vector2d(state.position_mm - held_mm, state.velocity_mm_per_s);
+    state = {held_mm + after.x(), after.y()};
+}
+
+}  // namespace fidservo::plant

@@ -1,0 +1,34 @@
+#pragma once
+// A wire and a second thermal mass (clamps, plates, mount) that takes heat from it and gives it back later:
+//
+//     tau   dq/dt = phi - q - a (q - b)          q, b: wire and mass above ambient, degC
+//     tau_b db/dt = r q - b
+//
+// a: conductance from the wire to the mass per conductance to the room; r: the mass's steady rise per rise of
+// the wire. tau is the heating time constant while the wire gets warmer, else the cooling one. Both equations
+// are linear within a regime and have real rates, so that a tick has a closed form:
+//
+//     y(t) = exp(m t) (cosh(d t) I + sinh(d t)/d (A - m I)) y(0),   m = tr A / 2,  d^2 = m^2 - det A,
+//
+// y the deviation from the equilibrium. Under a held command the wire turns at most once (dq/dt is a sum of
+// two exponentials; where it vanishes its slope is a/tau db/dt, and afterwards it keeps that sign): the time
+// of the turn is found to rounding, and the rest of the tick has the other regime.
+// Source: two lumped capacitances, Incropera, DeWitt, Fundamentals of Heat and Mass Transfer, 6th ed., 2007,
+// ch. 5; matrix exponential of a 2 x 2 matrix: Bernstein, So, IEEE Trans. Automatic Control 38(8), 1993.
+#include <Eigen/Core>
+
+namespace fidservo::plant {
+
+struct ThermalPair {
+    double heating_tau_s;
+    double cooling_tau_s;
+    double coupling;    ///< a >= 0
+    double mass_tau_s;  ///< tau_b > 0
+    double retention;   ///< r, 0 .. 1
+};
+
+/// Wire and mass above ambient in degC after a time under a constant phi (degC), however long.
+Eigen::Vector2d advance(const ThermalPair& pair, const Eigen::Vector2d& rise_degC, double phi_degC,
+                        double time_s);
+
+}  // namespace fidservo::plant

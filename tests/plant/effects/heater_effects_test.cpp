@@ -1,0 +1,92 @@
+#include "tests/plant/effects/effect_rig.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace fidservo::plant {
+namespace {
+
+StageState after(const StagePlant& plant, double micro_V, int ticks) {
+    StageState state = start(plant, 50.0, 1);
+    for (int k = 0; k < ticks; ++k) advance(plant, state, 0.0, micro_V);
+    return state;
+}
+
+double rise_degC(const StageState& state) {
+    return state.micro->heater.temp_degC - 22.0;
+}
+
+TEST(HeatingLag, Heating_HasAnotherTimeConstantAndCoolingHasNot) {
+    const StagePlant plant = plant_with("heating_lag:factor=1.4");
+    const StageState hot = after(plant, 1.7, 770);
+    EXPECT_NEAR(rise_degC(hot), 272.0 * 0.4 * (1.0 - std::exp(-1.0)), 1e-9);
+    StageState state = hot;
+    for (int k = 0; k < 1000; ++k) advance(plant, state, 0.0, 0.0);
+    EXPECT_NEAR(rise_degC(state), rise_degC(hot) * std::exp(-1.0), 1e-9);
+    EXPECT_NEAR(rise_degC(after(plant, 1.7, 40000)), 272.0 * 0.4, 1e-9) << "where it settles stays";
+}
+
+TEST(SecondThermalMass, CoolingAfterALongHold_HasTheTwoRatesOfThePair) {
+    const StagePlant plant = plant_with("second_thermal_mass:coupling=0.4,mass_tau_s=15,retention=1");
+    StageState state = after(plant, 1.6, 600000);
+    EXPECT_NEAR(rise_degC(state), 272.0 * 0.3, 1e-6) << "a mass that loses heat to the wire only costs none";
+    EXPECT_NEAR(state.micro->heater.mass_rise_degC, 272.0 * 0.3, 1e-6);
+    const double sum = 1.4 + 1.0 / 15.0, product = 1.0 / 15.0;
+    const double fast = 0.5 * (sum + std::sqrt(sum * sum - 4.0 * product)), slow = product / fast;
+    const double start_degC = 272.0 * 0.3, slope = -start_degC;  // both start equally hot
+    const double P = -(slope + slow * start_degC) / (fast - slow), Q = start_degC - P;
+    for (int k = 1; k <= 60000; ++k) {
+        advance(plant, state, 0.0, 0.0);
+        if (k % 4000 != 0) continue;
+        const double t = 0.001 * k;
+        EXPECT_NEAR(rise_degC(state), P * std::exp(-fast * t) + Q * std::exp(-slow * t), 1e-6) << t;
+    }
+}
+
+TEST(SecondThermalMass, ColdMass_DrawsHeatAtFirst) {
+    const StagePlant nominal = make_stage_plant(reference_rig());
+    const StagePlant plant = plant_with("second_thermal_mass:coupling=0.4");
+    EXPECT_LT(rise_degC(after(plant, 1.6, 1000)), rise_degC(after(nominal, 1.6, 1000)) - 5.0);
+}
+
+TEST(HeaterDelay, Of3700Microseconds_IsTheNominalCourseThatMuchLater) {
+    const StagePlant plant = plant_with("heater_delay:delay_ms=3.7");
+    for (const int ticks : {4, 5, 100, 549}) {
+        const double heated_s = 0.001 * ticks - 0.0037;
+        EXPECT_NEAR(rise_degC(after(plant, 1.7, ticks)), 272.0 * 0.4 * -std::expm1(-heated_s / 0.55), 1e-10)
+            << ticks;
+    }
+    EXPECT_EQ(rise_degC(after(plant, 1.7, 3)), 0.0);
+}
+
+TEST(HeaterDelay, WholeTicks_AreTheNominalCourseOfEarlierTicks) {
+    const StagePlant nominal = make_stage_plant(reference_rig());
+    const StagePlant plant = plant_with("heater_delay:delay_ms=20");
+    EXPECT_NEAR(rise_degC(after(plant, 1.8, 320)), rise_degC(after(nominal, 1.8, 300)), 1e-9);
+}
+
+TEST(HeaterDelay, WithASecondMass_DelaysTheWholePair) {
+    const StagePlant pair = plant_with("second_thermal_mass");
+    const std::vector<EffectSetting> both{parse_effect("second_thermal_mass"),
+                                          parse_effect("heater_delay:delay_ms=50")};
+    const StagePlant late = make_stage_plant(reference_rig(), both);
+    EXPECT_NEAR(rise_degC(after(late, 1.8, 1050)), rise_degC(after(pair, 1.8, 1000)), 1e-9);
+}
+
+TEST(StressShift, Transformation_HappensThatMuchLater) {
+    const StagePlant nominal = make_stage_plant(reference_rig());
+    const StagePlant loaded = plant_with("stress_shift:shift_degC=6");
+    // A cold room's wire under a command that is hotter by as much has the same place in the table.
+    const StagePlant warm = plant_with("ambient_temperature:shift_degC=-6");
+    for (const int ticks : {200, 400, 3000}) {
+        const StageState state = after(loaded, 1.8, ticks);
+        EXPECT_EQ(state.micro->heater.temp_degC, after(nominal, 1.8, ticks).micro->heater.temp_degC);
+        EXPECT_NEAR(state.micro->position_mm, after(warm, 1.8, ticks).micro->position_mm, 1e-9)
+            << "inseparable from a room that is colder by as much";
+    }
+    EXPECT_LT(after(loaded, 1.55, 3000).micro->position_mm, after(nominal, 1.55, 3000).micro->position_mm);
+}
+
+}  // namespace
+}  // namespace fidservo::plant

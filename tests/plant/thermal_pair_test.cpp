@@ -1,0 +1,97 @@
+#include "plant/thermal_pair.h"
+
+#include "core/random.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace fidservo::plant {
+namespace {
+
+/// Runge-Kutta of the fourth order on the equations as they stand, the regime chosen anew at every step.
+Eigen::Vector2d integrate(const ThermalPair& pair, Eigen::Vector2d y, double phi, double time_s, int steps) {
+    const auto slope = [&](const Eigen::Vector2d& at) {
+        const double gain = phi - at.x() - pair.coupling * (at.x() - at.y());
+        return Eigen::Vector2d(gain / (gain > 0.0 ? pair.heating_tau_s : pair.cooling_tau_s),
+                               (pair.retention * at.x() - at.y()) / pair.mass_tau_s);
+    };
+    const double h = time_s / steps;
+    for (int k = 0; k < steps; ++k) {
+        const Eigen::Vector2d a = slope(y), b = slope(y + 0.5 * h * a), c = slope(y + 0.5 * h * b),
+                              d = slope(y + h * c);
+        y += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+    }
+    return y;
+}
+
+TEST(ThermalPair, Cooling_IsTheSumOfTwoExponentials) {
+    const ThermalPair pair{0.55, 1.0, 0.4, 15.0, 1.0};
+    // Rates of tau = 1, a = 0.4, tau_b = 15, r = 1 by hand: l^2 + (1.4 + 1/15) l + 1/15 = 0.
+    const double sum = 1.4 + 1.0 / 15.0, product = 1.0 / 15.0;
+    const double fast = 0.5 * (sum + std::sqrt(sum * sum - 4.0 * product)), slow = product / fast;
+    const Eigen::Vector2d start(90.0, 30.0);
+    // q = P exp(-fast t) + Q exp(-slow t), with q(0) and q'(0) = -1.4 q + 0.4 b.
+    const double slope = -1.4 * 90.0 + 0.4 * 30.0;
+    const double P = -(slope + slow * 90.0) / (fast - slow), Q = 90.0 - P;
+    EXPECT_GT(Q, 1.0) << "what slows the cooling later on";
+    for (const double t : {0.001, 0.3, 2.0, 10.0, 60.0})
+        EXPECT_NEAR(advance(pair, start, 0.0, t).x(), P * std::exp(-fast * t) + Q * std::exp(-slow * t),
+                    1e-11)
+            << t;
+}
+
+TEST(ThermalPair, WithoutCoupling_IsTheSingleWire) {
+    const ThermalPair pair{0.55, 1.0, 0.0, 20.0, 1.0};
+    EXPECT_NEAR(advance(pair, {0.0, 0.0}, 100.0, 0.3).x(), 100.0 * (1.0 - std::exp(-0.3 / 0.55)), 1e-11);
+    EXPECT_NEAR(advance(pair, {100.0, 5.0}, 20.0, 0.3).x(), 20.0 + 80.0 * std::exp(-0.3), 1e-11);
+}
+
+TEST(ThermalPair, EqualRates_AreNoSpecialCase) {
+    const ThermalPair pair{1.0, 1.0, 0.0, 1.0, 0.0};
+    const Eigen::Vector2d after = advance(pair, {10.0, 3.0}, 0.0, 0.7);
+    EXPECT_NEAR(after.x(), 10.0 * std::exp(-0.7), 1e-12);
+    EXPECT_NEAR(after.y(), 3.0 * std::exp(-0.7), 1e-12);
+}
+
+TEST(ThermalPair, HeldForLong_SettlesAtTheEquilibrium) {
+    const ThermalPair pair{0.55, 1.0, 0.5, 20.0, 0.8};
+    const Eigen::Vector2d after = advance(pair, {0.0, 0.0}, 110.0, 1e4);
+    EXPECT_NEAR(after.x(), 110.0 / (1.0 + 0.5 * 0.2), 1e-9);
+    EXPECT_NEAR(after.y(), 0.8 * after.x(), 1e-9);
+}
+
+TEST(ThermalPair, OneLongStep_IsTheSameAsManyShortOnes) {
+    NoiseStream draw(11, "cases");
+    for (int k = 0; k < 200; ++k) {
+        const ThermalPair pair{0.3 + draw.uniform(), 0.3 + draw.uniform(), 2.0 * draw.uniform(),
+                               0.5 + 30.0 * draw.uniform(), draw.uniform()};
+        const Eigen::Vector2d start(100.0 * draw.uniform(), 100.0 * draw.uniform());
+        const double phi = 120.0 * draw.uniform(), time_s = 3.0 * draw.uniform();
+        Eigen::Vector2d many = start;
+        for (int i = 0; i < 1000; ++i) many = advance(pair, many, phi, time_s / 1000);
+        EXPECT_NEAR((advance(pair, start, phi, time_s) - many).norm(), 0.0, 1e-9) << "seed 11, case " << k;
+    }
+}
+
+TEST(ThermalPair, WireThatTurns_SolvesTheEquationsInBothRegimes) {
+    // The mass is far colder: it draws the wire down at first, until it has warmed up, or up before it cools.
+    NoiseStream draw(13, "cases");
+    int turns = 0;
+    for (int k = 0; k < 40; ++k) {
+        const ThermalPair pair{0.55, 1.0, 0.5 + draw.uniform(), 1.0 + draw.uniform(), 1.0};
+        const Eigen::Vector2d start(50.0 + 20.0 * draw.uniform(), 100.0 * draw.uniform());
+        const double phi = 60.0;
+        const Eigen::Vector2d expected = integrate(pair, start, phi, 2.0, 200000);
+        const auto gain = [&](const Eigen::Vector2d& y) {
+            return phi - y.x() - pair.coupling * (y.x() - y.y());
+        };
+        turns += gain(start) * gain(expected) < 0.0 ? 1 : 0;
+        // A step of 1e-5 s across the turn is of first order there.
+        EXPECT_NEAR((advance(pair, start, phi, 2.0) - expected).norm(), 0.0, 1e-6) << "seed 13, case " << k;
+    }
+    EXPECT_GE(turns, 5);
+}
+
+}  // namespace
+}  // namespace fidservo::plant
