@@ -26,6 +26,7 @@ void add_replay(CLI::App& app, int& exit_code);
 void add_record(CLI::App& app, int& exit_code);
 void add_cameras(CLI::App& app, int& exit_code);
 void add_identify(CLI::App& app, int& exit_code);
+void add_reproduce(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 

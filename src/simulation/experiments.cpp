@@ -46,14 +46,6 @@ class Excitation {
     NoiseStream noise_;
 };
 
-/// Piecewise constant: values[i] from times_s[i] on.
-Course steps(std::vector<double> times_s, std::vector<double> values) {
-    return [times = std::move(times_s), values = std::move(values)](double t_s) {
-        const auto next = std::upper_bound(times.begin(), times.end(), t_s + 1e-9);
-        return values[static_cast<std::size_t>(next - times.begin()) - 1];
-    };
-}
-
 Experiment rest(Excitation& draw) {
     return {.kind = "rest", .duration_s = 4.0, .carriage_mm = draw.carriage_mm(0.3, 0.7)};
 }
@@ -202,6 +194,13 @@ const Kind& find_kind(std::string_view name) {
 }
 
 }  // namespace
+
+Course steps(std::vector<double> times_s, std::vector<double> values) {
+    return [times = std::move(times_s), values = std::move(values)](double t_s) {
+        const auto next = std::upper_bound(times.begin(), times.end(), t_s + 1e-9);
+        return values[static_cast<std::size_t>(next - times.begin()) - 1];
+    };
+}
 
 const std::vector<std::string_view>& experiment_kinds() {
     static const std::vector<std::string_view> names = [] {

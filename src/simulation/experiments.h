@@ -13,6 +13,9 @@ namespace fidservo {
 /// A course over time, t in s from the start; an empty one is not in force.
 using Course = std::function<double(double t_s)>;
 
+/// What follows a macro setpoint.
+enum class MacroLoop { nonlinear_pd, benchmark_pid };
+
 /// What one recording commands. A stage follows its setpoint with its controller where there is one,
 /// otherwise its voltage; where there is neither, the command is zero.
 struct Experiment {
@@ -20,8 +23,12 @@ struct Experiment {
     double duration_s = 0.0;
     double carriage_mm = 0.0;  ///< at the start, at rest, homed before; the wire is cold
     Course macro_setpoint_mm = {}, macro_V = {};
+    MacroLoop macro_loop = MacroLoop::nonlinear_pd;
     Course micro_setpoint_mm = {}, micro_V = {};
 };
+
+/// Piecewise constant: values[i] from times_s[i] on; times ascend from 0.
+Course steps(std::vector<double> times_s, std::vector<double> values);
 
 /// rest, macro-pulses, macro-sweep, macro-square, micro-steps, micro-triangle, micro-servo, integrated.
 const std::vector<std::string_view>& experiment_kinds();

@@ -16,6 +16,7 @@ namespace {
 /// The published controllers, as far as the experiment closes their loops.
 struct Loops {
     control::PdState pd;
+    control::PidState pid;
     std::optional<control::PiState> pi;
 };
 
@@ -26,7 +27,10 @@ double macro_command_V(const Rig& rig, const Experiment& experiment, Loops& loop
         row.macro_setpoint_mm = experiment.macro_setpoint_mm(t_s);
         const double setpoint_count =
             std::floor(row.macro_setpoint_mm / rig.macro.encoder_resolution_mm + 0.5);
-        return control::pd_update(*rig.macro.pd, limit_V, loops.pd, setpoint_count - row.encoder_count);
+        const double error_count = setpoint_count - row.encoder_count;
+        return experiment.macro_loop == MacroLoop::nonlinear_pd
+                   ? control::pd_update(*rig.macro.pd, limit_V, loops.pd, error_count)
+                   : control::pid_update(*rig.macro.pid, limit_V, rig.tick_s, loops.pid, error_count);
     }
     return experiment.macro_V ? std::clamp(experiment.macro_V(t_s), -limit_V, limit_V) : 0.0;
 }

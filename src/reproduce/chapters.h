@@ -1,0 +1,15 @@
+#pragma once
+// The chapters of the report, each from its own experiments. They throw InputError where the rig lacks what
+// they need.
+#include "src/reproduce/chapter.h"
+#include "src/reproduce/laboratory.h"
+
+namespace fidservo::reproduce {
+
+Chapter benchmark_pid(const Laboratory& laboratory);    ///< fig. 17
+Chapter nonlinear_pd(const Laboratory& laboratory);     ///< fig. 18, 19, eq. 9
+Chapter micro_steps(const Laboratory& laboratory);      ///< fig. 21, accuracy and settling
+Chapter micro_bandwidth(const Laboratory& laboratory);  ///< over the full travel
+Chapter integrated_task(const Laboratory& laboratory);  ///< fig. 22
+
+}  // namespace fidservo::reproduce
