@@ -12,6 +12,7 @@
 //
 // The state is the truth. It never leaves plant and tests: what runs on the rig sees readings only.
 #include "core/rig.h"
+#include "plant/camera.h"
 #include "plant/encoder.h"
 #include "plant/macro_axis.h"
 #include "plant/micro_stage.h"
@@ -21,19 +22,13 @@
 
 namespace fidservo::plant {
 
-/// How the camera's clock and link differ from the rig file. A frame whose exposure is centred at t is
-/// stamped t + delay_s, and arrives that much later too.
-struct CameraTiming {
-    double delay_s = 0.0;
-};
-
 /// All numbers of the physics, open to changes by effects. Parts that the rig does not have are empty.
 struct PlantParameters {
     double tick_s = 0.0;
     MacroAxisParameters axis;
     Encoder encoder{};
     std::optional<MicroStageParameters> micro;
-    std::optional<CameraTiming> camera;
+    std::optional<CameraDeviation> camera;
 };
 
 /// The rig as its file describes it, ready to tick. Immutable.
@@ -42,7 +37,7 @@ struct StagePlant {
     MacroAxis axis;
     Encoder encoder{};
     std::optional<MicroStage> micro;
-    std::optional<CameraTiming> camera;
+    std::optional<CameraDeviation> camera;
 };
 
 /// All that a run changes. A plain value: a copy is a snapshot.

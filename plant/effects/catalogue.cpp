@@ -12,7 +12,9 @@ namespace effects {
 
 extern const Effect drive_gain, drive_offset, viscous_friction, payload, encoder_scale, ambient_temperature,
     airflow, heater_gain, heating_lag, second_thermal_mass, heater_delay, stress_shift, stroke_change,
-    macro_coupling, hall_gain, hall_offset, hall_nonlinearity, hall_drift, hall_crosstalk, camera_latency;
+    macro_coupling, hall_gain, hall_offset, hall_nonlinearity, hall_drift, hall_crosstalk, pixel_scale,
+    camera_rotation, camera_tilt, lens_distortion, camera_latency, clock_skew, defocus, motion_blur,
+    uneven_light, sensor_noise, rolling_shutter;
 
 }  // namespace effects
 
@@ -28,7 +30,12 @@ constinit const std::array catalogue{
     &effects::stroke_change,     &effects::macro_coupling,
     &effects::hall_gain,         &effects::hall_offset,
     &effects::hall_nonlinearity, &effects::hall_drift,
-    &effects::hall_crosstalk,    &effects::camera_latency,
+    &effects::hall_crosstalk,    &effects::pixel_scale,
+    &effects::camera_rotation,   &effects::camera_tilt,
+    &effects::lens_distortion,   &effects::camera_latency,
+    &effects::clock_skew,        &effects::defocus,
+    &effects::motion_blur,       &effects::uneven_light,
+    &effects::sensor_noise,      &effects::rolling_shutter,
 };
 
 /// Whether the rig has the part that a block belongs to.

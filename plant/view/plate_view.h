@@ -2,9 +2,11 @@
 // The plate as the camera sees it.
 #include "core/plate.h"
 #include "core/rig.h"
+#include "plant/camera.h"
 #include "plant/view/view_options.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -20,11 +22,16 @@ namespace fidservo::plant {
 /// Things that overlap are composed as R <- R + coverage (reflectance - R) with blurred coverages; that is
 /// exact wherever their edges are further than the blur from each other, or cross at a right angle.
 ///
-/// Immutable; render() may be called from several threads.
+/// Immutable; render() and expose() may be called from several threads.
 class PlateView {
   public:
+    /// The camera's true position in mm (macro + micro) at a time after the frame's, s.
+    using Path = std::function<double(double after_s)>;
+
+    /// @param deviation  how the camera differs from its parameters
     /// Throws InputError for a tag that is not in the code book and for a shape without an area.
-    PlateView(const CameraParameters& camera, const Plate& plate, const ViewOptions& options);
+    PlateView(const CameraParameters& camera, const Plate& plate, const ViewOptions& options,
+              const CameraDeviation& deviation = {});
     ~PlateView();
     PlateView(PlateView&&) noexcept;
     PlateView& operator=(PlateView&&) noexcept;
@@ -34,6 +41,13 @@ class PlateView {
     ///              included; one position stands for a camera at rest
     /// The noise is a pure function of (seed, frame): the same call gives the same bytes.
     cv::Mat render(std::span<const double> s_mm, std::uint64_t frame) const;
+
+    /// The same of a camera in motion: the path is sampled over the exposure, row by row where the rows are
+    /// exposed one after the other.
+    cv::Mat expose(const Path& path, std::uint64_t frame) const;
+
+    /// How long before and after a frame's time expose() asks for the position, s.
+    double reach_s() const;
 
   private:
     struct Impl;

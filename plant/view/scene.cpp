@@ -36,7 +36,7 @@ class ShapeMaker {
 
     Item grid(CellPattern pattern, const Eigen::Vector2d& centre_mm, const Eigen::Vector2d& size_mm,
               double angle_rad, double reflectance) {
-        const double angle = ImageMap::angle_rad(angle_rad);
+        const double angle = map_.angle_rad(angle_rad);
         auto& edge = edges_[angle];
         if (!edge) edge = std::make_shared<EdgeProfile>(EdgeProfile::of_pixel(blur_px_, angle));
         const Eigen::Vector2d size_px(map_.length_px(size_mm.x()), map_.length_px(size_mm.y()));

@@ -22,6 +22,7 @@ struct Light {
 /// A reflection of the lamp on the plate: reflectance gains strength exp(-r^2 / (2 radius^2)). A strength
 /// above 1 saturates the middle.
 struct Glare {
+    static constexpr double reach_in_radii = 6.0;  ///< nothing is left of it beyond
     Eigen::Vector2d centre_mm;
     double radius_mm;  ///< standard deviation
     double strength = 3.0;

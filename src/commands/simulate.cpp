@@ -7,6 +7,7 @@
 #include "src/config/rig_file.h"
 #include "src/progress.h"
 #include "src/recording/writer.h"
+#include "src/simulation/filmed_recording.h"
 
 #include <memory>
 #include <optional>
@@ -29,6 +30,7 @@ struct SimulateOptions {
     std::filesystem::path rig_file;
     std::vector<std::string> effects;
     std::uint64_t seed = 1;
+    bool frames = false;
     std::filesystem::path out;
 };
 
@@ -53,6 +55,9 @@ std::vector<Task> tasks_of(const SimulateOptions& options, const Rig& rig) {
 
 int run_simulate(const SimulateOptions& options) {
     const Rig rig = load_rig(options.rig_file);
+    if (options.frames && (!rig.camera || !rig.fiducials))
+        throw InputError(
+            fmt::format("--frames: the rig {} lacks a camera, or fiducials for it to see", rig.name));
     std::vector<plant::EffectSetting> effects;
     for (const std::string& text : options.effects) effects.push_back(plant::parse_effect(text));
 
@@ -65,7 +70,11 @@ int run_simulate(const SimulateOptions& options) {
     if (options.experiment == whole_campaign) make_output_folder(options.out);
     Progress progress("recordings", runs.size());
     for (const auto& [task, experiment] : runs) {
-        write_recording(task.folder, simulate(rig, effects, experiment, task.name, options.seed), rig.camera);
+        if (options.frames)
+            write_filmed_recording(task.folder, rig, effects, experiment, task.name, options.seed);
+        else
+            write_recording(task.folder, simulate(rig, effects, experiment, task.name, options.seed),
+                            rig.camera);
         progress.advance();
     }
     progress.finish();
@@ -92,6 +101,8 @@ void add_simulate(CLI::App& app, int& exit_code) {
         ->type_name("EFFECT")
         ->expected(1)
         ->take_all();
+    command->add_flag("--frames", options->frames,
+                      "Render and keep the camera's frames; detections are what is found in them");
     command->add_option("--seed", options->seed, "Determines excitation and noise; same seed, same bytes")
         ->capture_default_str();
     command->add_option("--out", options->out, "New folder for the recordings")->type_name("DIR")->required();

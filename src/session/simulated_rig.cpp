@@ -11,7 +11,6 @@ namespace fidservo {
 namespace {
 
 constexpr double first_frame_s = 0.0033;
-constexpr std::size_t exposure_samples = 9;
 
 /// Somewhere on the rail, away from its ends: nothing is known of it before homing.
 double start_position_mm(const plant::PlantParameters& physics, std::uint64_t seed) {
@@ -31,7 +30,7 @@ SimulatedRig::SimulatedRig(const plant::PlantParameters& physics, const CameraPa
                            const Plate& printed, std::uint64_t seed)
     : plant_(plant::make_stage_plant(physics)),
       camera_(camera),
-      view_(camera, printed, view_options(seed)),
+      view_(camera, printed, view_options(seed), physics.camera.value_or(plant::CameraDeviation{})),
       state_(plant::start(plant_, start_position_mm(physics, seed), seed)),
       tick_ns_(nanoseconds(plant_.tick_s)) {
     past_mm_.fill(plant::camera_position_mm(state_));
@@ -57,24 +56,22 @@ double SimulatedRig::position_mm(double time_s) const {
 }
 
 std::optional<vision::Frame> SimulatedRig::poll() {
-    const double delay_s = plant_.camera ? plant_.camera->delay_s : 0.0;
-    const double arrives_after_s = camera_.latency_s + delay_s;
-    const double newest = (seconds(now_ns()) - arrives_after_s - first_frame_s) * camera_.frame_rate_hz;
-    const auto frame = static_cast<std::int64_t>(std::floor(newest + 1e-9));
+    const plant::CameraDeviation deviation = plant_.camera.value_or(plant::CameraDeviation{});
+    const double link_s = std::max(camera_.latency_s, view_.reach_s()) + deviation.delay_s;
+    const double shown_s = (seconds(now_ns()) - link_s) * deviation.clock_rate;
+    const auto frame =
+        static_cast<std::int64_t>(std::floor((shown_s - first_frame_s) * camera_.frame_rate_hz + 1e-9));
     if (frame < next_frame_) return std::nullopt;
     next_frame_ = frame + 1;
-    const double middle_s = first_frame_s + static_cast<double>(frame) / camera_.frame_rate_hz;
+    const double stamp_s = first_frame_s + static_cast<double>(frame) / camera_.frame_rate_hz;
+    const double middle_s = stamp_s / deviation.clock_rate;
     FIDSERVO_DEMAND(seconds(now_ns()) - middle_s <
                     0.9 * plant_.tick_s * static_cast<double>(past_mm_.size()));
-    std::array<double, exposure_samples> s_mm{};
-    for (std::size_t i = 0; i < exposure_samples; ++i) {
-        const double share = static_cast<double>(i) / (exposure_samples - 1) - 0.5;
-        s_mm[i] = position_mm(middle_s + share * camera_.exposure_s);
-    }
     vision::Frame result;
-    result.image = view_.render(s_mm, static_cast<std::uint64_t>(frame));
-    result.time_ns = nanoseconds(middle_s + delay_s);
-    result.arrival_ns = nanoseconds(middle_s + arrives_after_s);
+    result.image = view_.expose([&](double after_s) { return position_mm(middle_s + after_s); },
+                                static_cast<std::uint64_t>(frame));
+    result.time_ns = nanoseconds(stamp_s + deviation.delay_s);
+    result.arrival_ns = nanoseconds(middle_s + link_s);
     result.sequence = static_cast<std::uint64_t>(frame);
     return result;
 }

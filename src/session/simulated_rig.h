@@ -46,7 +46,7 @@ class SimulatedRig {
     TimeNs tick_ns_;
     std::int64_t tick_ = 0;
     std::int64_t next_frame_ = 0;
-    std::array<double, 512> past_mm_;  ///< camera position at the last ticks, by tick modulo its size
+    std::array<double, 1024> past_mm_;  ///< camera position at the last ticks, by tick modulo its size
 };
 
 /// The rig's stage side. Every command also goes to the guardian's board, where there is a guardian.

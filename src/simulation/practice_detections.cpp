@@ -18,25 +18,71 @@ bool is_inside(const CameraGeometry& camera, const Eigen::Vector2d& point_px) {
            point_px.y() < camera.height_px - 0.5;
 }
 
+/// Nominal exposure per exposure.
+double exposure_ratio(const CameraParameters& camera, const plant::CameraDeviation& deviation) {
+    return camera.exposure_s / (camera.exposure_s + deviation.extra_exposure_s);
+}
+
 }  // namespace
 
-PracticeDetector::PracticeDetector(const CameraParameters& camera, const FiducialParameters& fiducials,
-                                   std::uint64_t seed)
-    : camera_(camera), fiducials_(fiducials), noise_(seed, "corners") {}
+PracticeDetector::PracticeDetector(const CameraParameters& camera, const plant::CameraDeviation& deviation,
+                                   const FiducialParameters& fiducials, std::uint64_t seed)
+    : camera_(camera),
+      deviation_(deviation),
+      optics_(plant::make_camera_optics(camera.geometry, deviation)),
+      window_s_(std::sqrt(deviation.extra_exposure_s * (deviation.extra_exposure_s + 2 * camera.exposure_s))),
+      max_speed_mm_per_s_(camera.max_speed_mm_per_s),
+      fiducials_(fiducials),
+      noise_(seed, "corners") {
+    if (deviation.extra_exposure_s > 0.0) max_speed_mm_per_s_ *= exposure_ratio(camera, deviation);
+}
 
-std::optional<TagDetection> PracticeDetector::detect(TimeNs time_ns, double s_mm, double speed_mm_per_s) {
-    if (std::abs(speed_mm_per_s) > camera_.max_speed_mm_per_s) return std::nullopt;
-    const int column = nearest_index(s_mm, fiducials_.pitch_x_mm, fiducials_.columns);
-    const int row = nearest_index(0.0, fiducials_.pitch_y_mm, fiducials_.rows);
+double PracticeDetector::reach_s() const {
+    return 0.5 * (window_s_ + std::abs(deviation_.readout_s));
+}
+
+/// Simpson's rule over the window; exact for even acceleration.
+double PracticeDetector::mean_s_mm(const Path& s_mm, double after_s) const {
+    if (window_s_ == 0.0) return s_mm(after_s);
+    constexpr int panels = 8;
+    double sum = 0.0;
+    for (int k = 0; k <= panels; ++k) {
+        const double weight = k == 0 || k == panels ? 1.0 : (k % 2 == 1 ? 4.0 : 2.0);
+        sum += weight * s_mm(after_s + window_s_ * (static_cast<double>(k) / panels - 0.5));
+    }
+    return sum / (3.0 * panels);
+}
+
+/// The row decides when, and when decides the row: in a turned picture only, and the camera moves by far less
+/// than a row while a row is read out, so that each round gains several digits.
+Eigen::Vector2d PracticeDetector::corner_px(const Eigen::Vector2d& corner_mm, const Path& s_mm) const {
+    Eigen::Vector2d corner = plant::project(optics_, corner_mm, mean_s_mm(s_mm, 0.0));
+    if (deviation_.readout_s == 0.0) return corner;
+    constexpr int rounds = 4;
+    for (int k = 0; k < rounds; ++k) {
+        const double after_s = plant::row_delay_s(
+            camera_.geometry, deviation_, std::clamp(corner.y(), 0.0, camera_.geometry.height_px - 1.0));
+        corner = plant::project(optics_, corner_mm, mean_s_mm(s_mm, after_s));
+    }
+    return corner;
+}
+
+std::optional<TagDetection> PracticeDetector::detect(TimeNs stamp_ns, const Path& s_mm,
+                                                     double speed_mm_per_s) {
+    if (std::abs(speed_mm_per_s) > max_speed_mm_per_s_) return std::nullopt;
+    const Eigen::Vector2d middle_mm =
+        plant::back_project(optics_, camera_.geometry.principal_point_px, s_mm(0.0));
+    const int column = nearest_index(middle_mm.x(), fiducials_.pitch_x_mm, fiducials_.columns);
+    const int row = nearest_index(middle_mm.y(), fiducials_.pitch_y_mm, fiducials_.rows);
     const Eigen::Vector2d centre_mm(column * fiducials_.pitch_x_mm, row * fiducials_.pitch_y_mm);
 
     TagDetection detection;
-    detection.time_ns = time_ns;
+    detection.time_ns = stamp_ns;
     detection.tag_id = fiducials_.first_id + row * fiducials_.columns + column;
     const std::array<Eigen::Vector2d, 4> corner_signs{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
     for (std::size_t k = 0; k < 4; ++k) {
-        const Eigen::Vector2d corner_mm = centre_mm + 0.5 * fiducials_.side_mm * corner_signs[k];
-        const Eigen::Vector2d ideal_px = project(camera_.geometry, corner_mm, s_mm);
+        const Eigen::Vector2d ideal_px =
+            corner_px(centre_mm + 0.5 * fiducials_.side_mm * corner_signs[k], s_mm);
         if (!is_inside(camera_.geometry, ideal_px)) return std::nullopt;
         const double noise_u = noise_.normal();
         detection.corners_px[k] =

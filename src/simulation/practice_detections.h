@@ -4,24 +4,44 @@
 #include "core/detection.h"
 #include "core/random.h"
 #include "core/rig.h"
+#include "plant/camera.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 namespace fidservo {
 
 /// What the camera would report at camera position s, as docs/notation.md's practice campaigns have it:
 /// nothing while it moves faster than the rig's max_speed_mm_per_s, otherwise the tag of the rig's grid that
-/// is nearest to the image centre along the stage axis, if it lies wholly in the image; each corner
-/// coordinate with normal noise of corner_noise_px r.m.s.
+/// is nearest to what the image's centre shows, if it lies wholly in the image; each corner coordinate with
+/// normal noise of corner_noise_px r.m.s.
+///
+/// Corners are where the true camera sees them, each at the time of its row. The rig file's exposure is taken
+/// as an instant; where it is longer, a corner is at its mean over sqrt(longer^2 - nominal^2), which has the
+/// longer exposure's effect in excess of the nominal one's, and the speed limit falls in proportion.
 class PracticeDetector {
   public:
-    PracticeDetector(const CameraParameters& camera, const FiducialParameters& fiducials, std::uint64_t seed);
+    /// The camera's true position in mm at a time after the frame's, s.
+    using Path = std::function<double(double after_s)>;
 
-    std::optional<TagDetection> detect(TimeNs time_ns, double s_mm, double speed_mm_per_s);
+    PracticeDetector(const CameraParameters& camera, const plant::CameraDeviation& deviation,
+                     const FiducialParameters& fiducials, std::uint64_t seed);
+
+    std::optional<TagDetection> detect(TimeNs stamp_ns, const Path& s_mm, double speed_mm_per_s);
+
+    /// How long before and after a frame's time detect() asks for the position, s; 0: at that time only.
+    double reach_s() const;
 
   private:
+    double mean_s_mm(const Path& s_mm, double after_s) const;
+    Eigen::Vector2d corner_px(const Eigen::Vector2d& corner_mm, const Path& s_mm) const;
+
     CameraParameters camera_;
+    plant::CameraDeviation deviation_;
+    plant::CameraOptics optics_;
+    double window_s_;
+    double max_speed_mm_per_s_;
     FiducialParameters fiducials_;
     NoiseStream noise_;
 };

@@ -1,67 +1,28 @@
 #include "src/simulation/simulate.h"
 
+#include "core/failure.h"
 #include "plant/effects/catalogue.h"
-#include "src/simulation/practice_detections.h"
+#include "src/simulation/practice_camera.h"
 #include "src/simulation/run_experiment.h"
 
+#include <functional>
 #include <optional>
+#include <utility>
 
 namespace fidservo {
 
 namespace {
 
-/// Frames fall between ticks: the plant is moved on from the last tick for the rest of the way, exactly.
-class PracticeCamera {
-  public:
-    PracticeCamera(const Rig& rig, const plant::PlantParameters& parameters, std::uint64_t seed)
-        : parameters_(parameters),
-          detector_(*rig.camera, *rig.fiducials, seed),
-          tick_ns_(nanoseconds(rig.tick_s)),
-          period_ns_(nanoseconds(1.0 / rig.camera->frame_rate_hz)),
-          delay_ns_(nanoseconds(parameters.camera->delay_s)) {}
-
-    /// Takes the frames whose exposure is centred in the tick that begins at time_ns, under the commands
-    /// given.
-    void look(const plant::StageState& state, TimeNs time_ns, double macro_V, double micro_V,
-              std::vector<TagDetection>& detections) {
-        for (; next_frame_ns_ < time_ns + tick_ns_; next_frame_ns_ += period_ns_) {
-            const plant::StageState there = moved_on(state, next_frame_ns_ - time_ns, macro_V, micro_V);
-            const plant::StageState after = moved_on(there, probe_ns, macro_V, micro_V);
-            const double s_mm = plant::camera_position_mm(there);
-            const double speed_mm_per_s = (plant::camera_position_mm(after) - s_mm) / seconds(probe_ns);
-            if (const auto seen = detector_.detect(next_frame_ns_ + delay_ns_, s_mm, speed_mm_per_s))
-                detections.push_back(*seen);
-        }
-    }
-
-  private:
-    static constexpr TimeNs first_frame_ns = 3'300'000;
-    static constexpr TimeNs probe_ns = 10'000;  ///< over which the speed is taken
-
-    plant::StageState moved_on(plant::StageState state, TimeNs way_ns, double macro_V, double micro_V) const {
-        if (way_ns <= 0) return state;
-        plant::PlantParameters parameters = parameters_;
-        parameters.tick_s = seconds(way_ns);
-        plant::advance(plant::make_stage_plant(parameters), state, macro_V, micro_V);
-        return state;
-    }
-
-    plant::PlantParameters parameters_;
-    PracticeDetector detector_;
-    TimeNs tick_ns_;
-    TimeNs period_ns_;
-    TimeNs delay_ns_;  ///< of the stamp
-    TimeNs next_frame_ns_ = first_frame_ns;
-};
+using Look = std::function<void(const plant::StageState& state, TimeNs time_ns, double macro_V,
+                                double micro_V, std::vector<TagDetection>& detections)>;
 
 class PlantHardware final : public SimulatedHardware {
   public:
-    PlantHardware(const Rig& rig, const plant::PlantParameters& parameters, double carriage_mm,
-                  std::uint64_t seed)
+    /// @param look  empty without a camera
+    PlantHardware(const plant::PlantParameters& parameters, double carriage_mm, std::uint64_t seed, Look look)
         : stage_(plant::make_stage_plant(parameters)),
-          state_(plant::start(stage_, carriage_mm, seed, plant::EncoderOrigin::end_of_travel)) {
-        if (rig.camera && rig.fiducials) camera_.emplace(rig, parameters, seed);
-    }
+          state_(plant::start(stage_, carriage_mm, seed, plant::EncoderOrigin::end_of_travel)),
+          look_(std::move(look)) {}
 
     Reading sample() override {
         const plant::StageReading reading = plant::sample(stage_, state_);
@@ -70,7 +31,7 @@ class PlantHardware final : public SimulatedHardware {
 
     void look(TimeNs time_ns, double macro_V, double micro_V,
               std::vector<TagDetection>& detections) override {
-        if (camera_) camera_->look(state_, time_ns, macro_V, micro_V, detections);
+        if (look_) look_(state_, time_ns, macro_V, micro_V, detections);
     }
 
     void advance(double macro_V, double micro_V) override {
@@ -80,16 +41,30 @@ class PlantHardware final : public SimulatedHardware {
   private:
     plant::StagePlant stage_;
     plant::StageState state_;
-    std::optional<PracticeCamera> camera_;
+    Look look_;
 };
 
 }  // namespace
 
 Recording simulate(const Rig& rig, std::span<const plant::EffectSetting> effects,
-                   const Experiment& experiment, const std::string& name, std::uint64_t seed) {
+                   const Experiment& experiment, const std::string& name, std::uint64_t seed,
+                   const FilmCamera::Keep& keep_frame) {
     plant::PlantParameters parameters = plant::plant_parameters(rig);
     plant::apply_effects(parameters, effects);
-    PlantHardware hardware(rig, parameters, experiment.carriage_mm, noise_seed(name, seed));
+    const std::uint64_t noise = noise_seed(name, seed);
+    const bool sees = rig.camera && rig.fiducials;
+    FIDSERVO_DEMAND(sees || !keep_frame);
+    std::optional<PracticeCamera> practice;
+    std::optional<FilmCamera> film;
+    Look look;
+    if (keep_frame) {
+        film.emplace(rig, parameters, noise, keep_frame);
+        look = std::bind_front(&FilmCamera::look, &*film);
+    } else if (sees) {
+        practice.emplace(rig, parameters, noise);
+        look = std::bind_front(&PracticeCamera::look, &*practice);
+    }
+    PlantHardware hardware(parameters, experiment.carriage_mm, noise, std::move(look));
     return run_experiment(rig, experiment, name, hardware);
 }
 

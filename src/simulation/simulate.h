@@ -3,6 +3,7 @@
 #include "core/rig.h"
 #include "plant/effects/effect.h"
 #include "src/simulation/experiments.h"
+#include "src/simulation/film_camera.h"
 
 #include <cstdint>
 #include <span>
@@ -14,7 +15,10 @@ namespace fidservo {
 /// would be recorded: what the sensors read, what was commanded, the fiducials that the camera saw.
 /// @param effects  what the rig has and its file does not state
 /// @param name     of the recording; together with the seed it determines all noise
+/// @param keep_frame  if given, frames are rendered and the fiducials are found in them; otherwise detections
+///                    are made without images (practice_detections.h). Needs a rig with camera and fiducials
 Recording simulate(const Rig& rig, std::span<const plant::EffectSetting> effects,
-                   const Experiment& experiment, const std::string& name, std::uint64_t seed);
+                   const Experiment& experiment, const std::string& name, std::uint64_t seed,
+                   const FilmCamera::Keep& keep_frame = {});
 
 }  // namespace fidservo

@@ -1,9 +1,12 @@
 #include "src/session/simulated_rig.h"
 
+#include "plant/effects/catalogue.h"
 #include "src/session/sight.h"
 #include "tests/session/watched_rig.h"
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -11,9 +14,14 @@ namespace fidservo {
 namespace {
 
 struct RigAndCamera {
-    explicit RigAndCamera(double delay_s = 0.0) {
+    explicit RigAndCamera(const plant::CameraDeviation& deviation = {},
+                          const std::vector<std::string>& effects = {}) {
         plant::PlantParameters physics = reference_physics();
-        physics.camera.emplace().delay_s = delay_s;
+        physics.camera = deviation;
+        for (const std::string& effect : effects) {
+            const plant::EffectSetting setting = plant::parse_effect(effect);
+            plant::apply_effects(physics, {&setting, 1});
+        }
         rig = std::make_unique<SimulatedRig>(physics, camera, reference_plate(), 4);
     }
 
@@ -24,7 +32,7 @@ struct RigAndCamera {
 TEST(SimulatedRig, Frames_ComeAtTheirRateAndAfterTheirLatency) {
     for (const double delay_s : {0.0, 0.03}) {
         SCOPED_TRACE(delay_s);
-        RigAndCamera set(delay_s);
+        RigAndCamera set({.delay_s = delay_s});
         int frames = 0;
         for (int k = 0; k < 500; ++k) {
             if (const auto frame = set.rig->poll()) {
@@ -72,8 +80,38 @@ TEST(SimulatedRig, MovingCamera_AFrameShowsWhereItWasInTheMiddleOfTheExposure) {
     EXPECT_EQ(seen, 65);
 }
 
+TEST(SimulatedRig, SkewedCameraClock_StampsItsOwnTime) {
+    RigAndCamera set({.clock_rate = 1.005});
+    int frames = 0;
+    for (int k = 0; k < 1000; ++k) {
+        if (const auto frame = set.rig->poll()) {
+            const double shown_s = 0.0033 + 0.02 * static_cast<double>(frame->sequence);
+            EXPECT_EQ(frame->time_ns, nanoseconds(shown_s));
+            EXPECT_EQ(frame->arrival_ns, nanoseconds(shown_s / 1.005 + set.camera.latency_s));
+            EXPECT_EQ(frame->sequence, static_cast<std::uint64_t>(frames++));
+        }
+        set.rig->write({});
+    }
+    EXPECT_EQ(frames, 1 + static_cast<int>(((0.9995 - set.camera.latency_s) * 1.005 - 0.0033) / 0.02));
+}
+
+TEST(SimulatedRig, DeviatingCamera_IsWhatTheFramesShow) {
+    const plant::CameraDeviation deviation{.pixel_scale = 1.05};
+    RigAndCamera set(deviation);
+    for (int k = 0; k < 100; ++k) set.rig->write({});
+    const auto frame = set.rig->poll();
+    ASSERT_TRUE(frame);
+    vision::TagDetector detector;
+    const auto tags = detector.detect(frame->image, frame->time_ns);
+    ASSERT_FALSE(tags.empty());
+    const Eigen::Vector2d diagonal = tags[0].corners_px[1] - tags[0].corners_px[3];
+    EXPECT_NEAR(diagonal.norm(), 1.05 * 300.0 * std::sqrt(2.0), 0.5);
+}
+
 TEST(SimulatedRig, SnapshotRestored_SameReadingsAndSameBytes) {
-    RigAndCamera first, second;
+    const std::vector<std::string> effects{"heater_delay:delay_ms=3.7", "second_thermal_mass",
+                                           "macro_coupling", "hall_drift:rate_mV_per_s=20", "hall_crosstalk"};
+    RigAndCamera first({}, effects), second({}, effects);
     for (int k = 0; k < 300; ++k) first.rig->write({4.0, 1.6});
     second.rig->restore(first.rig->snapshot());
     for (int k = 0; k < 200; ++k) {

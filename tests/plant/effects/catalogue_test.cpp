@@ -1,9 +1,13 @@
 #include "plant/effects/catalogue.h"
 
 #include "core/failure.h"
+#include "plant/view/plate_view.h"
+#include "src/config/plate_file.h"
+#include "src/simulation/practice_camera.h"
 #include "tests/plant/reference_rig.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -20,11 +24,11 @@ void PrintTo(const Effect* effect, std::ostream* out) {
 
 namespace {
 
-/// All that a run shows, and the truth behind it.
+/// What the stage shows at a tick, and the truth behind it.
 struct Row {
     std::int64_t encoder_count;
     int hall_adc;
-    double carriage_mm, camera_mm, temp_degC, frame_delay_s;
+    double carriage_mm, camera_mm, temp_degC;
     bool operator==(const Row&) const = default;
 };
 
@@ -34,23 +38,70 @@ std::vector<Row> run(const StagePlant& plant) {
     for (int k = 0; k < 8000; ++k) {
         const StageReading reading = sample(plant, state);
         rows.push_back({reading.encoder_count, reading.hall_adc, state.axis.position_mm,
-                        camera_position_mm(state), state.micro->heater.temp_degC, plant.camera->delay_s});
+                        camera_position_mm(state), state.micro->heater.temp_degC});
         const double phase = 2.0 * std::numbers::pi * k / 1000.0;
         advance(plant, state, 4.9 * std::sin(phase), 1.6 + 0.3 * std::sin(0.3 * phase));
     }
     return rows;
 }
 
+/// What the camera shows: detections without images while the carriage sets off and stops again, and a
+/// rendered frame in motion.
+struct Seen {
+    std::vector<TimeNs> stamps_ns;
+    std::vector<std::array<Eigen::Vector2d, 4>> corners_px;
+    std::vector<std::uint8_t> frame;
+    bool operator==(const Seen&) const = default;
+};
+
+Seen see(const StagePlant& plant, const PlantParameters& parameters) {
+    Seen seen;
+    PracticeCamera camera(reference_rig(), parameters, 5);
+    StageState state = start(plant, 50.0, 17, EncoderOrigin::end_of_travel);
+    std::vector<TagDetection> detections;
+    for (int k = 0; k < 600; ++k) {
+        const double macro_V = k > 300 && k < 340 ? 3.5 : 0.0;
+        camera.look(state, k * ns_per_ms, macro_V, 1.55, detections);
+        advance(plant, state, macro_V, 1.55);
+    }
+    for (const TagDetection& detection : detections) {
+        seen.stamps_ns.push_back(detection.time_ns);
+        seen.corners_px.push_back(detection.corners_px);
+    }
+    CameraParameters small = reference_rig().camera.value();
+    small.geometry.width_px = 320;
+    small.geometry.height_px = 240;
+    small.geometry.principal_point_px = {159.5, 119.5};
+    const PlateView view(small, plate_of(reference_rig().fiducials.value()), {}, *parameters.camera);
+    const cv::Mat frame = view.expose([](double after_s) { return 50.3 + 12.0 * after_s; }, 3);
+    seen.frame.assign(frame.datastart, frame.dataend);
+    return seen;
+}
+
+PlantParameters with(const EffectSetting& setting) {
+    PlantParameters parameters = plant_parameters(reference_rig());
+    apply_effects(parameters, {&setting, 1});
+    return parameters;
+}
+
 class EachEffect : public testing::TestWithParam<const Effect*> {};
 
 TEST_P(EachEffect, AtItsVanishingValues_LeavesTheRunAsItWasBitForBit) {
-    const EffectSetting setting = vanishing_setting(*GetParam());
-    EXPECT_EQ(run(make_stage_plant(reference_rig(), {&setting, 1})), run(make_stage_plant(reference_rig())));
+    const PlantParameters nominal = plant_parameters(reference_rig());
+    const PlantParameters vanished = with(vanishing_setting(*GetParam()));
+    const StagePlant before = make_stage_plant(nominal), after = make_stage_plant(vanished);
+    EXPECT_EQ(run(after), run(before));
+    EXPECT_EQ(see(after, vanished), see(before, nominal));
 }
 
 TEST_P(EachEffect, AtItsTypicalValues_ChangesTheRun) {
-    const EffectSetting setting = parse_effect(GetParam()->name);
-    EXPECT_NE(run(make_stage_plant(reference_rig(), {&setting, 1})), run(make_stage_plant(reference_rig())));
+    const PlantParameters nominal = plant_parameters(reference_rig());
+    const PlantParameters changed = with(parse_effect(GetParam()->name));
+    const StagePlant before = make_stage_plant(nominal), after = make_stage_plant(changed);
+    if (GetParam()->block.starts_with("camera."))
+        EXPECT_NE(see(after, changed), see(before, nominal));
+    else
+        EXPECT_NE(run(after), run(before));
 }
 
 TEST_P(EachEffect, AtItsBounds_GivesAFiniteRun) {
@@ -60,6 +111,11 @@ TEST_P(EachEffect, AtItsBounds_GivesAFiniteRun) {
             setting.values[k] = bound;
             const Row last = run(make_stage_plant(reference_rig(), {&setting, 1})).back();
             EXPECT_TRUE(std::isfinite(last.camera_mm) && std::isfinite(last.temp_degC)) << bound;
+            if (!GetParam()->block.starts_with("camera.")) continue;
+            const PlantParameters parameters = with(setting);
+            const Seen seen = see(make_stage_plant(parameters), parameters);
+            for (const auto& corners : seen.corners_px)
+                for (const Eigen::Vector2d& corner : corners) EXPECT_TRUE(corner.allFinite()) << bound;
         }
 }
 
@@ -98,6 +154,15 @@ TEST(Effects, OrderOfSettings_DoesNotMatter) {
     const Row b = run(make_stage_plant(reference_rig(), back)).back();
     EXPECT_NEAR(a.camera_mm, b.camera_mm, 1e-9);
     EXPECT_NEAR(a.temp_degC, b.temp_degC, 1e-9);
+    PlantParameters first = plant_parameters(reference_rig()), second = first;
+    apply_effects(first, forth);
+    apply_effects(second, back);
+    const Seen c = see(make_stage_plant(first), first), d = see(make_stage_plant(second), second);
+    EXPECT_EQ(c.stamps_ns, d.stamps_ns);
+    ASSERT_EQ(c.corners_px.size(), d.corners_px.size());
+    for (std::size_t k = 0; k < c.corners_px.size(); ++k)
+        for (std::size_t i = 0; i < 4; ++i)
+            EXPECT_NEAR((c.corners_px[k][i] - d.corners_px[k][i]).norm(), 0.0, 1e-9);
 }
 
 TEST(Effects, OnAPartThatTheRigLacks_AreInputErrors) {

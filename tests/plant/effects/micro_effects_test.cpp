@@ -68,10 +68,5 @@ TEST(HallNonlinearity, Curve_KeepsItsCentreAndEndsAndBendsBetween) {
                 1.25 * 0.5 * 0.08 * 0.75 * 4096.0 / 5.0, 1e-9);
 }
 
-TEST(CameraLatency, Frames_AreStampedLate) {
-    EXPECT_DOUBLE_EQ(plant_with("camera_latency:delay_ms=30").camera->delay_s, 0.03);
-    EXPECT_EQ(make_stage_plant(reference_rig()).camera->delay_s, 0.0);
-}
-
 }  // namespace
 }  // namespace fidservo::plant

@@ -1,0 +1,151 @@
+// The simulated camera in recordings: detections that are not made from images and frames with the real
+// detector must tell the same story, whatever the camera is like.
+#include "core/failure.h"
+#include "plant/effects/catalogue.h"
+#include "src/config/rig_file.h"
+#include "src/recording/reader.h"
+#include "src/simulation/filmed_recording.h"
+#include "src/simulation/simulate.h"
+#include "tests/src/temporary_folder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+namespace fidservo {
+namespace {
+
+Rig reference_rig() {
+    return load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
+}
+
+/// The wire heats and cools, 0.3 s; the camera moves at up to 6 mm/s.
+Experiment short_heating() {
+    return {.kind = "micro-steps", .duration_s = 0.36, .carriage_mm = 99.2, .micro_V = [](double t_s) {
+                return t_s < 0.25 ? 1.9 : 0.0;
+            }};
+}
+
+std::vector<plant::EffectSetting> settings(const std::vector<std::string>& texts) {
+    std::vector<plant::EffectSetting> effects;
+    effects.reserve(texts.size());
+    for (const std::string& text : texts) effects.push_back(plant::parse_effect(text));
+    return effects;
+}
+
+using ByTimeAndTag = std::map<std::pair<TimeNs, int>, std::array<Eigen::Vector2d, 4>>;
+
+ByTimeAndTag corners_of(const Recording& recording) {
+    ByTimeAndTag result;
+    for (const TagDetection& tag : recording.detections) result[{tag.time_ns, tag.tag_id}] = tag.corners_px;
+    return result;
+}
+
+class CameraOfARecording : public ::testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(CameraOfARecording, DetectionsWithAndWithoutImages_Agree) {
+    Rig rig = reference_rig();
+    rig.camera->corner_noise_px = 0.0;
+    rig.camera->read_noise_e = 0.5;  // what is left is the detector's: 0.01 px
+    rig.camera->full_well_e = 1e6;
+    const auto effects = settings(GetParam());
+    const ByTimeAndTag without = corners_of(simulate(rig, effects, short_heating(), "a", 3));
+    const ByTimeAndTag with =
+        corners_of(simulate(rig, effects, short_heating(), "a", 3, [](TimeNs, const cv::Mat&) {}));
+    int compared = 0;
+    double worst_px = 0.0;
+    for (const auto& [key, corners] : without) {
+        const auto found = with.find(key);
+        if (found == with.end()) continue;  // the last frames are not over when the recording ends
+        ++compared;
+        for (std::size_t k = 0; k < 4; ++k)
+            worst_px = std::max(worst_px, (corners[k] - found->second[k]).norm());
+    }
+    EXPECT_GE(compared, 14);
+    EXPECT_LT(worst_px, 0.02);
+    std::printf("%d frames, corners within %.4f px of each other\n", compared, worst_px);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Effects, CameraOfARecording,
+    ::testing::Values(std::vector<std::string>{}, std::vector<std::string>{"pixel_scale:factor=0.97"},
+                      std::vector<std::string>{"camera_rotation:angle_deg=2"},
+                      std::vector<std::string>{"camera_tilt:angle_deg=1,axis_deg=30"},
+                      std::vector<std::string>{"lens_distortion:k1=-0.1"},
+                      std::vector<std::string>{"clock_skew:skew_ppm=3000", "camera_latency:delay_ms=12"},
+                      std::vector<std::string>{"motion_blur:extra_exposure_ms=8"},
+                      std::vector<std::string>{"rolling_shutter:readout_ms=12"},
+                      std::vector<std::string>{"rolling_shutter:readout_ms=-12",
+                                               "camera_rotation:angle_deg=-3",
+                                               "motion_blur:extra_exposure_ms=3"}));
+
+TEST(ClockSkew, SkewedClock_StampsTrueTimesTimesItsRate) {
+    // The same motion, seen by a clock that runs 2000 ppm fast: a stamp c shows where the camera was at
+    // c/1.002.
+    Rig rig = reference_rig();
+    rig.camera->corner_noise_px = 0.0;
+    const Experiment rise{
+        .kind = "micro-steps", .duration_s = 3.0, .carriage_mm = 99.2, .micro_V = [](double t_s) {
+            return 1.4 + 0.05 * t_s;
+        }};
+    const auto skewed = settings({"clock_skew:skew_ppm=2000"});
+    const Recording fast = simulate(rig, skewed, rise, "a", 3), right = simulate(rig, {}, rise, "a", 3);
+    ASSERT_EQ(fast.detections.size(), right.detections.size());
+    const auto place = [&](std::size_t k) {
+        return right.detections[k].corners_px[0].x() + 500.0 * right.detections[k].tag_id;
+    };
+    double worst_px = 0.0, largest_shift_px = 0.0;
+    for (std::size_t k = 20; k + 2 < fast.detections.size(); ++k) {
+        EXPECT_EQ(fast.detections[k].time_ns, right.detections[k].time_ns);
+        const double early = (1.0 - 1.0 / 1.002) * seconds(fast.detections[k].time_ns) / 0.02;  // frames
+        const double seen = fast.detections[k].corners_px[0].x() + 500.0 * fast.detections[k].tag_id;
+        const double slope = 0.5 * (place(k + 1) - place(k - 1));
+        const double bend = place(k + 1) - 2.0 * place(k) + place(k - 1);
+        worst_px =
+            std::max(worst_px, std::abs(seen - (place(k) - early * slope + 0.5 * early * early * bend)));
+        largest_shift_px = std::max(largest_shift_px, std::abs(early * slope));
+    }
+    EXPECT_GT(largest_shift_px, 0.5);
+    EXPECT_LT(worst_px, 0.02);
+}
+
+TEST(FilmedRecording, Folder_HasTheFramesAndWhatIsFoundInThem) {
+    const Rig rig = reference_rig();
+    const fidservo::testing::TemporaryFolder folder;
+    const auto effects = settings({"camera_latency:delay_ms=7"});
+    Experiment experiment = short_heating();
+    experiment.duration_s = 0.1;
+    write_filmed_recording(folder / "film", rig, effects, experiment, "a", 3);
+    const Recording recording = read_recording(folder / "film");
+    ASSERT_EQ(recording.rows.size(), 100U);
+    ASSERT_EQ(recording.frames.size(), 5U);
+    for (std::size_t k = 0; k < recording.frames.size(); ++k) {
+        EXPECT_EQ(recording.frames[k].time_ns, 10'300'000 + static_cast<TimeNs>(k) * 20'000'000);
+        const cv::Mat image = cv::imread((folder / "film/cam0/data" / recording.frames[k].filename).string(),
+                                         cv::IMREAD_UNCHANGED);
+        EXPECT_EQ(image.size(), cv::Size(1280, 960));
+        EXPECT_EQ(image.type(), CV_8UC1);
+    }
+    EXPECT_GE(recording.detections.size(), 5U);
+    EXPECT_EQ(recording.detections.front().time_ns, recording.frames.front().time_ns);
+}
+
+TEST(FilmedRecording, StageRows_AreThoseWithoutFrames) {
+    const Rig rig = reference_rig();
+    Experiment experiment = short_heating();
+    experiment.duration_s = 0.1;
+    const Recording plain = simulate(rig, {}, experiment, "a", 3);
+    const Recording filmed = simulate(rig, {}, experiment, "a", 3, [](TimeNs, const cv::Mat&) {});
+    for (std::size_t k = 0; k < plain.rows.size(); ++k) {
+        EXPECT_EQ(plain.rows[k].hall_adc, filmed.rows[k].hall_adc);
+        EXPECT_EQ(plain.rows[k].encoder_count, filmed.rows[k].encoder_count);
+    }
+}
+
+}  // namespace
+}  // namespace fidservo
