@@ -30,7 +30,6 @@ PracticeDetector::PracticeDetector(const CameraParameters& camera, const plant::
     : camera_(camera),
       deviation_(deviation),
       optics_(plant::make_camera_optics(camera.geometry, deviation)),
-      window_s_(std::sqrt(deviation.extra_exposure_s * (deviation.extra_exposure_s + 2 * camera.exposure_s))),
       max_speed_mm_per_s_(camera.max_speed_mm_per_s),
       fiducials_(fiducials),
       noise_(seed, "corners") {
@@ -38,31 +37,33 @@ PracticeDetector::PracticeDetector(const CameraParameters& camera, const plant::
 }
 
 double PracticeDetector::reach_s() const {
-    return 0.5 * (window_s_ + std::abs(deviation_.readout_s));
+    const double exposure_s =
+        deviation_.extra_exposure_s > 0.0 ? camera_.exposure_s + deviation_.extra_exposure_s : 0.0;
+    return 0.5 * (exposure_s + std::abs(deviation_.readout_s));
 }
 
-/// Simpson's rule over the window; exact for even acceleration.
-double PracticeDetector::mean_s_mm(const Path& s_mm, double after_s) const {
-    if (window_s_ == 0.0) return s_mm(after_s);
-    constexpr int panels = 8;
-    double sum = 0.0;
-    for (int k = 0; k <= panels; ++k) {
-        const double weight = k == 0 || k == panels ? 1.0 : (k % 2 == 1 ? 4.0 : 2.0);
-        sum += weight * s_mm(after_s + window_s_ * (static_cast<double>(k) / panels - 0.5));
-    }
-    return sum / (3.0 * panels);
+double PracticeDetector::seen_s_mm(const Path& s_mm, double after_s) const {
+    if (deviation_.extra_exposure_s == 0.0) return s_mm(after_s);
+    const auto mean_over = [&](double exposure_s) {
+        constexpr int parts = 32;
+        double sum = 0.0;
+        for (int k = 0; k < parts; ++k) sum += s_mm(after_s + exposure_s * ((k + 0.5) / parts - 0.5));
+        return sum / parts;
+    };
+    return s_mm(after_s) + mean_over(camera_.exposure_s + deviation_.extra_exposure_s) -
+           mean_over(camera_.exposure_s);
 }
 
 /// The row decides when, and when decides the row: in a turned picture only, and the camera moves by far less
 /// than a row while a row is read out, so that each round gains several digits.
 Eigen::Vector2d PracticeDetector::corner_px(const Eigen::Vector2d& corner_mm, const Path& s_mm) const {
-    Eigen::Vector2d corner = plant::project(optics_, corner_mm, mean_s_mm(s_mm, 0.0));
+    Eigen::Vector2d corner = plant::project(optics_, corner_mm, seen_s_mm(s_mm, 0.0));
     if (deviation_.readout_s == 0.0) return corner;
     constexpr int rounds = 4;
     for (int k = 0; k < rounds; ++k) {
         const double after_s = plant::row_delay_s(
             camera_.geometry, deviation_, std::clamp(corner.y(), 0.0, camera_.geometry.height_px - 1.0));
-        corner = plant::project(optics_, corner_mm, mean_s_mm(s_mm, after_s));
+        corner = plant::project(optics_, corner_mm, seen_s_mm(s_mm, after_s));
     }
     return corner;
 }

@@ -18,8 +18,8 @@ namespace fidservo {
 /// normal noise of corner_noise_px r.m.s.
 ///
 /// Corners are where the true camera sees them, each at the time of its row. The rig file's exposure is taken
-/// as an instant; where it is longer, a corner is at its mean over sqrt(longer^2 - nominal^2), which has the
-/// longer exposure's effect in excess of the nominal one's, and the speed limit falls in proportion.
+/// as an instant; a longer one moves them by the mean position over it less that over the rig file's, and the
+/// speed limit falls in proportion.
 class PracticeDetector {
   public:
     /// The camera's true position in mm at a time after the frame's, s.
@@ -34,13 +34,12 @@ class PracticeDetector {
     double reach_s() const;
 
   private:
-    double mean_s_mm(const Path& s_mm, double after_s) const;
+    double seen_s_mm(const Path& s_mm, double after_s) const;
     Eigen::Vector2d corner_px(const Eigen::Vector2d& corner_mm, const Path& s_mm) const;
 
     CameraParameters camera_;
     plant::CameraDeviation deviation_;
     plant::CameraOptics optics_;
-    double window_s_;
     double max_speed_mm_per_s_;
     FiducialParameters fiducials_;
     NoiseStream noise_;

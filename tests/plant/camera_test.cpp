@@ -41,7 +41,7 @@ TEST(CameraOptics, Tilt_IsThePinholesPerspective) {
     const double angle = 2.0 * rad_per_deg;
     const CameraOptics optics = make_camera_optics(reference, {.tilt_rad = {angle, 0.0}});
     // About u: y' = y cos - z sin, z' = y sin + z cos.
-    for (const Eigen::Vector2d point : {Eigen::Vector2d(0.0, 0.0), {1.0, 0.7}, {-2.0, -1.5}}) {
+    for (const Eigen::Vector2d& point : {Eigen::Vector2d(0.0, 0.0), {1.0, 0.7}, {-2.0, -1.5}}) {
         const double y = point.y() * std::cos(angle) - 20.0 * std::sin(angle);
         const double z = point.y() * std::sin(angle) + 20.0 * std::cos(angle);
         const Eigen::Vector2d seen = project(optics, point + Eigen::Vector2d(50.0, 0.0), 50.0);

@@ -24,11 +24,10 @@ Rig reference_rig() {
     return load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
 }
 
-/// The wire heats and cools, 0.3 s; the camera moves at up to 6 mm/s.
-Experiment short_heating() {
-    return {.kind = "micro-steps", .duration_s = 0.36, .carriage_mm = 99.2, .micro_V = [](double t_s) {
-                return t_s < 0.25 ? 1.9 : 0.0;
-            }};
+/// The wire heats up: the camera moves at some mm/s, evenly but for the table's cells.
+Experiment heating() {
+    return {
+        .kind = "micro-steps", .duration_s = 0.7, .carriage_mm = 99.2, .micro_V = [](double) { return 1.5; }};
 }
 
 std::vector<plant::EffectSetting> settings(const std::vector<std::string>& texts) {
@@ -53,10 +52,11 @@ TEST_P(CameraOfARecording, DetectionsWithAndWithoutImages_Agree) {
     rig.camera->corner_noise_px = 0.0;
     rig.camera->read_noise_e = 0.5;  // what is left is the detector's: 0.01 px
     rig.camera->full_well_e = 1e6;
+    rig.camera->frame_rate_hz = 7.0;
     const auto effects = settings(GetParam());
-    const ByTimeAndTag without = corners_of(simulate(rig, effects, short_heating(), "a", 3));
+    const ByTimeAndTag without = corners_of(simulate(rig, effects, heating(), "a", 3));
     const ByTimeAndTag with =
-        corners_of(simulate(rig, effects, short_heating(), "a", 3, [](TimeNs, const cv::Mat&) {}));
+        corners_of(simulate(rig, effects, heating(), "a", 3, [](TimeNs, const cv::Mat&) {}));
     int compared = 0;
     double worst_px = 0.0;
     for (const auto& [key, corners] : without) {
@@ -66,8 +66,10 @@ TEST_P(CameraOfARecording, DetectionsWithAndWithoutImages_Agree) {
         for (std::size_t k = 0; k < 4; ++k)
             worst_px = std::max(worst_px, (corners[k] - found->second[k]).norm());
     }
-    EXPECT_GE(compared, 14);
-    EXPECT_LT(worst_px, 0.02);
+    EXPECT_GE(compared, 4);
+    // The detector fits straight edges; a lens that bends them puts its corners 0.02 px beside.
+    const bool bends = GetParam().size() == 1 && GetParam()[0].starts_with("lens_distortion");
+    EXPECT_LT(worst_px, bends ? 0.03 : 0.01);
     std::printf("%d frames, corners within %.4f px of each other\n", compared, worst_px);
 }
 
@@ -93,32 +95,35 @@ TEST(ClockSkew, SkewedClock_StampsTrueTimesTimesItsRate) {
         .kind = "micro-steps", .duration_s = 3.0, .carriage_mm = 99.2, .micro_V = [](double t_s) {
             return 1.4 + 0.05 * t_s;
         }};
-    const auto skewed = settings({"clock_skew:skew_ppm=2000"});
-    const Recording fast = simulate(rig, skewed, rise, "a", 3), right = simulate(rig, {}, rise, "a", 3);
-    ASSERT_EQ(fast.detections.size(), right.detections.size());
-    const auto place = [&](std::size_t k) {
-        return right.detections[k].corners_px[0].x() + 500.0 * right.detections[k].tag_id;
-    };
+    const Recording fast = simulate(rig, settings({"clock_skew:skew_ppm=2000"}), rise, "a", 3);
+    rig.camera->frame_rate_hz = 1000.0;
+    const Recording right = simulate(rig, {}, rise, "a", 3);
+    ASSERT_EQ(right.detections.size(), 2997U);
+    // The corner's place on the plate's own grid, whichever tag it is of.
+    const auto place_px = [](const TagDetection& tag) { return tag.corners_px[0].x() - 500.0 * tag.tag_id; };
     double worst_px = 0.0, largest_shift_px = 0.0;
-    for (std::size_t k = 20; k + 2 < fast.detections.size(); ++k) {
-        EXPECT_EQ(fast.detections[k].time_ns, right.detections[k].time_ns);
-        const double early = (1.0 - 1.0 / 1.002) * seconds(fast.detections[k].time_ns) / 0.02;  // frames
-        const double seen = fast.detections[k].corners_px[0].x() + 500.0 * fast.detections[k].tag_id;
-        const double slope = 0.5 * (place(k + 1) - place(k - 1));
-        const double bend = place(k + 1) - 2.0 * place(k) + place(k - 1);
-        worst_px =
-            std::max(worst_px, std::abs(seen - (place(k) - early * slope + 0.5 * early * early * bend)));
-        largest_shift_px = std::max(largest_shift_px, std::abs(early * slope));
+    for (const TagDetection& tag : fast.detections) {
+        const auto place_at = [&](double time_ms) {
+            const double row = time_ms - 3.3;
+            const auto before = std::min(static_cast<std::size_t>(row), right.detections.size() - 2);
+            const double from = place_px(right.detections[before]),
+                         to = place_px(right.detections[before + 1]);
+            return from + (row - static_cast<double>(before)) * (to - from);
+        };
+        const double stamp_ms = 1e3 * seconds(tag.time_ns);
+        if (stamp_ms < 10.0 || stamp_ms > 2990.0) continue;
+        worst_px = std::max(worst_px, std::abs(place_px(tag) - place_at(stamp_ms / 1.002)));
+        largest_shift_px = std::max(largest_shift_px, std::abs(place_px(tag) - place_at(stamp_ms)));
     }
     EXPECT_GT(largest_shift_px, 0.5);
-    EXPECT_LT(worst_px, 0.02);
+    EXPECT_LT(worst_px, 0.01);
 }
 
 TEST(FilmedRecording, Folder_HasTheFramesAndWhatIsFoundInThem) {
     const Rig rig = reference_rig();
     const fidservo::testing::TemporaryFolder folder;
     const auto effects = settings({"camera_latency:delay_ms=7"});
-    Experiment experiment = short_heating();
+    Experiment experiment = heating();
     experiment.duration_s = 0.1;
     write_filmed_recording(folder / "film", rig, effects, experiment, "a", 3);
     const Recording recording = read_recording(folder / "film");
@@ -137,7 +142,7 @@ TEST(FilmedRecording, Folder_HasTheFramesAndWhatIsFoundInThem) {
 
 TEST(FilmedRecording, StageRows_AreThoseWithoutFrames) {
     const Rig rig = reference_rig();
-    Experiment experiment = short_heating();
+    Experiment experiment = heating();
     experiment.duration_s = 0.1;
     const Recording plain = simulate(rig, {}, experiment, "a", 3);
     const Recording filmed = simulate(rig, {}, experiment, "a", 3, [](TimeNs, const cv::Mat&) {});
