@@ -28,7 +28,7 @@ double mean(std::span<const double> values) {
     return sum / static_cast<double>(values.size());
 }
 
-/// From the least to the value that only one in a hundred of the non-zero samples exceeds.
+/// From the least to the value that one in twenty of the non-zero samples exceeds.
 double usual_range(std::span<const double> command) {
     std::vector<double> sorted;
     sorted.reserve(command.size());
@@ -36,7 +36,7 @@ double usual_range(std::span<const double> command) {
         if (value != 0.0) sorted.push_back(value);
     if (sorted.empty()) return 0.0;
     std::sort(sorted.begin(), sorted.end());
-    const double high = sorted[sorted.size() * 99 / 100];
+    const double high = sorted[sorted.size() * 95 / 100];
     return high - std::min(0.0, sorted.front());
 }
 

@@ -30,6 +30,15 @@ Source from_table(const TextTable& table) {
     return source;
 }
 
+/// Whether the platform hardly moved: such a recording costs as much as others and tells nothing.
+bool rests(const Recording& recording, const MicroModel& model) {
+    constexpr double least_share = 0.05;
+    const auto [low, high] = std::ranges::minmax(recording.rows, {}, &StageRow::hall_adc);
+    const double moved_mm =
+        platform_position_mm(model, high.hall_adc) - platform_position_mm(model, low.hall_adc);
+    return !(moved_mm > least_share * model.fod->stroke_mm());
+}
+
 /// Recordings hold no wire temperature: it is simulated by the rig file's heater. Each recording starts cold,
 /// which wipes the memory of the one before.
 Source from_recordings(const IdentifyInput& input) {
@@ -38,7 +47,7 @@ Source from_recordings(const IdentifyInput& input) {
     const MicroModel model = nominal_micro_model(*input.rig.micro);
     Source source{{}, {}, "degC", "mm", true};
     for (const Recording& recording : input.recordings) {
-        if (!recording.columns.hall || !recording.columns.micro_command) continue;
+        if (!recording.columns.hall || !recording.columns.micro_command || rests(recording, model)) continue;
         calib::HeaterRun run{.tick_s = recording.tick_s, .command = {}, .reading = {}};
         for (const StageRow& row : recording.rows) {
             if (!std::isfinite(row.hall_adc)) continue;
@@ -51,7 +60,8 @@ Source from_recordings(const IdentifyInput& input) {
     }
     if (source.names.empty())
         throw InputError(
-            "no recording has both micro_command [V] and hall [adc]; a table of temperature and displacement "
+            "no recording has micro_command [V] and a hall [adc] that moves; a table of temperature and "
+            "displacement "
             "is read with --table");
     return source;
 }
@@ -101,7 +111,9 @@ void report_halves(const Source& source, const calib::PreisachFitOptions& option
 Identified identify_hysteresis(const IdentifyInput& input) {
     const Source source = input.table ? from_table(*input.table) : from_recordings(input);
     Identified identified{.part = "hysteresis", .recordings = source.names};
-    const calib::PreisachFitOptions options{.starts_at_saturation = source.starts_cold};
+    constexpr std::size_t wire_nodes = 40, other_nodes = 25;  // a wire transforms within a few degrees
+    const calib::PreisachFitOptions options{.nodes = source.input_unit == "degC" ? wire_nodes : other_nodes,
+                                            .starts_at_saturation = source.starts_cold};
     std::optional<calib::PreisachFit> fit;
     if (auto fod = source.starts_cold
                        ? Result<calib::FodIdentification>(failure(Reason::not_identifiable, ""))
@@ -120,7 +132,7 @@ Identified identify_hysteresis(const IdentifyInput& input) {
         return identified;
     }
     report(*fit, source, identified);
-    report_halves(source, options, identified);
+    if (input.table) report_halves(source, options, identified);
     if (source.input_unit == "degC" && source.output_unit == "mm")
         identified.fod = std::make_shared<const FodTable>(fit->table);
     else
