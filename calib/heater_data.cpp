@@ -43,7 +43,7 @@ double usual_range(std::span<const double> command) {
 }  // namespace
 
 std::vector<std::size_t> corrupt_samples(std::span<const double> command) {
-    constexpr double share_of_range = 0.2, spreads = 3.0;
+    constexpr double share_of_range = 0.3, spreads = 3.0;
     constexpr std::size_t longest = 2;
     const double range = usual_range(command);
     std::vector<std::size_t> corrupt;

@@ -20,7 +20,7 @@ struct HeaterRun {
 };
 
 /// Samples that no drive gave: isolated, at most two rows long, and away from the median of the eleven rows
-/// around by more than a fifth of the commands' usual range and three times as much as those rows are spread.
+/// around by more than three tenths of the commands' usual range and three times as much as those rows are spread.
 /// Their indices, ascending.
 std::vector<std::size_t> corrupt_samples(std::span<const double> command);
 
