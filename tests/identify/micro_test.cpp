@@ -124,7 +124,7 @@ TEST(IdentifyHeater, TableWithSpikes_StatesThemAndTheHeater) {
     }
     const Identified heater =
         identify_heater({reference(), {}, table_of({std::move(input), std::move(output)}), 10.0});
-    EXPECT_THAT(heater.notes.at(0), HasSubstr("6 of 4000 commands are corrupt"));
+    EXPECT_THAT(heater.notes.at(0), HasSubstr("5 of 4000 commands are corrupt"));
     EXPECT_NEAR(value_of(heater, "micro.heater.heating_tau_s").value, 5.0, 0.05);
     EXPECT_NEAR(value_of(heater, "micro.heater.cooling_tau_s").value, 9.0, 0.05);
     EXPECT_FALSE(value_of(heater, "micro.heater.cooling_tau_s").in_rig_file);
