@@ -53,6 +53,7 @@ FodTable::FodTable(std::vector<double> nodes_degC, std::vector<double> lower_tri
       low_degC_(nodes_degC.front()),
       high_degC_(nodes_degC.back()),
       step_degC_((high_degC_ - low_degC_) / static_cast<double>(nodes_ - 1)),
+      nodes_per_degC_(1.0 / step_degC_),
       square_mm_(nodes_ * nodes_) {
     FIDSERVO_DEMAND(nodes_ >= 2 && lower_triangle_mm.size() == nodes_ * (nodes_ + 1) / 2);
     std::size_t next = 0;
@@ -66,10 +67,10 @@ FodTable::FodTable(std::vector<double> nodes_degC, std::vector<double> lower_tri
 
 double FodTable::contraction_mm(double peak_degC, double temp_degC) const {
     const double last = static_cast<double>(nodes_ - 1);
-    const double peak = std::clamp((peak_degC - low_degC_) / step_degC_, 0.0, last);
-    const double temp = std::clamp((temp_degC - low_degC_) / step_degC_, 0.0, peak);
-    const auto i = std::min(static_cast<std::size_t>(peak), nodes_ - 2);
-    const auto j = std::min(static_cast<std::size_t>(temp), nodes_ - 2);
+    const double peak = std::clamp((peak_degC - low_degC_) * nodes_per_degC_, 0.0, last);
+    const double temp = std::clamp((temp_degC - low_degC_) * nodes_per_degC_, 0.0, peak);
+    const auto i = std::min(static_cast<std::ptrdiff_t>(peak), static_cast<std::ptrdiff_t>(nodes_) - 2);
+    const auto j = std::min(static_cast<std::ptrdiff_t>(temp), static_cast<std::ptrdiff_t>(nodes_) - 2);
     const double u = peak - static_cast<double>(i);
     const double w = temp - static_cast<double>(j);
     if (i == j) {

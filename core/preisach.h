@@ -37,7 +37,7 @@ class FodTable {
 
   private:
     std::size_t nodes_;
-    double low_degC_, high_degC_, step_degC_;
+    double low_degC_, high_degC_, step_degC_, nodes_per_degC_;
     std::vector<double> square_mm_;  ///< full square, row = peak; above the diagonal f(a, a)
 };
 
