@@ -110,10 +110,9 @@ using Free = std::array<bool, heater_numbers>;
 
 /// Least squares over the free numbers. @return false if it did not converge to something usable
 bool solve(const Residuals& residuals, const Free& is_free, bool onset_bounded, Vector& x) {
-    auto& mutable_residuals = const_cast<Residuals&>(residuals);
     ceres::Problem::Options ownership;
     ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::DynamicNumericDiffCostFunction<Residuals, ceres::CENTRAL> cost(&mutable_residuals,
+    ceres::DynamicNumericDiffCostFunction<Residuals, ceres::CENTRAL> cost(&residuals,
                                                                           ceres::DO_NOT_TAKE_OWNERSHIP);
     cost.AddParameterBlock(numbers);
     cost.SetNumResiduals(residuals.count());
