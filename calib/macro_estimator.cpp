@@ -38,6 +38,17 @@ double largest_command_V(const std::vector<MacroWindow>& windows) {
     return size_V;
 }
 
+/// End of the block of ticks that begins at `begin`: 50 ms on, then until the reading changes, because the
+/// error of rounding stays the same while the reading does.
+std::size_t end_of_block(const MacroWindow& window, std::size_t begin) {
+    constexpr double block_s = 0.05;
+    const auto least =
+        std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(block_s / window.tick_s)));
+    std::size_t end = std::min(begin + least, window.position_mm.size());
+    while (end < window.position_mm.size() && window.position_mm[end] == window.position_mm[end - 1]) ++end;
+    return end;
+}
+
 }  // namespace
 
 MacroVector vector_of(const MacroMotion& motion) {
@@ -254,7 +265,6 @@ void MacroEstimator::refine(MacroPoint& point, const MacroActive& active, int mo
 
 MacroMatrix MacroEstimator::covariance(const MacroPoint& point, const MacroActive& active) const {
     constexpr int n = macro_parameter_count;
-    constexpr double block_s = 0.05;
     MacroMatrix curvature = prior_std_.cwiseAbs2().cwiseInverse().asDiagonal();
     MacroMatrix scatter = curvature;
     double blocks = 0.0;
@@ -265,14 +275,14 @@ MacroMatrix MacroEstimator::covariance(const MacroPoint& point, const MacroActiv
         const Eigen::MatrixXd jacobian = sensitivities(w, point, active);
         const Eigen::MatrixXd own = jacobian.leftCols<n>() - jacobian.rightCols<2>() * carried;
         const std::vector<double> place_count = predict(w, point.motion, point.starts[w]);
-        const auto block = std::max<std::size_t>(1, std::lround(block_s / windows_[w].tick_s));
-        for (std::size_t begin = 0; begin < place_count.size(); begin += block, ++blocks) {
+        for (std::size_t begin = 0; begin < place_count.size(); ++blocks) {
+            const std::size_t end = end_of_block(windows_[w], begin);
             MacroVector score = MacroVector::Zero();
-            for (std::size_t k = begin; k < std::min(begin + block, place_count.size()); ++k)
-                score += rounding_loss(place_count[k] - windows_[w].position_mm[k] / resolution_mm_,
+            for (; begin < end; ++begin)
+                score += rounding_loss(place_count[begin] - windows_[w].position_mm[begin] / resolution_mm_,
                                        point.noise_count)
                              .slope *
-                         own.row(static_cast<Eigen::Index>(k)).transpose();
+                         own.row(static_cast<Eigen::Index>(begin)).transpose();
             scatter += score * score.transpose();
         }
     }
@@ -281,6 +291,8 @@ MacroMatrix MacroEstimator::covariance(const MacroPoint& point, const MacroActiv
     const auto unit = prior_std_.asDiagonal();
     const MacroMatrix inverse = unit * MacroMatrix(unit * curvature * unit).inverse() * unit;
     MacroMatrix result = inverse * (unbiased * scatter) * inverse;
+    const MacroVector widened = inverse.diagonal().cwiseQuotient(result.diagonal()).cwiseSqrt().cwiseMax(1.0);
+    result = widened.asDiagonal() * result * widened.asDiagonal();
     for (int i = 0; i < n; ++i) {
         if (active[static_cast<std::size_t>(i)]) continue;
         result.row(i).setZero();

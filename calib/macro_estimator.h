@@ -58,8 +58,9 @@ class MacroEstimator {
     double noise_count(const MacroPoint& point) const;
 
     /// Covariance of the active parameters, zero elsewhere: the sandwich H^-1 (sum of g g') H^-1 over blocks
-    /// of ticks, which holds when errors are correlated over less than a block or the noise is not as
-    /// assumed; from below by the priors' share where the data say nothing.
+    /// of 50 ms, longer where the reading stands still, which holds when errors are correlated over less than
+    /// a block or the noise is not as assumed; widened to H^-1, the likelihood's own claim, where blocks are
+    /// few.
     MacroMatrix covariance(const MacroPoint& point, const MacroActive& active) const;
 
     const std::vector<MacroWindow>& windows() const { return windows_; }

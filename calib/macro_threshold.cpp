@@ -87,9 +87,12 @@ ThresholdInterval threshold_from_rest(const std::vector<MacroWindow>& windows, d
             const bool changed = std::abs(moved_count(k - 1, k)) > 0.5;
             if (!changed && k - rested >= ticks(rested_s + stays_s))
                 found.above_V = std::max(found.above_V, push_V(window, side, k - ticks(stays_s), k).first);
-            if (changed && k - rested >= ticks(rested_s) && moved_count(k - 1, k) > 0.0 &&
-                moved_count(k - 1, k + ticks(leaves_s)) > leaves_count)
-                found.most_V = std::min(found.most_V, push_V(window, side, k - ticks(rested_s), k).second);
+            const bool leaves = changed && k - rested >= ticks(rested_s) && moved_count(k - 1, k) > 0.0 &&
+                                moved_count(k - 1, k + ticks(leaves_s)) > leaves_count;
+            // Without a push it is the last count of a carriage that coasts.
+            if (const double most_V = leaves ? push_V(window, side, k - ticks(rested_s), k).second : 0.0;
+                most_V > 0.0)
+                found.most_V = std::min(found.most_V, most_V);
             if (changed) rested = k;
         }
     }

@@ -1,10 +1,130 @@
+#include "calib/macro_force.h"
+#include "calib/macro_identification.h"
 #include "core/failure.h"
 #include "src/identify/identify.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
 namespace fidservo {
 
-Identified identify_macro(const IdentifyInput&) {
-    throw InputError("identify macro: not built in");
+namespace {
+
+using Estimate = Result<calib::MacroEstimate>;
+
+void add(Identified& identified, const std::string& key, const std::string& unit, const Estimate& estimate,
+         bool in_rig_file = true) {
+    if (estimate)
+        identified.values.push_back({key, unit, estimate->value, estimate->std, in_rig_file});
+    else
+        identified.undetermined.push_back({key, estimate.error().text});
+}
+
+/// Per tick: pole = exp(-T / tau).
+Estimate velocity_pole(const Estimate& time_constant_s, double tick_s) {
+    if (!time_constant_s) return time_constant_s;
+    const double pole = std::exp(-tick_s / time_constant_s->value);
+    const double slope_per_s = pole * tick_s / (time_constant_s->value * time_constant_s->value);
+    return calib::MacroEstimate{pole, slope_per_s * time_constant_s->std};
+}
+
+/// Friction or offset that stands out of its standard error by three times belongs into the rig file.
+void state_if_present(Identified& identified, const std::string& effect, const std::string& parameter,
+                      const Estimate& estimate) {
+    constexpr double significant = 3.0, least_V = 1e-3;
+    if (estimate && std::abs(estimate->value) > std::max(least_V, significant * estimate->std))
+        identified.effects.push_back({effect, {{parameter, estimate->value}}});
+}
+
+std::vector<calib::MacroTrace> traces_of(const IdentifyInput& input, Identified& identified) {
+    std::vector<Recording> recordings = input.recordings;
+    if (input.table) recordings.push_back(table_as_macro_recording(input));
+    std::vector<calib::MacroTrace> traces;
+    for (const Recording& recording : recordings) {
+        if (!recording.columns.macro_command || !(recording.columns.encoder || recording.columns.position))
+            throw InputError(
+                fmt::format("{}: identify macro needs macro_command [V] and encoder [count] or position [mm]",
+                            recording.name));
+        identified.recordings.push_back(recording.name);
+        for (calib::MacroTrace& trace : calib::macro_traces(recording, input.rig.macro.encoder_resolution_mm))
+            traces.push_back(std::move(trace));
+    }
+    return traces;
+}
+
+/// Readings beyond the ends of travel show that the encoder's zero is not the rig file's.
+void check_origin(calib::MacroBuild& build, const std::vector<calib::MacroTrace>& traces,
+                  Identified& identified) {
+    const auto beyond = [&](double y_mm) {
+        return y_mm < build.travel.low_mm - build.resolution_mm ||
+               y_mm > build.travel.high_mm + build.resolution_mm;
+    };
+    if (std::ranges::none_of(traces, [&](const calib::MacroTrace& trace) {
+            return std::ranges::any_of(trace.position_mm, beyond);
+        }))
+        return;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    build.travel = {-infinity, infinity};
+    identified.notes.emplace_back(
+        "readings lie beyond the rig file's travel: the encoder's zero is taken as unknown, and end stops "
+        "are known "
+        "only by the carriage stopping dead");
+}
+
+void add_values(Identified& identified, const calib::MacroIdentification& found, const Rig& rig,
+                bool dead_zone) {
+    add(identified, "macro.velocity_gain_mm_per_s_per_V", "mm/s/V", found.gain_mm_per_s_per_V);
+    add(identified, "macro.velocity_pole", "per tick", velocity_pole(found.time_constant_s, rig.tick_s));
+    if (found.time_constant_s) add(identified, "time_constant", "s", found.time_constant_s, false);
+    if (dead_zone) {
+        add(identified, "macro.dead_zone.threshold_V", "V", found.threshold_V);
+        add(identified, "macro.dead_zone.offset_V", "V", found.zone_offset_V);
+        add(identified, "macro.dead_zone.slope", "V/V", found.zone_slope);
+    }
+    add(identified, "coulomb_friction", "V", found.friction_V, false);
+    add(identified, "drive_offset", "V", found.drive_offset_V, false);
+    state_if_present(identified, "coulomb_friction", "level_V", found.friction_V);
+    state_if_present(identified, "drive_offset", "offset_V", found.drive_offset_V);
+}
+
+void add_notes(Identified& identified, const calib::MacroIdentification& found,
+               const calib::MacroBuild& build, const std::vector<calib::MacroTrace>& traces) {
+    identified.notes.push_back(
+        fmt::format("{:.4g} s in {} windows of {:.4g} s{}", found.used_s, found.windows, found.window_s,
+                    found.left_out_s > 1e-6
+                        ? fmt::format("; {:.4g} s at end stops or in short pieces left out", found.left_out_s)
+                        : ""));
+    if (found.threshold_assumed)
+        identified.notes.push_back(
+            fmt::format("offset_V is for the rig file's threshold of {:.4g} V", build.threshold_V));
+    if (build.dead_zone)
+        identified.notes.push_back(
+            fmt::format("the gain is for effective volts, 1 V at a command of {:.4g} V", build.unit_V));
+    if (build.dead_zone) return;
+    if (const auto error = calib::relative_force_error(traces, found.motion))
+        identified.notes.push_back(fmt::format("relative error of the force: {:.2g} %", 100.0 * *error));
+}
+
+}  // namespace
+
+Identified identify_macro(const IdentifyInput& input) {
+    constexpr double rounding_count = 0.2886751345948129;  // 1/sqrt(12)
+    Identified identified{.part = "macro"};
+    const std::vector<calib::MacroTrace> traces = traces_of(input, identified);
+    calib::MacroBuild build = calib::macro_build(input.rig.macro);
+    check_origin(build, traces, identified);
+    const auto found = calib::identify_macro(traces, build);
+    if (!found) {
+        identified.undetermined.push_back({"macro", found.error().text});
+        return identified;
+    }
+    add_values(identified, *found, input.rig, build.dead_zone);
+    identified.residuals.push_back({"encoder", "count", found->residual_count, rounding_count});
+    add_notes(identified, *found, build, traces);
+    return identified;
 }
 
 }  // namespace fidservo
