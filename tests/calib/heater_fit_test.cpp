@@ -160,7 +160,10 @@ TEST(HeaterFitToTemperature, SimulatedThermometer_IsRecovered) {
     const HeaterParameters truth{0.4, 10.0, 6.0, 12.0, 25.0, 22.0};
     HeaterRun run{.tick_s = 0.05, .command = {}, .reading = {}};
     NoiseStream noise(5, "thermometer");
-    for (int k = 0; k < 6000; ++k) run.command.push_back((k / 600) % 2 == 0 ? 1.0 + 0.3 * (k / 1200) : 0.0);
+    for (int k = 0; k < 6000; ++k) {
+        const int pulse = k / 1200;
+        run.command.push_back((k / 600) % 2 == 0 ? 1.0 + 0.3 * pulse : 0.0);
+    }
     run.reading = predict_temperature(truth, run);
     for (double& value : run.reading) value += 0.1 * noise.normal();
     const auto fit = fit_heater_to_temperature({run});
@@ -195,7 +198,8 @@ TEST(HeaterFitToTemperature, RealSpring_IsPredictedOnTheHalfItWasNotFittedTo) {
     double squares = 0.0;
     for (std::size_t k = n / 2; k < n; ++k) squares += std::pow(model[k] - run.reading[k], 2);
     EXPECT_LT(fit->residual_rms, 1.1);  // degC, of a rise of 30
-    EXPECT_LT(std::sqrt(squares / static_cast<double>(n - n / 2)), 1.4);
+    const std::size_t held_out = n - n / 2;
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(held_out)), 1.4);
 }
 
 TEST(CorruptSamples, SpikesAreFound_StepsRampsAndPulsesAreNot) {

@@ -116,7 +116,8 @@ TEST(IdentifyHeater, TableWithSpikes_StatesThemAndTheHeater) {
     TableColumn input{"input", "", {}}, output{"output", "degC", {}};
     double temp = 22.0;
     for (int k = 0; k < 4000; ++k) {
-        const double drive = (k / 500) % 2 == 0 ? 4.0 + static_cast<double>(k / 1000) : 0.0;
+        const int pulse = k / 1000;
+        const double drive = (k / 500) % 2 == 0 ? 4.0 + pulse : 0.0;
         input.values.push_back(k % 700 == 650 ? 1025.0 : drive);
         output.values.push_back(temp);
         const double way = 10.0 * drive - (temp - 22.0);
