@@ -1,6 +1,7 @@
 // Speed of the stage's physics, without images: how many times faster than the rig one core simulates it,
 // beside the limit of 3,000; and the cost of the wire's hysteresis per sample, beside a direct evaluation of
 // the double integral over relays on the same grid.
+#include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 #include "src/config/rig_file.h"
 
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -94,6 +96,37 @@ void stage_tick_macro_only(benchmark::State& bench) {
     });
 }
 BENCHMARK(stage_tick_macro_only)->Unit(benchmark::kMicrosecond);
+
+/// The carriage with effects that have no closed form, "+" between them.
+void stage_tick_with_effects(benchmark::State& bench, std::string_view names) {
+    std::vector<plant::EffectSetting> effects;
+    while (!names.empty()) {
+        const std::size_t end = std::min(names.find('+'), names.size());
+        effects.push_back(plant::parse_effect(names.substr(0, end)));
+        names.remove_prefix(std::min(end + 1, names.size()));
+    }
+    const plant::StagePlant plant = plant::make_stage_plant(reference_rig(), effects);
+    plant::StageState state = plant::start(plant, 100.0, 1);
+    run_seconds(bench, [&](const Command& command) {
+        benchmark::DoNotOptimize(plant::sample(plant.encoder, state.encoder, state.axis.position_mm));
+        plant::advance(plant.axis, state.axis, command.macro_V);
+    });
+}
+BENCHMARK_CAPTURE(stage_tick_with_effects, delay, "drive_delay:delay_ms=3.7")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_with_effects, coulomb, "coulomb_friction")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_with_effects, stribeck, "stribeck_friction")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_with_effects, creep, "stribeck_friction:level_V=0.4,creep_mm_per_s=0.4")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_with_effects, presliding, "presliding")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_with_effects, cogging, "cogging")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_with_effects, belt, "belt_compliance")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_with_effects, stiff_belt, "belt_compliance:stretch_um_per_V=0.5")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_with_effects, backlash, "backlash")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_with_effects, all,
+                  "drive_delay+coulomb_friction+stribeck_friction+friction_asymmetry+presliding+rail_patch+"
+                  "cogging+cable_force+belt_compliance+backlash+encoder_ripple")
+    ->Unit(benchmark::kMicrosecond);
 
 void stage_tick_micro_only(benchmark::State& bench) {
     const plant::StagePlant plant = plant::make_stage_plant(reference_rig());

@@ -7,8 +7,16 @@
 
 namespace fidservo::plant {
 
+/// The error  A sin(2 pi y / p + phase)  of the position that it reads.
+struct EncoderRipple {
+    double amplitude_mm = 0.0;
+    double period_mm = 1.0;
+    double phase_rad = 0.0;
+};
+
 struct Encoder {
     double resolution_mm;
+    EncoderRipple ripple{};
 };
 
 /// Where the count is zero.

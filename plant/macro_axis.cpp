@@ -1,49 +1,54 @@
 #include "plant/macro_axis.h"
 
 #include "core/failure.h"
+#include "plant/dead_zone.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
 namespace fidservo::plant {
 
 namespace {
 
+struct Glide {
+    double position_mm;
+    double velocity_mm_per_s;
+};
+
 /// Motion from `start` towards a terminal velocity, unhindered by the ends of travel.
-MacroAxisState glide(const MacroAxisState& start, double terminal_mm_per_s, double duration_s, double decay,
-                     double glide_s) {
+Glide glide(const Glide& start, double terminal_mm_per_s, double duration_s, double decay, double glide_s) {
     const double excess_mm_per_s = start.velocity_mm_per_s - terminal_mm_per_s;
     return {start.position_mm + terminal_mm_per_s * duration_s + excess_mm_per_s * glide_s,
             terminal_mm_per_s + excess_mm_per_s * decay};
 }
 
-MacroAxisState glide(const MacroAxis& axis, const MacroAxisState& start, double terminal_mm_per_s,
-                     double duration_s) {
+Glide glide(const MacroAxis& axis, const Glide& start, double terminal_mm_per_s, double duration_s) {
     const double tau_s = axis.parameters.time_constant_s;
     const double lost = -std::expm1(-duration_s / tau_s);
     return glide(start, terminal_mm_per_s, duration_s, 1.0 - lost, tau_s * lost);
 }
 
-/// When the carriage turns round, v(t) = 0, if it does so within the tick.
-std::optional<double> turning_time_s(const MacroAxis& axis, const MacroAxisState& start,
-                                     double terminal_mm_per_s) {
+/// When the carriage turns round, v(t) = 0, if it does so within the duration.
+std::optional<double> turning_time_s(const MacroAxis& axis, const Glide& start, double terminal_mm_per_s,
+                                     double duration_s) {
     if (start.velocity_mm_per_s * terminal_mm_per_s >= 0.0) return std::nullopt;
     const double time_s =
         axis.parameters.time_constant_s * std::log1p(-start.velocity_mm_per_s / terminal_mm_per_s);
-    return time_s < axis.tick_s ? std::optional(time_s) : std::nullopt;
+    return time_s < duration_s ? std::optional(time_s) : std::nullopt;
 }
 
 /// When the carriage runs into the end of travel on the given side (+1 right, -1 left), if it does so within
-/// the tick. The way outwards is one monotonic piece of the motion: before the turn, or after it.
-std::optional<double> impact_time_s(const MacroAxis& axis, const MacroAxisState& start,
-                                    double terminal_mm_per_s, double end_mm, double side) {
-    const auto turn_s = turning_time_s(axis, start, terminal_mm_per_s);
+/// the duration. The way outwards is one monotonic piece of the motion: before the turn, or after it.
+std::optional<double> impact_time_s(const MacroAxis& axis, const Glide& start, double terminal_mm_per_s,
+                                    double duration_s, double end_mm, double side) {
+    const auto turn_s = turning_time_s(axis, start, terminal_mm_per_s, duration_s);
     const bool leaves_first = side * start.velocity_mm_per_s > 0.0;
     if (!leaves_first && side * terminal_mm_per_s <= 0.0) return std::nullopt;
     if (!leaves_first && start.velocity_mm_per_s != 0.0 && !turn_s) return std::nullopt;
     double before_s = leaves_first ? 0.0 : turn_s.value_or(0.0);
-    double after_s = leaves_first ? turn_s.value_or(axis.tick_s) : axis.tick_s;
+    double after_s = leaves_first ? turn_s.value_or(duration_s) : duration_s;
 
     const auto beyond = [&](double time_s) {
         return side * (glide(axis, start, terminal_mm_per_s, time_s).position_mm - end_mm) > 0.0;
@@ -57,18 +62,43 @@ std::optional<double> impact_time_s(const MacroAxis& axis, const MacroAxisState&
     return before_s;
 }
 
-/// A tick during which an end of travel may be met.
-MacroAxisState glide_between_ends(const MacroAxis& axis, const MacroAxisState& start,
-                                  double terminal_mm_per_s) {
+/// Motion during which an end of travel may be met.
+Glide glide_between_ends(const MacroAxis& axis, const Glide& start, double terminal_mm_per_s,
+                         double duration_s) {
     for (const double side : {-1.0, 1.0}) {
         const double end_mm = side < 0.0 ? axis.parameters.low_mm : axis.parameters.high_mm;
-        const auto impact_s = impact_time_s(axis, start, terminal_mm_per_s, end_mm, side);
+        const auto impact_s = impact_time_s(axis, start, terminal_mm_per_s, duration_s, end_mm, side);
         if (!impact_s) continue;
-        const MacroAxisState stopped{end_mm, 0.0};
+        const Glide stopped{end_mm, 0.0};
         const bool pressed = side * terminal_mm_per_s >= 0.0;
-        return pressed ? stopped : glide(axis, stopped, terminal_mm_per_s, axis.tick_s - *impact_s);
+        return pressed ? stopped : glide(axis, stopped, terminal_mm_per_s, duration_s - *impact_s);
     }
-    return glide(start, terminal_mm_per_s, axis.tick_s, axis.decay, axis.glide_s);
+    return glide(axis, start, terminal_mm_per_s, duration_s);
+}
+
+/// The exact solution over a tick or a part of one.
+void advance_in_closed_form(const MacroAxis& axis, MacroAxisState& state, double command_V,
+                            double duration_s) {
+    const MacroAxisParameters& parameters = axis.parameters;
+    const double terminal_mm_per_s =
+        parameters.velocity_gain_mm_per_s_per_V * effective_voltage_V(parameters, command_V);
+    const double reach_mm =
+        std::max(std::abs(state.velocity_mm_per_s), std::abs(terminal_mm_per_s)) * duration_s;
+    const bool far_from_ends = state.position_mm - reach_mm >= parameters.low_mm &&
+                               state.position_mm + reach_mm <= parameters.high_mm;
+    const Glide before{state.position_mm, state.velocity_mm_per_s};
+    const Glide after = !far_from_ends ? glide_between_ends(axis, before, terminal_mm_per_s, duration_s)
+                        : duration_s == axis.tick_s
+                            ? glide(before, terminal_mm_per_s, duration_s, axis.decay, axis.glide_s)
+                            : glide(axis, before, terminal_mm_per_s, duration_s);
+    state.position_mm = after.position_mm;
+    state.velocity_mm_per_s = after.velocity_mm_per_s;
+}
+
+void advance_by(const MacroAxis& axis, MacroAxisState& state, double command_V, double duration_s) {
+    if (axis.has_closed_form) return advance_in_closed_form(axis, state, command_V, duration_s);
+    const MacroAxisParameters& parameters = axis.parameters;
+    move(axis, state, drive_voltage_V(parameters, command_V) + parameters.drive_bias_V, duration_s);
 }
 
 }  // namespace
@@ -86,8 +116,33 @@ MacroAxisParameters macro_axis_parameters(const Rig& rig) {
 MacroAxis make_macro_axis(const MacroAxisParameters& parameters, double tick_s) {
     FIDSERVO_DEMAND(tick_s > 0.0 && parameters.time_constant_s > 0.0 &&
                     parameters.low_mm < parameters.high_mm);
+    const Friction& friction = parameters.friction;
+    const double gain = parameters.velocity_gain_mm_per_s_per_V;
+    if (1.0 + gain * std::min(friction.right_V_s_per_mm, friction.left_V_s_per_mm) <= 0.0)
+        throw InputError("friction_asymmetry: takes away more than the rig's damping of " +
+                         std::to_string(1.0 / gain) + " V s/mm");
     const double lost = -std::expm1(-tick_s / parameters.time_constant_s);
-    return {parameters, tick_s, 1.0 - lost, parameters.time_constant_s * lost};
+    MacroAxis axis{parameters, tick_s, 1.0 - lost, parameters.time_constant_s * lost};
+    axis.has_standing_force = acts(parameters.standing);
+    axis.has_friction = acts(friction);
+    axis.has_bristles = has_bristles(friction);
+    axis.has_belt = parameters.belt.compliance_mm_per_V >= least_compliance_mm_per_V;
+    if (axis.has_belt) axis.belt = belt_force(parameters.belt, gain, parameters.time_constant_s);
+    axis.driven_low_mm = parameters.low_mm - 0.5 * parameters.play_mm;
+    axis.driven_high_mm = parameters.high_mm + 0.5 * parameters.play_mm;
+    axis.longest_step_s = tick_s;
+    if (axis.has_belt)
+        axis.longest_step_s = std::min(
+            tick_s, 1.0 / natural_frequency_rad_per_s(parameters.belt, gain, parameters.time_constant_s));
+    axis.has_closed_form =
+        !axis.has_standing_force && !axis.has_friction && !axis.has_belt && parameters.play_mm == 0.0;
+    return axis;
+}
+
+MacroAxisState start(const MacroAxis& axis, double position_mm) {
+    MacroAxisState state{.position_mm = position_mm};
+    if (axis.parameters.delay_s > 0.0) state.delay = start_delay_line(axis.parameters.delay_s, axis.tick_s);
+    return state;
 }
 
 double drive_voltage_V(const MacroAxisParameters& parameters, double command_V) {
@@ -97,22 +152,13 @@ double drive_voltage_V(const MacroAxisParameters& parameters, double command_V) 
 
 double effective_voltage_V(const MacroAxisParameters& parameters, double command_V) {
     const double drive_V = drive_voltage_V(parameters, command_V) + parameters.drive_bias_V;
-    const DeadZone& zone = parameters.dead_zone;
-    const double size_V = std::abs(drive_V);
-    if (size_V < zone.threshold_V || size_V == 0.0) return 0.0;
-    return std::copysign(zone.offset_V + zone.slope * (size_V - zone.threshold_V), drive_V);
+    return dead_zone_V(parameters.dead_zone, dead_zone_branch(parameters.dead_zone, drive_V), drive_V);
 }
 
 void advance(const MacroAxis& axis, MacroAxisState& state, double command_V) {
-    const MacroAxisParameters& parameters = axis.parameters;
-    const double terminal_mm_per_s =
-        parameters.velocity_gain_mm_per_s_per_V * effective_voltage_V(parameters, command_V);
-    const double reach_mm =
-        std::max(std::abs(state.velocity_mm_per_s), std::abs(terminal_mm_per_s)) * axis.tick_s;
-    const bool far_from_ends = state.position_mm - reach_mm >= parameters.low_mm &&
-                               state.position_mm + reach_mm <= parameters.high_mm;
-    state = far_from_ends ? glide(state, terminal_mm_per_s, axis.tick_s, axis.decay, axis.glide_s)
-                          : glide_between_ends(axis, state, terminal_mm_per_s);
+    if (axis.parameters.delay_s == 0.0) return advance_by(axis, state, command_V, axis.tick_s);
+    pass(state.delay, axis.parameters.delay_s, axis.tick_s, command_V,
+         [&](double acting_V, double duration_s) { advance_by(axis, state, acting_V, duration_s); });
 }
 
 }  // namespace fidservo::plant

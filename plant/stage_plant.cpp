@@ -33,7 +33,7 @@ StagePlant make_stage_plant(const Rig& rig) {
 StageState start(const StagePlant& plant, double carriage_mm, std::uint64_t seed, EncoderOrigin origin) {
     FIDSERVO_DEMAND(carriage_mm >= plant.axis.parameters.low_mm &&
                     carriage_mm <= plant.axis.parameters.high_mm);
-    StageState state{{carriage_mm, 0.0}, start(plant.encoder, carriage_mm, origin), std::nullopt};
+    StageState state{start(plant.axis, carriage_mm), start(plant.encoder, carriage_mm, origin), std::nullopt};
     if (plant.micro) state.micro.emplace(start(*plant.micro, seed));
     return state;
 }

@@ -24,7 +24,7 @@ struct EffectParameter {
     std::string_view unit;  ///< empty for a pure number
     double low;             ///< physical bounds, both included
     double high;
-    double vanishing;  ///< without effect, exactly
+    double vanishing;  ///< without effect, exactly; of what only shapes the effect, the typical value
     double typical;    ///< where none is given
     std::string_view meaning;
 };

@@ -21,7 +21,7 @@ std::string range_of(const EffectParameter& parameter) {
     std::ostringstream range;
     range << parameter.low << " .. " << parameter.high;
     if (!parameter.unit.empty()) range << ' ' << parameter.unit;
-    range << " (" << parameter.vanishing << ": no effect)";
+    if (parameter.vanishing != parameter.typical) range << " (" << parameter.vanishing << ": no effect)";
     return range.str();
 }
 

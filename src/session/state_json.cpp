@@ -50,9 +50,24 @@ void read_json(const json& from, plant::DelayLineState& line) {
     line.now_ns = from.at("now_ns");
 }
 
+namespace {
+
+json json_of(const plant::MechanismState& mechanism) {
+    return {mechanism.play_mm, mechanism.driven_mm_per_s, mechanism.stretch_mm, mechanism.stretching_mm_per_s,
+            mechanism.bristle_bend};
+}
+
+void read_json(const json& from, plant::MechanismState& mechanism) {
+    mechanism = {from.at(0), from.at(1), from.at(2), from.at(3), from.at(4)};
+}
+
+}  // namespace
+
 json json_of(const plant::StageState& state) {
     json result{{"carriage_mm", state.axis.position_mm},
                 {"velocity_mm_per_s", state.axis.velocity_mm_per_s},
+                {"mechanism", json_of(state.axis.mechanism)},
+                {"command_line", json_of(state.axis.delay)},
                 {"encoder_origin", state.encoder.origin_count}};
     if (state.micro) {
         result["wire_degC"] = state.micro->heater.temp_degC;
@@ -71,6 +86,8 @@ json json_of(const plant::StageState& state) {
 void read_json(const json& from, plant::StageState& state) {
     state.axis.position_mm = from.at("carriage_mm");
     state.axis.velocity_mm_per_s = from.at("velocity_mm_per_s");
+    read_json(from.at("mechanism"), state.axis.mechanism);
+    read_json(from.at("command_line"), state.axis.delay);
     state.encoder.origin_count = from.at("encoder_origin");
     if (!state.micro) return;
     state.micro->heater.temp_degC = from.at("wire_degC");

@@ -2,6 +2,7 @@
 #include "plant/effects/catalogue.h"
 #include "tests/plant/reference_rig.h"
 
+#include <limits>
 #include <string_view>
 
 namespace fidservo::plant {
@@ -10,6 +11,23 @@ namespace fidservo::plant {
 inline StagePlant plant_with(std::string_view effect) {
     const EffectSetting setting = parse_effect(effect);
     return make_stage_plant(reference_rig(), {&setting, 1});
+}
+
+/// The carriage with one effect, on an endless rail, so that only the effect's own physics shows. Without
+/// dead zone the command is the voltage.
+inline MacroAxis endless_axis_with(std::string_view effect, bool dead_zone = false) {
+    PlantParameters plant = plant_parameters(macro_only_rig());
+    const EffectSetting setting = parse_effect(effect);
+    apply_effects(plant, {&setting, 1});
+    plant.axis.low_mm = -std::numeric_limits<double>::infinity();
+    plant.axis.high_mm = std::numeric_limits<double>::infinity();
+    if (!dead_zone) plant.axis.dead_zone = {};
+    return make_macro_axis(plant.axis, plant.tick_s);
+}
+
+inline MacroAxisState after(const MacroAxis& axis, MacroAxisState state, double command_V, int ticks) {
+    for (int k = 0; k < ticks; ++k) advance(axis, state, command_V);
+    return state;
 }
 
 }  // namespace fidservo::plant

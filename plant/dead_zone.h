@@ -1,0 +1,42 @@
+#pragma once
+// Friction as a dead zone on the drive's voltage w (core/rig.h):
+//
+//     V = sgn(w) (a0 + d (|w| - w0))  for |w| >= w0, else 0
+//
+// Branch by branch, for a motion along which w changes.
+#include "core/rig.h"
+
+#include <cmath>
+#include <limits>
+
+namespace fidservo::plant {
+
+enum class DeadZoneBranch { left = -1, inside = 0, right = 1 };
+
+/// Whether V is one straight line through 0: no dead zone.
+inline bool is_straight(const DeadZone& zone) {
+    return zone.threshold_V == 0.0 && zone.offset_V == 0.0;
+}
+
+inline DeadZoneBranch dead_zone_branch(const DeadZone& zone, double drive_V) {
+    if (is_straight(zone)) return DeadZoneBranch::right;
+    const double size_V = std::abs(drive_V);
+    if (size_V < zone.threshold_V || size_V == 0.0) return DeadZoneBranch::inside;
+    return drive_V < 0.0 ? DeadZoneBranch::left : DeadZoneBranch::right;
+}
+
+/// V of a branch, also a little beyond its edge.
+inline double dead_zone_V(const DeadZone& zone, DeadZoneBranch branch, double drive_V) {
+    if (branch == DeadZoneBranch::inside) return 0.0;
+    const double side = branch == DeadZoneBranch::left ? -1.0 : 1.0;
+    return side * (zone.offset_V + zone.slope * (side * drive_V - zone.threshold_V));
+}
+
+/// How far w is from the nearest edge of a branch, in V; negative beyond it. Infinite on a straight line.
+inline double dead_zone_slack_V(const DeadZone& zone, DeadZoneBranch branch, double drive_V) {
+    if (is_straight(zone)) return std::numeric_limits<double>::infinity();
+    if (branch == DeadZoneBranch::inside) return zone.threshold_V - std::abs(drive_V);
+    return (branch == DeadZoneBranch::left ? -drive_V : drive_V) - zone.threshold_V;
+}
+
+}  // namespace fidservo::plant

@@ -1,0 +1,34 @@
+#include "plant/effects/effect.h"
+
+namespace fidservo::plant::effects {
+
+namespace {
+
+constexpr EffectParameter parameters[] = {
+    {"amplitude_V", "V", 0.0, 2.0, 0.0, 0.1, "of the force"},
+    {"period_mm", "mm", 0.1, 200.0, 5.0, 5.0, "on the rail"},
+    {"phase_rad", "rad", -6.2831853072, 6.2831853072, 0.0, 0.0, "at the left end"},
+};
+
+void apply(PlantParameters& plant, std::span<const double> values) {
+    StandingForce& force = plant.axis.standing;
+    force.cogging_V += values[0];
+    force.cogging_period_mm = values[1];
+    force.cogging_phase_rad = values[2];
+}
+
+}  // namespace
+
+extern constexpr Effect cogging{
+    .name = "cogging",
+    .block = "macro.mechanics",
+    .text =
+        "A force periodic in position (detent torque of the motor): w = u + A sin(2 pi y / p + phase), "
+        "before the "
+        "dead zone, which holds it while the carriage stands.",
+    .source = "Hanselman, Brushless Permanent Magnet Motor Design, 2nd ed., 2003: cogging torque",
+    .parameters = parameters,
+    .apply = apply,
+};
+
+}  // namespace fidservo::plant::effects

@@ -1,0 +1,33 @@
+#include "plant/effects/effect.h"
+
+namespace fidservo::plant::effects {
+
+namespace {
+
+constexpr EffectParameter parameters[] = {
+    {"level_V", "V", 0.0, 3.0, 0.0, 0.2, "friction at the centre"},
+    {"centre_mm", "mm", -1000.0, 1000.0, 100.0, 100.0, "where"},
+    {"width_mm", "mm", 0.1, 200.0, 10.0, 10.0, "standard deviation of the bell"},
+};
+
+void apply(PlantParameters& plant, std::span<const double> values) {
+    RailPatch& patch = plant.axis.friction.patch;
+    patch.level_V += values[0];
+    patch.centre_mm = values[1];
+    patch.width_mm = values[2];
+}
+
+}  // namespace
+
+extern constexpr Effect rail_patch{
+    .name = "rail_patch",
+    .block = "macro.friction",
+    .text =
+        "Dry friction raised around a place on the rail (dirt, a dent): F = Fp exp(-((y - yp) / wp)^2 / 2) "
+        "sgn(v).",
+    .source = "Armstrong-Helouvry, Control of Machines with Friction, 1991: position-dependent friction",
+    .parameters = parameters,
+    .apply = apply,
+};
+
+}  // namespace fidservo::plant::effects

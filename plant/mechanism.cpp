@@ -1,0 +1,257 @@
+#include "plant/mechanism.h"
+
+#include "plant/dead_zone.h"
+#include "plant/dormand_prince.h"
+#include "plant/macro_axis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace fidservo::plant {
+
+namespace {
+
+constexpr std::size_t place = 0, speed = 1, stretch = 2, motor = 3;  // mm, mm/s, mm, mm/s
+
+/// Error of one step. With a thousand steps a second it adds up to less than 0.001 counts of 50 um a second.
+constexpr double place_tolerance_mm = 1e-8;
+constexpr double speed_tolerance_mm_per_s = 1e-6;
+
+/// Slower than this, and pulled less than would keep it at this, is at rest.
+constexpr double rest_mm_per_s = 1e-9;
+
+constexpr double shortest_step_s = 1e-10;
+
+/// A motion under a held voltage: of the carriage alone (2 states), or of motor and carriage (4).
+template <std::size_t size>
+class Motion {
+  public:
+    using State = std::array<double, size>;
+    static constexpr bool has_belt = size == 4;
+
+    Motion(const MacroAxis& axis, double drive_V, const State& start, double bend)
+        : axis_(axis), p_(axis.parameters), drive_V_(drive_V), x_(start), bend_(bend) {}
+
+    const State& state() const { return x_; }
+    double bend() const { return bend_; }
+
+    /// Begins a stretch of motion without events. Returns whether anything moves in it.
+    bool begin() {
+        const double w_V = drive_V_ + (axis_.has_standing_force ? standing_V(x_) : 0.0);
+        branch_ = dead_zone_branch(p_.dead_zone, w_V);
+        voltage_V_ = dead_zone_V(p_.dead_zone, branch_, w_V);
+        if (std::abs(x_[speed]) <= rest_mm_per_s) x_[speed] = 0.0;
+        held_ = false;
+        direction_ = x_[speed] < 0.0 ? -1.0 : 1.0;
+        if (x_[speed] != 0.0) return true;
+        find_hold_range();
+        const double pull = pull_mm_per_s(x_);
+        held_ = pull >= hold_low_ && pull <= hold_high_;
+        direction_ = pull < hold_low_ ? -1.0 : 1.0;
+        return !held_ || !motor_rests();
+    }
+
+    /// Moves on by at most `longest_s`, to the next event if there is one before. Returns the time it took.
+    double advance(double longest_s) {
+        const State first = rate(x_);
+        double h = std::min(longest_s, trial_s_);
+        auto step = step_from(first, h);
+        double error = error_of(step);
+        while (!(error <= 1.0) && h > shortest_step_s) {
+            h *= std::isfinite(error) ? std::clamp(0.9 * std::pow(error, -0.2), 0.1, 0.9) : 0.1;
+            step = step_from(first, h);
+            error = error_of(step);
+        }
+        trial_s_ = h * (error <= 1.0 ? std::clamp(0.9 * std::pow(error, -0.2), 0.5, 5.0) : 5.0);
+        if (slack(step.end) < 0.0) {
+            h = time_of_event(first, h, slack(step.end));
+            step = step_from(first, h);
+        }
+        settle(step.end);
+        return h;
+    }
+
+  private:
+    RungeKuttaStep<size> step_from(const State& first, double h) const {
+        return dormand_prince_step([this](const State& x) { return rate(x); }, x_, first, h);
+    }
+
+    double standing_V(const State& x) const { return standing_force_V(p_.standing, x[place]); }
+
+    double effective_V(const State& x) const {
+        return axis_.has_standing_force ? dead_zone_V(p_.dead_zone, branch_, drive_V_ + standing_V(x))
+                                        : voltage_V_;
+    }
+
+    /// What acts on the carriage besides its friction, as the velocity that it would sustain.
+    double pull_mm_per_s(const State& x) const {
+        if constexpr (has_belt)
+            return axis_.belt.per_mm * x[stretch] + axis_.belt.per_mm_per_s * (x[motor] - x[speed]);
+        else
+            return p_.velocity_gain_mm_per_s_per_V * effective_V(x);
+    }
+
+    double friction_V(const State& x) const {
+        if (!axis_.has_friction) return 0.0;
+        if (!axis_.has_bristles) return sliding_friction_V(p_.friction, x[speed], x[place], direction_);
+        return bristle_friction_V(p_.friction, x[speed], x[place], direction_, bend_at(x));
+    }
+
+    double bend_at(const State& x) const {
+        return bristle_bend(p_.friction, bend_, x[place] - x_[place], direction_);
+    }
+
+    State rate(const State& x) const {
+        const double tau_s = p_.time_constant_s, gain = p_.velocity_gain_mm_per_s_per_V;
+        const double pull = pull_mm_per_s(x);
+        const double net = pull - gain * friction_V(x);
+        if constexpr (has_belt) {
+            const double share = p_.belt.motor_share;
+            const double motor_rate = (gain * effective_V(x) - x[motor] - pull) / (share * tau_s);
+            if (held_) return {0.0, 0.0, x[motor], motor_rate};
+            return {x[speed], net / ((1.0 - share) * tau_s), x[motor] - x[speed], motor_rate};
+        } else {
+            return {x[speed], (net - x[speed]) / tau_s};
+        }
+    }
+
+    /// Between which pulls a carriage at rest stays so. Beyond an end of travel it cannot be pulled.
+    void find_hold_range() {
+        const double gain = p_.velocity_gain_mm_per_s_per_V;
+        const double bent =
+            axis_.has_bristles ? gain * dry_friction_V(p_.friction, 0.0, x_[place]) * bend_ : 0.0;
+        const double held = axis_.has_bristles ? 0.0 : gain * breakaway_V(p_.friction, x_[place]);
+        hold_low_ = bent - held - rest_mm_per_s;
+        hold_high_ = bent + held + rest_mm_per_s;
+        if (x_[place] <= axis_.driven_low_mm) hold_low_ = -std::numeric_limits<double>::infinity();
+        if (x_[place] >= axis_.driven_high_mm) hold_high_ = std::numeric_limits<double>::infinity();
+    }
+
+    bool motor_rests() {
+        if constexpr (!has_belt) return true;
+        const double excess = p_.velocity_gain_mm_per_s_per_V * effective_V(x_) - pull_mm_per_s(x_);
+        if (std::abs(x_[motor]) > rest_mm_per_s || std::abs(excess) > rest_mm_per_s) return false;
+        x_[motor] = 0.0;
+        return true;
+    }
+
+    /// How far it is from the nearest event; negative beyond it.
+    double slack(const State& x) const {
+        if (held_) {
+            const double pull = pull_mm_per_s(x);
+            return std::min(pull - hold_low_, hold_high_ - pull);
+        }
+        double least = std::min(
+            {direction_ * x[speed], x[place] - axis_.driven_low_mm, axis_.driven_high_mm - x[place]});
+        if (axis_.has_standing_force)
+            least = std::min(least, dead_zone_slack_V(p_.dead_zone, branch_, drive_V_ + standing_V(x)));
+        return least;
+    }
+
+    static double error_of(const RungeKuttaStep<size>& step) {
+        double worst = 0.0;
+        for (std::size_t i = 0; i < size; ++i) {
+            const double tolerance = i % 2 == 0 ? place_tolerance_mm : speed_tolerance_mm_per_s;
+            const double error = std::abs(step.error[i]) / tolerance;
+            if (!(error <= worst)) worst = error;
+        }
+        return worst;
+    }
+
+    /// The shortest time found after which an event is just past: regula falsi on the slack, a bisection
+    /// every third time.
+    double time_of_event(const State& first, double late_s, double late_slack) const {
+        const auto slack_after = [&](double h) { return slack(step_from(first, h).end); };
+        double early_s = 0.0, early_slack = slack(x_);
+        while (early_slack <= 0.0) {  // it leaves one event for the next within the step
+            if (late_s < shortest_step_s) return late_s;
+            const double h = 0.25 * late_s, value = slack_after(h);
+            (value > 0.0 ? early_s : late_s) = h;
+            (value > 0.0 ? early_slack : late_slack) = value;
+        }
+        constexpr double resolution = 1e-10, resolution_s = 1e-14;
+        for (int k = 1; late_slack < -resolution && late_s - early_s > resolution_s; ++k) {
+            const double share = k % 3 == 0 ? 0.5 : early_slack / (early_slack - late_slack);
+            const double h = early_s + share * (late_s - early_s);
+            const double value = slack_after(h);
+            (value < 0.0 ? late_s : early_s) = h;
+            (value < 0.0 ? late_slack : early_slack) = value;
+        }
+        return late_s;
+    }
+
+    /// Takes over the end of a step, put right where an event has just been passed.
+    void settle(const State& end) {
+        if (axis_.has_bristles && !held_) bend_ = bend_at(end);
+        x_ = end;
+        if (held_) return;
+        const bool outside = x_[place] < axis_.driven_low_mm || x_[place] > axis_.driven_high_mm;
+        if (outside) x_[place] = std::clamp(x_[place], axis_.driven_low_mm, axis_.driven_high_mm);
+        if (outside || direction_ * x_[speed] < 0.0) x_[speed] = 0.0;
+    }
+
+    const MacroAxis& axis_;
+    const MacroAxisParameters& p_;
+    double drive_V_;
+    State x_;
+    double bend_;                                               ///< at x_
+    double trial_s_ = std::numeric_limits<double>::infinity();  ///< step to try next
+
+    // What stays as it is until the next event.
+    double direction_ = 1.0;
+    DeadZoneBranch branch_ = DeadZoneBranch::inside;
+    double voltage_V_ = 0.0;
+    bool held_ = false;
+    double hold_low_ = 0.0, hold_high_ = 0.0;
+};
+
+/// Where the carriage is, and how fast, when what drives it has moved one way to a place.
+void carry(const MacroAxis& axis, MacroAxisState& state, double driven_mm, double driven_mm_per_s) {
+    const double play_mm = axis.parameters.play_mm;
+    if (play_mm == 0.0) {
+        state.position_mm = driven_mm;
+        state.velocity_mm_per_s = driven_mm_per_s;
+        return;
+    }
+    const double carriage_mm = carried_mm(state.position_mm, driven_mm, play_mm);
+    state.velocity_mm_per_s = carriage_mm == state.position_mm ? 0.0 : driven_mm_per_s;
+    state.position_mm = carriage_mm;
+    state.mechanism.play_mm = carriage_mm - driven_mm;
+    state.mechanism.driven_mm_per_s = driven_mm_per_s;
+}
+
+template <std::size_t size>
+void move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
+    MechanismState& mechanism = state.mechanism;
+    std::array<double, size> start{};
+    start[place] = state.position_mm - mechanism.play_mm;
+    start[speed] = axis.parameters.play_mm > 0.0 ? mechanism.driven_mm_per_s : state.velocity_mm_per_s;
+    if constexpr (size == 4) {
+        start[stretch] = mechanism.stretch_mm;
+        start[motor] = start[speed] + mechanism.stretching_mm_per_s;
+    }
+    Motion<size> motion(axis, drive_V, start, mechanism.bristle_bend);
+    while (duration_s > 0.0 && motion.begin()) {
+        duration_s -= motion.advance(std::min(duration_s, axis.longest_step_s));
+        carry(axis, state, motion.state()[place], motion.state()[speed]);
+    }
+    if (duration_s > 0.0) carry(axis, state, motion.state()[place], 0.0);
+    mechanism.bristle_bend = motion.bend();
+    if constexpr (size == 4) {
+        mechanism.stretch_mm = motion.state()[stretch];
+        mechanism.stretching_mm_per_s = motion.state()[motor] - motion.state()[speed];
+    }
+}
+
+}  // namespace
+
+void move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
+    if (axis.has_belt)
+        move_by_steps<4>(axis, state, drive_V, duration_s);
+    else
+        move_by_steps<2>(axis, state, drive_V, duration_s);
+}
+
+}  // namespace fidservo::plant

@@ -1,0 +1,107 @@
+#include "tests/plant/effects/effect_rig.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace fidservo::plant {
+namespace {
+
+constexpr double gain = 198.84809;  // mm/s/V
+
+TEST(CoulombFriction, CoastingCarriage_StopsAfterTheAnalyticWayAndStays) {
+    const MacroAxis axis = endless_axis_with("coulomb_friction:level_V=0.1");
+    const double tau_s = axis.parameters.time_constant_s, drag = gain * 0.1;
+    for (const double v0 : {200.0, -35.0, 1.0}) {
+        MacroAxisState state = start(axis, 0.0);
+        state.velocity_mm_per_s = v0;
+        state = after(axis, state, 0.0, 500);
+        const double way_mm = tau_s * (std::abs(v0) - drag * std::log1p(std::abs(v0) / drag));
+        EXPECT_NEAR(state.position_mm, std::copysign(way_mm, v0), 1e-6);
+        EXPECT_EQ(state.velocity_mm_per_s, 0.0);
+        EXPECT_EQ(after(axis, state, 0.0999, 100).position_mm, state.position_mm);
+        EXPECT_GT(after(axis, state, 0.1001, 100).position_mm, state.position_mm);
+    }
+}
+
+TEST(CoulombFriction, SteadySpeed_IsThatOfTheVoltageBeyondIt) {
+    const MacroAxis axis = endless_axis_with("coulomb_friction:level_V=0.1");
+    for (const double voltage_V : {0.15, 1.0, -2.0}) {
+        const double net_V = voltage_V - std::copysign(0.1, voltage_V);
+        EXPECT_NEAR(after(axis, start(axis, 0.0), voltage_V, 1500).velocity_mm_per_s, gain * net_V, 1e-5);
+    }
+}
+
+TEST(StribeckFriction, SteadySpeed_LiesOnTheCurve) {
+    const MacroAxis axis = endless_axis_with("stribeck_friction:level_V=0.2,speed_mm_per_s=12");
+    for (const double voltage_V : {0.21, 0.4, -1.0}) {
+        const double v = after(axis, start(axis, 0.0), voltage_V, 2000).velocity_mm_per_s;
+        EXPECT_NEAR(v, gain * (voltage_V - std::copysign(0.2 * std::exp(-std::abs(v) / 12.0), v)), 1e-4);
+    }
+    EXPECT_EQ(after(axis, start(axis, 0.0), 0.1999, 100).position_mm, 0.0) << "held";
+}
+
+TEST(StribeckFriction, WithCreepSpeed_LetsTheCarriageCreepWhereItWouldHold) {
+    const MacroAxis axis =
+        endless_axis_with("stribeck_friction:level_V=0.2,speed_mm_per_s=12,creep_mm_per_s=0.4");
+    const double v = after(axis, start(axis, 0.0), 0.1, 500).velocity_mm_per_s;
+    EXPECT_GT(v, 0.05);
+    EXPECT_NEAR(v, gain * (0.1 - 0.2 * std::exp(-v / 12.0) * std::tanh(v / 0.4)), 1e-5);
+}
+
+TEST(FrictionAsymmetry, SteadySpeed_DependsOnTheDirection) {
+    const MacroAxis axis =
+        endless_axis_with("friction_asymmetry:right_V_s_per_mm=0.001,left_V_s_per_mm=-0.0005");
+    EXPECT_NEAR(after(axis, start(axis, 0.0), 1.0, 1500).velocity_mm_per_s, gain / (1.0 + 0.001 * gain),
+                1e-5);
+    EXPECT_NEAR(after(axis, start(axis, 0.0), -1.0, 1500).velocity_mm_per_s, -gain / (1.0 - 0.0005 * gain),
+                1e-5);
+}
+
+TEST(Presliding, BelowBreakAway_BristlesBendAsTheForceDemandsAndSpringBack) {
+    const MacroAxis axis =
+        endless_axis_with("presliding:level_V=0.1,distance_um=20,damping_V_s_per_mm=0.005");
+    MacroAxisState state = start(axis, 0.0);
+    for (int k = 0; k < 4000; ++k) advance(axis, state, 0.05 * k / 4000.0);
+    state = after(axis, state, 0.05, 1000);
+    EXPECT_NEAR(state.position_mm, -0.02 * std::log(1.0 - 0.05 / 0.1), 1e-4)
+        << "the ramp's end swings a little";
+    EXPECT_NEAR(0.1 * state.mechanism.bristle_bend, 0.05, 1e-6);
+    EXPECT_LT(after(axis, state, 0.0, 500).position_mm, state.position_mm - 0.005);
+}
+
+TEST(Presliding, AboveBreakAway_SlidesAgainstTheLevel) {
+    const MacroAxis axis = endless_axis_with("presliding:level_V=0.1,distance_um=20");
+    EXPECT_LT(after(axis, start(axis, 0.0), 0.04, 1000).position_mm, 0.1);
+    EXPECT_NEAR(after(axis, start(axis, 0.0), 0.3, 1500).velocity_mm_per_s, gain * 0.2, 1e-5);
+}
+
+TEST(RailPatch, SteadySpeed_IsLowerOnThePatchOnly) {
+    const MacroAxis axis = endless_axis_with("rail_patch:level_V=0.2,centre_mm=500,width_mm=100");
+    MacroAxisState state = start(axis, 0.0);
+    double slowest = 1e9;
+    while (state.position_mm < 1000.0) {
+        advance(axis, state, 0.5);
+        if (state.position_mm > 100.0) slowest = std::min(slowest, state.velocity_mm_per_s);
+    }
+    EXPECT_NEAR(state.velocity_mm_per_s, gain * 0.5, 0.1);
+    EXPECT_NEAR(slowest, gain * 0.3, 0.5);
+}
+
+TEST(FrictionEffects, MirroredCommands_GiveMirroredMotion) {
+    for (const char* effect : {"coulomb_friction", "stribeck_friction", "presliding", "belt_compliance",
+                               "backlash", "stribeck_friction:creep_mm_per_s=0.4"}) {
+        const MacroAxis axis = endless_axis_with(effect, true);
+        MacroAxisState right = start(axis, 0.0), left = right;
+        for (int k = 0; k < 3000; ++k) {
+            const double command_V = 4.8 * std::sin(0.011 * k) + 0.5 * std::sin(0.17 * k);
+            advance(axis, right, command_V);
+            advance(axis, left, -command_V);
+        }
+        EXPECT_NEAR(right.position_mm, -left.position_mm, 1e-9) << effect;
+    }
+}
+
+}  // namespace
+}  // namespace fidservo::plant
