@@ -26,6 +26,7 @@ struct FrictionDepartures {
     double dead_zone_on_motion = 0.0;
     double stribeck_V = 0.0;  ///< friction at rest in excess of that at speed; by bristles
     double stribeck_speed_mm_per_s = 20.0;
+    double stribeck_exponent = 2.0;  ///< of speed in the excess's decay: 2 a bell, 1 an exponential
     std::optional<Bristles> bristles = {};  ///< dry friction by bristles, even without a Stribeck excess
     double viscous_forward = 1.0;           ///< factor on the file's damping while moving right
     double viscous_backward = 1.0;          ///< likewise while moving left

@@ -23,8 +23,11 @@ double level_V(const CarriageModel& model, double position_mm) {
 }
 
 double steady_V(const CarriageModel& model, double position_mm, double speed_mm_per_s) {
-    const double r = speed_mm_per_s / model.friction.stribeck_speed_mm_per_s;
-    return level_V(model, position_mm) + model.friction.stribeck_V * std::exp(-r * r);
+    const FrictionDepartures& friction = model.friction;
+    if (friction.stribeck_V == 0.0) return level_V(model, position_mm);
+    const double share = std::abs(speed_mm_per_s) / friction.stribeck_speed_mm_per_s;
+    return level_V(model, position_mm) +
+           friction.stribeck_V * std::exp(-std::pow(share, friction.stribeck_exponent));
 }
 
 Bristles bristles_of(const FrictionDepartures& friction) {

@@ -4,7 +4,7 @@
 // Rigid: a constant level (Coulomb, rail patch, the share of the dead zone that acts on the motion); at rest
 // it holds up to the break-away force. By bristles (LuGre): the contact is elastic with deflection z,
 //
-//     g(v) = F_level + F_stribeck exp(-(v / v_s)^2)
+//     g(v) = F_level + F_stribeck exp(-|v / v_s|^n)
 //     dz/dt = v - s0 |v| z / g(v),     F = s0 z + s1 dz/dt
 //
 // At speed the bristles relax in g / (s0 |v|). Steps are cut to that time; where it is below a small share of
