@@ -139,6 +139,7 @@ void advance(const CarriageModel& model, CarriageState& state, double command_V,
     constexpr int most_phases = 10'000;  // a guard: a step has one phase, or two where the carriage stops
     for (int phase = 0; h_s > 0.0 && phase < most_phases; ++phase) {
         const double direction = forces.direction(x);
+        if (direction == 0.0) x[1] = 0.0;
         const ContactStep contact = contact_step(model, x[0], x[1], h_s);
         h_s -= step_phase(model, forces, x, direction, contact.kind, contact.length_s);
         if (contact.kind == Contact::bristles_in_equilibrium)

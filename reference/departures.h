@@ -24,10 +24,10 @@ struct FrictionDepartures {
     /// The share of the file's dead zone that is dry friction on the motion instead: it acts as before while
     /// the carriage is driven, and brakes it while it coasts. 0..1.
     double dead_zone_on_motion = 0.0;
-    double stribeck_V = 0.0;  ///< friction at rest in excess of that at speed; by bristles
+    double stribeck_V = 0.0;  ///< friction at rest in excess of that at speed
     double stribeck_speed_mm_per_s = 20.0;
-    double stribeck_exponent = 2.0;  ///< of speed in the excess's decay: 2 a bell, 1 an exponential
-    std::optional<Bristles> bristles = {};  ///< dry friction by bristles, even without a Stribeck excess
+    double stribeck_exponent = 2.0;         ///< of speed in the excess's decay: 2 a bell, 1 an exponential
+    std::optional<Bristles> bristles = {};  ///< an elastic contact; a rigid one without
     double viscous_forward = 1.0;           ///< factor on the file's damping while moving right
     double viscous_backward = 1.0;          ///< likewise while moving left
     double patch_V = 0.0;                   ///< dry friction in excess at the centre of a patch of the rail

@@ -37,7 +37,7 @@ Bristles bristles_of(const FrictionDepartures& friction) {
 }  // namespace
 
 bool has_bristles(const FrictionDepartures& friction) {
-    return friction.bristles.has_value() || friction.stribeck_V != 0.0;
+    return friction.bristles.has_value();
 }
 
 ContactStep contact_step(const CarriageModel& model, double position_mm, double speed_mm_per_s, double h_s) {
@@ -51,7 +51,7 @@ ContactStep contact_step(const CarriageModel& model, double position_mm, double 
 
 DryFriction dry_friction(const CarriageModel& model, double position_mm, double speed_mm_per_s,
                          double bristle_mm, double direction, Contact contact) {
-    if (contact == Contact::rigid) return {direction * level_V(model, position_mm), 0.0};
+    if (contact == Contact::rigid) return {direction * steady_V(model, position_mm, speed_mm_per_s), 0.0};
     const double steady = steady_V(model, position_mm, speed_mm_per_s);
     if (contact == Contact::bristles_in_equilibrium) return {std::copysign(steady, speed_mm_per_s), 0.0};
     const Bristles bristles = bristles_of(model.friction);
@@ -62,7 +62,7 @@ DryFriction dry_friction(const CarriageModel& model, double position_mm, double 
 
 double breakaway_V(const CarriageModel& model, double position_mm) {
     if (has_bristles(model.friction)) return 0.0;
-    return level_V(model, position_mm) + model.friction.dead_zone_on_motion * model.dead_zone.offset_V;
+    return steady_V(model, position_mm, 0.0) + model.friction.dead_zone_on_motion * model.dead_zone.offset_V;
 }
 
 double bristle_force_V(const CarriageModel& model, double bristle_mm) {

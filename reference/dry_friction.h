@@ -1,10 +1,12 @@
 #pragma once
 // Dry friction of the carriage, in volts at the motor.
 //
-// Rigid: a constant level (Coulomb, rail patch, the share of the dead zone that acts on the motion); at rest
-// it holds up to the break-away force. By bristles (LuGre): the contact is elastic with deflection z,
-//
 //     g(v) = F_level + F_stribeck exp(-|v / v_s|^n)
+//
+// F_level gathers Coulomb friction, rail patch and the share of the dead zone that acts on the motion. In a
+// rigid contact F = g(v) against the motion; at rest it holds up to the break-away force. With bristles
+// (LuGre) the contact is elastic with the deflection z:
+//
 //     dz/dt = v - s0 |v| z / g(v),     F = s0 z + s1 dz/dt
 //
 // At speed the bristles relax in g / (s0 |v|). Steps are cut to that time; where it is below a small share of

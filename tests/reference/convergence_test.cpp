@@ -3,6 +3,7 @@
 #include "reference/reference_rig.h"
 #include "src/config/rig_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
