@@ -18,7 +18,9 @@ namespace fidservo::reproduce {
 
 namespace {
 
-constexpr std::array chapters{benchmark_pid, nonlinear_pd, micro_steps, micro_bandwidth, integrated_task};
+constexpr std::array chapters{open_loop_macro, wire_hysteresis, heater,      hall_sensor,
+                              benchmark_pid,   nonlinear_pd,    micro_steps, micro_bandwidth,
+                              integrated_task, beyond_model};
 
 void demand_published_parts(const Rig& rig, const std::filesystem::path& rig_file) {
     const auto demand = [&](bool there, const char* key) {

@@ -1,7 +1,7 @@
 "use strict";
 // Behaviour of the reports: plots, filters of tables, images that enlarge. Everything else is plain HTML.
 
-const colours = ["#2f7fc4", "#d9730d", "#3f9a5b", "#8a5bc0"];
+const colours = ["#2f7fc4", "#d9730d", "#3f9a5b", "#8a5bc0", "#b0457a"];
 const tints = { good: "rgba(30,150,85,.10)", bad: "rgba(210,50,40,.16)", unsure: "rgba(220,150,20,.16)", neutral: "rgba(120,130,140,.10)" };
 
 function unpack(text, Type) {
