@@ -69,5 +69,44 @@ TEST_P(PracticeCampaign, ValueOfOneRecording_ExplainsTheOthersToTheNoiseFloor) {
 INSTANTIATE_TEST_SUITE_P(MicroStage, PracticeCampaign, testing::Values("airflow", "hall_nonlinearity"),
                          [](const auto& instance) { return std::string(instance.param); });
 
+/// R.m.s. of position minus recorded count, in counts, about its mean: where in the first count the carriage
+/// stood is not known.
+double encoder_rms_count(const StagePlant& plant, const Recording& recording) {
+    const double count_mm = plant.encoder.resolution_mm;
+    StageState state =
+        start(plant, count_mm * recording.rows.front().encoder_count, 1, EncoderOrigin::end_of_travel);
+    double sum = 0.0, squares = 0.0;
+    for (const StageRow& row : recording.rows) {
+        const double error = state.axis.position_mm / count_mm - row.encoder_count;
+        sum += error;
+        squares += error * error;
+        advance(plant.axis, state.axis, row.macro_command_V);
+    }
+    const double ticks = static_cast<double>(recording.rows.size());
+    return std::sqrt(std::max(0.0, squares / ticks - sum / ticks * sum / ticks));
+}
+
+/// The values were fitted to macro-sweep-1 and macro-pulses-1, by another program.
+TEST(PracticeCampaignOnTheRail, StribeckValuesOfTwoRecordings_ExplainTheOthers) {
+    const auto recordings = campaign("stribeck_friction");
+    if (recordings.empty()) GTEST_SKIP() << "the shared data are absent";
+    const EffectSetting setting =
+        parse_effect("stribeck_friction:level_V=0.399,speed_mm_per_s=12,creep_mm_per_s=0.37");
+    const StagePlant nominal = make_stage_plant(reference_rig());
+    const StagePlant plant = make_stage_plant(reference_rig(), {&setting, 1});
+    std::printf("recording           encoder r.m.s., counts: nominal   with it   (rounding 0.289)\n");
+    double worst_nominal = 0.0;
+    for (const auto& path : recordings) {
+        const Recording recording = read_recording(path);
+        SCOPED_TRACE(recording.name);
+        const double before = encoder_rms_count(nominal, recording),
+                     after = encoder_rms_count(plant, recording);
+        std::printf("%-18s                          %9.3f  %8.3f\n", recording.name.c_str(), before, after);
+        worst_nominal = std::max(worst_nominal, before);
+        EXPECT_LE(after, 1.0);
+    }
+    EXPECT_GT(worst_nominal, 20.0) << "there must be something to explain";
+}
+
 }  // namespace
 }  // namespace fidservo::plant
