@@ -1,13 +1,10 @@
 #include "tests/plant/campaign_residual.h"
 
-#include "src/recording/reader.h"
+#include "tests/campaign.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
-
-#include <gtest/gtest.h>
 
 namespace fidservo::plant {
 
@@ -34,39 +31,7 @@ EncoderResidual encoder_residual(const StagePlant& plant, const Recording& recor
     return residual;
 }
 
-/// Mean and variance of (reading - mean reading)^2 in LSB^2: Gaussian noise, then rounding. For a mean
-/// reading that is spread evenly over an LSB the mean is noise^2 + 1/12; a platform at rest has another, by
-/// where it rests.
-struct SquareStatistics {
-    double mean = 0.0;
-    double variance = 0.0;
-};
-
-SquareStatistics hall_square_statistics(double mean_lsb, double noise_lsb) {
-    const auto below = [&](double level) {
-        return 0.5 * std::erfc((mean_lsb - level) / (noise_lsb * std::numbers::sqrt2));
-    };
-    SquareStatistics statistics;
-    double fourth = 0.0;
-    const double nearest = std::floor(mean_lsb + 0.5);
-    for (double reading = nearest - 4.0; reading <= nearest + 4.0; reading += 1.0) {
-        const double probability = below(reading + 0.5) - below(reading - 0.5);
-        const double square = (reading - mean_lsb) * (reading - mean_lsb);
-        statistics.mean += probability * square;
-        fourth += probability * square * square;
-    }
-    statistics.variance = fourth - statistics.mean * statistics.mean;
-    return statistics;
-}
-
 }  // namespace
-
-std::vector<std::filesystem::path> campaign(std::string_view name) {
-    const auto folder = std::filesystem::path(FIDSERVO_DATA_DIR) / "campaigns" / name;
-    if (std::filesystem::is_directory(folder)) return find_recordings(folder);
-    EXPECT_EQ(std::getenv("FIDSERVO_REQUIRE_DATA"), nullptr) << "the shared data are absent: " << folder;
-    return {};
-}
 
 EncoderResidual best_encoder_residual(const StagePlant& plant, const Recording& recording) {
     const auto residual_at = [&](double start_count) {
@@ -96,7 +61,7 @@ HallResidual hall_residual(const StagePlant& plant, const Recording& recording) 
     double squares = 0.0, expected = 0.0, variance = 0.0;
     for (const StageRow& row : recording.rows) {
         const double mean_lsb = mean_reading_lsb(hall, state.position_mm);
-        const SquareStatistics statistics = hall_square_statistics(mean_lsb, hall.parameters.noise_lsb);
+        const auto statistics = testing::rounded_gaussian(mean_lsb, hall.parameters.noise_lsb);
         squares += (row.hall_adc - mean_lsb) * (row.hall_adc - mean_lsb);
         expected += statistics.mean;
         variance += statistics.variance;

@@ -3,15 +3,7 @@
 #include "core/recording.h"
 #include "plant/stage_plant.h"
 
-#include <filesystem>
-#include <string_view>
-#include <vector>
-
 namespace fidservo::plant {
-
-/// The recordings of a campaign of the shared data. Empty where the shared data are absent, unless the
-/// environment says FIDSERVO_REQUIRE_DATA: then that is a test failure.
-std::vector<std::filesystem::path> campaign(std::string_view name);
 
 /// How the carriage's motion under the recorded commands compares with the recorded counts.
 struct EncoderResidual {

@@ -1,6 +1,7 @@
 // Fed with the commands of recordings that an independent model of the reference rig made, the plant must
 // follow the recorded encoder and Hall readings to their noise floor.
 #include "src/recording/reader.h"
+#include "tests/campaign.h"
 #include "tests/plant/campaign_residual.h"
 #include "tests/plant/reference_rig.h"
 
@@ -14,7 +15,7 @@ namespace fidservo::plant {
 namespace {
 
 TEST(NoEffectCampaign, RecordedCommands_GiveTheRecordedReadingsToTheNoiseFloor) {
-    const auto recordings = campaign("no-effect");
+    const auto recordings = testing::campaign("no-effect");
     if (recordings.empty()) GTEST_SKIP() << "the shared data are absent";
     EXPECT_EQ(recordings.size(), 16u);
     const StagePlant plant = make_stage_plant(reference_rig());

@@ -1,14 +1,10 @@
 #include "tests/reference/campaign_residual.h"
 
-#include "src/recording/reader.h"
+#include "tests/campaign.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <numbers>
 #include <span>
-
-#include <gtest/gtest.h>
 
 namespace fidservo::reference {
 
@@ -60,37 +56,7 @@ EncoderError best_encoder_error(const RigModel& model, std::span<const StageRow>
     return encoder_error(carriage_only, rows, start_mm);
 }
 
-/// Mean and variance of (reading - mean)^2 in LSB^2 for a Gaussian before rounding, by summing over readings.
-struct SquareStatistics {
-    double mean = 0.0, variance = 0.0;
-};
-
-SquareStatistics rounded_gaussian(double mean_lsb, double sigma_lsb) {
-    const auto share_below = [&](double level) {
-        return 0.5 * (1.0 + std::erf((level - mean_lsb) / (sigma_lsb * std::numbers::sqrt2)));
-    };
-    SquareStatistics sum;
-    double fourth = 0.0;
-    const double centre = std::round(mean_lsb);
-    for (int i = -5; i <= 5; ++i) {
-        const double reading = centre + i;
-        const double share = share_below(reading + 0.5) - share_below(reading - 0.5);
-        const double square = (reading - mean_lsb) * (reading - mean_lsb);
-        sum.mean += share * square;
-        fourth += share * square * square;
-    }
-    sum.variance = fourth - sum.mean * sum.mean;
-    return sum;
-}
-
 }  // namespace
-
-std::vector<std::filesystem::path> campaign(std::string_view name) {
-    const auto folder = std::filesystem::path(FIDSERVO_DATA_DIR) / "campaigns" / name;
-    if (std::filesystem::is_directory(folder)) return find_recordings(folder);
-    EXPECT_EQ(std::getenv("FIDSERVO_REQUIRE_DATA"), nullptr) << "the shared data are absent: " << folder;
-    return {};
-}
 
 Residual residual(const RigModel& model, const Recording& recording) {
     const std::span<const StageRow> rows = recording.rows;
@@ -109,7 +75,7 @@ Residual residual(const RigModel& model, const Recording& recording) {
                               static_cast<double>(state.tick) * model.tick_s};
         const double lsb_V = hall.adc_range_V / static_cast<double>(1 << hall.adc_bits);
         const double mean_lsb = hall_volts(hall, model.departures.hall, input) / lsb_V;
-        const SquareStatistics statistics = rounded_gaussian(mean_lsb, hall.noise_lsb);
+        const auto statistics = testing::rounded_gaussian(mean_lsb, hall.noise_lsb);
         squares += (row.hall_adc - mean_lsb) * (row.hall_adc - mean_lsb);
         expected += statistics.mean;
         variance += statistics.variance;

@@ -3,15 +3,7 @@
 #include "core/recording.h"
 #include "reference/reference_rig.h"
 
-#include <filesystem>
-#include <string_view>
-#include <vector>
-
 namespace fidservo::reference {
-
-/// The recordings of a campaign of the shared data. Empty where the shared data are absent, unless the
-/// environment says FIDSERVO_REQUIRE_DATA: then that is a test failure.
-std::vector<std::filesystem::path> campaign(std::string_view name);
 
 /// Model readings minus recorded ones, and what noise and rounding alone would leave.
 struct Residual {

@@ -1,5 +1,7 @@
 // The shared campaigns were recorded on another model of the same machine. Fed with their commands, this one
 // must follow their readings to the noise floor.
+#include "tests/campaign.h"
+
 #include "src/config/rig_file.h"
 #include "src/recording/reader.h"
 #include "tests/reference/campaign_residual.h"
@@ -21,7 +23,7 @@ struct Worst {
 Worst worst_residual(std::string_view name, const Departures& departures) {
     const RigModel model = make_rig_model(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), departures);
     Worst worst;
-    for (const auto& path : campaign(name)) {
+    for (const auto& path : testing::campaign(name)) {
         const Recording recording = read_recording(path);
         const Residual r = residual(model, recording);
         std::printf(

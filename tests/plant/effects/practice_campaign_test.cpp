@@ -2,6 +2,7 @@
 // the effect, must explain the readings of all others.
 #include "plant/effects/catalogue.h"
 #include "src/recording/reader.h"
+#include "tests/campaign.h"
 #include "tests/plant/campaign_residual.h"
 #include "tests/plant/reference_rig.h"
 
@@ -37,11 +38,11 @@ double estimated_value(const Effect& effect, const Recording& recording) {
     return 0.5 * (low + high);
 }
 
-class PracticeCampaign : public testing::TestWithParam<std::string_view> {};
+class PracticeCampaign : public ::testing::TestWithParam<std::string_view> {};
 
 TEST_P(PracticeCampaign, ValueOfOneRecording_ExplainsTheOthersToTheNoiseFloor) {
     const Effect& effect = *find_effect(GetParam());
-    const auto recordings = campaign(effect.name);
+    const auto recordings = testing::campaign(effect.name);
     if (recordings.empty()) GTEST_SKIP() << "the shared data are absent";
     const auto estimated_on = std::ranges::find(recordings, "micro-triangle-1",
                                                 [](const auto& path) { return path.filename().string(); });
@@ -66,7 +67,7 @@ TEST_P(PracticeCampaign, ValueOfOneRecording_ExplainsTheOthersToTheNoiseFloor) {
     EXPECT_GT(worst_nominal_lsb, 3.0) << "there must be something to explain";
 }
 
-INSTANTIATE_TEST_SUITE_P(MicroStage, PracticeCampaign, testing::Values("airflow", "hall_nonlinearity"),
+INSTANTIATE_TEST_SUITE_P(MicroStage, PracticeCampaign, ::testing::Values("airflow", "hall_nonlinearity"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 /// R.m.s. of position minus recorded count, in counts, about its mean: where in the first count the carriage
@@ -88,7 +89,7 @@ double encoder_rms_count(const StagePlant& plant, const Recording& recording) {
 
 /// The values were fitted to macro-sweep-1 and macro-pulses-1, by another program.
 TEST(PracticeCampaignOnTheRail, StribeckValuesOfTwoRecordings_ExplainTheOthers) {
-    const auto recordings = campaign("stribeck_friction");
+    const auto recordings = testing::campaign("stribeck_friction");
     if (recordings.empty()) GTEST_SKIP() << "the shared data are absent";
     const EffectSetting setting =
         parse_effect("stribeck_friction:level_V=0.399,speed_mm_per_s=12,creep_mm_per_s=0.37");
