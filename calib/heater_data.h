@@ -20,8 +20,8 @@ struct HeaterRun {
 };
 
 /// Samples that no drive gave: isolated, at most two rows long, and away from the median of the eleven rows
-/// around by more than three tenths of the commands' usual range and three times as much as those rows are spread.
-/// Their indices, ascending.
+/// around by more than three tenths of the commands' usual range and three times as much as those rows are
+/// spread. Their indices, ascending.
 std::vector<std::size_t> corrupt_samples(std::span<const double> command);
 
 /// The commands with some samples replaced by the last good one before them.
