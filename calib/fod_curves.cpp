@@ -37,9 +37,14 @@ std::vector<Branch> branches_of(std::span<const double> input) {
 class LocalLine {
   public:
     void add(double input, double output) {
-        count_ += 1.0, in_ += input, out_ += output;
-        in_in_ += input * input, in_out_ += input * output, out_out_ += output * output;
-        low_ = std::min(low_, input), high_ = std::max(high_, input);
+        count_ += 1.0;
+        in_ += input;
+        out_ += output;
+        in_in_ += input * input;
+        in_out_ += input * output;
+        out_out_ += output * output;
+        low_ = std::min(low_, input);
+        high_ = std::max(high_, input);
     }
 
     std::size_t count() const { return static_cast<std::size_t>(count_); }

@@ -96,8 +96,11 @@ void scan_thresholds(const MacroEstimator& estimator, MacroFit& fit) {
             point.motion.forward_threshold_V = within(fit.forward, share);
             point.motion.backward_threshold_V = within(fit.backward, share);
             estimator.refine(point, active, iterations);
-            if (const double loss = estimator.loss(point); loss < least)
-                fit.point = point, least = loss, best_share = share;
+            if (const double loss = estimator.loss(point); loss < least) {
+                fit.point = point;
+                least = loss;
+                best_share = share;
+            }
         }
         start = fit.point;
     }

@@ -115,8 +115,11 @@ void search_thresholds(const MacroEstimator& estimator, MacroPoint& point, const
                 const bool moved_backward = move_threshold(next, backward, -1.0, stride * direction[1]);
                 if (moved_forward != (direction[0] != 0) || moved_backward != (direction[1] != 0)) continue;
                 estimator.refine(next, active, iterations);
-                if (const double loss = estimator.loss(next); loss < least)
-                    point = next, least = loss, better = true;
+                if (const double loss = estimator.loss(next); loss < least) {
+                    point = next;
+                    least = loss;
+                    better = true;
+                }
             }
         }
     }

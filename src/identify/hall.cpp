@@ -26,8 +26,10 @@ double mean_adc(const Recording& recording, TimeNs middle_ns, double exposure_s)
     const TimeNs half = nanoseconds(0.5 * exposure_s);
     double sum = 0.0, count = 0.0;
     const auto first = std::ranges::lower_bound(recording.rows, middle_ns - half, {}, &StageRow::time_ns);
-    for (auto row = first; row != recording.rows.end() && row->time_ns <= middle_ns + half; ++row)
-        sum += row->hall_adc, count += 1.0;
+    for (auto row = first; row != recording.rows.end() && row->time_ns <= middle_ns + half; ++row) {
+        sum += row->hall_adc;
+        count += 1.0;
+    }
     return count > 0.0 ? sum / count : not_in_force;
 }
 
@@ -50,8 +52,10 @@ void append_sights(const Rig& rig, const Plate& plate, const Recording& recordin
         const calib::HallSample sample{camera_mm(rig, plate, detection),
                                        mean_adc(recording, detection.time_ns, rig.camera->exposure_s)};
         if (!std::isfinite(sample.reference_mm) || !std::isfinite(sample.adc)) continue;
-        if (std::abs(sample.adc - rest_adc) < near_lsb && at_rest == static_cast<double>(seen.size()))
-            zero_mm += sample.reference_mm, at_rest += 1.0;
+        if (std::abs(sample.adc - rest_adc) < near_lsb && at_rest == static_cast<double>(seen.size())) {
+            zero_mm += sample.reference_mm;
+            at_rest += 1.0;
+        }
         seen.push_back(sample);
     }
     if (at_rest == 0.0) return;

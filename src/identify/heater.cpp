@@ -29,7 +29,8 @@ bool moved(const Recording& recording, const MicroModel& model) {
     double low = INFINITY, high = -INFINITY;
     for (const StageRow& row : recording.rows) {
         const double x_mm = platform_position_mm(model, row.hall_adc);
-        low = std::min(low, x_mm), high = std::max(high, x_mm);
+        low = std::min(low, x_mm);
+        high = std::max(high, x_mm);
     }
     return high - low > least_share * model.stroke_scale * model.fod->stroke_mm();
 }

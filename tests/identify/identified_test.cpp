@@ -65,7 +65,8 @@ TEST(IdentifiedRig, FodTable_IsWrittenBesideItAndReadBack) {
     const Rig before = load_rig(reference);
     Identified identified{.part = "hysteresis", .fod = before.micro->fod};
     write_identified_rig(folder / "new.yaml", reference, identified);
-    const FodTable& table = *load_rig(folder / "new.yaml").micro->fod;
+    const Rig rig = load_rig(folder / "new.yaml");
+    const FodTable& table = *rig.micro->fod;
     ASSERT_EQ(table.nodes(), before.micro->fod->nodes());
     for (std::size_t peak = 0; peak < table.nodes(); ++peak)
         for (std::size_t temp = 0; temp <= peak; ++temp)

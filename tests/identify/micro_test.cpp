@@ -93,7 +93,8 @@ TEST(IdentifyHysteresis, KilnCycles_GiveTheRigsTable) {
     const Identified hysteresis = identify_hysteresis({reference(), {}, kiln_table(), 1.0});
     ASSERT_NE(hysteresis.fod, nullptr);
     EXPECT_THAT(hysteresis.notes.at(0), HasSubstr("10 descending curves"));
-    const FodTable& truth = *reference().micro->fod;
+    const Rig rig = reference();
+    const FodTable& truth = *rig.micro->fod;
     double squares = 0.0, count = 0.0;
     for (double a = 24.0; a <= 112.0; a += 4.0)
         for (double b = 22.0; b <= a; b += 4.0) {
