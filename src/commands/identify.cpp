@@ -2,6 +2,7 @@
 #include "src/identify/identify.h"
 
 #include "core/failure.h"
+#include "plant/effects/catalogue.h"
 #include "src/commands/commands.h"
 #include "src/config/rig_file.h"
 #include "src/recording/reader.h"
@@ -16,6 +17,7 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 
 namespace fidservo {
 
@@ -70,6 +72,9 @@ IdentifyInput read_input(const IdentifyOptions& options, const Identification& i
     for (const std::filesystem::path& path : options.recordings)
         for (const std::filesystem::path& folder : find_recordings(path)) {
             input.recordings.push_back(read_recording(folder));
+            if (input.recordings.back().rig != input.rig.name)
+                spdlog::warn("{}: is a recording of the rig {}, read with the rig file of {}",
+                             folder.string(), input.recordings.back().rig, input.rig.name);
             if (input.recordings.back().rows.empty())
                 throw InputError(
                     fmt::format("{}: holds no rows of the stage (stage0/data.csv)", folder.string()));
@@ -85,15 +90,36 @@ void demand_new_file(const char* option, const std::filesystem::path& file) {
             fmt::format("{}: {}: exists already; give the name of a new file", option, file.string()));
 }
 
+/// Numbers from a rig that is known to have such effects contain them: beside them in a file they would act
+/// twice. Friction and offset are identified themselves, and replaced.
+void demand_no_effects_twice(const Rig& rig, const Identification& identification) {
+    const bool macro = identification.name == "macro";
+    for (const StatedEffect& effect : rig.effects) {
+        const bool of_macro = plant::find_effect(effect.name)->block.starts_with("macro.");
+        const bool replaced = effect.name == "coulomb_friction" || effect.name == "drive_offset";
+        if (of_macro == macro && !replaced)
+            throw InputError(fmt::format(
+                "--rig: states the effect {}: identified numbers would contain it, and the new file would "
+                "have it twice; give a rig file without it, or leave out --write-rig",
+                effect.name));
+    }
+}
+
 int run_identification(const IdentifyOptions& options, const Identification& identification) {
     demand_new_file("--json", options.json);
     demand_new_file("--write-rig", options.write_rig);
-    const Identified identified = identification.run(read_input(options, identification));
+    if (!options.json.empty() && options.json.lexically_normal() == options.write_rig.lexically_normal())
+        throw InputError(fmt::format("--json, --write-rig: {}: are one file", options.json.string()));
+    const IdentifyInput input = read_input(options, identification);
+    if (!options.write_rig.empty()) demand_no_effects_twice(input.rig, identification);
+    const Identified identified = identification.run(input);
     fmt::print("{}", describe(identified));
     if (!options.json.empty()) write_identification_json(options.json, identified);
-    if (!options.write_rig.empty() && !identified.values.empty()) {
+    if (!options.write_rig.empty() && fits_a_rig_file(identified)) {
         write_identified_rig(options.write_rig, options.rig_file, identified);
         fmt::print("rig file: {}\n", options.write_rig.string());
+    } else if (!options.write_rig.empty()) {
+        fmt::print("no rig file: nothing was identified that it could hold\n");
     }
     return identified.undetermined.empty() ? exit_done : exit_answer_is_no;
 }

@@ -5,6 +5,7 @@
 #include "src/config/fod_file.h"
 #include "src/config/yaml_reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -204,6 +205,8 @@ std::vector<StatedEffect> read_effects(const YamlValue& list) {
     for (const YamlValue& item : list.items()) {
         StatedEffect& effect = effects.emplace_back();
         effect.name = item.at("name").text();
+        if (std::ranges::count(effects, effect.name, &StatedEffect::name) > 1)
+            item.at("name").fail("is stated twice; an effect can be stated once only");
         for (const std::string& key : item.keys())
             if (key != "name") effect.parameters.push_back({key, item.at(key).number()});
         try {

@@ -33,6 +33,11 @@ std::string describe(const FitResidual& residual) {
 
 }  // namespace
 
+bool fits_a_rig_file(const Identified& identified) {
+    return identified.fod || !identified.effects.empty() ||
+           std::ranges::any_of(identified.values, &IdentifiedValue::in_rig_file);
+}
+
 std::string describe(const Identified& identified) {
     std::size_t width = 0;
     for (const IdentifiedValue& value : identified.values) width = std::max(width, value.key.size());
@@ -81,7 +86,8 @@ void write_identified_rig(const std::filesystem::path& file, const std::filesyst
     RigEdit edit(source_rig_file);
     RigProvenance provenance{identified.part, identified.recordings, {}, {}};
     for (const IdentifiedValue& value : identified.values) {
-        if (value.in_rig_file) edit.set(value.key, value.value);
+        if (!value.in_rig_file) continue;
+        edit.set(value.key, value.value);
         provenance.standard_errors.emplace_back(value.key, value.std);
     }
     for (const FitResidual& residual : identified.residuals)

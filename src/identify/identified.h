@@ -46,6 +46,9 @@ struct Identified {
     std::vector<std::string> notes = {};  ///< sentences for people: what was left out, what else was measured
 };
 
+/// Whether there is anything that a rig file can hold.
+bool fits_a_rig_file(const Identified& identified);
+
 /// The table for people.
 std::string describe(const Identified& identified);
 

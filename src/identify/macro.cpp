@@ -121,6 +121,11 @@ Identified identify_macro(const IdentifyInput& input) {
         identified.undetermined.push_back({"macro", found.error().text});
         return identified;
     }
+    if (found->gain_mm_per_s_per_V && found->gain_mm_per_s_per_V->value <= 0.0) {
+        identified.undetermined.push_back(
+            {"macro", "the position falls where the command rises: one of the two has the wrong sign"});
+        return identified;
+    }
     add_values(identified, *found, input.rig, build.dead_zone);
     identified.residuals.push_back({"encoder", "count", found->residual_count, rounding_count});
     add_notes(identified, *found, build, traces);

@@ -50,10 +50,12 @@ bool parse_all(std::string_view text, T& value) {
 CsvText CsvText::load(const std::filesystem::path& file, Separator separator) {
     std::error_code ignored;
     std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file, ignored))
-        throw InputError(fmt::format("{}: cannot be opened", file.string()));
+    if (!stream || std::filesystem::is_directory(file, ignored) ||
+        std::filesystem::is_character_file(file, ignored))
+        throw InputError(fmt::format("{}: cannot be opened as a text file", file.string()));
     std::string text;
-    text.reserve(static_cast<std::size_t>(std::filesystem::file_size(file, ignored)));
+    if (std::filesystem::is_regular_file(file, ignored))
+        text.reserve(static_cast<std::size_t>(std::filesystem::file_size(file, ignored)));
     text.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
     return {std::move(text), file, separator};
 }

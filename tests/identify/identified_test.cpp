@@ -120,6 +120,15 @@ TEST(RigFileEffects, Mistakes_NameFileAndEffect) {
     EXPECT_THAT(message("\neffects: [{name: airflow, factor: 7}]\n"),
                 HasSubstr("7 is out of bounds; allowed: 0.2 .. 3"));
     EXPECT_THAT(message("\neffects: [{factor: 7}]\n"), HasSubstr("name"));
+    EXPECT_THAT(message("\neffects: [{name: payload}, {name: payload, mass_factor: 3}]\n"),
+                HasSubstr("payload: is stated twice"));
+}
+
+TEST(IdentifiedRig, NothingForARigFile_IsSaid) {
+    Identified identified{.part = "heater", .values = {{"time_constant", "s", 1.0, 0.1, false}}};
+    EXPECT_FALSE(fits_a_rig_file(identified));
+    identified.effects = {{"drive_offset", {}}};
+    EXPECT_TRUE(fits_a_rig_file(identified));
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST(SlowReproduce, SluggishHeater_FailsTheSettlingClaim) {
     const TemporaryFolder folder;
     std::string text = text_of(assets / "rig.yaml");
     const std::string piece = "heating_tau_s: 0.55";
-    text.replace(text.find(piece), piece.size(), "heating_tau_s: 1.50");
+    text.replace(text.find(piece), piece.size(), "heating_tau_s: 2.50");
     std::filesystem::copy_file(assets / "preisach_fod.csv", folder / "preisach_fod.csv");
     const auto claims = reproduce(folder.write("rig.yaml", text), folder / "out", 3);
     const auto settling =
