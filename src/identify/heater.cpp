@@ -81,6 +81,7 @@ Identified from_recordings(const IdentifyInput& input) {
             resting.push_back(recording.name);
             continue;
         }
+        demand_every_tick(recording);
         runs.push_back(run_of(recording));
         identified.recordings.push_back(recording.name);
     }

@@ -48,6 +48,7 @@ Source from_recordings(const IdentifyInput& input) {
     Source source{{}, {}, "degC", "mm", true};
     for (const Recording& recording : input.recordings) {
         if (!recording.columns.hall || !recording.columns.micro_command || rests(recording, model)) continue;
+        demand_every_tick(recording);
         calib::HeaterRun run{.tick_s = recording.tick_s, .command = {}, .reading = {}};
         for (const StageRow& row : recording.rows) {
             if (!std::isfinite(row.hall_adc)) continue;

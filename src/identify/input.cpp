@@ -25,6 +25,17 @@ std::vector<double> table_times_s(const IdentifyInput& input) {
     return times_s;
 }
 
+void demand_every_tick(const Recording& recording) {
+    constexpr double longest_ticks = 1.5;
+    for (std::size_t k = 1; k < recording.rows.size(); ++k) {
+        const double step_s = seconds(recording.rows[k].time_ns - recording.rows[k - 1].time_ns);
+        if (step_s > longest_ticks * recording.tick_s)
+            throw InputError(fmt::format(
+                "{}: stage0/data.csv: {:.4g} s are missing at {:.4g} s: every tick is needed here",
+                recording.name, step_s, seconds(recording.rows[k - 1].time_ns)));
+    }
+}
+
 Recording table_as_macro_recording(const IdentifyInput& input) {
     const TextTable& table = input.table.value();
     const std::vector<double> times_s = table_times_s(input);

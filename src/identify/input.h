@@ -19,6 +19,9 @@ struct IdentifyInput {
 /// Times in s of a table's rows. Throws InputError where time does not increase.
 std::vector<double> table_times_s(const IdentifyInput& input);
 
+/// Throws InputError if rows are missing: a model that is run through a recording needs every tick.
+void demand_every_tick(const Recording& recording);
+
 /// A table as a recording of the macro stage: roles input [V] and output [mm]. A row a tick; throws
 /// InputError unless the times are equally spaced to 1 %.
 Recording table_as_macro_recording(const IdentifyInput& input);

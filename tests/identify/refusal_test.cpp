@@ -1,6 +1,7 @@
 #include "src/config/rig_file.h"
 #include "src/identify/identify.h"
 #include "src/simulation/simulate_reference.h"
+#include "tests/src/message_of.h"
 #include "tests/src/run_program.h"
 #include "tests/src/temporary_folder.h"
 
@@ -27,6 +28,18 @@ TEST(IdentifyMacro, CommandWithTheWrongSign_IsRefusedWithTheReason) {
     EXPECT_TRUE(identified.values.empty());
     ASSERT_EQ(identified.undetermined.size(), 1u);
     EXPECT_THAT(identified.undetermined[0].reason, HasSubstr("wrong sign"));
+}
+
+TEST(IdentifyHeater, GapInTheRecording_IsRefused) {
+    const Rig rig = load_rig(assets / "rig.yaml");
+    Recording recording = simulate_reference(
+        rig, {}, make_experiment("micro-triangle", rig, 3, "micro-triangle-1"), "micro-triangle-1", 3);
+    recording.rows.erase(recording.rows.begin() + 9000, recording.rows.begin() + 12000);
+    for (const auto identify : {identify_heater, identify_hysteresis})
+        EXPECT_THAT(testing::message_of([&] {
+                        identify({rig, {recording}, std::nullopt, 0.0});
+                    }),
+                    HasSubstr("3.001 s are missing at 8.999 s"));
 }
 
 /// What the rig file states already would be in the identified numbers, and act twice.
