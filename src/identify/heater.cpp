@@ -82,6 +82,7 @@ Identified from_recordings(const IdentifyInput& input) {
             continue;
         }
         demand_every_tick(recording);
+        demand_possible_readings(recording, input.rig.micro->hall);
         runs.push_back(run_of(recording));
         identified.recordings.push_back(recording.name);
     }

@@ -49,6 +49,7 @@ Source from_recordings(const IdentifyInput& input) {
     for (const Recording& recording : input.recordings) {
         if (!recording.columns.hall || !recording.columns.micro_command || rests(recording, model)) continue;
         demand_every_tick(recording);
+        demand_possible_readings(recording, input.rig.micro->hall);
         calib::HeaterRun run{.tick_s = recording.tick_s, .command = {}, .reading = {}};
         for (const StageRow& row : recording.rows) {
             if (!std::isfinite(row.hall_adc)) continue;

@@ -36,6 +36,14 @@ void demand_every_tick(const Recording& recording) {
     }
 }
 
+void demand_possible_readings(const Recording& recording, const HallParameters& hall) {
+    const double highest = std::exp2(hall.adc_bits) - 1.0;
+    for (const StageRow& row : recording.rows)
+        if (row.hall_adc < 0.0 || row.hall_adc > highest)
+            throw InputError(fmt::format("{}: stage0/data.csv: hall [adc]: {} at {:.4g} s: must be 0 to {}",
+                                         recording.name, row.hall_adc, seconds(row.time_ns), highest));
+}
+
 Recording table_as_macro_recording(const IdentifyInput& input) {
     const TextTable& table = input.table.value();
     const std::vector<double> times_s = table_times_s(input);

@@ -22,6 +22,9 @@ std::vector<double> table_times_s(const IdentifyInput& input);
 /// Throws InputError if rows are missing: a model that is run through a recording needs every tick.
 void demand_every_tick(const Recording& recording);
 
+/// Throws InputError on a Hall reading that the rig's converter cannot give.
+void demand_possible_readings(const Recording& recording, const HallParameters& hall);
+
 /// A table as a recording of the macro stage: roles input [V] and output [mm]. A row a tick; throws
 /// InputError unless the times are equally spaced to 1 %.
 Recording table_as_macro_recording(const IdentifyInput& input);

@@ -42,6 +42,18 @@ TEST(IdentifyHeater, GapInTheRecording_IsRefused) {
                     HasSubstr("3.001 s are missing at 8.999 s"));
 }
 
+TEST(IdentifyHeater, ReadingThatNoConverterGives_IsRefused) {
+    const Rig rig = load_rig(assets / "rig.yaml");
+    Recording recording = simulate_reference(
+        rig, {}, make_experiment("micro-triangle", rig, 3, "micro-triangle-1"), "micro-triangle-1", 3);
+    recording.rows[5000].hall_adc = 9999.0;
+    for (const auto identify : {identify_heater, identify_hysteresis})
+        EXPECT_THAT(testing::message_of([&] {
+                        identify({rig, {recording}, std::nullopt, 0.0});
+                    }),
+                    HasSubstr("hall [adc]: 9999 at 5 s: must be 0 to 4095"));
+}
+
 /// What the rig file states already would be in the identified numbers, and act twice.
 TEST(IdentifyCommand, RigThatStatesAnEffectOfThePart_IsNotWritten) {
     const TemporaryFolder folder;
