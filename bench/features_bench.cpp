@@ -1,6 +1,7 @@
 // How long measuring takes, and how small a defect the comparison finds.
 #include "core/random.h"
 #include "plant/view/plate_view.h"
+#include "tests/reference_camera.h"
 #include "vision/features/line.h"
 #include "vision/features/mark.h"
 #include "vision/features/pad.h"
@@ -20,18 +21,6 @@ constexpr double place_mm = 100.0;
 const Dot dot{{99.0, 1.2}, 0.3};
 const Pad pad{{99.8, 1.2}, {0.3, 0.2}};
 const Line line{{100.4, 1.2}, {101.6, 1.2}, 0.06};
-
-CameraParameters reference_camera() {
-    return {.geometry = {1280, 960, 5000.0, {639.5, 479.5}, 20.0},
-            .frame_rate_hz = 50.0,
-            .exposure_s = 0.002,
-            .full_well_e = 10000.0,
-            .read_noise_e = 5.0,
-            .blur_px = 0.8,
-            .latency_s = 0.03,
-            .corner_noise_px = 0.02,
-            .max_speed_mm_per_s = 20.0};
-}
 
 Plate good_plate() {
     Plate plate;

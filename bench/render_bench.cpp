@@ -1,5 +1,6 @@
 // Frames a second of the simulated camera, on one core, beside what a run in real time and more asks for.
 #include "plant/view/plate_view.h"
+#include "tests/reference_camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,18 +14,6 @@ namespace fidservo::plant {
 namespace {
 
 constexpr double limit_frames_per_s = 200.0;
-
-CameraParameters reference_camera() {
-    return {.geometry = {1280, 960, 5000.0, {639.5, 479.5}, 20.0},
-            .frame_rate_hz = 50.0,
-            .exposure_s = 0.002,
-            .full_well_e = 10000.0,
-            .read_noise_e = 5.0,
-            .blur_px = 0.8,
-            .latency_s = 0.03,
-            .corner_noise_px = 0.0,
-            .max_speed_mm_per_s = 0.0};
-}
 
 Plate one_tag() {
     Plate plate;

@@ -8,6 +8,8 @@
 #include "plant/view/plate_view.h"
 #include "src/recording/writer.h"
 #include "src/replay/replay.h"
+#include "tests/reference_camera.h"
+#include "tests/src/temporary_folder.h"
 #include "vision/tag_detector.h"
 
 #include <algorithm>
@@ -31,37 +33,11 @@ namespace fs = std::filesystem;
 
 constexpr double tag_side_mm = 1.2;
 
-/// A new folder for as long as it lives.
-class Scratch {
-  public:
-    Scratch() {
-        std::string name = (fs::temp_directory_path() / "fidservo-replay-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw RunFault(name + ": cannot be made");
-        path_ = name;
-    }
-    ~Scratch() { fs::remove_all(path_); }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    fs::path operator/(const std::string& name) const { return path_ / name; }
-
-  private:
-    fs::path path_;
-};
-
 cv::Mat machine_frame(int k) {
     static const plant::PlateView view = [] {
         Plate plate;
         for (int tag = 0; tag < 20; ++tag) plate.tags.push_back({tag, {2.0 * tag, 0.0}, tag_side_mm});
-        return plant::PlateView({.geometry = {1280, 960, 5000.0, {639.5, 479.5}, 20.0},
-                                 .frame_rate_hz = 50.0,
-                                 .exposure_s = 0.002,
-                                 .full_well_e = 10000.0,
-                                 .read_noise_e = 5.0,
-                                 .blur_px = 0.8,
-                                 .latency_s = 0.03,
-                                 .corner_noise_px = 0.0,
-                                 .max_speed_mm_per_s = 0.0},
-                                plate, {});
+        return plant::PlateView(reference_camera(), plate, {});
     }();
     return view.render(std::array{10.0 + 0.0317 * k}, static_cast<std::uint64_t>(k));
 }
@@ -174,13 +150,13 @@ void run_rounds(benchmark::State& state, const fs::path& input, const fs::path& 
 }
 
 void replay_recording(benchmark::State& state) {
-    const Scratch scratch;
+    const testing::TemporaryFolder scratch;
     make_recording(scratch / "in", 200);
     run_rounds(state, scratch / "in", scratch / "out");
 }
 
 void replay_image_folder(benchmark::State& state) {
-    const Scratch scratch;
+    const testing::TemporaryFolder scratch;
     make_image_folder(scratch / "in", 40);
     run_rounds(state, scratch / "in", scratch / "out");
 }
@@ -190,7 +166,7 @@ void replay_photographs(benchmark::State& state) {
         state.SkipWithError("no shared data");
         return;
     }
-    const Scratch scratch;
+    const testing::TemporaryFolder scratch;
     make_photographs(scratch / "in", 8);
     run_rounds(state, scratch / "in", scratch / "out");
 }

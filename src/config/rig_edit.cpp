@@ -32,10 +32,6 @@ void set_below(YAML::Node node, std::string_view key, const std::string& value) 
         set_below(node[first], key.substr(dot + 1), value);
 }
 
-void write_new(const fs::path& file, const std::string& text) {
-    if (const Status written = write_durably(file, text); !written) throw RunFault(written.error().text);
-}
-
 void demand_new(const fs::path& file) {
     std::error_code error;
     if (fs::symlink_status(file, error).type() != fs::file_type::not_found)
@@ -124,8 +120,8 @@ void RigEdit::save(const fs::path& file) const {
     text << root;
     std::error_code error;
     fs::create_directories(folder, error);
-    if (edit.fod) write_new(fod_file, fod_text(*edit.fod));
-    write_new(file, std::string(text.c_str()) + '\n');
+    if (edit.fod) write_or_throw(fod_file, fod_text(*edit.fod));
+    write_or_throw(file, std::string(text.c_str()) + '\n');
     try {
         load_rig(file);
     } catch (const InputError&) {

@@ -77,8 +77,7 @@ void write_identification_json(const std::filesystem::path& file, const Identifi
             parameters[parameter.name] = parameter.value;
         json["effects"].push_back({{"name", effect.name}, {"parameters", parameters}});
     }
-    if (const Status written = write_durably(file, json.dump(2) + '\n'); !written)
-        throw RunFault(written.error().text);
+    write_or_throw(file, json.dump(2) + '\n');
 }
 
 void write_identified_rig(const std::filesystem::path& file, const std::filesystem::path& source_rig_file,

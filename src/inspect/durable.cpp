@@ -58,7 +58,7 @@ void replace_file(const std::filesystem::path& file, std::string_view text) {
     draft += ".part";
     std::error_code none;
     std::filesystem::remove(draft, none);
-    if (const Status written = write_durably(draft, text); !written) throw RunFault(written.error().text);
+    write_or_throw(draft, text);
     if (std::rename(draft.c_str(), file.c_str()) != 0) give_up(file);
     sync_to_disk(folder_of(file));
 }

@@ -16,20 +16,6 @@ namespace {
 using report::escaped;
 using report::number;
 
-std::string_view class_of(Outcome outcome) {
-    switch (outcome) {
-        case Outcome::pass:
-            return "good";
-        case Outcome::fail:
-            return "bad";
-        case Outcome::not_decidable:
-            return "unsure";
-        case Outcome::not_measured:
-            return "neutral";
-    }
-    return "neutral";
-}
-
 std::string_view sign_of(Outcome outcome) {
     switch (outcome) {
         case Outcome::pass:
@@ -78,8 +64,8 @@ report::Mood mood_of(Outcome outcome) {
 }
 
 std::string badge(Outcome outcome) {
-    return fmt::format("<span class=\"badge {}\">{} {}</span>", class_of(outcome), sign_of(outcome),
-                       words(name_of(outcome)));
+    return fmt::format("<span class=\"badge {}\">{} {}</span>", report::class_of(mood_of(outcome)),
+                       sign_of(outcome), words(name_of(outcome)));
 }
 
 std::string findings_html(const std::vector<Visit>& visits) {
@@ -135,8 +121,8 @@ std::string plate_html(const Recipe& recipe, const CameraGeometry& camera, const
             "height=\"{5:.2f}\" rx=\".5\" style=\"stroke-width:.2\"/><text x=\"{6:.2f}\" y=\"{7:.2f}\" "
             "style=\"font-size:1.9px\">{8} {0}</text>"
             "<title>site {0}: {9}</title></g></a>",
-            visit.site, class_of(outcome), from, site->fiducial_mm.y() - view_y / 2, to - from, view_y,
-            (from + to) / 2, site->fiducial_mm.y() - view_y / 2 - .4, sign_of(outcome),
+            visit.site, report::class_of(mood_of(outcome)), from, site->fiducial_mm.y() - view_y / 2,
+            to - from, view_y, (from + to) / 2, site->fiducial_mm.y() - view_y / 2 - .4, sign_of(outcome),
             words(name_of(outcome)));
     }
     return svg +

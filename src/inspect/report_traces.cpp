@@ -2,6 +2,7 @@
 
 #include "core/hall.h"
 #include "core/time.h"
+#include "src/inspect/report_sections.h"
 #include "src/recording/reader.h"
 #include "src/report/plot.h"
 
@@ -15,18 +16,9 @@ namespace fidservo::inspect {
 namespace {
 
 std::string kind_of(const Visit& visit) {
-    if (visit.end == Visit::End::deferred) return "unsure";
-    switch (outcome_of(visit)) {
-        case Outcome::pass:
-            return "good";
-        case Outcome::fail:
-            return "bad";
-        case Outcome::not_decidable:
-            return "unsure";
-        case Outcome::not_measured:
-            return "neutral";
-    }
-    return "neutral";
+    const report::Mood mood =
+        visit.end == Visit::End::deferred ? report::Mood::unsure : mood_of(outcome_of(visit));
+    return std::string(report::class_of(mood));
 }
 
 float platform_mm(const Rig& rig, const StageRow& row) {

@@ -78,6 +78,10 @@ Status write_durably(const std::filesystem::path& file, std::string_view text) {
     return created->close();
 }
 
+void write_or_throw(const std::filesystem::path& file, std::string_view text) {
+    if (const Status written = write_durably(file, text); !written) throw RunFault(written.error().text);
+}
+
 Status sync_folder(const std::filesystem::path& folder) {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return failure(Reason::device, describe_errno(folder, "cannot be opened"));

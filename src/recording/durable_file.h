@@ -36,6 +36,9 @@ class DurableFile {
 /// Writes a whole small file; the same guarantees.
 Status write_durably(const std::filesystem::path& file, std::string_view text);
 
+/// The same; throws RunFault if the disk does not take it, or the file exists.
+void write_or_throw(const std::filesystem::path& file, std::string_view text);
+
 /// Waits until the disk has the names of a folder's files.
 Status sync_folder(const std::filesystem::path& folder);
 

@@ -10,6 +10,16 @@
 namespace fidservo::report {
 namespace {
 
+std::string rendered_figures(const std::vector<KeyFigure>& figures) {
+    std::string html = "<dl class=\"figures\">";
+    for (const KeyFigure& figure : figures)
+        html += fmt::format("<div class=\"{}\"><dt>{}</dt><dd>{}</dd></div>", class_of(figure.mood),
+                            escaped(figure.label), escaped(figure.value));
+    return html + "</dl>\n";
+}
+
+}  // namespace
+
 std::string_view class_of(Mood mood) {
     switch (mood) {
         case Mood::good:
@@ -23,16 +33,6 @@ std::string_view class_of(Mood mood) {
     }
     return "neutral";
 }
-
-std::string rendered_figures(const std::vector<KeyFigure>& figures) {
-    std::string html = "<dl class=\"figures\">";
-    for (const KeyFigure& figure : figures)
-        html += fmt::format("<div class=\"{}\"><dt>{}</dt><dd>{}</dd></div>", class_of(figure.mood),
-                            escaped(figure.label), escaped(figure.value));
-    return html + "</dl>\n";
-}
-
-}  // namespace
 
 std::string section(const std::string& id, const std::string& heading, const std::string& html) {
     return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}\n</section>\n", id, escaped(heading), html);

@@ -1,12 +1,16 @@
 #pragma once
 // The skeleton of every report: one self-contained HTML file that works offline, light and dark.
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fidservo::report {
 
 /// How a run ended, as a colour and a sign.
 enum class Mood { good, bad, unsure, neutral };
+
+/// The style sheet's class of a mood.
+std::string_view class_of(Mood mood);
 
 /// One figure in the row below the headline.
 struct KeyFigure {

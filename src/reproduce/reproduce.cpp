@@ -48,18 +48,6 @@ report::Mood mood_of(Outcome outcome) {
     return report::Mood::neutral;
 }
 
-std::string_view class_of(Outcome outcome) {
-    switch (outcome) {
-        case Outcome::holds:
-            return "good";
-        case Outcome::rig_differs:
-            return "unsure";
-        case Outcome::fails:
-            return "bad";
-    }
-    return "neutral";
-}
-
 std::string claims_table(const std::vector<Chapter>& written) {
     std::string html =
         "<div class=\"scroll\"><table "
@@ -71,8 +59,8 @@ std::string claims_table(const std::vector<Chapter>& written) {
                 "<tr><td><a href=\"#{}\">{}</a></td><td class=\"wide\">{}</td><td class=\"wide\">{}</td>"
                 "<td class=\"{}\"><span class=\"badge\">{}</span></td><td class=\"wide\">{}</td></tr>\n",
                 chapter.id, report::escaped(claim.source), report::escaped(claim.claim),
-                report::escaped(claim.measured), class_of(claim.outcome), name_of(claim.outcome),
-                report::escaped(claim.outcome == Outcome::holds ? "" : claim.why));
+                report::escaped(claim.measured), report::class_of(mood_of(claim.outcome)),
+                name_of(claim.outcome), report::escaped(claim.outcome == Outcome::holds ? "" : claim.why));
     return html + "</tbody></table></div>\n";
 }
 
@@ -122,10 +110,6 @@ report::Page page_of(const std::vector<Chapter>& written, const std::vector<Clai
     return page;
 }
 
-void write(const std::filesystem::path& file, const std::string& text) {
-    if (const Status written = write_durably(file, text); !written) throw RunFault(written.error().text);
-}
-
 }  // namespace
 
 std::string_view name_of(Outcome outcome) {
@@ -155,8 +139,8 @@ std::vector<Claim> reproduce(const std::filesystem::path& rig_file, const std::f
     std::vector<Claim> claims;
     for (const Chapter& chapter : written)
         claims.insert(claims.end(), chapter.claims.begin(), chapter.claims.end());
-    write(out / "claims.csv", claims_csv(claims));
-    write(out / "report.html", report::render(page_of(written, claims, laboratory.rig, seed)));
+    write_or_throw(out / "claims.csv", claims_csv(claims));
+    write_or_throw(out / "report.html", report::render(page_of(written, claims, laboratory.rig, seed)));
     return claims;
 }
 

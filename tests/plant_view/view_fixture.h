@@ -3,6 +3,7 @@
 #include "core/plate.h"
 #include "core/rig.h"
 #include "plant/view/plate_view.h"
+#include "tests/reference_camera.h"
 
 #include <cmath>
 #include <vector>
@@ -10,18 +11,6 @@
 #include <opencv2/core/mat.hpp>
 
 namespace fidservo::plant {
-
-inline CameraParameters reference_camera() {
-    return {.geometry = {1280, 960, 5000.0, {639.5, 479.5}, 20.0},
-            .frame_rate_hz = 50.0,
-            .exposure_s = 0.002,
-            .full_well_e = 10000.0,
-            .read_noise_e = 5.0,
-            .blur_px = 0.8,
-            .latency_s = 0.03,
-            .corner_noise_px = 0.0,
-            .max_speed_mm_per_s = 0.0};
-}
 
 /// A camera of another image size, its axis through the middle, otherwise the reference rig's (4 um a pixel).
 inline CameraParameters small_camera(int width_px, int height_px) {
