@@ -1,36 +1,65 @@
 #pragma once
 // Where a plate point appears in the image, and back.
 //
-// Frames. Plate: x along the stage axis, positive to the right, y positive down in the image, mm. Camera
-// position s = macro + micro, mm: the plate x under the optical axis. Image: u right, v down, px; pixel
-// centres lie at integer coordinates. Pinhole, looking straight down from distance Z:
+// Frames. Plate: x along the row of fiducials, positive to the right, y positive down in the image, z from
+// the camera towards the plate, mm. Camera position s = macro + micro, mm: the plate x of the foot of the
+// perpendicular from the camera's centre to the plate. Image: u right, v down, px; pixel centres lie at
+// integer coordinates. A point P of the plate is seen from position s at
 //
-//     u = u0 + f (X - s) / Z,     v = v0 + f Y / Z
+//     Q = R_tilt R_z (P - s a + (0, 0, Z)),   (x, y) = (Q_x, Q_y) / Q_z
+//     x' = x (1 + k1 r2 + k2 r2^2 + k3 r2^3) + 2 p1 x y + p2 (r2 + 2 x^2)
+//     y' = y (1 + k1 r2 + k2 r2^2 + k3 r2^3) + p1 (r2 + 2 y^2) + 2 p2 x y,   r2 = x^2 + y^2
+//     u = u0 + f x',   v = v0 + f q y'
+//
+// R_z turns from u towards v, R_tilt about an axis in the image plane, a: the stage's axis, a unit vector.
+// A camera that looks straight down along a true axis without distortion: u = u0 + f (X - s) / Z, v = v0 + f
+// Y / Z. Source of the distortion: Brown, Close-range camera calibration, Photogrammetric Engineering 37(8),
+// 1971, as OpenCV and ROS ("plumb_bob") write it.
 #include <Eigen/Core>
 
 namespace fidservo {
+
+/// Radial and tangential coefficients, in OpenCV's and ROS's order.
+struct LensDistortion {
+    double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
+    bool is_none() const { return k1 == 0.0 && k2 == 0.0 && p1 == 0.0 && p2 == 0.0 && k3 == 0.0; }
+};
 
 struct CameraGeometry {
     int width_px;
     int height_px;
     double focal_px;
     Eigen::Vector2d principal_point_px;
-    double distance_mm;
+    double distance_mm;        ///< Z: from the camera's centre to the plate
+    double focal_ratio = 1.0;  ///< q: height of a square pixel's picture to its width, f_y / f_x
+    LensDistortion distortion = {};
+    double rotation_rad = 0.0;
+    Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();  ///< rotation vector's parts along u and v
+    /// The stage's axis a = (1, axis_rad.x, axis_rad.y) / |.| in the plate's frame.
+    Eigen::Vector2d axis_rad = Eigen::Vector2d::Zero();
 };
 
+/// At the optical axis of a camera that looks straight down; a tilted one has it there to second order.
 inline double mm_per_px(const CameraGeometry& camera) {
     return camera.distance_mm / camera.focal_px;
 }
 
+/// The pinhole alone: no rotation, tilt, distortion, oblique axis.
+bool looks_straight(const CameraGeometry& camera);
+
+/// R_tilt R_z: from the plate's frame to the camera's.
+Eigen::Matrix3d camera_from_plate(const CameraGeometry& camera);
+
+/// (x', y') of (x, y).
+Eigen::Vector2d distort(const LensDistortion& lens, const Eigen::Vector2d& ideal);
+
+/// (x, y) of (x', y'), by Newton's method to rounding. Valid where the lens makes a one-to-one picture.
+Eigen::Vector2d undistort(const LensDistortion& lens, const Eigen::Vector2d& distorted);
+
 /// Image point in px of a plate point in mm, seen from camera position s.
-inline Eigen::Vector2d project(const CameraGeometry& camera, const Eigen::Vector2d& plate_mm, double s_mm) {
-    return camera.principal_point_px + (plate_mm - Eigen::Vector2d(s_mm, 0.0)) / mm_per_px(camera);
-}
+Eigen::Vector2d project(const CameraGeometry& camera, const Eigen::Vector2d& plate_mm, double s_mm);
 
 /// Plate point in mm of an image point in px, seen from camera position s.
-inline Eigen::Vector2d back_project(const CameraGeometry& camera, const Eigen::Vector2d& image_px,
-                                    double s_mm) {
-    return (image_px - camera.principal_point_px) * mm_per_px(camera) + Eigen::Vector2d(s_mm, 0.0);
-}
+Eigen::Vector2d back_project(const CameraGeometry& camera, const Eigen::Vector2d& image_px, double s_mm);
 
 }  // namespace fidservo

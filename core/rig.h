@@ -84,6 +84,7 @@ struct CameraParameters {
     double latency_s;           ///< from the middle of the exposure to the frame's arrival
     double corner_noise_px;     ///< of recorded detections that were not made from images
     double max_speed_mm_per_s;  ///< likewise: no tag is seen above it
+    double gain_spread = 0.0;   ///< standard deviation of the pixels' gains: a fixed pattern of noise
 };
 
 /// The grid of fiducials printed on the plate that the rig file describes: tag first_id + column +

@@ -41,8 +41,8 @@ std::vector<Displacement> DisplacementTracker::add(const std::vector<RefinedTag>
         const auto same_id = [id](const RefinedTag& other) { return other.detection.tag_id == id; };
         if (std::count_if(frame.begin(), frame.end(), same_id) > 1) continue;
 
-        const Eigen::Vector2d now_px = centre_px(tag.detection);
-        const Eigen::Matrix2d covariance_px2 = centre_covariance_px2(tag.covariance_px2);
+        const Eigen::Vector2d& now_px = tag.centre_px;
+        const Eigen::Matrix2d& covariance_px2 = tag.centre_covariance_px2;
         const auto origin = std::find_if(origins_.begin(), origins_.end(),
                                          [id](const Origin& of) { return of.tag_id == id; });
         if (origin == origins_.end()) {

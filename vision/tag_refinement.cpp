@@ -41,12 +41,20 @@ struct Line {
     }
 };
 
+/// The mean of the corners, which is the centre up to perspective.
+Eigen::Matrix2d centre_covariance_px2(const CornerCovariance& corners) {
+    Eigen::Matrix<double, 2, 8> mean;
+    for (int k = 0; k < 4; ++k) mean.block<2, 2>(0, 2 * k) = 0.25 * Eigen::Matrix2d::Identity();
+    return mean * corners * mean.transpose();
+}
+
 }  // namespace
 
-Result<RefinedTag> refine_tag(const cv::Mat& image, const TagDetection& found) {
+Result<RefinedTag> refine_tag(const cv::Mat& image, const TagDetection& found,
+                              const RefinementOptions& /*options*/) {
     FIDSERVO_DEMAND(image.type() == CV_8UC1);
     std::array<Line, 4> lines;
-    RefinedTag refined{found, CornerCovariance::Zero(), 1.0, 0.0};
+    RefinedTag refined{found, CornerCovariance::Zero()};
     double shortest_px = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 4; ++k) {
         if ((found.corners_px[(k + 1) % 4] - found.corners_px[k]).norm() < least_side_px)
@@ -78,23 +86,26 @@ Result<RefinedTag> refine_tag(const cv::Mat& image, const TagDetection& found) {
         corners_by_edges.block<2, 2>(2 * k, 2 * k) = inverse.col(1) * lines[k].b_sensitivity(corner);
         edge_covariance.block<2, 2>(2 * k, 2 * k) = lines[k].fit.covariance;
     }
-    refined.covariance_px2 = corners_by_edges * edge_covariance * corners_by_edges.transpose();
-    return refined;
+    RefinedTag measured =
+        tag_of_corners(refined.detection, corners_by_edges * edge_covariance * corners_by_edges.transpose());
+    measured.explained = refined.explained;
+    measured.blur_px = refined.blur_px;
+    return measured;
+}
+
+RefinedTag tag_of_corners(const TagDetection& corners, const CornerCovariance& covariance_px2) {
+    return {corners, covariance_px2, centre_px(corners), centre_covariance_px2(covariance_px2)};
 }
 
 RefinedTag unrefined(const TagDetection& found) {
     constexpr double library_std_px = 0.2;
-    return {found, CornerCovariance::Identity() * (library_std_px * library_std_px), 0.0, 0.0};
+    RefinedTag tag = tag_of_corners(found, CornerCovariance::Identity() * (library_std_px * library_std_px));
+    tag.explained = 0.0;
+    return tag;
 }
 
 Eigen::Vector2d centre_px(const TagDetection& tag) {
     return centre_of(tag.corners_px);
-}
-
-Eigen::Matrix2d centre_covariance_px2(const CornerCovariance& corners) {
-    Eigen::Matrix<double, 2, 8> mean;
-    for (int k = 0; k < 4; ++k) mean.block<2, 2>(0, 2 * k) = 0.25 * Eigen::Matrix2d::Identity();
-    return mean * corners * mean.transpose();
 }
 
 }  // namespace fidservo::vision

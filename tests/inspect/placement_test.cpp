@@ -26,20 +26,19 @@ std::vector<Snapshot> views_of(const std::array<Eigen::Vector2d, 3>& displaced_u
     for (const int first : {0, 1}) {
         Snapshot snapshot{{{}, camera, {2.0 * first + 1.0, 0.0}, {0.0, 0.0}}, {}};
         for (const int id : {first, first + 1}) {
-            vision::RefinedTag tag;
-            tag.detection.tag_id = id;
-            tag.covariance_px2 = vision::CornerCovariance::Identity() * corner_std_px * corner_std_px;
+            TagDetection tag;
+            tag.tag_id = id;
             const Eigen::Vector2d centre_mm = plate.tags[id].centre_mm + displaced_um[id] / um_per_mm;
             int k = 0;
             for (const auto& [x, y] :
                  {std::pair(-0.6, 0.6), std::pair(0.6, 0.6), std::pair(0.6, -0.6), std::pair(-0.6, -0.6)}) {
                 const Eigen::Vector2d at_px =
                     project(camera.geometry, centre_mm + Eigen::Vector2d(x, y), snapshot.image.axis_mm.x());
-                tag.detection.corners_px[k++] =
-                    camera.geometry.principal_point_px +
-                    (1.0 + scale_error) * (at_px - camera.geometry.principal_point_px);
+                tag.corners_px[k++] = camera.geometry.principal_point_px +
+                                      (1.0 + scale_error) * (at_px - camera.geometry.principal_point_px);
             }
-            snapshot.tags.push_back(tag);
+            snapshot.tags.push_back(vision::tag_of_corners(
+                tag, vision::CornerCovariance::Identity() * corner_std_px * corner_std_px));
         }
         snapshots.push_back(snapshot);
     }

@@ -11,14 +11,13 @@ namespace {
 constexpr double std_px = 0.01;
 
 RefinedTag square(int id, const Eigen::Vector2d& centre_px, double side_px, TimeNs time_ns) {
-    RefinedTag tag{};
+    TagDetection tag;
     const double h = side_px / 2;
-    tag.detection.tag_id = id;
-    tag.detection.time_ns = time_ns;
-    tag.detection.corners_px = {centre_px + Eigen::Vector2d(-h, h), centre_px + Eigen::Vector2d(h, h),
-                                centre_px + Eigen::Vector2d(h, -h), centre_px + Eigen::Vector2d(-h, -h)};
-    tag.covariance_px2 = CornerCovariance::Identity() * (std_px * std_px);
-    return tag;
+    tag.tag_id = id;
+    tag.time_ns = time_ns;
+    tag.corners_px = {centre_px + Eigen::Vector2d(-h, h), centre_px + Eigen::Vector2d(h, h),
+                      centre_px + Eigen::Vector2d(h, -h), centre_px + Eigen::Vector2d(-h, -h)};
+    return tag_of_corners(tag, CornerCovariance::Identity() * (std_px * std_px));
 }
 
 TEST(Displacement, FirstFrame_IsZero) {

@@ -48,7 +48,7 @@ Errors measure(const std::vector<RenderedTag>& tags, Rendering how) {
         if (!refined) continue;
         const auto truth = corners_of(tag);
         const Eigen::Vector2d error = mean(refined->detection.corners_px) - mean(truth);
-        const Eigen::Vector2d variance = centre_covariance_px2(refined->covariance_px2).diagonal();
+        const Eigen::Vector2d variance = refined->centre_covariance_px2.diagonal();
         errors.sum += error;
         errors.squares += error.cwiseAbs2();
         errors.normalised += error.cwiseAbs2().cwiseQuotient(variance);

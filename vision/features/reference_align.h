@@ -1,7 +1,7 @@
 #pragma once
 // Brings a reference image onto an image: shift, gain, offset and uneven light.
 #include "core/failure.h"
-#include "vision/features/grey_noise.h"
+#include "vision/grey_noise.h"
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>

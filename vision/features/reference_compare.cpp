@@ -2,8 +2,8 @@
 
 #include "core/units.h"
 #include "vision/features/defect_regions.h"
-#include "vision/features/grey_noise.h"
 #include "vision/features/reference_align.h"
+#include "vision/grey_noise.h"
 
 #include <array>
 #include <cmath>

@@ -3,7 +3,7 @@
 // samples are pixels, so their noise is independent and the uncertainty that follows from it is exact to
 // first order.
 #include "core/failure.h"
-#include "vision/features/grey_noise.h"
+#include "vision/grey_noise.h"
 
 #include <span>
 
