@@ -1,6 +1,5 @@
 #pragma once
-// Tags as a lens and square pixels see them: blurred, then averaged over each pixel's area. Independent of
-// the program's own renderer.
+// Frames with tags for tests of detection and refinement, from the exact pictures of tests/tag_precision/.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -14,7 +13,7 @@ struct RenderedTag {
     int id = 0;
     Eigen::Vector2d centre_px{320.0, 240.0};
     double side_px = 300.0;
-    double angle_rad = 0.0;  ///< from u towards v; 0 is drawn exactly, else with 16 x 16 samples a pixel
+    double angle_rad = 0.0;  ///< from u towards v
     double black = 25.0;     ///< grey levels
     double white = 229.0;
 };

@@ -1,0 +1,33 @@
+#pragma once
+// What a refinement is judged on: pictures, what it is told of them, and how good it must be.
+#include "tests/tag_precision/sensor.h"
+#include "tests/tag_precision/tag_scene.h"
+#include "vision/tag_refinement.h"
+
+#include <string>
+#include <vector>
+
+namespace fidservo::precision {
+
+struct PrecisionLimits {
+    double sigma_ratio;  ///< standard deviation by the Cramer-Rao bound
+    double bias_px;
+    double first_harmonic_px;  ///< of the error over the place between pixels
+};
+
+/// One kind of picture.
+struct PrecisionCase {
+    std::string name;
+    TagScene scene;
+    Sensor sensor;
+    vision::RefinementOptions known;  ///< told to the refinement
+    PrecisionLimits limits;
+    Eigen::Matrix2d bound_px2() const;  ///< of what is visible; with unknown tilt where no camera is known
+};
+
+/// A tag of 320 px in 640 x 480, turned by 0.7 degrees, edges of 0.8 px, grey levels 33 and 194 of 255, seen
+/// by a known camera with 10,000 electrons full well and 5 electrons of read noise, is `sharp`. The others
+/// differ from it in what their name says.
+std::vector<PrecisionCase> precision_cases();
+
+}  // namespace fidservo::precision
