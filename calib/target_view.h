@@ -1,0 +1,40 @@
+#pragma once
+// Views of a target: printed tags at known places, and where they were seen.
+#include "core/plate.h"
+#include "vision/tag_refinement.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace fidservo::calib {
+
+/// A tag in a view. Lengths may be in any unit; that of `printed` is the unit of all results.
+struct TagSight {
+    PlateTag printed;
+    vision::RefinedTag seen;
+};
+
+/// What one image shows of the target.
+struct TargetView {
+    std::string name;  ///< for people: the image's file
+    std::vector<TagSight> tags;
+};
+
+/// Corners in detection order, mm, the target's frame: centre + R(angle) side / 2 (+-1, +-1).
+std::array<Eigen::Vector2d, 4> printed_corners_mm(const PlateTag& tag);
+
+/// Weights of a tag's corners by what was measured of them: W with W C W^T = I on the directions that C
+/// knows. A tag refined with a calibrated camera has four of them (place, rotation, scale); along the other
+/// directions nothing was measured, and W is zero there.
+struct CornerWeights {
+    Eigen::Matrix<double, 8, 8> whiten;  ///< rows beyond the rank are zero
+    int rank;
+};
+
+/// @param extra_std_px  added in squares to every measured direction
+CornerWeights corner_weights(const vision::CornerCovariance& covariance_px2, double extra_std_px);
+
+}  // namespace fidservo::calib

@@ -1,0 +1,72 @@
+#pragma once
+// Tags where core's projection puts them, with noise of known covariance: calibration's answers beforehand.
+#include "calib/target_view.h"
+#include "core/camera_geometry.h"
+#include "core/random.h"
+#include "vision/quad.h"
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace fidservo::calib {
+
+/// A grid of tags about the origin.
+inline std::vector<PlateTag> tag_grid(int columns, int rows, double side_mm, double pitch_mm) {
+    std::vector<PlateTag> tags;
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column)
+            tags.push_back({.id = row * columns + column,
+                            .centre_mm = {pitch_mm * (column - 0.5 * (columns - 1)),
+                                          pitch_mm * (row - 0.5 * (rows - 1))},
+                            .side_mm = side_mm});
+    return tags;
+}
+
+/// How a tag's corners scatter: as a tag refined with a calibrated camera (place, rotation and scale, four
+/// directions), or each coordinate on its own.
+enum class Scatter { rigid, every_coordinate };
+
+/// One tag with its noise. Rigid: std_px along u and v, and as much at the corners by rotation and by scale.
+inline vision::RefinedTag scattered(TagDetection tag, Scatter scatter, double std_px, NoiseStream& noise) {
+    Eigen::Matrix<double, 8, 8> directions = Eigen::Matrix<double, 8, 8>::Identity();
+    if (scatter == Scatter::rigid) {
+        directions.setZero();
+        const Eigen::Vector2d centre = vision::centre_of(tag.corners_px);
+        for (int k = 0; k < 4; ++k) {
+            const Eigen::Vector2d arm = (tag.corners_px[static_cast<std::size_t>(k)] - centre).normalized();
+            directions.block<2, 2>(2 * k, 0).setIdentity();
+            directions.block<2, 1>(2 * k, 2) = Eigen::Vector2d(-arm.y(), arm.x());
+            directions.block<2, 1>(2 * k, 3) = arm;
+        }
+    }
+    directions *= std_px;
+    Eigen::Matrix<double, 8, 1> normals;
+    for (int k = 0; k < 8; ++k) normals(k) = noise.normal();
+    const Eigen::Matrix<double, 8, 1> error = directions * normals;
+    for (int k = 0; k < 4; ++k) tag.corners_px[static_cast<std::size_t>(k)] += error.segment<2>(2 * k);
+    return vision::tag_of_corners(tag, directions * directions.transpose());
+}
+
+/// What a camera at (s, y) sees of the tags, those wholly in its image.
+inline TargetView synthetic_view(const CameraGeometry& camera, const std::vector<PlateTag>& tags, double s_mm,
+                                 double y_mm, Scatter scatter, double std_px, NoiseStream& noise) {
+    TargetView view{.name = "s = " + std::to_string(s_mm), .tags = {}};
+    for (const PlateTag& tag : tags) {
+        TagDetection seen;
+        seen.tag_id = tag.id;
+        const auto corners_mm = printed_corners_mm(tag);
+        bool inside = true;
+        for (std::size_t k = 0; k < 4; ++k) {
+            seen.corners_px[k] = project(camera, corners_mm[k] - Eigen::Vector2d(0.0, y_mm), s_mm);
+            inside = inside && seen.corners_px[k].minCoeff() > 0.0 &&
+                     seen.corners_px[k].x() < camera.width_px - 1 &&
+                     seen.corners_px[k].y() < camera.height_px - 1;
+        }
+        if (inside) view.tags.push_back({tag, scattered(seen, scatter, std_px, noise)});
+    }
+    return view;
+}
+
+}  // namespace fidservo::calib
