@@ -14,15 +14,29 @@ using TagPattern = std::bitset<64>;
 /// The pattern of a code of the book. Demands 0 <= tag_id < 587.
 TagPattern tag_pattern(int tag_id);
 
-/// How much of what is seen inside a tag's outline its pattern explains:
-///
-///     1 - |grey - black - (white - black) pattern - gx x - gy y|^2 / |grey - level - gx' x - gy' y|^2
-///
-/// both fitted to nine points of every cell; x and y allow for uneven light. 1 for a perfect print, about 0
-/// for bare paper. A chance agreement of texture with the code book has edges inside the cells and levels in
-/// between, and stays far below a tag. 0 if more than a quarter of the tag lies outside the image, or if
-/// black is brighter than white.
+/// What the cells inside a tag's outline say about a pattern that is thought to be there.
+struct PatternMatch {
+    /// How much of what is seen the pattern explains, both fitted to nine points of every cell; x and y allow
+    /// for uneven light:
+    ///
+    ///     1 - |grey - black - (white - black) pattern - gx x - gy y|^2 / |grey - level - gx' x - gy' y|^2
+    ///
+    /// 1 for a perfect print, about 0 for bare paper. A chance agreement of texture with the code book has
+    /// edges inside the cells and levels in between, and stays far below a tag. 0 if more than a quarter of
+    /// the tag lies outside the image, or if black is brighter than white.
+    double explained = 0.0;
+    double contrast = 0.0;        ///< white - black, grey levels
+    int wrong_code_bits = 36;     ///< of the 36: on the other side of the middle between black and white
+    int wrong_border_cells = 28;  ///< of the 28 that are always black
+    double margin = 0.0;          ///< mean distance of the code's cells from that middle, grey levels
+};
+
+/// Cells outside the image count as wrong.
 /// @param corners_px  in detection order, pixel centres at integers
+PatternMatch match_pattern(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
+                           const TagPattern& pattern);
+
+/// PatternMatch::explained alone.
 double explained_contrast(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
                           const TagPattern& pattern);
 
