@@ -1,29 +1,11 @@
 #include "core/camera_geometry.h"
 
+#include "core/camera_slopes.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 namespace fidservo {
-namespace {
-
-Eigen::Vector3d axis_of(const CameraGeometry& camera) {
-    return Eigen::Vector3d(1.0, camera.axis_rad.x(), camera.axis_rad.y()).normalized();
-}
-
-/// d (x', y') / d (x, y).
-Eigen::Matrix2d distortion_jacobian(const LensDistortion& lens, const Eigen::Vector2d& ideal) {
-    const double x = ideal.x(), y = ideal.y(), r2 = ideal.squaredNorm();
-    const double radial = 1.0 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3));
-    const double slope = 2.0 * (lens.k1 + r2 * (2.0 * lens.k2 + r2 * 3.0 * lens.k3));
-    const double mixed = slope * x * y + 2.0 * lens.p1 * x + 2.0 * lens.p2 * y;
-    Eigen::Matrix2d jacobian;
-    jacobian << radial + slope * x * x + 2.0 * lens.p1 * y + 6.0 * lens.p2 * x, mixed, mixed,
-        radial + slope * y * y + 6.0 * lens.p1 * y + 2.0 * lens.p2 * x;
-    return jacobian;
-}
-
-}  // namespace
-
 bool looks_straight(const CameraGeometry& camera) {
     return camera.focal_ratio == 1.0 && camera.distortion.is_none() && camera.rotation_rad == 0.0 &&
            camera.tilt_rad.isZero(0.0) && camera.axis_rad.isZero(0.0);
@@ -50,7 +32,7 @@ Eigen::Vector2d undistort(const LensDistortion& lens, const Eigen::Vector2d& dis
     constexpr int enough = 8;  // quadratic from an error of some per cent
     Eigen::Vector2d ideal = distorted;
     for (int step = 0; step < enough; ++step)
-        ideal -= distortion_jacobian(lens, ideal).inverse() * (distort(lens, ideal) - distorted);
+        ideal -= distortion_slope(lens, ideal).inverse() * (distort(lens, ideal) - distorted);
     return ideal;
 }
 
@@ -58,7 +40,7 @@ Eigen::Vector2d project(const CameraGeometry& camera, const Eigen::Vector2d& pla
     if (looks_straight(camera))
         return camera.principal_point_px + (plate_mm - Eigen::Vector2d(s_mm, 0.0)) / mm_per_px(camera);
     const Eigen::Vector3d from_camera =
-        Eigen::Vector3d(plate_mm.x(), plate_mm.y(), camera.distance_mm) - s_mm * axis_of(camera);
+        Eigen::Vector3d(plate_mm.x(), plate_mm.y(), camera.distance_mm) - s_mm * stage_axis(camera);
     const Eigen::Vector3d seen = camera_from_plate(camera) * from_camera;
     const Eigen::Vector2d pictured = distort(camera.distortion, seen.head<2>() / seen.z());
     return camera.principal_point_px +
@@ -68,12 +50,10 @@ Eigen::Vector2d project(const CameraGeometry& camera, const Eigen::Vector2d& pla
 Eigen::Vector2d back_project(const CameraGeometry& camera, const Eigen::Vector2d& image_px, double s_mm) {
     if (looks_straight(camera))
         return (image_px - camera.principal_point_px) * mm_per_px(camera) + Eigen::Vector2d(s_mm, 0.0);
-    Eigen::Vector2d pictured = (image_px - camera.principal_point_px) / camera.focal_px;
-    pictured.y() /= camera.focal_ratio;
-    const Eigen::Vector2d ideal = undistort(camera.distortion, pictured);
+    const Eigen::Vector2d ideal = ideal_point(camera, image_px);
     const Eigen::Vector3d ray =
         camera_from_plate(camera).transpose() * Eigen::Vector3d(ideal.x(), ideal.y(), 1.0);
-    const Eigen::Vector3d centre = s_mm * axis_of(camera);
+    const Eigen::Vector3d centre = s_mm * stage_axis(camera);
     return centre.head<2>() + (camera.distance_mm - centre.z()) / ray.z() * ray.head<2>();
 }
 

@@ -1,10 +1,13 @@
 #include "src/config/rig_edit.h"
 
 #include "core/failure.h"
+#include "src/config/camera_info.h"
 #include "src/config/fod_file.h"
+#include "src/config/rig_camera.h"
 #include "src/config/rig_file.h"
 #include "src/recording/durable_file.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -22,14 +25,50 @@ std::string digits_of(double value) {
     return fmt::format("{:.9g}", value);
 }
 
+/// [a, b, ...] on one line.
+YAML::Node list_of(const std::vector<std::string>& values) {
+    YAML::Node list(YAML::NodeType::Sequence);
+    list.SetStyle(YAML::EmitterStyle::Flow);
+    for (const std::string& value : values) list.push_back(value);
+    return list;
+}
+
 /// Makes the value at a dotted path, below `node`.
-void set_below(YAML::Node node, std::string_view key, const std::string& value) {
+void set_below(YAML::Node node, std::string_view key, const YAML::Node& value) {
     const auto dot = key.find('.');
     const std::string first(key.substr(0, dot));
     if (dot == std::string_view::npos)
         node[first] = value;
     else
         set_below(node[first], key.substr(dot + 1), value);
+}
+
+bool is_intrinsic(std::string_view key) {
+    return std::any_of(intrinsic_camera_keys.begin(), intrinsic_camera_keys.end(),
+                       [&](const char* name) { return key == fmt::format("camera.{}", name); });
+}
+
+/// Puts the numbers of the file that `camera.camera_info` names in its place.
+void copy_camera_info(YAML::Node camera, const fs::path& rig_file) {
+    const auto exact = [](double value) { return fmt::format("{}", value); };
+    const CameraInfo info =
+        load_camera_info(fs::absolute(rig_file).parent_path() / camera["camera_info"].as<std::string>());
+    const LensDistortion& lens = info.distortion;
+    camera.remove("camera_info");
+    camera["width_px"] = info.width_px;
+    camera["height_px"] = info.height_px;
+    camera["focal_px"] = exact(info.focal_px.x());
+    camera["focal_ratio"] = exact(info.focal_px.y() / info.focal_px.x());
+    camera["principal_point_px"] =
+        list_of({exact(info.principal_point_px.x()), exact(info.principal_point_px.y())});
+    camera["distortion"] =
+        list_of({exact(lens.k1), exact(lens.k2), exact(lens.p1), exact(lens.p2), exact(lens.k3)});
+}
+
+/// A path that is relative to one file, as one that is relative to another.
+void keep_path(YAML::Node value, const fs::path& source, const fs::path& folder) {
+    const fs::path target = fs::absolute(source).parent_path() / value.as<std::string>();
+    value = fs::proximate(target, folder).string();
 }
 
 void demand_new(const fs::path& file) {
@@ -61,6 +100,11 @@ struct RigEdit::Impl {
     fs::path source;
     YAML::Node root;
     std::shared_ptr<const FodTable> fod;
+
+    void set(std::string_view key, const YAML::Node& value) {
+        if (is_intrinsic(key) && root["camera"]["camera_info"]) copy_camera_info(root["camera"], source);
+        set_below(root, key, value);
+    }
 };
 
 RigEdit::RigEdit(const fs::path& source) : impl_(std::make_unique<Impl>()) {
@@ -72,7 +116,14 @@ RigEdit::RigEdit(const fs::path& source) : impl_(std::make_unique<Impl>()) {
 RigEdit::~RigEdit() = default;
 
 void RigEdit::set(std::string_view key, double value) {
-    set_below(impl_->root, key, digits_of(value));
+    impl_->set(key, YAML::Node(digits_of(value)));
+}
+
+void RigEdit::set(std::string_view key, const std::vector<double>& values) {
+    std::vector<std::string> digits;
+    digits.reserve(values.size());
+    for (const double value : values) digits.push_back(digits_of(value));
+    impl_->set(key, list_of(digits));
 }
 
 void RigEdit::state_effect(const StatedEffect& effect) {
@@ -112,10 +163,10 @@ void RigEdit::save(const fs::path& file) const {
         demand_new(fod_file);
         root["micro"]["preisach_fod"] = fod_file.filename().string();
     } else if (root["micro"]) {
-        const fs::path table =
-            fs::absolute(edit.source).parent_path() / root["micro"]["preisach_fod"].as<std::string>();
-        root["micro"]["preisach_fod"] = fs::proximate(table, folder).string();
+        keep_path(root["micro"]["preisach_fod"], edit.source, folder);
     }
+    if (root["camera"] && root["camera"]["camera_info"])
+        keep_path(root["camera"]["camera_info"], edit.source, folder);
     YAML::Emitter text;
     text << root;
     std::error_code error;

@@ -29,7 +29,10 @@ class RigEdit {
     RigEdit& operator=(const RigEdit&) = delete;
 
     /// @param key  its path, e.g. "macro.dead_zone.slope"; maps on the way are made where they are missing
+    /// Intrinsics of a camera whose file names a camera_info are first copied from there.
     void set(std::string_view key, double value);
+    /// The same for a list, e.g. "camera.distortion".
+    void set(std::string_view key, const std::vector<double>& values);
     /// Adds an effect to those that the file states; one of the same name is replaced.
     void state_effect(const StatedEffect& effect);
     /// Writes the table beside the rig file, as NAME_fod.csv, and refers to it.

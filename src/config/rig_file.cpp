@@ -3,6 +3,7 @@
 #include "core/failure.h"
 #include "plant/effects/catalogue.h"
 #include "src/config/fod_file.h"
+#include "src/config/rig_camera.h"
 #include "src/config/yaml_reader.h"
 
 #include <algorithm>
@@ -147,35 +148,6 @@ MicroParameters read_micro(const YamlValue& map) {
             .pi = read_if_given(map, "pi", read_pi)};
 }
 
-CameraGeometry read_geometry(const YamlValue& map) {
-    constexpr int most_px = 20'000;
-    const std::vector<double> principal = map.at("principal_point_px").numbers(2);
-    return {.width_px = map.at("width_px").integer(16, most_px),
-            .height_px = map.at("height_px").integer(16, most_px),
-            .focal_px = map.at("focal_px").number(positive),
-            .principal_point_px = {principal[0], principal[1]},
-            .distance_mm = map.at("distance_mm").number(positive)};
-}
-
-CameraParameters read_camera(const YamlValue& map) {
-    map.allow_only({"width_px", "height_px", "focal_px", "principal_point_px", "distance_mm", "frame_rate_hz",
-                    "exposure_s", "full_well_e", "read_noise_e", "blur_px", "latency_s", "corner_noise_px",
-                    "max_speed_mm_per_s"});
-    const CameraParameters camera{.geometry = read_geometry(map),
-                                  .frame_rate_hz = map.at("frame_rate_hz").number({0.0, 1e5, true}),
-                                  .exposure_s = map.at("exposure_s").number(positive),
-                                  .full_well_e = map.at("full_well_e").number(positive),
-                                  .read_noise_e = map.at("read_noise_e").number(not_negative),
-                                  .blur_px = map.at("blur_px").number(not_negative),
-                                  .latency_s = map.at("latency_s").number(not_negative),
-                                  .corner_noise_px = map.at("corner_noise_px").number(not_negative),
-                                  .max_speed_mm_per_s = map.at("max_speed_mm_per_s").number(positive)};
-    if (camera.exposure_s * camera.frame_rate_hz > 1.0)
-        map.at("exposure_s")
-            .fail(fmt::format("must not be longer than a frame, {:.6g} s", 1.0 / camera.frame_rate_hz));
-    return camera;
-}
-
 FiducialParameters read_fiducials(const YamlValue& map) {
     constexpr int family_size = 587;
     map.allow_only({"family", "side_mm", "pitch_mm", "count", "first_id"});
@@ -228,7 +200,7 @@ Rig load_rig(const std::filesystem::path& file) {
             .tick_s = tick_s,
             .macro = read_macro(root.at("macro"), tick_s),
             .micro = read_if_given(root, "micro", read_micro),
-            .camera = read_if_given(root, "camera", read_camera),
+            .camera = read_if_given(root, "camera", read_rig_camera),
             .fiducials = read_if_given(root, "fiducials", read_fiducials),
             .effects = read_if_given(root, "effects", read_effects).value_or(std::vector<StatedEffect>{})};
 }

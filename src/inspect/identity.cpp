@@ -31,6 +31,20 @@ struct ShapeText {
     }
 };
 
+std::string camera_text(const CameraParameters& camera) {
+    const CameraGeometry& geometry = camera.geometry;
+    const LensDistortion& lens = geometry.distortion;
+    std::string text = fmt::format(
+        "camera {} x {} px, focal {} px, principal point {}, distance {} mm, blur {} px, full well {} e, "
+        "read noise {} e, latency {} s\n",
+        geometry.width_px, geometry.height_px, geometry.focal_px, text_of(geometry.principal_point_px),
+        geometry.distance_mm, camera.blur_px, camera.full_well_e, camera.read_noise_e, camera.latency_s);
+    text += fmt::format("focal ratio {}, distortion {} {} {} {} {}, rotation {} rad, tilt {}, axis {}\n",
+                        geometry.focal_ratio, lens.k1, lens.k2, lens.p1, lens.p2, lens.k3,
+                        geometry.rotation_rad, text_of(geometry.tilt_rad), text_of(geometry.axis_rad));
+    return text + fmt::format("exposure {} s, gain spread {}\n", camera.exposure_s, camera.gain_spread);
+}
+
 /// The recipe's text and, by their fingerprints, the images that it names.
 std::string recipe_fingerprint(const Recipe& recipe) {
     std::set<std::filesystem::path> images;
@@ -62,15 +76,7 @@ std::string plate_text(const Plate& plate) {
 
 std::string calibration_text(const Rig& rig) {
     std::string text;
-    if (rig.camera) {
-        const CameraParameters& camera = *rig.camera;
-        text += fmt::format(
-            "camera {} x {} px, focal {} px, principal point {}, distance {} mm, blur {} px, full well {} e, "
-            "read noise {} e, latency {} s\n",
-            camera.geometry.width_px, camera.geometry.height_px, camera.geometry.focal_px,
-            text_of(camera.geometry.principal_point_px), camera.geometry.distance_mm, camera.blur_px,
-            camera.full_well_e, camera.read_noise_e, camera.latency_s);
-    }
+    if (rig.camera) text += camera_text(*rig.camera);
     text += fmt::format("encoder {} mm\n", rig.macro.encoder_resolution_mm);
     if (rig.micro) {
         const HallParameters& hall = rig.micro->hall;

@@ -77,13 +77,15 @@ std::string description_yaml(const std::string& name, const std::string& rig, do
 
 std::string sensor_yaml(const CameraParameters& camera) {
     const CameraGeometry& geometry = camera.geometry;
+    const LensDistortion& lens = geometry.distortion;  // EuRoC has four coefficients; a fifth is k3
     return fmt::format(
         "sensor_type: camera\nrate_hz: {}\nresolution: [{}, {}]\ncamera_model: pinhole\n"
         "intrinsics: [{}, {}, {}, {}]  # fu, fv, cu, cv in px; pixel centres at integers\n"
-        "distortion_model: radial-tangential\ndistortion_coefficients: [0, 0, 0, 0]\n",
+        "distortion_model: radial-tangential\ndistortion_coefficients: [{}, {}, {}, {}{}]\n",
         shortest(camera.frame_rate_hz), geometry.width_px, geometry.height_px, shortest(geometry.focal_px),
-        shortest(geometry.focal_px), shortest(geometry.principal_point_px.x()),
-        shortest(geometry.principal_point_px.y()));
+        shortest(geometry.focal_px * geometry.focal_ratio), shortest(geometry.principal_point_px.x()),
+        shortest(geometry.principal_point_px.y()), shortest(lens.k1), shortest(lens.k2), shortest(lens.p1),
+        shortest(lens.p2), lens.k3 == 0.0 ? "" : ", " + shortest(lens.k3));
 }
 
 }  // namespace fidservo
