@@ -44,13 +44,28 @@ std::vector<cv::Mat1d> derivatives(const TagScene& scene, bool perspective) {
 
 }  // namespace
 
-Eigen::Matrix2d position_bound(const TagScene& scene, const Sensor& sensor,
-                               const UnknownPerspective& perspective) {
+std::vector<cv::Mat1d> sensitivities(const TagScene& scene, const Sensor& sensor,
+                                     const UnknownPerspective& perspective) {
     TagScene plain = scene;
     plain.cover.reset();
     plain.glare.reset();
-    const std::vector<cv::Mat1d> slopes = derivatives(plain, perspective.fitted);
+    std::vector<cv::Mat1d> all = derivatives(plain, perspective.fitted);
     const cv::Mat1d mean = mean_picture(plain);
+    constexpr double step = 1e-6;
+    for (int v = 0; v < mean.rows; ++v)
+        for (int u = 0; u < mean.cols; ++u) {
+            const double share = mean(v, u);
+            const double response =
+                (grey_of(sensor, share + step) - grey_of(sensor, share - step)) / (2.0 * step);
+            for (cv::Mat1d& one : all) one(v, u) *= response;
+        }
+    return all;
+}
+
+Eigen::MatrixXd fisher_information(const TagScene& scene, const Sensor& sensor,
+                                   const UnknownPerspective& perspective) {
+    const std::vector<cv::Mat1d> slopes = sensitivities(scene, sensor, perspective);
+    const cv::Mat1d mean = mean_picture(scene);
     const cv::Mat1b visible = undamaged(scene);
     const auto unknowns = static_cast<Eigen::Index>(slopes.size());
     Eigen::MatrixXd fisher = Eigen::MatrixXd::Zero(unknowns, unknowns);
@@ -58,20 +73,20 @@ Eigen::Matrix2d position_bound(const TagScene& scene, const Sensor& sensor,
     for (int v = 0; v < mean.rows; ++v)
         for (int u = 0; u < mean.cols; ++u) {
             if (visible(v, u) == 0) continue;
-            constexpr double step = 1e-6;
-            const double share = mean(v, u);
-            const double response =
-                (grey_of(sensor, share + step) - grey_of(sensor, share - step)) / (2.0 * step);
-            for (Eigen::Index k = 0; k < unknowns; ++k)
-                row[k] = response * slopes[static_cast<std::size_t>(k)](v, u);
-            fisher.selfadjointView<Eigen::Lower>().rankUpdate(row, 1.0 / grey_variance(sensor, share));
+            for (Eigen::Index k = 0; k < unknowns; ++k) row[k] = slopes[static_cast<std::size_t>(k)](v, u);
+            fisher.selfadjointView<Eigen::Lower>().rankUpdate(row, 1.0 / grey_variance(sensor, mean(v, u)));
         }
-    const Eigen::MatrixXd full = fisher.selfadjointView<Eigen::Lower>();
-    const Eigen::Index others = unknowns - 2;
+    return fisher.selfadjointView<Eigen::Lower>();
+}
+
+Eigen::Matrix2d position_bound(const TagScene& scene, const Sensor& sensor,
+                               const UnknownPerspective& perspective) {
+    const Eigen::MatrixXd fisher = fisher_information(scene, sensor, perspective);
+    const Eigen::Index others = fisher.rows() - 2;
     const Eigen::Matrix2d schur =
-        full.topLeftCorner<2, 2>() -
-        full.topRightCorner(2, others) *
-            full.bottomRightCorner(others, others).ldlt().solve(full.bottomLeftCorner(others, 2));
+        fisher.topLeftCorner<2, 2>() -
+        fisher.topRightCorner(2, others) *
+            fisher.bottomRightCorner(others, others).ldlt().solve(fisher.bottomLeftCorner(others, 2));
     return schur.inverse();
 }
 

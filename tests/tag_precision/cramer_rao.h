@@ -3,6 +3,8 @@
 #include "tests/tag_precision/sensor.h"
 #include "tests/tag_precision/tag_scene.h"
 
+#include <vector>
+
 #include <Eigen/Core>
 
 namespace fidservo::precision {
@@ -11,13 +13,21 @@ struct UnknownPerspective {
     bool fitted = false;  ///< two more unknowns: the tag's tilt about two axes
 };
 
+/// Derivatives of the mean grey picture with respect to the centre (u, v), then to the nuisances: rotation,
+/// scale, width of the edges, gain, offset, two gradients of light, and the tilt if it is not known. Central
+/// differences of exact pictures. Cover and glare are left out of account.
+std::vector<cv::Mat1d> sensitivities(const TagScene& scene, const Sensor& sensor,
+                                     const UnknownPerspective& perspective = {});
+
+/// Fisher information of those unknowns in one frame, without the pixels that cover or glare change.
+Eigen::MatrixXd fisher_information(const TagScene& scene, const Sensor& sensor,
+                                   const UnknownPerspective& perspective = {});
+
 /// Cramer-Rao bound on the covariance of the tag's centre, px^2.
 ///
-///     F = sum over pixels of (dg/dp) (dg/dp)' / var(g),   C = (Fpp - Fpn Fnn^-1 Fnp)^-1
+///     F = sum over pixels of (dg/dp) (dg/dp)' / var(g),   C = (Fcc - Fcn Fnn^-1 Fnc)^-1
 ///
-/// g is the mean grey level, p the centre, n the nuisances: rotation, scale, gain, offset, two gradients of
-/// light, width of the edges, and the tilt if it is not known. Derivatives with respect to geometry and width
-/// are central differences of exact pictures. Pixels that cover or glare change are left out.
+/// g is the mean grey level, c the centre, n the nuisances.
 Eigen::Matrix2d position_bound(const TagScene& scene, const Sensor& sensor,
                                const UnknownPerspective& perspective = {});
 

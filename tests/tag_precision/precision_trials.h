@@ -32,7 +32,11 @@ void for_each_trial(const PrecisionCase& of, const TrialPlan& plan,
 struct Estimate {
     Eigen::Vector2d centre_px;
     std::optional<Eigen::Matrix2d> covariance_px2;
+    std::optional<double> took_ms = std::nullopt;  ///< where another process did the work
 };
+
+/// Processor time of this thread: other programs on the machine do not count.
+double cpu_ms();
 
 using Estimator = std::function<std::optional<Estimate>(const Trial&)>;
 
@@ -54,7 +58,7 @@ struct PrecisionFigures {
     double nees_low = 0.0, nees_high = 0.0;  ///< 99 % interval of that mean for true claims
     int trials = 0;
     int failed = 0;          ///< no answer, or one that is a pixel off
-    double median_ms = 0.0;  ///< of one estimate
+    double median_ms = 0.0;  ///< of one estimate, processor time of one core
 };
 
 PrecisionFigures judge(const PrecisionCase& of, const TrialPlan& plan, const Estimator& estimator);
@@ -64,7 +68,7 @@ PrecisionFigures judge(const PrecisionCase& of, const TrialPlan& plan, const Est
 std::vector<std::string> reproaches(const PrecisionFigures& figures, const PrecisionLimits& limits,
                                     bool certain);
 
-/// One line of a table; without figures, its heading.
+/// The two lines above a table, and one of its lines.
 std::string table_heading();
 std::string table_row(const PrecisionFigures& figures);
 
