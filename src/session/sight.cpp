@@ -2,8 +2,6 @@
 
 #include "vision/tag_choice.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 namespace fidservo {
@@ -11,32 +9,41 @@ namespace fidservo {
 Sight::Sight(const CameraGeometry& camera, const Plate& nominal) : camera_(camera), nominal_(nominal) {}
 
 /// Where a tag should be in the image, with room for what the registration does not know.
-cv::Rect Sight::region_of(const PlateTag& tag, double s_mm) const {
+vision::ExpectedTag Sight::expected(const PlateTag& tag, double s_mm) const {
     constexpr double room_mm = 0.4;
-    const Eigen::Vector2d middle_px = project(camera_, tag.centre_mm, s_mm);
-    const double half_px = (0.75 * tag.side_mm + room_mm) / mm_per_px(camera_);
-    const cv::Point corner(static_cast<int>(middle_px.x() - half_px),
-                           static_cast<int>(middle_px.y() - half_px));
-    const int side_px = static_cast<int>(2.0 * half_px);
-    return cv::Rect(corner, cv::Size(side_px, side_px)) & cv::Rect(0, 0, camera_.width_px, camera_.height_px);
+    vision::ExpectedTag place{tag.id, {}, room_mm / mm_per_px(camera_)};
+    const auto corners = vision::corners_mm(tag);
+    for (std::size_t k = 0; k < 4; ++k) place.corners_px[k] = project(camera_, corners[k], s_mm);
+    return place;
+}
+
+void Sight::look_for(const vision::Frame& frame, const std::vector<vision::ExpectedTag>& expected) {
+    found_.clear();
+    for (const vision::FoundTag& tag : tracker_.find(frame.image, frame.time_ns, expected))
+        found_.push_back(tag.detection);
+}
+
+void Sight::keep_refined(const Result<vision::PositionFit>& fit) {
+    if (!fit) return;
+    for (TagDetection& tag : found_)
+        if (tag.tag_id == fit->tag.detection.tag_id) tag = fit->tag.detection;
 }
 
 Result<vision::PositionFit> Sight::locate(const vision::Frame& frame, double expected_s_mm,
                                           std::optional<int> preferred_tag) {
-    const std::vector<PlateTag> expected = vision::visible_tags(camera_, nominal_, expected_s_mm);
-    if (expected.empty())
+    const std::vector<PlateTag> visible = vision::visible_tags(camera_, nominal_, expected_s_mm);
+    if (visible.empty())
         return failure(Reason::no_tag,
                        fmt::format("no fiducial of the plate is in view at {:.3f} mm", expected_s_mm));
-    PlateTag tag = expected.front();
-    for (const PlateTag& visible : expected)
-        if (visible.id == preferred_tag) tag = visible;
-    found_ = detector_.detect(frame.image, frame.time_ns, region_of(tag, expected_s_mm));
-    const bool there =
-        std::any_of(found_.begin(), found_.end(), [&](const TagDetection& t) { return t.tag_id == tag.id; });
-    if (!there) found_ = detector_.detect(frame.image, frame.time_ns);
+    PlateTag tag = visible.front();
+    for (const PlateTag& other : visible)
+        if (other.id == preferred_tag) tag = other;
+    look_for(frame, {expected(tag, expected_s_mm)});
     vision::LocateOptions options;
     options.predicted_s_mm = expected_s_mm;
-    return vision::locate_camera(camera_, nominal_, frame, found_, tag.id, options);
+    auto fit = vision::locate_camera(camera_, nominal_, frame, found_, tag.id, options);
+    keep_refined(fit);
+    return fit;
 }
 
 vision::ServoMove Sight::move_to(const vision::PositionFit& seen, double target_s_mm) const {
@@ -48,7 +55,7 @@ vision::ServoMove Sight::move_to(const vision::PositionFit& seen, double target_
 }
 
 Result<vision::PositionFit> Sight::locate_anywhere(const vision::Frame& frame) {
-    found_ = detector_.detect(frame.image, frame.time_ns);
+    look_for(frame, {});
     const auto way_px = [&](const TagDetection& tag) {
         return (vision::centre_px(tag) - camera_.principal_point_px).norm();
     };
@@ -56,7 +63,11 @@ Result<vision::PositionFit> Sight::locate_anywhere(const vision::Frame& frame) {
     for (const TagDetection& tag : found_)
         if (vision::find_tag(nominal_, tag.tag_id) && (nearest == nullptr || way_px(tag) < way_px(*nearest)))
             nearest = &tag;
-    if (nearest != nullptr) return vision::locate_camera(camera_, nominal_, frame, found_, nearest->tag_id);
+    if (nearest != nullptr) {
+        auto fit = vision::locate_camera(camera_, nominal_, frame, found_, nearest->tag_id);
+        keep_refined(fit);
+        return fit;
+    }
     if (!found_.empty())
         return failure(Reason::wrong_tag, fmt::format("tag {} is not on the plate", found_.front().tag_id));
     return failure(Reason::no_tag, "no fiducial in view");

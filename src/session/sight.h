@@ -4,9 +4,10 @@
 #include "core/rig.h"
 #include "vision/camera_position.h"
 #include "vision/servo/servo_law.h"
-#include "vision/tag_detector.h"
+#include "vision/tag_tracker.h"
 
 #include <optional>
+#include <vector>
 
 namespace fidservo {
 
@@ -15,7 +16,8 @@ class Sight {
     /// @param nominal  the plate as it should be
     Sight(const CameraGeometry& camera, const Plate& nominal);
 
-    /// Where the camera was when the frame was taken.
+    /// Where the camera was when the frame was taken. The tag is looked for where the registration says,
+    /// around it, and in the whole image, until it is found (vision/tag_tracker.h).
     /// @param expected_s_mm  where the registration believes it to be; chooses the tag by the plate's
     /// geometry
     /// @param preferred_tag  measured by where it is wholly in view
@@ -27,15 +29,17 @@ class Sight {
     /// Where the camera was, by the plate's tag nearest to the image's middle: for a camera that is lost.
     Result<vision::PositionFit> locate_anywhere(const vision::Frame& frame);
 
-    /// What was found in the last frame.
+    /// What was found in the last frame; the tag that it was located by with refined corners.
     const std::vector<TagDetection>& found() const { return found_; }
 
   private:
-    cv::Rect region_of(const PlateTag& tag, double s_mm) const;
+    vision::ExpectedTag expected(const PlateTag& tag, double s_mm) const;
+    void look_for(const vision::Frame& frame, const std::vector<vision::ExpectedTag>& expected);
+    void keep_refined(const Result<vision::PositionFit>& fit);
 
     CameraGeometry camera_;
     Plate nominal_;
-    vision::TagDetector detector_;
+    vision::TagTracker tracker_;
     std::vector<TagDetection> found_;
 };
 
