@@ -63,9 +63,9 @@ void look(const PositionerParams& params, PositionerState& state, const std::opt
     state.looks[1] = *seen;
     if (++state.frames < 2) return;
     const auto& [before, now] = state.looks;
-    const double std_mm = std::hypot(before.std_mm, now.std_mm);
-    if (std::abs(now.needed_mm - before.needed_mm) > params.agreement_mm + 4.0 * std_mm) return;
-    state.reached = {now.time_ns, 0.5 * (before.needed_mm + now.needed_mm), 0.5 * std_mm};
+    const double std_mm = std::hypot(before.std_mm, now.std_mm, params.rest_std_mm);
+    if (std::abs(now.needed_mm - before.needed_mm) > 4.0 * std_mm) return;
+    state.reached = combine_looks(before, now);
     decide(params, state);
 }
 
@@ -106,6 +106,18 @@ void advance(const PositionerParams& params, PositionerState& state, const Stage
 }
 
 }  // namespace
+
+TargetOffset combine_looks(const TargetOffset& before, const TargetOffset& now) {
+    FIDSERVO_DEMAND(before.std_mm > 0.0 && now.std_mm > 0.0);
+    const double difference_mm = now.needed_mm - before.needed_mm;
+    const double own_mm2 = before.std_mm * before.std_mm + now.std_mm * now.std_mm;
+    const double between_mm2 = 0.5 * std::max(0.0, difference_mm * difference_mm - own_mm2);
+    const double weight_before = 1.0 / (before.std_mm * before.std_mm + between_mm2);
+    const double weight_now = 1.0 / (now.std_mm * now.std_mm + between_mm2);
+    const double weights = weight_before + weight_now;
+    return {now.time_ns, (weight_before * before.needed_mm + weight_now * now.needed_mm) / weights,
+            1.0 / std::sqrt(weights)};
+}
 
 PositionerState positioner_start(const PositionerParams& params) {
     PositionerState state;

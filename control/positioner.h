@@ -37,7 +37,9 @@ struct PositionerParams {
     double park_low_mm, park_high_mm;    ///< positions that the macro stage leaves as they are
     double tolerance_mm = 0.001;
     double micro_settle_s = 0.030;
-    double agreement_mm = 0.0005;  ///< of consecutive frames at rest, beside 4 standard deviations
+    /// What a stage at rest may shake or creep by from frame to frame, one standard deviation. Two frames
+    /// confirm the rest if they differ by no more than four of this and of their own together.
+    double rest_std_mm = 0.0001;
     double look_timeout_s = 0.5;
     double macro_timeout_s = 8.0;
     int macro_near_count = 1;  ///< the PD's last nudges are left to the micro stage
@@ -74,7 +76,7 @@ struct PositionerState {
     TimeNs rest_since_ns = 0;
     std::array<TargetOffset, 2> looks{};  ///< the last frames at rest
     int frames = 0;
-    TargetOffset reached{};  ///< mean of the looks that agreed
+    TargetOffset reached{};  ///< combine_looks() of those that agreed
     int moves = 0;
     int recentres = 0;
 };
@@ -95,6 +97,14 @@ void positioner_begin(const PositionerParams& params, PositionerState& state, do
 /// @param seen  what a frame that has just arrived says, if one has
 PositionerOutput positioner_update(const PositionerParams& params, PositionerState& state,
                                    const StageSample& sample, const std::optional<TargetOffset>& seen);
+
+/// One offset from two looks at a stage at rest, at the time of the later one: the mean with the weights
+/// w = 1 / (std^2 + t^2), and std^2 = 1 / sum w. t^2 is 0 where the looks' own uncertainties explain their
+/// difference, and else the variance between looks that does, (d^2 - std_0^2 - std_1^2) / 2: a stage that
+/// shakes, or a camera that is worse than it says, counts in the result. Source: Mandel and Paule,
+/// "Interlaboratory evaluation of a material with unequal numbers of replicates", Analytical Chemistry
+/// 42(11), 1970. Demands positive standard deviations.
+TargetOffset combine_looks(const TargetOffset& before, const TargetOffset& now);
 
 /// Whether a motion has ended, well or badly.
 bool positioner_is_done(const PositionerState& state);

@@ -5,6 +5,7 @@
 #include "plant/stage_plant.h"
 #include "tests/plant/reference_rig.h"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 
@@ -178,6 +179,43 @@ TEST(Positioner, FramesThatDisagree_NeverConfirmARest) {
     }
     EXPECT_EQ(state.phase, PositionerPhase::failed);
     EXPECT_EQ(state.why, Reason::not_at_rest);
+}
+
+TEST(Positioner, LooksOfUnequalPrecision_AreWeighedByTheirInverseVariances) {
+    const TargetOffset rough{10, 0.0010, 0.0003}, fine{20, 0.0012, 0.0001};
+    const TargetOffset both = combine_looks(rough, fine);
+    EXPECT_EQ(both.time_ns, 20);
+    EXPECT_NEAR(both.needed_mm, (1.0 * 0.0010 + 9.0 * 0.0012) / 10.0, 1e-12);
+    EXPECT_NEAR(both.std_mm, 0.0003 / std::sqrt(10.0), 1e-12);
+}
+
+TEST(Positioner, LooksThatDifferByMoreThanTheyClaim_WeighAlikeAndWidenTheResult) {
+    const TargetOffset before{10, 0.0, 1e-7}, now{20, 0.0002, 3e-7};
+    const TargetOffset both = combine_looks(before, now);
+    EXPECT_NEAR(both.needed_mm, 0.0001, 1e-8);
+    EXPECT_NEAR(both.std_mm, 0.0001, 1e-7);  // half their difference, as of a mean of two draws
+}
+
+TEST(Positioner, LooksOfKnownNoise_ClaimWhatTheyAreWrongBy) {
+    constexpr std::uint64_t seed = 31;
+    NoiseStream noise(seed, "looks");
+    for (const double shake_mm : {0.0, 0.00005}) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ", shake " << shake_mm);
+        double squares = 0.0;
+        constexpr int draws = 20'000;
+        for (int k = 0; k < draws; ++k) {
+            const double first_mm = 1e-5 * (1.0 + noise.uniform()),
+                         second_mm = 1e-5 * (1.0 + noise.uniform());
+            const auto at = [&](double std_mm) { return noise.normal() * std::hypot(std_mm, shake_mm); };
+            const TargetOffset both =
+                combine_looks({0, at(first_mm), first_mm}, {1, at(second_mm), second_mm});
+            squares += std::pow(std::clamp(both.needed_mm / both.std_mm, -10.0, 10.0), 2);
+        }
+        const double normalised = std::sqrt(squares / draws);
+        EXPECT_GT(normalised, 0.75);
+        // One difference tells little of a shake's size: hence the heavy tails above 1.
+        EXPECT_LT(normalised, shake_mm > 0.0 ? 2.5 : 1.0);
+    }
 }
 
 TEST(Positioner, NoTagInView_FailsWithinItsTime) {
