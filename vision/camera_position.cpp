@@ -1,5 +1,6 @@
 #include "vision/camera_position.h"
 
+#include "core/camera_slopes.h"
 #include "vision/quad.h"
 #include "vision/tag_choice.h"
 #include "vision/tag_pattern.h"
@@ -7,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <opencv2/core.hpp>
@@ -70,7 +71,8 @@ Failure explain_absence(const CameraGeometry& camera, const Plate& nominal, cons
     if (const auto s_mm = rough_position(camera, nominal, found, options)) {
         std::array<Eigen::Vector2d, 4> place_px;
         for (std::size_t k = 0; k < 4; ++k) place_px[k] = project(camera, corners_mm(expected)[k], *s_mm);
-        const double side_px = expected.side_mm / mm_per_px(camera);
+        const double side_px =
+            expected.side_mm / mm_per_px_at(camera, project(camera, expected.centre_mm, *s_mm), *s_mm);
         const bool another_is_there = std::any_of(found.begin(), found.end(), [&](const TagDetection& tag) {
             return (centre_of(tag.corners_px) - centre_of(place_px)).norm() < 0.5 * side_px;
         });
@@ -94,46 +96,86 @@ Failure explain_absence(const CameraGeometry& camera, const Plate& nominal, cons
             fmt::format("tag {} is expected, seen: {}", expected.id, fmt::join(seen, ", "))};
 }
 
+/// Image of the tag's centre by its corners, where neither tilt nor distortion shifts it.
+Eigen::Vector2d centre_by_corners(const CameraGeometry& camera, const TagDetection& tag) {
+    Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& corner : tag.corners_px)
+        centre_mm += 0.25 * back_project(camera, corner, 0.0);
+    return project(camera, centre_mm, 0.0);
+}
+
+/// How a tag is turned where it lies.
+struct TagTurn {
+    double angle_rad, std_rad, residual_rms_px;
+};
+
+/// @param camera_mm  s and y
+TagTurn turn_of(const CameraGeometry& camera, const PlateTag& nominal, const RefinedTag& seen,
+                const Eigen::Vector2d& camera_mm) {
+    const std::array<Eigen::Vector2d, 4> corners = corners_mm(nominal);
+    const Eigen::Vector2d aside(0.0, camera_mm.y());
+    const double s_mm = camera_mm.x();
+    double along = 0.0, across = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Eigen::Vector2d arm = corners[k] - nominal.centre_mm;
+        const Eigen::Vector2d found =
+            back_project(camera, seen.detection.corners_px[k], s_mm) + aside - nominal.centre_mm;
+        along += arm.dot(found);
+        across += arm.x() * found.y() - arm.y() * found.x();
+    }
+    const double angle_rad = std::atan2(across, along);
+    const Eigen::Rotation2Dd turn(angle_rad);
+    Eigen::Matrix<double, 1, 8> angle_by_image;
+    double squares_px2 = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        const Eigen::Vector2d& corner_px = seen.detection.corners_px[k];
+        const Eigen::Vector2d arm = turn * (corners[k] - nominal.centre_mm);
+        angle_by_image.segment<2>(2 * k) = Eigen::RowVector2d(-arm.y(), arm.x()) *
+                                           plate_by_image(camera, corner_px, s_mm) /
+                                           std::hypot(along, across);
+        squares_px2 += (corner_px - project(camera, nominal.centre_mm + arm - aside, s_mm)).squaredNorm();
+    }
+    const double variance = angle_by_image * seen.covariance_px2 * angle_by_image.transpose();
+    return {angle_rad, std::sqrt(variance), std::sqrt(squares_px2 / 8)};
+}
+
 }  // namespace
 
 PositionFit fit_position(const CameraGeometry& camera, const PlateTag& nominal, const RefinedTag& seen) {
-    constexpr int steps = 5;  // converges quadratically from any angle that the start below leaves
-    const std::array<Eigen::Vector2d, 4> plate_mm = corners_mm(nominal);
-    const double scale = mm_per_px(camera);
-    const auto& corners_px = seen.detection.corners_px;
-    const Eigen::Vector2d diagonal_px = corners_px[1] - corners_px[3];
-    const Eigen::Vector2d diagonal_mm = plate_mm[1] - plate_mm[3];
+    const Eigen::Vector2d centre_px =
+        seen.explained > 0.0 ? seen.centre_px : centre_by_corners(camera, seen.detection);
+    const Eigen::Vector2d from_zero_mm = back_project(camera, centre_px, 0.0);
+    const Eigen::Vector2d per_mm = back_project(camera, centre_px, 1.0) - from_zero_mm;
+    const double s_mm = (nominal.centre_mm.x() - from_zero_mm.x()) / per_mm.x();
+    const double y_mm = nominal.centre_mm.y() - from_zero_mm.y() - s_mm * per_mm.y();
 
-    double phi = std::atan2(diagonal_mm.x() * diagonal_px.y() - diagonal_mm.y() * diagonal_px.x(),
-                            diagonal_mm.dot(diagonal_px));
-    Eigen::Vector2d axis_mm = nominal.centre_mm;
-    Eigen::Matrix<double, 8, 3> jacobian;
-    Eigen::Matrix<double, 8, 1> residual;
-    Eigen::Matrix<double, 3, 8> gain;
-    for (int step = 0; step < steps; ++step) {
-        Eigen::Matrix2d turn;
-        turn << std::cos(phi), -std::sin(phi), std::sin(phi), std::cos(phi);
-        Eigen::Matrix2d turn_rate;
-        turn_rate << -std::sin(phi), -std::cos(phi), std::cos(phi), -std::sin(phi);
-        for (int k = 0; k < 4; ++k) {
-            const Eigen::Vector2d from_axis_px = (plate_mm[k] - axis_mm) / scale;
-            residual.segment<2>(2 * k) = corners_px[k] - camera.principal_point_px - turn * from_axis_px;
-            jacobian.block<2, 2>(2 * k, 0) = -turn / scale;
-            jacobian.block<2, 1>(2 * k, 2) = turn_rate * from_axis_px;
-        }
-        gain = (jacobian.transpose() * jacobian).ldlt().solve(jacobian.transpose());
-        const Eigen::Vector3d change = gain * residual;
-        axis_mm += change.head<2>();
-        phi += change(2);
-    }
-    const Eigen::Vector3d std = (gain * seen.covariance_px2 * gain.transpose()).diagonal().cwiseSqrt();
+    Eigen::Matrix2d by_plate;  // d (s, y) / d (the plate point seen)
+    by_plate << -1.0 / per_mm.x(), 0.0, per_mm.y() / per_mm.x(), -1.0;
+    const Eigen::Matrix2d by_image = by_plate * plate_by_image(camera, centre_px, s_mm);
+    const Eigen::Vector2d std_mm =
+        (by_image * seen.centre_covariance_px2 * by_image.transpose()).diagonal().cwiseSqrt();
+
+    const TagTurn turn = turn_of(camera, nominal, seen, {s_mm, y_mm});
     const TagDetection& tag = seen.detection;
-    return {{tag.time_ns, tag.tag_id, axis_mm.x(), std(0), axis_mm.y()},
-            std(1),
-            phi,
-            std(2),
-            std::sqrt(residual.squaredNorm() / 8),
+    return {{tag.time_ns, tag.tag_id, s_mm, std_mm.x(), y_mm},
+            std_mm.y(),
+            turn.angle_rad,
+            turn.std_rad,
+            turn.residual_rms_px,
             seen};
+}
+
+RefinementOptions refinement_of(const CameraGeometry& camera, const PlateTag& tag, const TagDetection& found,
+                                const LocateOptions& options) {
+    RefinementOptions refinement;
+    refinement.camera = camera;
+    refinement.noise = options.noise;
+    if (options.moved_mm != 0.0) {
+        const double s_mm = fit_position(camera, tag, unrefined(found)).position.s_mm;
+        refinement.motion_px = project(camera, tag.centre_mm, s_mm + 0.5 * options.moved_mm) -
+                               project(camera, tag.centre_mm, s_mm - 0.5 * options.moved_mm);
+    }
+    return refinement;
 }
 
 Result<PositionFit> locate_camera(const CameraGeometry& camera, const Plate& nominal, const Frame& frame,
@@ -153,7 +195,8 @@ Result<PositionFit> locate_camera(const CameraGeometry& camera, const Plate& nom
     if (const double share = saturated_share(frame.image, tag.corners_px); share > options.most_saturated)
         return failure(Reason::glare,
                        fmt::format("{:.1f} % of tag {} is saturated", 100 * share, expected_tag_id));
-    const Result<RefinedTag> refined = refine_tag(frame.image, tag);
+    const Result<RefinedTag> refined =
+        refine_tag(frame.image, tag, refinement_of(camera, *expected, tag, options));
     if (!refined) return tl::make_unexpected(refined.error());
     if (refined->explained < options.least_explained)
         return failure(Reason::occluded, fmt::format("{:.0f} % of an edge of tag {} is hidden",

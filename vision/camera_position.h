@@ -18,27 +18,38 @@ namespace fidservo::vision {
 struct PositionFit {
     CameraPosition position;
     double y_std_mm;
-    double rotation_rad;  ///< of the tag against its nominal angle, from u towards v
+    double
+        rotation_rad;  ///< of the tag on the plate against its nominal angle, from x towards y: a diagnosis
     double rotation_std_rad;
-    double residual_rms_px;  ///< of the eight corner coordinates against the fit
+    double residual_rms_px;  ///< of the eight corner coordinates against the tag so placed and turned
     RefinedTag tag;          ///< what it was fitted to
 };
 
-/// Least squares of a tag's four corners against the projection of its nominal corners, over camera position
-/// s, the offset y, and a rotation phi of the image about the optical axis:
+/// Camera position s and offset y at which the image of the tag's centre c is the picture of its nominal
+/// place:
 ///
-///     (u, v) = (u0, v0) + R(phi) (P_k - (s, y)) f / Z
+///     back_project(c, s) + (0, y) = nominal centre,
 ///
-/// Standard deviations are propagated from the corners' joint covariance; plate and geometry count as exact.
+/// which is linear in both. Of a tag whose corners alone are known (its `explained` is 0), c is the image of
+/// the mean of the corners on the plate. Their standard deviations are propagated from the centre's
+/// covariance through the back projection; plate and geometry count as exact. The rotation is the least
+/// squares one between the corners, back-projected, and the nominal ones about the centre, and does not enter
+/// the position.
 PositionFit fit_position(const CameraGeometry& camera, const PlateTag& nominal, const RefinedTag& seen);
 
 struct LocateOptions {
     /// Where the stage believes the camera is, to within a third of a tag's cell. Only used to tell why the
     /// expected tag is not found where no other tag tells where to look.
-    std::optional<double> predicted_s_mm;
+    std::optional<double> predicted_s_mm = {};
     double least_explained = 0.9;  ///< of every border edge's length; below: occluded
     double most_saturated = 0.01;  ///< share of the tag's area at the grey level 255; above: glare
+    GreyNoise noise = RefinementOptions{}.noise;  ///< of the camera
+    double moved_mm = 0.0;                        ///< by the stage during the exposure
 };
+
+/// What refine_tag() should know of a picture of `tag` by this camera.
+RefinementOptions refinement_of(const CameraGeometry& camera, const PlateTag& tag, const TagDetection& found,
+                                const LocateOptions& options);
 
 /// Where the camera was when the frame was taken, by the tag that is expected in view.
 /// Fails with

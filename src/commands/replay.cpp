@@ -6,6 +6,7 @@
 #include "src/config/rig_file.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,6 +22,7 @@ namespace {
 struct ReplayOptions {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path rig_file;
+    bool rig_is_given = false;
     std::filesystem::path out = "replay-out";
 };
 
@@ -33,7 +35,8 @@ int run_replay(const ReplayOptions& options) {
     make_output_folder(options.out);
     try {
         const ReplayCount count = replay(frames, rig.fiducials->side_mm, options.out,
-                                         std::max(1u, std::thread::hardware_concurrency()));
+                                         std::max(1u, std::thread::hardware_concurrency()),
+                                         options.rig_is_given ? rig.camera : std::nullopt);
         fmt::print("{} tags in {} images: {}, {}\n", count.tags, count.images,
                    (options.out / "detections.csv").string(), (options.out / "displacements.csv").string());
     } catch (const InputError&) {
@@ -60,7 +63,10 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->type_name("DIR")
         ->capture_default_str();
     add_example(*command, "fidservo replay photos/ --out photos-tags");
-    command->callback([options, &exit_code] { exit_code = run_replay(*options); });
+    command->callback([options, command, &exit_code] {
+        options->rig_is_given = command->count("--rig") > 0;
+        exit_code = run_replay(*options);
+    });
 }
 
 }  // namespace fidservo

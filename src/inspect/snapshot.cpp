@@ -7,7 +7,8 @@ namespace fidservo::inspect {
 Result<Snapshot> read_snapshot(const vision::Frame& frame, const CameraParameters& camera,
                                const Plate& nominal, int tag_id, vision::TagDetector& detector) {
     const std::vector<TagDetection> found = detector.detect(frame.image, frame.time_ns);
-    const auto fit = vision::locate_camera(camera.geometry, nominal, frame, found, tag_id);
+    const vision::LocateOptions options{.noise = vision::grey_noise(camera)};
+    const auto fit = vision::locate_camera(camera.geometry, nominal, frame, found, tag_id, options);
     if (!fit) return tl::make_unexpected(fit.error());
     Snapshot snapshot{{frame.image,
                        camera,
@@ -15,8 +16,11 @@ Result<Snapshot> read_snapshot(const vision::Frame& frame, const CameraParameter
                        {fit->position.s_std_mm, fit->y_std_mm}},
                       {}};
     for (const TagDetection& tag : found) {
-        if (find_tag(nominal, tag.tag_id) == nullptr) continue;
-        if (const auto refined = vision::refine_tag(frame.image, tag)) snapshot.tags.push_back(*refined);
+        const PlateTag* known = find_tag(nominal, tag.tag_id);
+        if (known == nullptr) continue;
+        const auto refined = vision::refine_tag(frame.image, tag,
+                                                vision::refinement_of(camera.geometry, *known, tag, options));
+        if (refined) snapshot.tags.push_back(*refined);
     }
     return snapshot;
 }

@@ -1,8 +1,10 @@
 #pragma once
+#include "core/rig.h"
 #include "src/replay/images.h"
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 
 namespace fidservo {
 
@@ -16,7 +18,8 @@ struct ReplayCount {
 /// anything else has the image's name in the first column instead. Displacements are those of
 /// vision/displacement.h, counted from each series' own first frames. Throws InputError on a frame that
 /// cannot be read, RunFault if the disk fails.
+/// @param camera  that took the frames of its size, if it is known
 ReplayCount replay(ReplayFrames& frames, double tag_side_mm, const std::filesystem::path& folder,
-                   unsigned threads);
+                   unsigned threads, const std::optional<CameraParameters>& camera = {});
 
 }  // namespace fidservo

@@ -1,10 +1,12 @@
 #pragma once
 // From a frame to its fiducials, as precise as they can be had.
 #include "core/detection.h"
+#include "core/rig.h"
 #include "src/replay/images.h"
 #include "vision/tag_detector.h"
 #include "vision/tag_refinement.h"
 
+#include <optional>
 #include <vector>
 
 namespace fidservo {
@@ -16,14 +18,16 @@ struct FrameResult {
 };
 
 /// Decodes a frame and finds its tags; one a thread. Recordings are searched as the rig's own camera's,
-/// everything else as photographs.
+/// everything else as photographs. Frames of the camera's size are taken to be the camera's, if there is one:
+/// its geometry and noise then help to measure the tags.
 class TagFinder {
   public:
-    TagFinder();
+    explicit TagFinder(const std::optional<CameraParameters>& camera = {});
     /// Throws InputError if the frame cannot be read.
     FrameResult operator()(ReplayFrame frame);
 
   private:
+    std::optional<CameraParameters> camera_;
     vision::TagDetector machine_;
     vision::TagDetector thorough_;
 };

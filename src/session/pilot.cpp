@@ -18,7 +18,7 @@ Pilot::Pilot(const Rig& of, const Plate& plate, const control::PositionerParams&
     : rig(of),
       nominal(plate),
       machine(std::move(devices)),
-      sight(of.camera.value().geometry, plate),
+      sight(of.camera.value(), plate),
       params(positioning),
       state(control::positioner_start(params)) {}
 

@@ -1,17 +1,20 @@
 #include "src/session/sight.h"
 
+#include "core/camera_slopes.h"
 #include "vision/tag_choice.h"
 
 #include <fmt/format.h>
 
 namespace fidservo {
 
-Sight::Sight(const CameraGeometry& camera, const Plate& nominal) : camera_(camera), nominal_(nominal) {}
+Sight::Sight(const CameraParameters& camera, const Plate& nominal)
+    : camera_(camera.geometry), noise_(vision::grey_noise(camera)), nominal_(nominal) {}
 
 /// Where a tag should be in the image, with room for what the registration does not know.
 vision::ExpectedTag Sight::expected(const PlateTag& tag, double s_mm) const {
     constexpr double room_mm = 0.4;
-    vision::ExpectedTag place{tag.id, {}, room_mm / mm_per_px(camera_)};
+    const Eigen::Vector2d middle_px = project(camera_, tag.centre_mm, s_mm);
+    vision::ExpectedTag place{tag.id, {}, room_mm / mm_per_px_at(camera_, middle_px, s_mm)};
     const auto corners = vision::corners_mm(tag);
     for (std::size_t k = 0; k < 4; ++k) place.corners_px[k] = project(camera_, corners[k], s_mm);
     return place;
@@ -39,8 +42,7 @@ Result<vision::PositionFit> Sight::locate(const vision::Frame& frame, double exp
     for (const PlateTag& other : visible)
         if (other.id == preferred_tag) tag = other;
     look_for(frame, {expected(tag, expected_s_mm)});
-    vision::LocateOptions options;
-    options.predicted_s_mm = expected_s_mm;
+    const vision::LocateOptions options{.predicted_s_mm = expected_s_mm, .noise = noise_};
     auto fit = vision::locate_camera(camera_, nominal_, frame, found_, tag.id, options);
     keep_refined(fit);
     return fit;
@@ -64,7 +66,8 @@ Result<vision::PositionFit> Sight::locate_anywhere(const vision::Frame& frame) {
         if (vision::find_tag(nominal_, tag.tag_id) && (nearest == nullptr || way_px(tag) < way_px(*nearest)))
             nearest = &tag;
     if (nearest != nullptr) {
-        auto fit = vision::locate_camera(camera_, nominal_, frame, found_, nearest->tag_id);
+        auto fit =
+            vision::locate_camera(camera_, nominal_, frame, found_, nearest->tag_id, {.noise = noise_});
         keep_refined(fit);
         return fit;
     }

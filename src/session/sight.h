@@ -14,7 +14,7 @@ namespace fidservo {
 class Sight {
   public:
     /// @param nominal  the plate as it should be
-    Sight(const CameraGeometry& camera, const Plate& nominal);
+    Sight(const CameraParameters& camera, const Plate& nominal);
 
     /// Where the camera was when the frame was taken. The tag is looked for where the registration says,
     /// around it, and in the whole image, until it is found (vision/tag_tracker.h).
@@ -38,6 +38,7 @@ class Sight {
     void keep_refined(const Result<vision::PositionFit>& fit);
 
     CameraGeometry camera_;
+    vision::GreyNoise noise_;
     Plate nominal_;
     vision::TagTracker tracker_;
     std::vector<TagDetection> found_;

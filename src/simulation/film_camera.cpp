@@ -19,10 +19,21 @@ plant::PlateView view_of(const Rig& rig, const plant::PlantParameters& parameter
 
 FilmCamera::FilmCamera(const Rig& rig, const plant::PlantParameters& parameters, std::uint64_t seed,
                        Keep keep)
-    : view_(view_of(rig, parameters, seed)),
+    : camera_(*rig.camera),
+      view_(view_of(rig, parameters, seed)),
       track_(parameters, 2.0 * view_.reach_s() + 2.0 * parameters.tick_s),
       clock_(rig.camera->frame_rate_hz, *parameters.camera),
       keep_(std::move(keep)) {}
+
+/// How the picture of a tag moves during the exposure.
+Eigen::Vector2d FilmCamera::motion_px(const TagDetection& tag, double middle_s) const {
+    const double half_s = 0.5 * camera_.exposure_s;
+    const double first_mm = track_.position_mm(middle_s - half_s);
+    const double last_mm = track_.position_mm(middle_s + half_s);
+    const Eigen::Vector2d place_mm =
+        back_project(camera_.geometry, vision::centre_px(tag), 0.5 * (first_mm + last_mm));
+    return project(camera_.geometry, place_mm, last_mm) - project(camera_.geometry, place_mm, first_mm);
+}
 
 void FilmCamera::look(const plant::StageState& state, TimeNs time_ns, double macro_V, double micro_V,
                       std::vector<TagDetection>& detections) {
@@ -36,7 +47,8 @@ void FilmCamera::look(const plant::StageState& state, TimeNs time_ns, double mac
                          static_cast<std::uint64_t>(next_frame_));
         keep_(frame.stamp_ns, image);
         for (TagDetection& tag : detector_.detect(image, frame.stamp_ns)) {
-            const auto refined = vision::refine_tag(image, tag);
+            const auto refined = vision::refine_tag(
+                image, tag, {camera_.geometry, vision::grey_noise(camera_), motion_px(tag, middle_s)});
             detections.push_back(refined ? refined->detection : tag);
         }
     }

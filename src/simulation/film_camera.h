@@ -28,6 +28,9 @@ class FilmCamera {
               std::vector<TagDetection>& detections);
 
   private:
+    Eigen::Vector2d motion_px(const TagDetection& tag, double middle_s) const;
+
+    CameraParameters camera_;
     plant::PlateView view_;
     CameraTrack track_;
     FrameClock clock_;

@@ -60,7 +60,7 @@ TEST(SimulatedRig, NobodyLooksForAWhile_TheNewestFrameIsHandedOut) {
 
 TEST(SimulatedRig, MovingCamera_AFrameShowsWhereItWasInTheMiddleOfTheExposure) {
     RigAndCamera set;
-    Sight sight(set.camera.geometry, reference_plate());
+    Sight sight(set.camera, reference_plate());
     std::vector<double> past_mm;
     int seen = 0;
     for (int k = 0; k < 1500; ++k) {

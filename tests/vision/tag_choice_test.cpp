@@ -82,6 +82,57 @@ TEST(TagChoice, ViewRange_IsWhereTheTagIsVisible) {
     EXPECT_FALSE(view_range(camera, {3, {10.0, 0.0}, 4.5}));
 }
 
+/// Turned by 1 degree, tilted by 3, distorting, on an axis that is 0.5 mrad oblique.
+CameraGeometry camera_as_it_comes() {
+    CameraGeometry general = camera;
+    general.distortion.k1 = -0.2;
+    general.rotation_rad = 0.0175;
+    general.tilt_rad = {0.035, -0.039};
+    general.axis_rad = {0.0005, 0.0};
+    return general;
+}
+
+TEST(TagChoice, NearlyStraightCamera_HasTheStraightCamerasRange) {
+    CameraGeometry nearly = camera;
+    nearly.distortion.k1 = 1e-12;
+    for (const double angle_rad : {0.0, 0.3}) {
+        const PlateTag tag{3, {10.0, 0.5}, 1.2, angle_rad};
+        const auto straight = view_range(camera, tag), general = view_range(nearly, tag);
+        ASSERT_TRUE(straight && general);
+        EXPECT_NEAR(general->low_mm, straight->low_mm, 1e-6);
+        EXPECT_NEAR(general->high_mm, straight->high_mm, 1e-6);
+    }
+    EXPECT_TRUE(row_is_reachable(nearly, {0, {0.0, 1.169}, 1.2}));
+    EXPECT_FALSE(row_is_reachable(nearly, {0, {0.0, 1.171}, 1.2}));
+    EXPECT_EQ(ids(visible_tags(nearly, grid(), 4.9)), (std::vector<int>{12, 13}));
+}
+
+TEST(TagChoice, GeneralCamera_SeesTheTagToTheEndsOfItsRange) {
+    const CameraGeometry general = camera_as_it_comes();
+    Plate one;
+    one.tags.push_back({7, {100.0, 0.0}, 1.2});
+    const auto range = view_range(general, one.tags.front());
+    ASSERT_TRUE(range);
+    EXPECT_GT(range->high_mm - range->low_mm, 3.0);
+    EXPECT_EQ(visible_tags(general, one, range->low_mm + 1e-6).size(), 1U);
+    EXPECT_EQ(visible_tags(general, one, range->low_mm - 1e-6).size(), 0U);
+    EXPECT_EQ(visible_tags(general, one, range->high_mm - 1e-6).size(), 1U);
+    EXPECT_EQ(visible_tags(general, one, range->high_mm + 1e-6).size(), 0U);
+    // At the end, a corner of the quiet zone is at the image's rim.
+    const std::array<Eigen::Vector2d, 4> zone = corners_mm({7, {100.0, 0.0}, 1.5});
+    double farthest_px = 0.0;
+    for (const Eigen::Vector2d& corner : zone)
+        farthest_px = std::max(farthest_px, project(general, corner, range->low_mm).x());
+    EXPECT_NEAR(farthest_px, 1279.5, 1e-3);
+}
+
+TEST(TagChoice, ObliqueAxis_LosesTheRowWhereItDriftsOut) {
+    CameraGeometry oblique = camera;
+    oblique.axis_rad = {0.005, 0.0};  // 1 mm over 200
+    EXPECT_TRUE(row_is_reachable(oblique, {0, {100.0, 1.169 + 0.5}, 1.2}));
+    EXPECT_FALSE(row_is_reachable(oblique, {0, {10.0, 1.169 + 0.5}, 1.2}));
+}
+
 TEST(TagChoice, FindTag_KnowsWhatIsNotThere) {
     EXPECT_EQ(find_tag(grid(), 17)->id, 17);
     EXPECT_FALSE(find_tag(grid(), 30));

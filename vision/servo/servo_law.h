@@ -10,14 +10,9 @@
 
 namespace fidservo::vision {
 
-/// How the camera sits on the platform, and how hard the law pulls. Platform frame: x along the stage axis, y
-/// down in the image, z towards the plate, origin where the nominal camera's is. Camera frame: x along u,
-/// y along v, z along the optical axis.
+/// How the camera sees and sits on the platform, and how hard the law pulls.
 struct ServoParameters {
     CameraGeometry camera;
-    Eigen::Matrix3d platform_from_camera =
-        Eigen::Matrix3d::Identity();  ///< rotation: p_platform = R p_camera
-    Eigen::Vector3d camera_on_platform_mm = Eigen::Vector3d::Zero();
     double gain = 1.0;  ///< lambda; 1 makes the whole way in one step
 };
 
@@ -35,21 +30,19 @@ struct ServoMove {
     double residual_px;  ///< r.m.s. of the image error that no move along the axis removes
 };
 
-/// Image-based visual servoing, eye in hand, on the four corners as point features s = (x, y):
+/// Image-based visual servoing, eye in hand, on the four corners as point features s = (x, y) of the
+/// undistorted image:
 ///
 ///     e = s - s*,     q = -lambda (L cVe eJe)^+ e
 ///
-/// L: interaction matrix of the points at depth Z; cVe: velocity twist of the platform in the camera; eJe =
-/// (1, 0, 0, 0, 0, 0)^T: the one axis of the stage; s*: the corners seen from camera position `target_s_mm`,
-/// y = 0. Looking straight down, e is linear in the stage's position, so that one step with lambda = 1 is the
-/// exact solution target - s. The law must be given a frame whose stage positions are known or at rest: the
-/// move counts from the exposure, not from the frame's arrival. Source: Chaumette and Hutchinson, "Visual
-/// servo control", 2006, eq. 4 and 5; ViSP's vpServo.
+/// L: mean of the interaction matrices of the points at their depths, now and at the target; cVe: velocity
+/// twist of the plate's frame, moved with the camera, in the camera's; eJe = (a, 0): the stage's one axis;
+/// s*: the corners seen from camera position `target_s_mm`, y = 0. Looking straight down, e is linear in the
+/// stage's position, so that one step with lambda = 1 is the exact solution target - s; for a tilted camera
+/// steps converge to it. The law must be given a frame whose stage positions are known or at rest: the move
+/// counts from the exposure, not from the frame's arrival. Source: Chaumette and Hutchinson, "Visual servo
+/// control", 2006, eq. 4 and 5; the mean: Malis, "Improving vision-based control using efficient second-order
+/// minimization techniques", 2004; ViSP's vpServo.
 ServoMove servo_law(const ServoParameters& parameters, const ServoObservation& seen, double target_s_mm);
-
-/// The corners as the camera would see them from position s: the law's s*, in px.
-std::array<Eigen::Vector2d, 4> corners_seen_from(const ServoParameters& parameters,
-                                                 const std::array<Eigen::Vector2d, 4>& plate_corners_mm,
-                                                 double s_mm);
 
 }  // namespace fidservo::vision
