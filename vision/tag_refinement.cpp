@@ -1,100 +1,286 @@
 #include "vision/tag_refinement.h"
 
-#include "vision/edge_fit.h"
+#include "vision/band_model.h"
+#include "vision/edge_band.h"
 #include "vision/quad.h"
+#include "vision/tag_pattern.h"
+#include "vision/tag_picture.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 namespace fidservo::vision {
 namespace {
 
-constexpr double cells_per_side = 8.0;
-constexpr double least_side_px = 30.0;
-constexpr double widest_strip_px = 5.0;
+constexpr int cells = 8;
+constexpr double least_side_px = 24.0;
+constexpr double least_contrast = 8.0;  ///< grey levels; below, noise decides where the edges are
+constexpr double least_explained = 0.3;
+constexpr double sharpest_px = 0.3;  ///< the area of a pixel alone blurs by 0.29 px
+/// A block is left out if its mean square, in those of the usual block, is above 1 by so many of the standard
+/// deviations that noise gives it.
+constexpr float most_deviations = 6.0F;
 
-/// The side from corner k to corner k + 1, white outside.
-EdgeGuess guess_of_side(const std::array<Eigen::Vector2d, 4>& corners, std::size_t k) {
-    const Eigen::Vector2d& from = corners[k];
-    const Eigen::Vector2d& to = corners[(k + 1) % 4];
-    const double length = (to - from).norm();
-    const Eigen::Vector2d along = (to - from) / length;
-    const Eigen::Vector2d inwards = corners[(k + 2) % 4] - from;
-    Eigen::Vector2d normal(-along.y(), along.x());
-    if (normal.dot(inwards) > 0) normal = -normal;
-    const double cell = length / cells_per_side;
-    const double half_width = std::clamp(0.5 * cell, 1.5, widest_strip_px);
-    return {0.5 * (from + to), along, normal, length - 2 * std::max(half_width + 1.0, 0.02 * length),
-            half_width};
+/// Standard deviations of what is known of the look beforehand: so wide that they matter only where the
+/// pixels say nothing.
+constexpr std::array<double, kernel::look_columns> look_prior{1.0,   1.0,   1.0, 0.05, 0.05,
+                                                              300.0, 300.0, 0.5, 0.5,  0.5};
+
+template <class Number>
+Number median_of(std::vector<Number>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
-struct Line {
-    EdgeGuess guess;
-    EdgeFit fit;
-    /// a . p = b for the points p of the line.
-    Eigen::RowVector2d a() const { return (guess.normal - fit.slope * guess.along).transpose(); }
-    double b() const { return a().dot(guess.middle_px.transpose()) + fit.offset_px; }
-    /// d b / d (offset, slope) at a point of the line, a held fixed.
-    Eigen::RowVector2d b_sensitivity(const Eigen::Vector2d& at) const {
-        return {1.0, guess.along.dot(at - guess.middle_px)};
+/// The light from the middles of the cells.
+void read_levels(const cv::Mat& image, const TagPicture& picture, const TagPattern& pattern, BandLook& look) {
+    std::vector<double> dark;
+    std::vector<double> bright;
+    for (int row = 0; row < cells; ++row)
+        for (int column = 0; column < cells; ++column) {
+            const Eigen::Vector2d at =
+                picture.image_of({column + 0.5 - 0.5 * cells, row + 0.5 - 0.5 * cells});
+            if (can_sample(image, at))
+                (pattern[row * cells + column] ? bright : dark).push_back(sample(image, at));
+        }
+    if (!dark.empty()) look.black_grey = median_of(dark);
+    if (!bright.empty()) look.white_grey = median_of(bright);
+}
+
+/// One tag under refinement.
+class Fit {
+  public:
+    Fit(const cv::Mat& image, const TagDetection& found, const RefinementOptions& options)
+        : image_(image),
+          options_(options),
+          pattern_(tag_pattern(found.tag_id)),
+          picture_(found.corners_px, cells, options.camera) {
+        const Eigen::Matrix2d cells_by_px = picture_.cells_by_px(picture_.image_of({0.0, 0.0}));
+        cell_px_ = 1.0 / std::max(cells_by_px.row(0).norm(), cells_by_px.row(1).norm());
+        const Eigen::Vector2d motion_cells = cells_by_px * options.motion_px;
+        look_.motion_x_px = std::abs(motion_cells.x()) / cells_by_px.row(0).norm();
+        look_.motion_y_px = std::abs(motion_cells.y()) / cells_by_px.row(1).norm();
+        read_levels(image_, picture_, pattern_, look_);
     }
+
+    bool has_contrast() const { return look_.white_grey - look_.black_grey >= least_contrast; }
+
+    /// A quick fit that tolerates much: brings the model to within some hundredths of a pixel.
+    bool look_roughly() {
+        constexpr double at_rest_px = 0.02;
+        constexpr int most_steps = 16;
+        constexpr std::size_t enough_pixels = 4000;
+        double reach_px = std::min(4.0, 0.5 * cell_px_);
+        const double edge_pixels =
+            70.0 * cell_px_ * 2.0 * reach_px;  // a code has about 70 cell sides of edge
+        const int every = std::max(1, static_cast<int>(edge_pixels / enough_pixels));
+        select(reach_px, every);
+        for (int step = 0; step < most_steps; ++step) {
+            const double moved_px = take_step(true);
+            if (!std::isfinite(moved_px) || !has_contrast()) return false;
+            const double blur_px = std::max(look_.blur_x_px, look_.blur_y_px);
+            if (2.3 * blur_px > reach_px && reach_px < 0.5 * cell_px_) {
+                reach_px = std::min(2.0 * reach_px, 0.5 * cell_px_);
+                select(reach_px, every);
+            } else if (moved_px < at_rest_px && step > 0) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// The fit that counts. False if too little of the tag can be seen.
+    bool look_closely() {
+        constexpr double at_rest_px = 0.02;  // Gauss-Newton: what is left after such a step is below 1e-4 px
+        constexpr int most_steps = 6;
+        constexpr double reach_in_blurs = 2.5;
+        select(reach_in_blurs * std::max(look_.blur_x_px, look_.blur_y_px) + 0.2, 1);
+        for (int step = 0; step < most_steps; ++step) {
+            const double moved_px = take_step(false);
+            if (!std::isfinite(moved_px)) return false;
+            if (explained_ < least_explained || !has_contrast()) return false;
+            if (moved_px < at_rest_px) return true;
+        }
+        return false;
+    }
+
+    RefinedTag result(TagDetection tag) const {
+        Eigen::MatrixXd normal = last_.normal;
+        add_priors(normal);
+        Eigen::MatrixXd covariance =
+            normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+        const double freedom = static_cast<double>(used_) - static_cast<double>(normal.rows());
+        const double misfit = square_sum_ / freedom;
+        const bool fits = misfit < 1.0 + 2.33 * std::sqrt(2.0 / freedom);
+        if (!fits)
+            covariance = covariance * band_scatter(band_, picture_, look_, options_.noise) * covariance;
+
+        const int geometry = picture_.parameters();
+        const Eigen::MatrixXd of_geometry = covariance.topLeftCorner(geometry, geometry);
+        Eigen::MatrixXd corners(8, geometry);
+        for (int k = 0; k < 4; ++k) {
+            const Eigen::Vector2d corner = 0.5 * cells * tag_corners[k];
+            tag.corners_px[k] = picture_.image_of(corner);
+            corners.middleRows<2>(2 * k) = picture_.image_by_parameters(corner);
+        }
+        const Eigen::MatrixXd centre = picture_.image_by_parameters({0.0, 0.0});
+        return {tag,
+                corners * of_geometry * corners.transpose(),
+                picture_.image_of({0.0, 0.0}),
+                centre * of_geometry * centre.transpose(),
+                explained_,
+                0.5 * (look_.blur_x_px + look_.blur_y_px),
+                look_.spread_px,
+                misfit,
+                fits};
+    }
+
+  private:
+    void select(double reach_px, int every) {
+        select_band(image_, picture_, pattern_,
+                    {reach_px + 0.5 * look_.motion_x_px, reach_px + 0.5 * look_.motion_y_px}, every, band_);
+    }
+
+    static void add_priors(Eigen::MatrixXd& normal) {
+        for (int k = 0; k < kernel::look_columns; ++k) {
+            const auto at = normal.rows() - kernel::look_columns + k;
+            normal(at, at) += 1.0 / (look_prior[k] * look_prior[k]);
+        }
+    }
+
+    /// Shape and light are believed to be nought; blurs and levels are only kept from running away.
+    void pull(Eigen::VectorXd& right) const {
+        const auto by_prior = [](int k, double value) { return value / (look_prior[k] * look_prior[k]); };
+        auto look = right.tail<kernel::look_columns>();
+        look(kernel::spread) -= by_prior(kernel::spread, look_.spread_px);
+        look(kernel::skew) -= by_prior(kernel::skew, look_.skew_factor);
+        look(kernel::tail) -= by_prior(kernel::tail, look_.tail_factor);
+        for (int k = 0; k < 3; ++k)
+            look(kernel::light_x + k) -= by_prior(kernel::light_x + k, look_.light(k));
+    }
+
+    /// One Gauss-Newton step. @param tolerant  whether blocks that do not fit lose weight little by little,
+    /// as long as the model is not yet in its place, or at once
+    /// @return how far the tag moved, px; NaN if the pixels do not determine it
+    double take_step(bool tolerant) {
+        last_ = evaluate_band(band_, picture_, look_, options_.noise, block_squares_);
+        if (weigh_blocks(tolerant))
+            last_ = evaluate_band(band_, picture_, look_, options_.noise, block_squares_);
+        Eigen::MatrixXd normal = last_.normal;
+        add_priors(normal);
+        Eigen::VectorXd right = last_.right;
+        pull(right);
+        const Eigen::VectorXd step = normal.ldlt().solve(right);
+        if (!step.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+        constexpr double longest_px = 1.5;
+        const double moved_px = cell_px_ * step.head<2>().norm();
+        apply(moved_px > longest_px ? Eigen::VectorXd(step * (longest_px / moved_px)) : step);
+        square_sum_ = last_.square_sum - step.dot(right);
+        return moved_px;
+    }
+
+    void apply(const Eigen::VectorXd& step) {
+        picture_.change(step);
+        const auto look = step.tail<kernel::look_columns>();
+        const auto widened = [&](double blur_px, double change) {
+            return std::clamp(blur_px * std::exp(std::clamp(change, -0.7, 0.7)), sharpest_px,
+                              std::max(0.5 * cell_px_, sharpest_px));
+        };
+        look_.blur_x_px = widened(look_.blur_x_px, look(kernel::width_x));
+        look_.blur_y_px = widened(look_.blur_y_px, look(kernel::width_y));
+        look_.spread_px += look(kernel::spread);
+        look_.skew_factor += look(kernel::skew);
+        look_.tail_factor += look(kernel::tail);
+        look_.white_grey += look(kernel::white);
+        look_.black_grey += look(kernel::black);
+        look_.light += look.segment<3>(kernel::light_x);
+    }
+
+    /// Sets the blocks' weights by what the model leaves of them. True if a weight changed.
+    bool weigh_blocks(bool tolerant) {
+        const std::size_t blocks = band_.blocks.size();
+        if (blocks == 0) return false;
+        for (std::size_t k = 0; k < blocks; ++k)
+            block_squares_[k] /= static_cast<float>(band_.blocks[k].end - band_.blocks[k].begin);
+        sorted_ = block_squares_;
+        const float usual = std::max(1.0F, median_of(sorted_));
+        bool changed = false;
+        used_ = 0;
+        for (std::size_t k = 0; k < blocks; ++k) {
+            const BandBlock& at = band_.blocks[k];
+            const float limit =
+                usual * (1.0F + most_deviations * std::sqrt(2.0F / static_cast<float>(at.pixels)));
+            const bool good = block_squares_[k] <= limit;
+            const float weight = good ? 1.0F : tolerant ? 0.5F * std::sqrt(limit / block_squares_[k]) : 0.0F;
+            if (good) used_ += at.pixels;
+            if (band_.weight[at.begin] == weight) continue;
+            changed = true;
+            band_.weigh(at, weight);
+        }
+        explained_ = static_cast<double>(used_) / static_cast<double>(band_.pixels);
+        return changed;
+    }
+
+    const cv::Mat& image_;
+    const RefinementOptions& options_;
+    TagPattern pattern_;
+    TagPicture picture_;
+    BandLook look_;
+    double cell_px_;
+    EdgeBand band_;
+    std::vector<float> block_squares_;
+    std::vector<float> sorted_;
+    BandEquations last_;
+    double square_sum_ = 0.0;
+    double explained_ = 1.0;
+    std::size_t used_ = 0;
 };
 
-/// The mean of the corners, which is the centre up to perspective.
-Eigen::Matrix2d centre_covariance_px2(const CornerCovariance& corners) {
+/// Covariance of the mean of four points.
+Eigen::Matrix2d mean_covariance_px2(const CornerCovariance& corners) {
     Eigen::Matrix<double, 2, 8> mean;
     for (int k = 0; k < 4; ++k) mean.block<2, 2>(0, 2 * k) = 0.25 * Eigen::Matrix2d::Identity();
     return mean * corners * mean.transpose();
 }
 
+Failure hidden(const char* why) {
+    return {Reason::occluded, why};
+}
+
 }  // namespace
 
 Result<RefinedTag> refine_tag(const cv::Mat& image, const TagDetection& found,
-                              const RefinementOptions& /*options*/) {
+                              const RefinementOptions& options) {
     FIDSERVO_DEMAND(image.type() == CV_8UC1);
-    std::array<Line, 4> lines;
-    RefinedTag refined{found, CornerCovariance::Zero()};
     double shortest_px = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 4; ++k) {
-        if ((found.corners_px[(k + 1) % 4] - found.corners_px[k]).norm() < least_side_px)
-            return failure(Reason::occluded, "the tag is too small for its edges to be measured");
-        const EdgeGuess guess = guess_of_side(found.corners_px, k);
-        const Result<EdgeFit> fit = fit_edge(image, guess);
-        if (!fit) return tl::make_unexpected(fit.error());
-        lines[k] = {guess, *fit};
-        refined.explained = std::min(refined.explained, fit->explained);
-        refined.blur_px += fit->blur_px / 4;
-        shortest_px = std::min(shortest_px, guess.length_px);
+        const Eigen::Vector2d& corner = found.corners_px[k];
+        shortest_px = std::min(shortest_px, (found.corners_px[(k + 1) % 4] - corner).norm());
+        if (!(corner.x() > -0.5 && corner.y() > -0.5 && corner.x() < image.cols - 0.5 &&
+              corner.y() < image.rows - 0.5))
+            return tl::make_unexpected(hidden("the tag leaves the image"));
     }
+    if (!(shortest_px >= least_side_px))
+        return tl::make_unexpected(hidden("the tag is too small for its edges to be measured"));
 
-    // Corner k lies on the sides k - 1 and k. All corners together are linear in the eight edge parameters.
-    Eigen::Matrix<double, 8, 8> corners_by_edges = Eigen::Matrix<double, 8, 8>::Zero();
-    Eigen::Matrix<double, 8, 8> edge_covariance = Eigen::Matrix<double, 8, 8>::Zero();
-    for (int k = 0; k < 4; ++k) {
-        const int before = (k + 3) % 4;
-        Eigen::Matrix2d both;
-        both << lines[before].a(), lines[k].a();
-        const Eigen::Matrix2d inverse = both.inverse();
-        const Eigen::Vector2d corner = inverse * Eigen::Vector2d(lines[before].b(), lines[k].b());
-        if (!corner.allFinite() ||
-            (corner - found.corners_px[k]).norm() > std::max(2.0, shortest_px / cells_per_side))
-            return failure(Reason::occluded, "the tag's border does not end where its code says");
-        refined.detection.corners_px[k] = corner;
-        corners_by_edges.block<2, 2>(2 * k, 2 * before) =
-            inverse.col(0) * lines[before].b_sensitivity(corner);
-        corners_by_edges.block<2, 2>(2 * k, 2 * k) = inverse.col(1) * lines[k].b_sensitivity(corner);
-        edge_covariance.block<2, 2>(2 * k, 2 * k) = lines[k].fit.covariance;
-    }
-    RefinedTag measured =
-        tag_of_corners(refined.detection, corners_by_edges * edge_covariance * corners_by_edges.transpose());
-    measured.explained = refined.explained;
-    measured.blur_px = refined.blur_px;
-    return measured;
+    Fit fit(image, found, options);
+    if (!fit.has_contrast()) return tl::make_unexpected(hidden("the tag's code is not there"));
+    if (!fit.look_roughly() || !fit.look_closely())
+        return tl::make_unexpected(hidden("too little of the tag is to be seen"));
+    RefinedTag refined = fit.result(found);
+    for (std::size_t k = 0; k < 4; ++k)
+        if (!((refined.detection.corners_px[k] - found.corners_px[k]).norm() <=
+              std::max(2.0, shortest_px / cells)))
+            return tl::make_unexpected(hidden("the tag's border does not end where its code says"));
+    return refined;
 }
 
 RefinedTag tag_of_corners(const TagDetection& corners, const CornerCovariance& covariance_px2) {
-    return {corners, covariance_px2, centre_px(corners), centre_covariance_px2(covariance_px2)};
+    return {corners, covariance_px2, centre_px(corners), mean_covariance_px2(covariance_px2)};
 }
 
 RefinedTag unrefined(const TagDetection& found) {

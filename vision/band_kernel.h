@@ -1,0 +1,88 @@
+#pragma once
+// The inner loop of the refinement: what a band of pixels along a tag's edges should look like
+// (band_model.h), its derivatives, and their products, summed. Plain data in and out, so that it can be
+// compiled for several kinds of processor.
+#include "vision/lanes.h"
+
+#include <cstddef>
+
+namespace fidservo::vision::kernel {
+
+/// The neighbourhood of one crossing of the code's grid lines, half a cell to each side. Coverage by white is
+/// there, with the profiles A(x) and B(y) of the two lines,
+///
+///     c + cx A + cy B + cxy A B
+struct Node {
+    std::size_t begin, end;  ///< its pixels in the band: a multiple of lane_count
+    float x, y;              ///< tag frame
+    float px_per_cell_x;     ///< distance in the image from the line x = const, per cell
+    float px_per_cell_y;
+    float c, cx, cy, cxy;
+    float edge_up, edge_down;     ///< 1 where the line x = const parts black from white, above and below
+    float edge_left, edge_right;  ///< likewise y = const
+};
+
+/// Pixels: their place q (tag_picture.h), grey level, and square root of weight.
+struct Band {
+    const float* qx;
+    const float* qy;
+    const float* grey;
+    const float* weight;
+    const Node* nodes;
+    std::size_t node_count;
+};
+
+struct Constants {
+    float m[9];                            ///< from q to the tag frame, row by row
+    float inverse_blur_x, inverse_blur_y;  ///< 1 / px
+    float half_motion_x, half_motion_y;    ///< in standard deviations of the blur
+    float spread, skew, tail;
+    float black, height;
+    float light_x, light_y, light_r;  ///< per cell, per cell squared
+    float noise_floor, noise_gain, noise_spread;
+};
+
+/// Parameters after the geometry's, in the order of the columns; the residual's column follows.
+enum LookColumn {
+    width_x,
+    width_y,
+    spread,
+    skew,
+    tail,
+    white,
+    black,
+    light_x,
+    light_y,
+    light_r,
+    look_columns
+};
+
+constexpr std::size_t columns_of(std::size_t geometry) {
+    return (geometry + look_columns + 1 + 3) / 4 * 4;
+}
+inline constexpr std::size_t most_columns = columns_of(8);
+inline constexpr double half_side_cells = 4.0;
+
+/// Pixels that are judged and weighted together, at most; counted from each node's first.
+inline constexpr std::size_t block = 32;
+
+struct Sums {
+    double products[most_columns][most_columns];  ///< of columns; on and below the diagonal
+};
+
+/// @param geometry  4 or 8 parameters
+/// @param block_squares  is filled with each block's sum of squared residuals in standard deviations, without
+///                       weights
+using AddBand = void (*)(std::size_t geometry, const Band& band, const Constants& constants,
+                         float* block_squares, Sums& sums);
+/// Outer products of every block's sums of column times residual, added up.
+using AddScatter = void (*)(std::size_t geometry, const Band& band, const Constants& constants, Sums& sums);
+
+void add_band_plain(std::size_t, const Band&, const Constants&, float*, Sums&);
+void add_scatter_plain(std::size_t, const Band&, const Constants&, Sums&);
+/// For processors with 256-bit vectors and fused multiplication; only where has_wide_vectors().
+void add_band_wide(std::size_t, const Band&, const Constants&, float*, Sums&);
+void add_scatter_wide(std::size_t, const Band&, const Constants&, Sums&);
+bool has_wide_vectors();
+
+}  // namespace fidservo::vision::kernel

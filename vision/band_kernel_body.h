@@ -1,0 +1,185 @@
+#pragma once
+// band_kernel.h's functions, for the processor that the including file is compiled for.
+#include "vision/band_kernel.h"
+#include "vision/edge_profile.h"
+
+namespace fidservo::vision::kernel {
+namespace {
+
+/// Pixels whose columns are multiplied at a time: they stay in the first-level cache.
+constexpr std::size_t chunk = 4 * block;
+
+/// Columns of the weighted Jacobian and, after them, the weighted residual.
+struct Columns {
+    alignas(32) float at[most_columns][chunk];
+};
+
+/// Eight pixels. @return their squared residuals in standard deviations, without weights
+template <std::size_t geometry>
+[[gnu::always_inline]] inline void fill_columns(const Band& band, const Node& node, std::size_t first,
+                                                std::size_t into, const Constants& c, Columns& j,
+                                                Lanes& squares) {
+    const float by_x = node.px_per_cell_x * c.inverse_blur_x;
+    const float by_y = node.px_per_cell_y * c.inverse_blur_y;
+    Lanes qx, qy, grey, weight;
+    load(band.qx + first, qx);
+    load(band.qy + first, qy);
+    load(band.grey + first, grey);
+    load(band.weight + first, weight);
+    Lanes x = c.m[0] * qx + c.m[1] * qy + c.m[2];
+    Lanes y = c.m[3] * qx + c.m[4] * qy + c.m[5];
+    if constexpr (geometry == 8) {
+        const Lanes by_depth = 1.0F / (c.m[6] * qx + c.m[7] * qy + c.m[8]);
+        x *= by_depth;
+        y *= by_depth;
+    }
+    EdgeProfile fx, fy;
+    profile_at((x - node.x) * by_x, c.half_motion_x, fx);
+    profile_at((y - node.y) * by_y, c.half_motion_y, fy);
+
+    const Lanes A = fx.f0 + c.tail * fx.f4, A1 = fx.f1 + c.tail * fx.f5;
+    const Lanes B = fy.f0 + c.tail * fy.f4, B1 = fy.f1 + c.tail * fy.f5;
+    const Lanes dx = node.cx + node.cxy * B, dy = node.cy + node.cxy * A;
+    const Lanes edge_x = node.edge_up + (node.edge_down - node.edge_up) * B;
+    const Lanes edge_y = node.edge_left + (node.edge_right - node.edge_left) * A;
+    const Lanes by_spread = -c.inverse_blur_x * fx.f1 * edge_x - c.inverse_blur_y * fy.f1 * edge_y;
+    const Lanes by_skew = fx.f3 * edge_x + fy.f3 * edge_y;
+    const Lanes covered = node.c + node.cx * A + dy * B + c.spread * by_spread + c.skew * by_skew;
+    const Lanes r2 = x * x + y * y;
+    const Lanes light = 1.0F + c.light_x * x + c.light_y * y + c.light_r * r2;
+    const Lanes unlit = c.black + c.height * covered;
+    const Lanes model = unlit * light;
+    const Lanes lit = model > 0.0F ? model : model * 0.0F;
+    Lanes by_std;
+    inverse_root(c.noise_floor + lit * (c.noise_gain + lit * c.noise_spread), by_std);
+    const Lanes w = by_std * weight;
+    const Lanes height = w * c.height * light;
+    const Lanes residual = (grey - model) * by_std;
+    squares += residual * residual;
+
+    const auto put = [&](std::size_t column, const Lanes& values) { store(values, &j.at[column][into]); };
+    const Lanes gx = height * A1 * dx * by_x, gy = height * B1 * dy * by_y;
+    const Lanes radial = gx * x + gy * y;
+    put(0, gx);
+    put(1, gy);
+    put(2, radial);
+    put(3, gy * x - gx * y);
+    if constexpr (geometry == 8) {
+        put(4, gx * x - gy * y);
+        put(5, gx * y + gy * x);
+        put(6, radial * x);
+        put(7, radial * y);
+    }
+    put(geometry + width_x, height * fx.f2 * dx);
+    put(geometry + width_y, height * fy.f2 * dy);
+    put(geometry + spread, height * by_spread);
+    put(geometry + skew, height * by_skew);
+    put(geometry + tail, height * (fx.f4 * dx + fy.f4 * dy));
+    put(geometry + white, w * light * covered);
+    put(geometry + black, w * light * (1.0F - covered));
+    constexpr auto sides_per_cell = static_cast<float>(1.0 / half_side_cells);  // half sides
+    const Lanes by_light = w * unlit * sides_per_cell;
+    put(geometry + light_x, by_light * x);
+    put(geometry + light_y, by_light * y);
+    put(geometry + light_r, by_light * sides_per_cell * r2);
+    put(geometry + look_columns, residual * weight);
+}
+
+/// sums[i][k] += columns i times k, on and below the diagonal (and a little above it). Two by four sums at a
+/// time stay in registers.
+template <std::size_t columns>
+[[gnu::always_inline]] inline void add_products(const Columns& j, std::size_t count,
+                                                Lanes (&sums)[columns][columns]) {
+    static_assert(columns % 4 == 0);
+    for (std::size_t a = 0; a < columns; a += 2)
+        for (std::size_t b = 0; b <= a + 1; b += 4) {
+            Lanes(&upper)[columns] = sums[a];
+            Lanes(&lower)[columns] = sums[a + 1];
+            Lanes u0 = upper[b], u1 = upper[b + 1], u2 = upper[b + 2], u3 = upper[b + 3];
+            Lanes l0 = lower[b], l1 = lower[b + 1], l2 = lower[b + 2], l3 = lower[b + 3];
+            for (std::size_t i = 0; i < count; i += lane_count) {
+                Lanes top, bottom, right;
+                load(&j.at[a][i], top);
+                load(&j.at[a + 1][i], bottom);
+                load(&j.at[b][i], right);
+                u0 += top * right;
+                l0 += bottom * right;
+                load(&j.at[b + 1][i], right);
+                u1 += top * right;
+                l1 += bottom * right;
+                load(&j.at[b + 2][i], right);
+                u2 += top * right;
+                l2 += bottom * right;
+                load(&j.at[b + 3][i], right);
+                u3 += top * right;
+                l3 += bottom * right;
+            }
+            upper[b] = u0, upper[b + 1] = u1, upper[b + 2] = u2, upper[b + 3] = u3;
+            lower[b] = l0, lower[b + 1] = l1, lower[b + 2] = l2, lower[b + 3] = l3;
+        }
+}
+
+template <std::size_t geometry>
+void add_band_of(const Band& band, const Constants& constants, float* block_squares, Sums& sums) {
+    constexpr std::size_t columns = columns_of(geometry);
+    Columns j{};
+    alignas(32) Lanes products[columns][columns] = {};
+    for (std::size_t n = 0; n < band.node_count; ++n) {
+        const Node& node = band.nodes[n];
+        for (std::size_t first = node.begin; first < node.end; first += chunk) {
+            const std::size_t count = node.end - first < chunk ? node.end - first : chunk;
+            for (std::size_t from = 0; from < count; from += block) {
+                const std::size_t to = from + block < count ? from + block : count;
+                Lanes squares = {};
+                for (std::size_t i = from; i < to; i += lane_count)
+                    fill_columns<geometry>(band, node, first + i, i, constants, j, squares);
+                *block_squares++ = sum_of(squares);
+            }
+            add_products<columns>(j, count, products);
+        }
+    }
+    for (std::size_t row = 0; row < columns; ++row)
+        for (std::size_t column = 0; column <= row; ++column)
+            sums.products[row][column] += static_cast<double>(sum_of(products[row][column]));
+}
+
+template <std::size_t geometry>
+void add_scatter_of(const Band& band, const Constants& constants, Sums& sums) {
+    constexpr std::size_t parameters = geometry + look_columns;
+    Columns j{};
+    for (std::size_t n = 0; n < band.node_count; ++n) {
+        const Node& node = band.nodes[n];
+        for (std::size_t first = node.begin; first < node.end; first += block) {
+            const std::size_t count = node.end - first < block ? node.end - first : block;
+            Lanes squares = {};
+            for (std::size_t i = 0; i < count; i += lane_count)
+                fill_columns<geometry>(band, node, first + i, i, constants, j, squares);
+            double score[parameters];
+            for (std::size_t k = 0; k < parameters; ++k) {
+                Lanes sum = {};
+                for (std::size_t i = 0; i < count; i += lane_count) {
+                    Lanes left, right;
+                    load(&j.at[k][i], left);
+                    load(&j.at[parameters][i], right);
+                    sum += left * right;
+                }
+                score[k] = static_cast<double>(sum_of(sum));
+            }
+            for (std::size_t row = 0; row < parameters; ++row)
+                for (std::size_t column = 0; column <= row; ++column)
+                    sums.products[row][column] += score[row] * score[column];
+        }
+    }
+}
+
+void add_band(std::size_t geometry, const Band& band, const Constants& constants, float* block_squares,
+              Sums& sums) {
+    (geometry == 4 ? add_band_of<4> : add_band_of<8>)(band, constants, block_squares, sums);
+}
+
+void add_scatter(std::size_t geometry, const Band& band, const Constants& constants, Sums& sums) {
+    (geometry == 4 ? add_scatter_of<4> : add_scatter_of<8>)(band, constants, sums);
+}
+
+}  // namespace
+}  // namespace fidservo::vision::kernel
