@@ -18,35 +18,50 @@ namespace {
 
 constexpr unsigned char saturated_level = 255;
 
+/// First and last column of a row whose pixels lie inside a convex outline; first > last: none.
+struct Columns {
+    int first, last;
+};
+
+Columns columns_inside(const std::array<Eigen::Vector2d, 4>& corners_px, int row, int width) {
+    double low = 0.0, high = width - 1.0;
+    const Eigen::Vector2d middle = 0.25 * (corners_px[0] + corners_px[1] + corners_px[2] + corners_px[3]);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Eigen::Vector2d side = corners_px[(k + 1) % 4] - corners_px[k];
+        Eigen::Vector2d inwards(-side.y(), side.x());
+        if (inwards.dot(middle - corners_px[k]) < 0) inwards = -inwards;
+        // inwards . ((u, row) - corner) >= 0
+        const double at_zero = inwards.y() * (row - corners_px[k].y()) - inwards.x() * corners_px[k].x();
+        if (inwards.x() > 0)
+            low = std::max(low, -at_zero / inwards.x());
+        else if (inwards.x() < 0)
+            high = std::min(high, -at_zero / inwards.x());
+        else if (at_zero < 0)
+            return {0, -1};
+    }
+    if (!(low <= high)) return {0, -1};
+    return {static_cast<int>(std::ceil(low)), static_cast<int>(std::floor(high))};
+}
+
 /// Share of saturated pixels among those inside the outline.
 double saturated_share(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px) {
-    Eigen::Vector2d low = corners_px[0];
-    Eigen::Vector2d high = corners_px[0];
+    double top = corners_px[0].y(), bottom = top;
     for (const Eigen::Vector2d& corner : corners_px) {
-        low = low.cwiseMin(corner);
-        high = high.cwiseMax(corner);
+        top = std::min(top, corner.y());
+        bottom = std::max(bottom, corner.y());
     }
-    const auto inside = [&](const Eigen::Vector2d& at) {
-        int left_of = 0;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Eigen::Vector2d side = corners_px[(k + 1) % 4] - corners_px[k];
-            const Eigen::Vector2d to = at - corners_px[k];
-            left_of += side.x() * to.y() - side.y() * to.x() > 0 ? 1 : 0;
-        }
-        return left_of == 0 || left_of == 4;
-    };
-    const int first_row = std::max(0, static_cast<int>(std::ceil(low.y())));
-    const int last_row = std::min(image.rows - 1, static_cast<int>(std::floor(high.y())));
-    const int first_column = std::max(0, static_cast<int>(std::ceil(low.x())));
-    const int last_column = std::min(image.cols - 1, static_cast<int>(std::floor(high.x())));
-    long saturated = 0;
-    long pixels = 0;
-    for (int v = first_row; v <= last_row; ++v)
-        for (int u = first_column; u <= last_column; ++u) {
-            if (!inside({u, v})) continue;
-            ++pixels;
-            saturated += image.at<unsigned char>(v, u) == saturated_level ? 1 : 0;
-        }
+    if (!(top < image.rows && bottom >= 0)) return 0.0;
+    const int first_row = static_cast<int>(std::ceil(std::max(0.0, top)));
+    const int last_row = static_cast<int>(std::floor(std::min(image.rows - 1.0, bottom)));
+    std::ptrdiff_t saturated = 0;
+    std::ptrdiff_t pixels = 0;
+    for (int row = first_row; row <= last_row; ++row) {
+        const auto [first, last] = columns_inside(corners_px, row, image.cols);
+        if (first > last) continue;
+        const auto* grey = image.ptr<unsigned char>(row);
+        saturated += std::count(grey + first, grey + last + 1, saturated_level);
+        pixels += last - first + 1;
+    }
     return pixels > 0 ? static_cast<double>(saturated) / static_cast<double>(pixels) : 0.0;
 }
 

@@ -49,6 +49,11 @@ TagDetectorOptions thorough_options() {
     return options;
 }
 
+bool by_id_from_left(const TagDetection& a, const TagDetection& b) {
+    return std::tuple(a.tag_id, centre_of(a.corners_px).x()) <
+           std::tuple(b.tag_id, centre_of(b.corners_px).x());
+}
+
 struct TagDetector::Impl {
     explicit Impl(const TagDetectorOptions& with) : options(with) {
         apriltag_detector_add_family_bits(detector.get(), family.get(), options.max_corrected_bits);
@@ -114,10 +119,7 @@ std::vector<TagDetection> TagDetector::detect(const cv::Mat& image, TimeNs time_
         return explained_contrast(image, tag.corners_px, tag_pattern(tag.tag_id)) <
                impl_->options.min_explained_contrast;
     });
-    std::sort(tags.begin(), tags.end(), [](const TagDetection& a, const TagDetection& b) {
-        return std::tuple(a.tag_id, centre_of(a.corners_px).x()) <
-               std::tuple(b.tag_id, centre_of(b.corners_px).x());
-    });
+    std::sort(tags.begin(), tags.end(), by_id_from_left);
     return tags;
 }
 

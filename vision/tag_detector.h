@@ -33,6 +33,9 @@ TagDetectorOptions machine_camera_options();
 /// For arbitrary photographs: every tag that can be read, however small, at some ten times the cost.
 TagDetectorOptions thorough_options();
 
+/// The order in which detections are listed: by id, then from left to right.
+bool by_id_from_left(const TagDetection& a, const TagDetection& b);
+
 /// Finds tags. Holds working memory: use one detector a thread; different detectors are independent.
 class TagDetector {
   public:
@@ -41,7 +44,7 @@ class TagDetector {
     TagDetector(TagDetector&&) noexcept;
     TagDetector& operator=(TagDetector&&) noexcept;
 
-    /// Every tag in the image, by id, then from left to right. The same id may come twice: then it is there
+    /// Every tag in the image, by_id_from_left. The same id may come twice: then it is there
     /// twice. Corners in px, pixel centres at integers (the library's own are at +0.5), as precise as the
     /// library's: tag_refinement.h does better.
     /// @param image    CV_8UC1; not modified

@@ -1,5 +1,9 @@
 #include "src/replay/tag_finder.h"
 
+#include "vision/contrast_regions.h"
+
+#include <algorithm>
+
 namespace fidservo {
 
 namespace {
@@ -19,10 +23,22 @@ vision::RefinementOptions refinement_for(const std::optional<CameraParameters>& 
 TagFinder::TagFinder(const std::optional<CameraParameters>& camera)
     : camera_(camera), machine_(vision::machine_camera_options()), thorough_(vision::thorough_options()) {}
 
+std::vector<TagDetection> TagFinder::find(const cv::Mat& image, const ReplayFrame& frame) {
+    const TimeNs time_ns = frame.time_ns.value_or(0);
+    if (!frame.from_recording) return thorough_.detect(image, time_ns);
+    std::vector<TagDetection> tags;
+    for (const cv::Rect& region :
+         vision::contrast_regions(image, vision::machine_camera_options().min_contrast)) {
+        const auto found = machine_.detect(image, time_ns, region);
+        tags.insert(tags.end(), found.begin(), found.end());
+    }
+    std::sort(tags.begin(), tags.end(), vision::by_id_from_left);
+    return tags;
+}
+
 FrameResult TagFinder::operator()(ReplayFrame frame) {
     const cv::Mat image = decode(frame);
-    vision::TagDetector& detector = frame.from_recording ? machine_ : thorough_;
-    FrameResult result{.frame = {}, .tags = detector.detect(image, frame.time_ns.value_or(0)), .refined = {}};
+    FrameResult result{.frame = {}, .tags = find(image, frame), .refined = {}};
     const vision::RefinementOptions options = refinement_for(camera_, image);
     for (TagDetection& tag : result.tags)
         if (const auto refined = vision::refine_tag(image, tag, options)) {

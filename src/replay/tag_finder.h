@@ -17,9 +17,10 @@ struct FrameResult {
     std::vector<vision::RefinedTag> refined;  ///< those whose border is large and clear enough to be measured
 };
 
-/// Decodes a frame and finds its tags; one a thread. Recordings are searched as the rig's own camera's,
-/// everything else as photographs. Frames of the camera's size are taken to be the camera's, if there is one:
-/// its geometry and noise then help to measure the tags.
+/// Decodes a frame and finds its tags; one a thread. Recordings are searched as the rig's own camera's, where
+/// there is contrast (vision/contrast_regions.h); everything else as photographs, everywhere. Frames of the
+/// camera's size are taken to be the camera's, if there is one: its geometry and noise then help to measure
+/// the tags. What is found in a frame depends on that frame alone.
 class TagFinder {
   public:
     explicit TagFinder(const std::optional<CameraParameters>& camera = {});
@@ -27,6 +28,8 @@ class TagFinder {
     FrameResult operator()(ReplayFrame frame);
 
   private:
+    std::vector<TagDetection> find(const cv::Mat& image, const ReplayFrame& frame);
+
     std::optional<CameraParameters> camera_;
     vision::TagDetector machine_;
     vision::TagDetector thorough_;

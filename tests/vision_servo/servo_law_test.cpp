@@ -113,6 +113,40 @@ TEST(ServoLaw, CameraAsItComesTakenForStraight_LeavesAResidual) {
     EXPECT_LT(servo_law(as_it_comes(), seen, 10.0).residual_px, 0.05);
 }
 
+TEST(ServoLaw, CornerThatIsBadlySeen_HardlyCounts) {
+    const ServoParameters parameters{camera};
+    ServoObservation seen = observe(parameters, 10.0, 9.9);
+    seen.corners_px[2].x() += 1.0;
+    seen.corner_covariance_px2 *= 1e-2;
+    const double even_mm = servo_law(parameters, seen, 10.0).move_mm;
+    seen.corner_covariance_px2.block<2, 2>(4, 4) = Eigen::Matrix2d::Identity() * 25.0;
+    const ServoMove weighed = servo_law(parameters, seen, 10.0);
+    EXPECT_NEAR(even_mm, 0.1 + 0.25 * 0.004, 1e-6);  // a quarter of a pixel of 4 um
+    // The bad corner weighs (0.1^2 + m^2) / (5^2 + m^2) of each other one, m = 0.31 px: it pulls by 0.0014
+    // px.
+    EXPECT_NEAR(weighed.move_mm, 0.1, 0.02 * 0.004);
+    EXPECT_LT(weighed.std_mm, 1e-5);
+}
+
+TEST(ServoLaw, CornersThatMoveTogether_AreNoWorseForIt) {
+    // A calibrated camera's corners know shift, turn and scale only: a covariance of rank four.
+    const ServoParameters parameters{camera};
+    ServoObservation seen = observe(parameters, 10.0, 9.9);
+    Eigen::Matrix<double, 8, 4> by_shift_turn_scale;
+    for (int k = 0; k < 4; ++k) {
+        const Eigen::Vector2d from_middle =
+            seen.corners_px[k] - 0.5 * (seen.corners_px[0] + seen.corners_px[2]);
+        by_shift_turn_scale.block<2, 4>(2 * k, 0) << 1, 0, -from_middle.y(), from_middle.x(), 0, 1,
+            from_middle.x(), from_middle.y();
+    }
+    const Eigen::Vector4d variances(1e-6, 1e-6, 4e-10, 4e-10);
+    seen.corner_covariance_px2 =
+        by_shift_turn_scale * variances.asDiagonal() * by_shift_turn_scale.transpose();
+    const ServoMove move = servo_law(parameters, seen, 10.0);
+    EXPECT_NEAR(move.move_mm, 0.1, 1e-9);
+    EXPECT_NEAR(move.std_mm, 1e-3 * 0.004, 1e-8);
+}
+
 TEST(ServoLaw, HalfGain_MakesHalfTheWay) {
     ServoParameters parameters{camera};
     parameters.gain = 0.5;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <visp3/core/vpHomogeneousMatrix.h>
 #include <visp3/core/vpMatrix.h>
@@ -13,6 +14,11 @@
 
 namespace fidservo::vision {
 namespace {
+
+using Vector8 = Eigen::Matrix<double, 8, 1>;
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
+
+constexpr double least_misfit_px = 1e-3;  ///< no camera's geometry is known better
 
 /// A plate point in the camera's frame, mm, seen from position s.
 Eigen::Vector3d in_camera(const CameraGeometry& camera, const Eigen::Vector2d& plate_mm, double s_mm) {
@@ -66,22 +72,30 @@ ServoMove servo_law(const ServoParameters& parameters, const ServoObservation& s
         goal[k].buildFrom(target.x() / target.z(), target.y() / target.z(), target.z());
         task.addFeature(now[k], goal[k]);
     }
-    const double move_mm = task.computeControlLaw()[0];
-
-    const vpMatrix inverse = task.getTaskJacobianPseudoInverse();
-    const vpMatrix jacobian = task.getTaskJacobian();
-    const vpColVector error = task.getError();
-    Eigen::Matrix<double, 1, 8> move_by_corners;
+    const double even_move_mm = task.computeControlLaw()[0];
+    const vpMatrix task_jacobian = task.getTaskJacobian();
+    const vpColVector task_error = task.getError();
+    Vector8 jacobian, error;
+    Matrix8 feature_by_corner = Matrix8::Zero();
     double left_over_px2 = 0.0;
-    for (unsigned k = 0; k < 4; ++k) {
-        const Eigen::RowVector2d move_by_feature(inverse[0][2 * k], inverse[0][2 * k + 1]);
-        const Eigen::Vector2d rest(error[2 * k] + jacobian[2 * k][0] * move_mm / parameters.gain,
-                                   error[2 * k + 1] + jacobian[2 * k + 1][0] * move_mm / parameters.gain);
-        move_by_corners.segment<2>(2 * k) = -parameters.gain * move_by_feature * feature_by_image[k];
-        left_over_px2 += (feature_by_image[k].inverse() * rest).squaredNorm();
+    for (unsigned k = 0; k < 8; ++k) {
+        jacobian(k) = task_jacobian[k][0];
+        error(k) = task_error[k];
     }
-    const double variance = move_by_corners * seen.corner_covariance_px2 * move_by_corners.transpose();
-    return {move_mm, std::sqrt(variance), std::sqrt(left_over_px2 / 8)};
+    const Vector8 rest = error + jacobian * (even_move_mm / parameters.gain);
+    for (int k = 0; k < 4; ++k) {
+        feature_by_corner.block<2, 2>(2 * k, 2 * k) = feature_by_image[k];
+        left_over_px2 += (feature_by_image[k].inverse() * rest.segment<2>(2 * k)).squaredNorm();
+    }
+
+    const double misfit_px2 = left_over_px2 / 8 + least_misfit_px * least_misfit_px;
+    const Matrix8 trust_px2 = seen.corner_covariance_px2 + misfit_px2 * Matrix8::Identity();
+    const Matrix8 trust = feature_by_corner * trust_px2 * feature_by_corner.transpose();
+    const Vector8 weighted = trust.ldlt().solve(jacobian);
+    const Vector8 move_by_feature = -parameters.gain / weighted.dot(jacobian) * weighted;
+    const Vector8 move_by_corner = feature_by_corner.transpose() * move_by_feature;
+    const double variance = move_by_corner.dot(seen.corner_covariance_px2 * move_by_corner);
+    return {move_by_feature.dot(error), std::sqrt(variance), std::sqrt(left_over_px2 / 8)};
 }
 
 }  // namespace fidservo::vision

@@ -33,8 +33,11 @@ struct ServoMove {
 /// Image-based visual servoing, eye in hand, on the four corners as point features s = (x, y) of the
 /// undistorted image:
 ///
-///     e = s - s*,     q = -lambda (L cVe eJe)^+ e
+///     e = s - s*,     q = -lambda (J^T W J)^-1 J^T W e,     J = L cVe eJe
 ///
+/// W: inverse of the corners' covariance plus m^2 on its diagonal, m the r.m.s. image error that the law with
+/// W = 1, q = -lambda J^+ e, leaves. Where the camera's geometry leaves more than the corners' noise, all
+/// corners weigh alike; a corner that is badly seen weighs little.
 /// L: mean of the interaction matrices of the points at their depths, now and at the target; cVe: velocity
 /// twist of the plate's frame, moved with the camera, in the camera's; eJe = (a, 0): the stage's one axis;
 /// s*: the corners seen from camera position `target_s_mm`, y = 0. Looking straight down, e is linear in the
