@@ -122,10 +122,9 @@ TEST(ServoLaw, CornerThatIsBadlySeen_HardlyCounts) {
     seen.corner_covariance_px2.block<2, 2>(4, 4) = Eigen::Matrix2d::Identity() * 25.0;
     const ServoMove weighed = servo_law(parameters, seen, 10.0);
     EXPECT_NEAR(even_mm, 0.1 + 0.25 * 0.004, 1e-6);  // a quarter of a pixel of 4 um
-    // The bad corner weighs (0.1^2 + m^2) / (5^2 + m^2) of each other one, m = 0.31 px: it pulls by 0.0014
-    // px.
-    EXPECT_NEAR(weighed.move_mm, 0.1, 0.02 * 0.004);
-    EXPECT_LT(weighed.std_mm, 1e-5);
+    // m is 0.31 px: the bad corner weighs m^2 / (5^2 + m^2) of each other one and pulls by 0.0012 px.
+    EXPECT_NEAR(weighed.move_mm, 0.1 + 0.00124 * 0.004, 1e-7);
+    EXPECT_NEAR(weighed.std_mm, 0.0062 * 0.004, 1e-6);
 }
 
 TEST(ServoLaw, CornersThatMoveTogether_AreNoWorseForIt) {
