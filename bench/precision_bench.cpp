@@ -1,5 +1,6 @@
 // How precisely and how fast a tag is placed, against the Cramer-Rao bound and against other people's methods
-// on the same frames: precision_bench [REPORT.html] [SHARE]. Takes some ten minutes; SHARE of the frames
+// on the same frames: precision_bench [REPORT.html] [SHARE]; the report
+// lies beside the program if not told otherwise. Takes some ten minutes; SHARE of the frames
 // takes that share of the time. Prints every figure and writes the report.
 // Times are processor time of one core.
 #include "bench/precision/peers.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -77,16 +79,18 @@ int main(int argc, char** argv) {
     std::vector<std::string> words;
     for (int k = 1; k < argc; ++k)
         if (!std::string(argv[k]).starts_with("--benchmark")) words.emplace_back(argv[k]);
-    const std::string report = words.empty() ? "precision.html" : words[0];
+    const std::string report =
+        words.empty() ? std::filesystem::path(argv[0]).replace_filename("precision.html").string() : words[0];
     const double share = words.size() < 2 ? 1.0 : std::atof(words[1].c_str());
     if (!(share > 0.0)) {
         std::cerr << "precision_bench: SHARE must be a number above 0, not " << words[1] << "\n";
         return 2;
     }
     cv::setNumThreads(1);
-    const auto plan = [&](int draws) {
-        return TrialPlan{.draws = std::max(1, static_cast<int>(std::lround(draws * share)))};
+    const auto fewer = [&](int count) {
+        return std::max(1, static_cast<int>(std::lround(count * std::sqrt(share))));
     };
+    const auto plan = [&](int draws) { return TrialPlan{.shifts = fewer(100), .draws = fewer(draws)}; };
 
     const std::vector<PrecisionCase> cases = precision_cases();
     std::vector<bench::MethodFigures> methods;

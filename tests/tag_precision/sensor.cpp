@@ -18,6 +18,10 @@ double variance_e2(const Sensor& sensor, double share) {
            std::pow(sensor.gain_spread * electrons, 2);
 }
 
+double response(const Sensor& sensor, double share) {
+    return std::pow(std::clamp(share, 0.0, 1.0), 1.0 / sensor.gamma);
+}
+
 /// Four normal deviates of 64 random bits: the middles of 65,536 equally likely intervals, scaled to
 /// variance 1. The largest is 4.2; what lies beyond has a probability of 3e-5.
 class NormalQuantiles {
@@ -50,24 +54,28 @@ class NormalQuantiles {
 }  // namespace
 
 double grey_of(const Sensor& sensor, double share) {
-    return white_grey * std::pow(std::clamp(share, 0.0, 1.0), 1.0 / sensor.gamma);
+    return white_grey * response(sensor, share);
 }
 
 double grey_variance(const Sensor& sensor, double share) {
+    const double grey_per_e = white_grey / sensor.full_well_e;
+    if (sensor.noise_after_gamma)
+        return variance_e2(sensor, response(sensor, share)) * grey_per_e * grey_per_e + 1.0 / 12.0;
     const double slope = std::pow(std::max(share, 1e-3), 1.0 / sensor.gamma - 1.0) / sensor.gamma;
-    return variance_e2(sensor, share) * std::pow(white_grey / sensor.full_well_e * slope, 2) + 1.0 / 12.0;
+    return variance_e2(sensor, share) * std::pow(grey_per_e * slope, 2) + 1.0 / 12.0;
 }
 
 FrameSource::FrameSource(const Sensor& sensor, const cv::Mat1d& mean_picture)
     : mean_grey_(mean_picture.size()), sigma_grey_(mean_picture.size()) {
     for (int v = 0; v < mean_picture.rows; ++v)
         for (int u = 0; u < mean_picture.cols; ++u) {
-            const double share = mean_picture(v, u);
+            const double share =
+                sensor.noise_after_gamma ? response(sensor, mean_picture(v, u)) : mean_picture(v, u);
             mean_grey_(v, u) = static_cast<float>(white_grey * share);
             sigma_grey_(v, u) =
                 static_cast<float>(white_grey / sensor.full_well_e * std::sqrt(variance_e2(sensor, share)));
         }
-    if (sensor.gamma == 1.0) return;
+    if (sensor.gamma == 1.0 || sensor.noise_after_gamma) return;
     for (int k = 0; k <= static_cast<int>(white_grey * steps_per_level); ++k)
         levels_.push_back(static_cast<unsigned char>(
             std::lround(grey_of(sensor, k / (white_grey * static_cast<double>(steps_per_level))))));

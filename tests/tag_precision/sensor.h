@@ -4,8 +4,10 @@
 //     electrons = full_well (share of full scale)          + shot noise + unequal gains + read noise
 //     grey = round(255 response(electrons / full_well))     response(x) = x^(1 / gamma), clipped to 0..1
 //
-// Noise arises in electrons, before the display gamma. Shot and read noise and a new map of gains every frame
-// add up to one normal deviate of their common variance, m + read^2 + (spread m)^2 electrons^2 at the mean m.
+// As in a camera, noise arises in electrons, before the display gamma; with `noise_after_gamma`, the mean
+// goes through the response first, and the noise is a linear camera's. Shot and read noise and a new map of
+// gains every frame add up to one normal deviate of their common variance, m + read^2 + (spread m)^2
+// electrons^2 at the mean m.
 #include "core/random.h"
 
 #include <vector>
@@ -19,6 +21,7 @@ struct Sensor {
     double read_noise_e = 5.0;
     double gain_spread = 0.0;
     double gamma = 1.0;
+    bool noise_after_gamma = false;
 };
 
 /// Grey level of a share of full scale, not rounded.

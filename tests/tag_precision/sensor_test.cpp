@@ -29,7 +29,8 @@ Moments moments_of(const Sensor& sensor, double share) {
 }
 
 TEST(Sensor, EvenLight_HasTheMeanAndVarianceOfItsModel) {
-    for (const Sensor sensor : {Sensor{}, Sensor{1000.0}, Sensor{.gain_spread = 0.01}, Sensor{.gamma = 2.2}})
+    for (const Sensor sensor : {Sensor{}, Sensor{1000.0}, Sensor{.gain_spread = 0.01}, Sensor{.gamma = 2.2},
+                                Sensor{.gamma = 2.2, .noise_after_gamma = true}})
         for (const double share : {0.13, 0.5, 0.76}) {
             const Moments seen = moments_of(sensor, share);
             const double expected = grey_variance(sensor, share);
