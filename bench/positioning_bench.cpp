@@ -123,6 +123,19 @@ void print(const Case& of, const Share& share) {
     std::fflush(stdout);
 }
 
+/// Of the variance of the final error, at the first case's tolerance.
+void print_shares(const Share& as_it_is, const Share& ideal_hall) {
+    const auto variance = [](const Spread& of) { return of.rms() * of.rms(); };
+    const double whole = variance(as_it_is.error);
+    const double camera = variance(as_it_is.camera) / whole;
+    const double hall = 1.0 - variance(ideal_hall.error) / whole;
+    const double rest = variance(as_it_is.rest) / whole;
+    std::printf(
+        "shares of the error's variance: camera %.1e, Hall sensor %.2f, motion after the frames %.1e, "
+        "actuator within the tolerance %.2f\n",
+        camera, hall, rest, 1.0 - hall - camera - rest);
+}
+
 int run(int targets, std::uint64_t seed) {
     const auto as_it_is = [](Rig&) {};
     const auto ideal_hall = [](Rig& rig) {
@@ -149,7 +162,12 @@ int run(int targets, std::uint64_t seed) {
     std::printf("%-22s %9s |%6s %6s |%6s %7s %7s %7s |%9s %7s |%6s %4s %7s %6s\n", "rig", "tolerance",
                 "error", "worst", "stop", "camera", "rest", "hold", "error/std", "worst", "moves", "most",
                 "micro s", "missed");
-    for (const Case& of : cases) print(of, measure(of, targets, seed));
+    std::vector<Share> shares;
+    for (const Case& of : cases) {
+        shares.push_back(measure(of, targets, seed));
+        print(of, shares.back());
+    }
+    print_shares(shares[0], shares[1]);
     return 0;
 }
 
