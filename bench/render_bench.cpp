@@ -45,9 +45,27 @@ double core_time_ms() {
     return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
+CameraParameters straight_camera() {
+    return reference_camera();
+}
+
+CameraParameters turned_camera() {
+    CameraParameters camera = reference_camera();
+    camera.geometry.rotation_rad = 0.0122;
+    return camera;
+}
+
+/// Turned, tilted and distorting.
+CameraParameters warping_camera() {
+    CameraParameters camera = turned_camera();
+    camera.geometry.tilt_rad = {0.035, -0.039};
+    camera.geometry.distortion.k1 = -0.2;
+    return camera;
+}
+
 /// Renders one frame an iteration, the camera at speed_mm_per_s.
-void render(benchmark::State& state, const Plate& plate, double speed_mm_per_s) {
-    const CameraParameters camera = reference_camera();
+void render(benchmark::State& state, const Plate& plate, double speed_mm_per_s,
+            const CameraParameters& camera = straight_camera()) {
     const PlateView view(camera, plate, {});
     std::vector<double> s_mm(speed_mm_per_s == 0.0 ? 1 : 9);
     std::vector<double> times_ms;
@@ -78,6 +96,23 @@ BENCHMARK_CAPTURE(render, one_tag_at_300_mm_per_s, one_tag(), 300.0)
     ->Unit(benchmark::kMillisecond)
     ->MinTime(2.0);
 BENCHMARK_CAPTURE(render, one_tag_and_twelve_features, one_tag_and_twelve_features(), 0.0)
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(2.0);
+
+BENCHMARK_CAPTURE(render, turned_camera_at_rest, one_tag(), 0.0, turned_camera())
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(2.0);
+BENCHMARK_CAPTURE(render, turned_camera_at_10_mm_per_s, one_tag(), 10.0, turned_camera())
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(2.0);
+BENCHMARK_CAPTURE(render, warping_camera_at_rest, one_tag(), 0.0, warping_camera())
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(2.0);
+BENCHMARK_CAPTURE(render, warping_camera_at_10_mm_per_s, one_tag(), 10.0, warping_camera())
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(2.0);
+BENCHMARK_CAPTURE(render, warping_camera_one_tag_and_twelve_features, one_tag_and_twelve_features(), 0.0,
+                  warping_camera())
     ->Unit(benchmark::kMillisecond)
     ->MinTime(2.0);
 

@@ -1,22 +1,22 @@
 #pragma once
-// The camera as it is: how it differs from what the rig file says of it, and where a plate point then
-// appears.
+// The camera as it is: how it differs from what the rig file says of it.
 //
-// Geometry. The camera's frame has u to the right, v down and z towards the plate. The plate point (X, Y)
-// lies at P = (X - s, Y, Z) for a camera that looks straight down from position s; the real one sees it at
+// Geometry. The camera of the rig file (core/camera_geometry.h) sees a plate point at P in its own frame: u
+// to the right, v down, z towards the plate. The real one sees it at
 //
 //     P' = R_tilt R_z P,     x = P'_x / P'_z,  y = P'_y / P'_z
-//     (u, v) = (u0, v0) + c f (x, y) (1 + k (x^2 + y^2))
 //
-// R_z turns from u towards v, R_tilt about an axis in the image plane; c: pixel scale, k: radial distortion.
-// Source: Hartley, Zisserman, Multiple View Geometry, 2nd ed., 2004, ch. 6 and 7.4; Brown, Close-range camera
-// calibration, Photogrammetric Engineering 37(8), 1971.
+// and pictures that with the focal length c f and the radial coefficient k1 + k in place of f and k1. R_z
+// turns from u towards v, R_tilt about an axis in the image plane; c: pixel scale. Looking straight down
+// without a nominal distortion, (u, v) = (u0, v0) + c f (x, y) (1 + k (x^2 + y^2)). actual_camera.h makes one
+// geometry of both. Source: Hartley, Zisserman, Multiple View Geometry, 2nd ed., 2004, ch. 6 and 7.4; Brown,
+// Close-range camera calibration, Photogrammetric Engineering 37(8), 1971.
 //
 // Time. The camera's clock shows c(t) = rate t. It exposes a frame when its clock shows the frame's nominal
 // time, and stamps it with that plus a constant delay. Rows are exposed one after the other, the middle row
 // at the frame's time (Liang, Chang, Chen, IEEE Trans. Image Processing 17(8), 2008).
 //
-// What the program believes of the camera is core/camera_geometry.h; it never sees this.
+// What the program believes of the camera is the rig file; it never sees this.
 #include "core/camera_geometry.h"
 
 #include <Eigen/Core>
@@ -39,26 +39,6 @@ struct CameraDeviation {
     Eigen::Vector2d light_gradient = Eigen::Vector2d::Zero();  ///< added to the light's, view_options.h
     double vignetting = 0.0;                                   ///< likewise
 };
-
-/// The projection with what follows from its parameters. Immutable.
-struct CameraOptics {
-    CameraGeometry nominal;
-    double pixel_scale;
-    double rotation_rad;
-    bool warps;     ///< tilted or distorting: not a similarity of the plate
-    bool straight;  ///< no deviation: exactly core/camera_geometry.h
-    Eigen::Matrix3d turn;
-    double distortion;
-};
-
-CameraOptics make_camera_optics(const CameraGeometry& nominal, const CameraDeviation& deviation);
-
-/// Image point in px of a plate point in mm, seen from camera position s.
-Eigen::Vector2d project(const CameraOptics& optics, const Eigen::Vector2d& plate_mm, double s_mm);
-
-/// Plate point in mm seen at an image point in px from camera position s; the distortion's inverse by
-/// Newton's method to rounding. Valid where the image is a one-to-one picture: 1 + 3 k r^2 > 0.
-Eigen::Vector2d back_project(const CameraOptics& optics, const Eigen::Vector2d& image_px, double s_mm);
 
 /// When the row of an image point is exposed, after the frame's time, s.
 double row_delay_s(const CameraGeometry& camera, const CameraDeviation& deviation, double v_px);

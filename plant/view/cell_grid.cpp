@@ -27,6 +27,7 @@ CellGrid::CellGrid(CellPattern pattern, const Eigen::Vector2d& size_px, double a
       padded_(static_cast<std::size_t>(pattern.columns + 2) * (pattern.rows + 2), 0.0F),
       size_px_(size_px),
       cell_px_(size_px.x() / pattern.columns, size_px.y() / pattern.rows),
+      per_cell_(cell_px_.cwiseInverse()),
       cos_(std::cos(angle_rad)),
       sin_(std::sin(angle_rad)),
       edge_(std::move(edge)) {
@@ -87,6 +88,43 @@ double CellGrid::covered(const Weights& across, const Weights& down) const {
         sum += down.weight[j] * row_sum;
     }
     return sum;
+}
+
+CellGrid::Side CellGrid::side(double place_px, double cell_px, double per_cell, int cells) const {
+    const int edge = std::clamp(floor_of(place_px * per_cell + 0.5), 0, cells);
+    const double distance = place_px - edge * cell_px;
+    const double reach = edge_->reach_px();
+    if (distance <= -reach) return {edge - 1, false, 0.0};
+    if (distance >= reach) return {edge, false, 0.0};
+    return {edge - 1, true, (*edge_)(distance)};
+}
+
+/// covered() where cells are so large that at most four of them meet within reach.
+double CellGrid::covered_by_few(double x_px, double y_px) const {
+    const Side x = side(x_px, cell_px_.x(), per_cell_.x(), columns_);
+    const Side y = side(y_px, cell_px_.y(), per_cell_.y(), rows_);
+    const float* const here = padded_.data() + (y.first + 1) * (columns_ + 2) + x.first + 1;
+    const auto along_x = [&](const float* cells) -> double {
+        if (!x.has_edge) return cells[0];
+        return (1.0 - x.beyond) * cells[0] + x.beyond * cells[1];
+    };
+    if (!y.has_edge) return along_x(here);
+    return (1.0 - y.beyond) * along_x(here) + y.beyond * along_x(here + columns_ + 2);
+}
+
+void CellGrid::cover_at(std::span<const double> du, std::span<const double> dv,
+                        std::span<float> coverage) const {
+    const bool cells_are_large = cell_px_.minCoeff() >= 2.0 * edge_->reach_px();
+    const Eigen::Vector2d outside = 0.5 * size_px_ + Eigen::Vector2d::Constant(edge_->reach_px());
+    for (std::size_t k = 0; k < coverage.size(); ++k) {
+        const double across = cos_ * du[k] + sin_ * dv[k], down = cos_ * dv[k] - sin_ * du[k];
+        coverage[k] = 0.0F;
+        if (std::abs(across) >= outside.x() || std::abs(down) >= outside.y()) continue;
+        const double x = across + 0.5 * size_px_.x(), y = down + 0.5 * size_px_.y();
+        coverage[k] = static_cast<float>(
+            cells_are_large ? covered_by_few(x, y)
+                            : covered(weights(x, cell_px_.x(), columns_), weights(y, cell_px_.y(), rows_)));
+    }
 }
 
 void CellGrid::cover(double du, double dv, std::span<float> coverage) const {

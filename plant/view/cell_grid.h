@@ -37,13 +37,26 @@ class CellGrid {
     /// Coverage of the pixels (du, dv), (du + 1, dv), ... relative to the grid's centre, in px.
     void cover(double du, double dv, std::span<float> coverage) const;
 
+    /// Coverage of the pixels at places (du, dv) relative to the grid's centre, in px.
+    void cover_at(std::span<const double> du, std::span<const double> dv, std::span<float> coverage) const;
+
   private:
+    /// A place along one axis where at most one edge is within reach.
+    struct Side {
+        int first;  ///< cell before the edge, or the only one
+        bool has_edge;
+        double beyond;  ///< share of the pixel beyond the edge
+    };
+    Side side(double place_px, double cell_px, double per_cell, int cells) const;
+    double covered_by_few(double x_px, double y_px) const;
+
     /// How much of a pixel lies in each of a few successive cells along one axis.
     struct Weights {
         int first;  ///< -1: before the first cell
         int count;
         double weight[max_cells + 2];
-        double room_behind, room_ahead;  ///< px to go before the weights change, while count is 1
+        double room_behind,
+            room_ahead;  ///< px to go before the weights change, while count is 1
 
         /// Steps along the axis after which the weights must be found anew; at least 1.
         double steps_to_change(double px_per_step) const;
@@ -54,7 +67,7 @@ class CellGrid {
 
     int columns_, rows_;
     std::vector<float> padded_;  ///< the pattern with a rim of empty cells
-    Eigen::Vector2d size_px_, cell_px_;
+    Eigen::Vector2d size_px_, cell_px_, per_cell_;
     double cos_, sin_;
     std::shared_ptr<const EdgeProfile> edge_;
 };

@@ -40,21 +40,24 @@ Disc::Disc(double diameter_px, double sigma_px)
     }
 }
 
+float Disc::covered(double r_squared) const {
+    if (r_squared >= outer_px_ * outer_px_) return 0.0F;
+    if (r_squared < inner_px_ * inner_px_) return 1.0F;
+    const double x = (std::sqrt(r_squared) - inner_px_) * nodes_per_px;
+    const auto node = static_cast<int>(x);
+    return table_[node] + static_cast<float>(x - node) * (table_[node + 1] - table_[node]);
+}
+
 void Disc::cover(double du, double dv, std::span<float> coverage) const {
     const double dv_squared = dv * dv;
     for (float& value : coverage) {
-        const double r_squared = du * du + dv_squared;
+        value = covered(du * du + dv_squared);
         du += 1.0;
-        if (r_squared >= outer_px_ * outer_px_) {
-            value = 0.0F;
-        } else if (r_squared < inner_px_ * inner_px_) {
-            value = 1.0F;
-        } else {
-            const double x = (std::sqrt(r_squared) - inner_px_) * nodes_per_px;
-            const auto node = static_cast<int>(x);
-            value = table_[node] + static_cast<float>(x - node) * (table_[node + 1] - table_[node]);
-        }
     }
+}
+
+void Disc::cover_at(std::span<const double> du, std::span<const double> dv, std::span<float> coverage) const {
+    for (std::size_t k = 0; k < coverage.size(); ++k) coverage[k] = covered(du[k] * du[k] + dv[k] * dv[k]);
 }
 
 }  // namespace fidservo::plant::view

@@ -22,7 +22,12 @@ class Disc {
     /// Coverage of the pixels (du, dv), (du + 1, dv), ... relative to the disc's centre, in px.
     void cover(double du, double dv, std::span<float> coverage) const;
 
+    /// Coverage of the pixels at places (du, dv) relative to the disc's centre, in px.
+    void cover_at(std::span<const double> du, std::span<const double> dv, std::span<float> coverage) const;
+
   private:
+    float covered(double r_squared) const;
+
     double inner_px_;  ///< full coverage within
     double outer_px_;  ///< none beyond
     std::vector<float> table_;

@@ -1,7 +1,6 @@
 #pragma once
 // Where the plate's things are in the flat picture, for the painters.
 #include "core/camera_geometry.h"
-#include "plant/camera.h"
 
 #include <cmath>
 
@@ -9,29 +8,42 @@
 
 namespace fidservo::plant::view {
 
-/// The similarity (scale and rotation) that a camera makes of the plate: the same everywhere and at every
-/// camera position. Without tilt and distortion it is the image; with them it is the flat picture that
-/// pixel_map.h bends into the image.
+/// The similarity (scale and rotation) that a camera makes of the plate. Without tilt, distortion, oblong
+/// pixels and an oblique axis it is the image; with them it is the flat picture, which pixel_map.h bends into
+/// the image: what the camera would see of the plate if it looked straight at it.
 class ImageMap {
   public:
-    explicit ImageMap(const CameraGeometry& camera) : ImageMap(make_camera_optics(camera, {})) {}
-    explicit ImageMap(const CameraOptics& optics)
-        : camera_(optics.nominal),
-          px_per_mm_(optics.pixel_scale / mm_per_px(optics.nominal)),
-          rotation_rad_(optics.rotation_rad),
-          nominal_(optics.pixel_scale == 1.0 && optics.rotation_rad == 0.0) {
-        const double c = std::cos(rotation_rad_), s = std::sin(rotation_rad_);
+    explicit ImageMap(const CameraGeometry& camera)
+        : camera_(camera),
+          px_per_mm_(1.0 / mm_per_px(camera)),
+          straight_(looks_straight(camera)),
+          axis_(Eigen::Vector3d(1.0, camera.axis_rad.x(), camera.axis_rad.y()).normalized()) {
+        const double c = std::cos(camera.rotation_rad), s = std::sin(camera.rotation_rad);
         turn_ << c, -s, s, c;
     }
 
+    /// Whether the flat picture is the image.
+    bool is_image() const {
+        return camera_.distortion.is_none() && camera_.focal_ratio == 1.0 && camera_.tilt_rad.isZero(0.0) &&
+               camera_.axis_rad.isZero(0.0);
+    }
     /// Centre in the picture, px, of a plate point seen from camera position s.
     Eigen::Vector2d place(const Eigen::Vector2d& plate_mm, double s_mm) const {
-        if (nominal_) return project(camera_, plate_mm, s_mm);
-        return camera_.principal_point_px + displacement_px(plate_mm - Eigen::Vector2d(s_mm, 0.0));
+        if (straight_) return project(camera_, plate_mm, s_mm);
+        const Eigen::Vector2d from_foot = plate_mm - s_mm * axis_.head<2>();
+        return camera_.principal_point_px + displacement_px(from_foot * growth(s_mm));
+    }
+    /// Where a ray from the camera at s = 0 meets the picture; x and y per z in the plate's frame.
+    Eigen::Vector2d place_of_ray(const Eigen::Vector2d& slope) const {
+        return camera_.principal_point_px + displacement_px(slope * camera_.distance_mm);
+    }
+    /// By which things appear larger from s than from 0, as an oblique axis brings the camera nearer.
+    double growth(double s_mm) const {
+        return camera_.distance_mm / (camera_.distance_mm - s_mm * axis_.z());
     }
     /// A displacement on the plate, in the picture.
     Eigen::Vector2d displacement_px(const Eigen::Vector2d& step_mm) const {
-        if (nominal_) return step_mm * px_per_mm_;
+        if (camera_.rotation_rad == 0.0) return step_mm * px_per_mm_;
         return turn_ * step_mm * px_per_mm_;
     }
     double length_px(double length_mm) const { return length_mm * px_per_mm_; }
@@ -39,15 +51,15 @@ class ImageMap {
     /// point moves the other way.
     double shift_px(double step_mm) const { return -step_mm * px_per_mm_; }
     /// Whether that direction is u.
-    bool shifts_along_u() const { return rotation_rad_ == 0.0; }
+    bool shifts_along_u() const { return camera_.rotation_rad == 0.0; }
     /// An angle from plate x towards y, as one from u towards v.
-    double angle_rad(double plate_angle_rad) const { return plate_angle_rad + rotation_rad_; }
+    double angle_rad(double plate_angle_rad) const { return plate_angle_rad + camera_.rotation_rad; }
 
   private:
     CameraGeometry camera_;
     double px_per_mm_;
-    double rotation_rad_;
-    bool nominal_;
+    bool straight_;
+    Eigen::Vector3d axis_;
     Eigen::Matrix2d turn_;
 };
 

@@ -10,8 +10,6 @@ namespace fidservo::plant::view {
 
 namespace {
 
-/// Motion of less than this widens an edge by less than 3e-5 of its width.
-constexpr double invisible_px = 0.02;
 constexpr int neighbours = 8;
 
 /// Weights of the samples at -3 .. 4 for the value at 0 <= x < 1.
@@ -40,7 +38,7 @@ double mean_position(std::span<const double> samples) {
 MotionKernel::MotionKernel(std::span<const double> shifts_px) {
     FIDSERVO_DEMAND(!shifts_px.empty());
     const auto [low, high] = std::minmax_element(shifts_px.begin(), shifts_px.end());
-    if (*high - *low < invisible_px) return;
+    if (*high - *low < invisible_motion_px) return;
     const auto largest_px = static_cast<int>(std::ceil(std::max(std::abs(*low), std::abs(*high))));
     reach_ = (largest_px + neighbours / 2 + 2) / 2 * 2;
     std::vector<double> taps(2 * static_cast<std::size_t>(reach_), 0.0);

@@ -5,6 +5,9 @@
 
 namespace fidservo::plant::view {
 
+/// Motion of less than this widens an edge by less than 3e-5 of its width.
+inline constexpr double invisible_motion_px = 0.02;
+
 /// Time average over the exposure of the position, from samples evenly spaced over it, both ends included;
 /// linear in between.
 double mean_position(std::span<const double> samples);

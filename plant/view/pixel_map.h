@@ -1,11 +1,11 @@
 #pragma once
-// What a tilted or distorting camera does to the flat picture (image_map.h).
-#include "plant/camera.h"
+// What a camera that is not a similarity of the plate does to the flat picture (image_map.h).
 #include "plant/view/image_map.h"
 
+#include <span>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace fidservo::plant::view {
 
@@ -15,20 +15,28 @@ namespace fidservo::plant::view {
 /// of 3 degrees makes an edge up to 1.5 % wider than that, symmetrically about its place).
 class PixelMap {
   public:
-    PixelMap(const CameraOptics& optics, const ImageMap& flat);
+    PixelMap(const CameraGeometry& camera, const ImageMap& flat);
 
-    /// Without tilt and distortion every pixel looks at its own place.
-    bool is_identity() const { return offsets_px_.empty(); }
+    /// Every pixel looks at its own place.
+    bool is_identity() const { return offset_u_px_.empty(); }
 
-    Eigen::Vector2d flat_px(int u, int v) const {
-        const Eigen::Vector2d pixel(u, v);
-        if (is_identity()) return pixel;
-        return pixel + offsets_px_[static_cast<std::size_t>(v) * width_ + u].cast<double>();
-    }
+    /// Where the pixels of row v look.
+    void places(int v, std::span<double> flat_u_px, std::span<double> flat_v_px) const;
+
+    /// All that row v looks at lies within.
+    struct Span {
+        double low_px, high_px;
+    };
+    Span rows_of(int v) const;
+
+    /// All that the image looks at lies within.
+    const Eigen::AlignedBox2d& view() const { return view_; }
 
   private:
     int width_;
-    std::vector<Eigen::Vector2f> offsets_px_;  ///< row by row; empty: none
+    std::vector<float> offset_u_px_, offset_v_px_;  ///< row by row; empty: none
+    std::vector<Span> rows_;
+    Eigen::AlignedBox2d view_;
 };
 
 }  // namespace fidservo::plant::view

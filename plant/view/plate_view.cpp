@@ -1,6 +1,7 @@
 #include "plant/view/plate_view.h"
 
 #include "core/random.h"
+#include "plant/actual_camera.h"
 #include "plant/view/light_field.h"
 #include "plant/view/pixel_map.h"
 #include "plant/view/sensor.h"
@@ -23,15 +24,15 @@ ViewOptions seen_through(ViewOptions options, const CameraParameters& camera,
     options.blur_px = std::hypot(options.blur_px.value_or(camera.blur_px), deviation.extra_blur_px);
     options.light.gradient += deviation.light_gradient;
     options.light.vignetting += deviation.vignetting;
-    options.pixel_gain_spread = std::hypot(options.pixel_gain_spread, deviation.gain_spread);
+    options.pixel_gain_spread =
+        std::hypot(std::hypot(options.pixel_gain_spread, deviation.gain_spread), camera.gain_spread);
     return options;
 }
 
-view::Picture picture_of(const CameraParameters& camera, const CameraOptics& optics, const Plate& plate,
-                         const ViewOptions& options) {
-    const view::ImageMap map(optics);
-    return {camera.geometry.width_px,
-            camera.geometry.height_px,
+view::Picture picture_of(const CameraGeometry& camera, const Plate& plate, const ViewOptions& options) {
+    const view::ImageMap map(camera);
+    return {camera.width_px,
+            camera.height_px,
             static_cast<float>(plate.paper_reflectance),
             map,
             view::scene_of(plate, options.occluders, options.blur_px.value(), map),
@@ -46,9 +47,9 @@ struct PlateView::Impl {
         : camera(camera_parameters),
           deviation(camera_deviation),
           options(seen_through(view_options, camera, deviation)),
-          optics(make_camera_optics(camera.geometry, deviation)),
-          picture(picture_of(camera, optics, plate, options)),
-          pixels(optics, picture.map),
+          geometry(actual_camera(camera.geometry, deviation)),
+          picture(picture_of(geometry, plate, options)),
+          pixels(geometry, picture.map),
           white_grey(view::light_field(picture.width, picture.height, options)),
           sensor(camera.full_well_e, std::hypot(camera.read_noise_e, deviation.extra_read_noise_e)) {}
 
@@ -80,7 +81,9 @@ struct PlateView::Impl {
 
     template <class SamplesOf>
     cv::Mat render(SamplesOf samples_of, bool all_rows_at_once, std::uint64_t frame) const {
-        if (pixels.is_identity() && picture.map.shifts_along_u())
+        const bool smears_along_u =
+            picture.map.shifts_along_u() || (all_rows_at_once && view::is_at_rest(picture, samples_of(0)));
+        if (pixels.is_identity() && smears_along_u)
             return render(view::StraightRows(picture), samples_of, all_rows_at_once, frame);
         return render(view::WarpedRows(picture, pixels), samples_of, all_rows_at_once, frame);
     }
@@ -88,7 +91,7 @@ struct PlateView::Impl {
     CameraParameters camera;
     CameraDeviation deviation;
     ViewOptions options;
-    CameraOptics optics;
+    CameraGeometry geometry;  ///< the actual one
     view::Picture picture;
     view::PixelMap pixels;
     std::vector<float> white_grey;  ///< light field

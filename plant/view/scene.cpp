@@ -110,4 +110,9 @@ void cover(const Shape& shape, double du, double dv, std::span<float> coverage) 
     std::visit([&](const auto& any) { any.cover(du, dv, coverage); }, shape);
 }
 
+void cover_at(const Shape& shape, std::span<const double> du, std::span<const double> dv,
+              std::span<float> coverage) {
+    std::visit([&](const auto& any) { any.cover_at(du, dv, coverage); }, shape);
+}
+
 }  // namespace fidservo::plant::view

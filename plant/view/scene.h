@@ -33,4 +33,8 @@ Eigen::Vector2d half_extent_px(const Shape& shape);
 /// Coverage of the pixels (du, dv), (du + 1, dv), ... relative to the shape's centre, in px.
 void cover(const Shape& shape, double du, double dv, std::span<float> coverage);
 
+/// Coverage of the pixels at places (du, dv) relative to the shape's centre, in px.
+void cover_at(const Shape& shape, std::span<const double> du, std::span<const double> dv,
+              std::span<float> coverage);
+
 }  // namespace fidservo::plant::view

@@ -99,4 +99,21 @@ void ScratchPath::cover(double du, double dv, std::span<float> coverage) const {
     for (float& value : coverage) value = std::clamp(value, 0.0F, 1.0F);
 }
 
+void ScratchPath::cover_at(std::span<const double> du, std::span<const double> dv,
+                           std::span<float> coverage) const {
+    std::fill(coverage.begin(), coverage.end(), 0.0F);
+    for (const Piece& piece : pieces_) {
+        const Eigen::Vector2d normal = left_normal(piece.along);
+        const double across = half_width_ + edge_.reach_px(), beyond = piece.overhang + edge_.reach_px();
+        for (std::size_t k = 0; k < coverage.size(); ++k) {
+            const Eigen::Vector2d place(du[k], dv[k]);
+            const Eigen::Vector2d start = place - piece.from;
+            const double t = piece.along.dot(start);
+            if (std::abs(normal.dot(start)) > across || t < -beyond || t > piece.length + beyond) continue;
+            coverage[k] += static_cast<float>(cover(piece, place));
+        }
+    }
+    for (float& value : coverage) value = std::clamp(value, 0.0F, 1.0F);
+}
+
 }  // namespace fidservo::plant::view

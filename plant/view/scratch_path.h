@@ -26,6 +26,9 @@ class ScratchPath {
     /// Coverage of the pixels (du, dv), (du + 1, dv), ... relative to the path's centre, in px.
     void cover(double du, double dv, std::span<float> coverage) const;
 
+    /// Coverage of the pixels at places (du, dv) relative to the path's centre, in px.
+    void cover_at(std::span<const double> du, std::span<const double> dv, std::span<float> coverage) const;
+
   private:
     /// The line that cuts a strip off; what is kept lies on the side of the inward normal.
     struct Cut {

@@ -15,6 +15,11 @@ PixelSpan pixels_within(double centre, double half, PixelSpan limits) {
 
 }  // namespace
 
+bool is_at_rest(const Picture& picture, std::span<const double> s_mm) {
+    const auto [low, high] = std::minmax_element(s_mm.begin(), s_mm.end());
+    return picture.map.length_px(*high - *low) < invisible_motion_px;
+}
+
 void StraightRows::expose(std::span<const double> s_mm) {
     const double mean_s_mm = mean_position(s_mm);
     std::vector<double> shifts_px;

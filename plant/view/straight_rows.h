@@ -1,6 +1,6 @@
 #pragma once
-// Rows of reflectance of a camera that looks straight at the plate: things are painted row by row where they
-// are, and the motion during the exposure is a convolution along u.
+// Rows of reflectance of a camera whose image is a similarity of the plate: things are painted row by row
+// where they are, and the motion during the exposure, if there is any, is a convolution along u: it must be.
 #include "plant/view/image_map.h"
 #include "plant/view/motion_blur.h"
 #include "plant/view/scene.h"
@@ -21,6 +21,9 @@ struct Picture {
     std::vector<Item> items;
     std::vector<Glare> glare;
 };
+
+/// Whether a motion over the exposure is too small to be seen.
+bool is_at_rest(const Picture& picture, std::span<const double> s_mm);
 
 /// Pixels first .. last - 1 of a row.
 struct PixelSpan {
@@ -62,7 +65,8 @@ class StraightRows {
 
     const Picture& picture_;
     MotionKernel motion_{std::vector<double>{0.0}};
-    int margin_ = 0;  ///< pixels beyond both ends of the row, for what motion carries into the image
+    int margin_ = 0;  ///< pixels beyond both ends of the row, for what motion
+                      ///< carries into the image
     std::vector<Placed> placed_;
     std::vector<PlacedGlare> glare_;
     PixelSpan painted_{};

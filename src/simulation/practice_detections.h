@@ -39,7 +39,7 @@ class PracticeDetector {
 
     CameraParameters camera_;
     plant::CameraDeviation deviation_;
-    plant::CameraOptics optics_;
+    CameraGeometry actual_;
     double max_speed_mm_per_s_;
     FiducialParameters fiducials_;
     NoiseStream noise_;

@@ -1,7 +1,7 @@
 // A camera that is not as its file says: what is in the pictures is where plant/camera.h says, and looks as
 // the effects' texts say.
 #include "core/random.h"
-#include "plant/camera.h"
+#include "plant/actual_camera.h"
 #include "tests/plant_view/view_fixture.h"
 #include "vision/tag_detector.h"
 #include "vision/tag_refinement.h"
@@ -59,7 +59,7 @@ class Geometry : public testing::TestWithParam<Case> {};
 
 TEST_P(Geometry, DotsAllOverTheImage_AreWhereTheyProject) {
     const CameraParameters camera = reference_camera();
-    const CameraOptics optics = make_camera_optics(camera.geometry, GetParam().deviation);
+    const CameraGeometry actual = actual_camera(camera.geometry, GetParam().deviation);
     Plate plate = dark_plate();
     for (int i = -3; i <= 3; ++i)
         for (int j = -2; j <= 2; ++j)
@@ -68,7 +68,7 @@ TEST_P(Geometry, DotsAllOverTheImage_AreWhereTheyProject) {
     const cv::Mat image = render_at({camera, plate, ideal_view(), GetParam().deviation}, s_mm);
     int seen = 0;
     for (const Feature& feature : plate.features) {
-        const Eigen::Vector2d place = project(optics, std::get<Dot>(feature.shape).centre_mm, s_mm);
+        const Eigen::Vector2d place = project(actual, std::get<Dot>(feature.shape).centre_mm, s_mm);
         constexpr int half = 24;
         const cv::Rect box(static_cast<int>(std::lround(place.x())) - half,
                            static_cast<int>(std::lround(place.y())) - half, 2 * half + 1, 2 * half + 1);
@@ -84,7 +84,7 @@ TEST_P(Geometry, DotsAllOverTheImage_AreWhereTheyProject) {
 
 /// Where straight lines through the image of a square's sides meet, p0..p3: the tag's corners as an edge fit
 /// finds them. Beyond a perspective's straight lines (distortion) that is not the image of the corners.
-std::array<Eigen::Vector2d, 4> fitted_corners(const CameraOptics& optics, const Eigen::Vector2d& centre_mm,
+std::array<Eigen::Vector2d, 4> fitted_corners(const CameraGeometry& actual, const Eigen::Vector2d& centre_mm,
                                               double half_mm, double s_mm) {
     const std::array<Eigen::Vector2d, 4> signs{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
     std::array<Eigen::Hyperplane<double, 2>, 4> sides;  // from corner k to corner k + 1
@@ -94,7 +94,7 @@ std::array<Eigen::Vector2d, 4> fitted_corners(const CameraOptics& optics, const 
         for (int i = 0; i < points; ++i) {
             const double share = 0.06 + 0.88 * (i + 0.5) / points;
             const Eigen::Vector2d corner = (1.0 - share) * signs[k] + share * signs[(k + 1) % 4];
-            along.col(i) = project(optics, centre_mm + half_mm * corner, s_mm);
+            along.col(i) = project(actual, centre_mm + half_mm * corner, s_mm);
         }
         const Eigen::Vector2d mean = along.rowwise().mean();
         const Eigen::Matrix<double, 2, points> centred = along.colwise() - mean;
@@ -111,7 +111,7 @@ std::array<Eigen::Vector2d, 4> fitted_corners(const CameraOptics& optics, const 
 
 TEST_P(Geometry, TagsFoundInTheImage_AreWhereTheyProject) {
     const CameraParameters camera = reference_camera();
-    const CameraOptics optics = make_camera_optics(camera.geometry, GetParam().deviation);
+    const CameraGeometry actual = actual_camera(camera.geometry, GetParam().deviation);
     Plate plate;
     for (int k = -1; k <= 1; ++k)
         plate.tags.push_back({.id = k + 5, .centre_mm = {1.9 * k, 0.2 * k}, .side_mm = 1.2});
@@ -126,12 +126,12 @@ TEST_P(Geometry, TagsFoundInTheImage_AreWhereTheyProject) {
             if (!refined) continue;
             ++seen;
             const Eigen::Vector2d centre_mm = plate.tags[static_cast<std::size_t>(tag.tag_id - 4)].centre_mm;
-            const auto expected = fitted_corners(optics, centre_mm, 0.6, s_mm);
+            const auto expected = fitted_corners(actual, centre_mm, 0.6, s_mm);
             const std::array<Eigen::Vector2d, 4> signs{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
             for (std::size_t c = 0; c < 4; ++c) {
                 worst_px = std::max(worst_px, (refined->detection.corners_px[c] - expected[c]).norm());
                 worst_bend_px = std::max(
-                    worst_bend_px, (expected[c] - project(optics, centre_mm + 0.6 * signs[c], s_mm)).norm());
+                    worst_bend_px, (expected[c] - project(actual, centre_mm + 0.6 * signs[c], s_mm)).norm());
             }
         }
     }
@@ -140,8 +140,10 @@ TEST_P(Geometry, TagsFoundInTheImage_AreWhereTheyProject) {
     if (GetParam().deviation.distortion == 0.0) {
         EXPECT_LT(worst_bend_px, 1e-6);
     }
-    std::printf("%-14s %d tags, corners within %.4f px; straight edges beside corners by %.4f px\n",
-                GetParam().name.c_str(), seen, worst_px, worst_bend_px);
+    std::printf(
+        "%-14s %d tags, corners within %.4f px; straight edges beside "
+        "corners by %.4f px\n",
+        GetParam().name.c_str(), seen, worst_px, worst_bend_px);
 }
 
 INSTANTIATE_TEST_SUITE_P(Camera, Geometry, testing::ValuesIn(geometries()),
@@ -180,7 +182,8 @@ TEST(PlateView, TurnedCameraInMotion_SmearsAlongTheTurnedAxis) {
     const PlateView view(small_camera(241, 241), plate, ideal_view(), {.rotation_rad = 90.0 * deg});
     const cv::Mat image = view.render(std::vector<double>{-0.04, 0.04}, 0);
     EXPECT_NEAR(image.at<std::uint8_t>(120 - 50, 120), 128, 2);
-    EXPECT_NEAR(image.at<std::uint8_t>(120 - 45, 120), 128 + 64, 2);  // a quarter of 20 px further in
+    EXPECT_NEAR(image.at<std::uint8_t>(120 - 45, 120), 128 + 64,
+                2);  // a quarter of 20 px further in
     EXPECT_EQ(image.at<std::uint8_t>(120, 120 - 45), 255);
     EXPECT_EQ(image.at<std::uint8_t>(120, 120 - 55), 0);
 }
