@@ -5,6 +5,7 @@
 #include "src/inspect/outline.h"
 #include "src/inspect/placement.h"
 #include "src/inspect/reference_check.h"
+#include "src/inspect/seen_box.h"
 #include "vision/features/edge_distance.h"
 #include "vision/features/line.h"
 #include "vision/features/mark.h"
@@ -203,9 +204,11 @@ class Checker {
     /// The parts of a feature's edges that are seen, with room to search.
     std::vector<vision::NominalEdge> edges_in_view(const std::string& name, double search_um) const {
         const CameraGeometry& camera = image_.camera.geometry;
-        const Eigen::Array2d room = Eigen::Array2d::Constant(mm_from_um(search_um) + 8.0 * mm_per_px(camera));
-        const Eigen::Vector2d last_px(camera.width_px - 1.0, camera.height_px - 1.0);
-        const Box seen{to_plate(image_, {0.0, 0.0}).array() + room, to_plate(image_, last_px).array() - room};
+        const double room_mm = mm_from_um(search_um) + 8.0 * mm_per_px(camera);
+        const Eigen::Array2d room = Eigen::Array2d::Constant(room_mm);
+        const Eigen::Vector2d aside(0.0, image_.axis_mm.y());
+        const Box whole = box_seen(camera, image_.axis_mm.x());
+        const Box seen{(whole.low_mm + aside).array() + room, (whole.high_mm + aside).array() - room};
         std::vector<vision::NominalEdge> parts;
         for (const vision::NominalEdge& edge : edges_named(name))
             if (const auto part = clipped(edge.from_mm, edge.to_mm, seen))

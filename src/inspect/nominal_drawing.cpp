@@ -2,6 +2,7 @@
 
 #include "plant/view/plate_view.h"
 #include "src/inspect/pattern.h"
+#include "src/inspect/seen_box.h"
 
 #include <cmath>
 #include <utility>
@@ -11,11 +12,6 @@
 namespace fidservo::inspect {
 
 namespace {
-
-/// Further from the axis than this along x, nothing reaches into the image of a camera this wide.
-double reach_mm(const CameraGeometry& camera, double extent_mm) {
-    return 0.6 * camera.width_px * mm_per_px(camera) + extent_mm;
-}
 
 struct Middle {
     double x_mm, extent_mm;
@@ -37,14 +33,18 @@ struct MiddleOf {
 
 /// What can be in the picture, moved so that the axis is at y = 0: the drawing's camera moves along x alone.
 Plate around(const Plate& plate, const CameraGeometry& camera, const Eigen::Vector2d& axis_mm) {
+    const Box seen = box_around_seen(camera, axis_mm.x());
+    const double room_mm = 0.1 * (seen.high_mm.x() - seen.low_mm.x());  // blur, and then some
+    const auto is_far = [&](const Middle& middle) {
+        const double reach_mm = middle.extent_mm + room_mm;
+        return middle.x_mm < seen.low_mm.x() - reach_mm || middle.x_mm > seen.high_mm.x() + reach_mm;
+    };
     Plate near = plate;
     std::erase_if(near.tags, [&](const PlateTag& tag) {
-        return std::abs(tag.centre_mm.x() - axis_mm.x()) > reach_mm(camera, 2.0 * tag.side_mm);
+        return is_far({tag.centre_mm.x(), 2.0 * tag.side_mm});
     });
-    std::erase_if(near.features, [&](const Feature& feature) {
-        const Middle middle = std::visit(MiddleOf{}, feature.shape);
-        return std::abs(middle.x_mm - axis_mm.x()) > reach_mm(camera, middle.extent_mm);
-    });
+    std::erase_if(near.features,
+                  [&](const Feature& feature) { return is_far(std::visit(MiddleOf{}, feature.shape)); });
     for (PlateTag& tag : near.tags) tag.centre_mm.y() -= axis_mm.y();
     for (Feature& feature : near.features) feature = moved(std::move(feature), {0.0, -axis_mm.y()});
     return near;

@@ -27,18 +27,19 @@ void add_image(const Snapshot& snapshot, const Plate& nominal, int tag_id,
     const auto own =
         std::ranges::find_if(snapshot.tags, [&](const auto& tag) { return tag.detection.tag_id == tag_id; });
     if (own == snapshot.tags.end()) return;
-    const double um_per_px = um_from_mm(mm_per_px(snapshot.image.camera.geometry));
-    const auto variance_px2 = [](const vision::RefinedTag& tag) {
-        return tag.centre_covariance_px2.diagonal().array().eval();
+    const auto variance_um2 = [&](const vision::RefinedTag& tag) {
+        const vision::LocalPicture picture = picture_around(snapshot.image, tag.centre_px);
+        return plate_std_um(picture, tag.centre_covariance_px2).array().square().eval();
     };
     for (const vision::RefinedTag& other : snapshot.tags) {
         if (other.detection.tag_id == tag_id) continue;
         const Eigen::Vector2d nominal_mm =
             find_tag(nominal, tag_id)->centre_mm - find_tag(nominal, other.detection.tag_id)->centre_mm;
-        const Eigen::Vector2d seen_px = own->centre_px - other.centre_px;
+        const Eigen::Vector2d seen_mm =
+            to_plate(snapshot.image, own->centre_px) - to_plate(snapshot.image, other.centre_px);
         Difference& difference = differences[other.detection.tag_id];
-        difference.sum_um += (seen_px * um_per_px - nominal_mm * um_per_mm).array();
-        difference.variance_sum_um2 += (variance_px2(*own) + variance_px2(other)) * um_per_px * um_per_px;
+        difference.sum_um += ((seen_mm - nominal_mm) * um_per_mm).array();
+        difference.variance_sum_um2 += variance_um2(*own) + variance_um2(other);
         ++difference.count;
     }
 }

@@ -2,6 +2,7 @@
 
 #include "core/units.h"
 #include "src/inspect/clip.h"
+#include "src/inspect/seen_box.h"
 #include "src/session/motion_params.h"
 
 #include <algorithm>
@@ -21,12 +22,6 @@ Box grown(Box box, double by_mm) {
 
 Box square(const Eigen::Vector2d& centre_mm, double half_mm) {
     return grown({centre_mm, centre_mm}, half_mm);
-}
-
-/// The plate rectangle that the camera sees from s.
-Box seen_from(const CameraGeometry& camera, double s_mm) {
-    return {back_project(camera, {0.0, 0.0}, s_mm),
-            back_project(camera, {camera.width_px - 1.0, camera.height_px - 1.0}, s_mm)};
 }
 
 bool inside(const Box& inner, const Box& outer) {
@@ -59,7 +54,7 @@ class ViewChecker {
           plate_(plate),
           site_(site),
           view_(view),
-          seen_(seen_from(camera, site.fiducial_mm.x() + mm_from_um(view.offset_um))),
+          seen_(box_seen(camera, site.fiducial_mm.x() + mm_from_um(view.offset_um))),
           mm_per_px_(mm_per_px(camera)) {}
 
     void operator()(const PlacementCheck&) const {}
@@ -124,11 +119,11 @@ class ViewChecker {
 }  // namespace
 
 bool tag_in_view(const CameraGeometry& camera, const PlateTag& tag, double s_mm) {
-    return inside(square(tag.centre_mm, half_extent_mm(tag)), seen_from(camera, s_mm));
+    return inside(square(tag.centre_mm, half_extent_mm(tag)), box_seen(camera, s_mm));
 }
 
 void check_fiducial_in_rows(const YamlValue& where, const Rig& rig, const PlateTag& tag) {
-    const Box seen = seen_from(geometry_of(where, rig), 0.0);
+    const Box seen = box_seen(geometry_of(where, rig), tag.centre_mm.x());
     const double half_mm = half_extent_mm(tag);
     if (tag.centre_mm.y() - half_mm < seen.low_mm.y() || tag.centre_mm.y() + half_mm > seen.high_mm.y())
         where.fail(fmt::format(

@@ -37,8 +37,9 @@ std::string feature_at(const CheckContext& context, const vision::Defect& defect
 }
 
 ResultRow row_of(const CheckContext& context, const ReferenceCheck& check, const vision::Defect& defect) {
-    const vision::Measured length{
-        defect.length_um, um_from_mm(mm_per_px(context.snapshot.image.camera.geometry)) / std::sqrt(6.0)};
+    const vision::RestImage& image = context.snapshot.image;
+    const double px_mm = picture_around(image, to_image(image, defect.centre_mm)).mm_per_px;
+    const vision::Measured length{defect.length_um, um_from_mm(px_mm) / std::sqrt(6.0)};
     const Eigen::Vector2d at_um = (defect.centre_mm - context.site.fiducial_mm) * um_per_mm;
     const std::string feature = feature_at(context, defect);
     return {context.site.tag_id,

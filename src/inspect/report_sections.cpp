@@ -1,5 +1,6 @@
 #include "src/inspect/report_sections.h"
 
+#include "src/inspect/seen_box.h"
 #include "src/report/chart.h"
 #include "src/report/html.h"
 
@@ -95,7 +96,6 @@ std::string plate_html(const Recipe& recipe, const CameraGeometry& camera, const
     }
     const double margin = 4.0, width = high.x() - low.x() + 2 * margin,
                  height = high.y() - low.y() + 2 * margin;
-    const double view_x = camera.width_px * mm_per_px(camera), view_y = camera.height_px * mm_per_px(camera);
     std::string svg = fmt::format(
         "<div class=\"scroll\"><svg class=\"plate\" viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\">"
         "<rect class=\"sheet\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
@@ -110,10 +110,11 @@ std::string plate_html(const Recipe& recipe, const CameraGeometry& camera, const
     for (const Visit& visit : visits) {
         if (visit.end == Visit::End::deferred) continue;
         const auto site = std::ranges::find(recipe.sites, visit.site, &Site::tag_id);
-        double from = site->fiducial_mm.x(), to = from;
+        Eigen::Array2d seen_low = site->fiducial_mm, seen_high = seen_low;
         for (const View& view : site->views) {
-            from = std::min(from, site->fiducial_mm.x() + view.offset_um / 1000 - view_x / 2);
-            to = std::max(to, site->fiducial_mm.x() + view.offset_um / 1000 + view_x / 2);
+            const Box seen = box_around_seen(camera, site->fiducial_mm.x() + view.offset_um / 1000);
+            seen_low = seen_low.min(seen.low_mm.array());
+            seen_high = seen_high.max(seen.high_mm.array());
         }
         const Outcome outcome = outcome_of(visit);
         svg += fmt::format(
@@ -121,9 +122,9 @@ std::string plate_html(const Recipe& recipe, const CameraGeometry& camera, const
             "height=\"{5:.2f}\" rx=\".5\" style=\"stroke-width:.2\"/><text x=\"{6:.2f}\" y=\"{7:.2f}\" "
             "style=\"font-size:1.9px\">{8} {0}</text>"
             "<title>site {0}: {9}</title></g></a>",
-            visit.site, report::class_of(mood_of(outcome)), from, site->fiducial_mm.y() - view_y / 2,
-            to - from, view_y, (from + to) / 2, site->fiducial_mm.y() - view_y / 2 - .4, sign_of(outcome),
-            words(name_of(outcome)));
+            visit.site, report::class_of(mood_of(outcome)), seen_low.x(), seen_low.y(),
+            seen_high.x() - seen_low.x(), seen_high.y() - seen_low.y(), (seen_low.x() + seen_high.x()) / 2,
+            seen_low.y() - .4, sign_of(outcome), words(name_of(outcome)));
     }
     return svg +
            "</svg></div>\n<p class=\"hint\">Each box is what the camera saw at a site; its number is that of "

@@ -75,7 +75,8 @@ Result<CoarseMatch> find_shape(const RestImage& image, const Eigen::Vector2d& no
                        fmt::format("the nominal place ({:.0f}, {:.0f}) px is partly outside the image",
                                    nominal_px.x(), nominal_px.y()));
     const Template drawn = draw_template(half_size_px, coverage);
-    const int margin = static_cast<int>(std::ceil(options.margin_mm / mm_per_px(image.camera.geometry)));
+    const int margin =
+        static_cast<int>(std::ceil(options.margin_mm / picture_around(image, nominal_px).mm_per_px));
     const cv::Point nominal(static_cast<int>(std::lround(nominal_px.x())),
                             static_cast<int>(std::lround(nominal_px.y())));
     const cv::Rect region = cv::Rect(nominal - drawn.centre - cv::Point(margin, margin),

@@ -60,12 +60,21 @@ double facing_distance_mm(const NominalEdge& a, const NominalEdge& b) {
     return gap > 0.0 ? gap : none;
 }
 
+/// The normal in the image of an edge that runs along `direction` there, away from the ink.
+Eigen::Vector2d normal_towards(const RestImage& image, const Eigen::Vector2d& direction,
+                               const NominalEdge& edge) {
+    const Eigen::Vector2d middle_px = to_image(image, 0.5 * (edge.from_mm + edge.to_mm));
+    const Eigen::Vector2d seen = picture_around(image, middle_px).image_by_plate * edge.outward;
+    const Eigen::Vector2d normal(-direction.y(), direction.x());
+    return normal.dot(seen) > 0.0 ? normal : Eigen::Vector2d(-normal);
+}
+
 /// The part of an edge within `overlap` (along `along`), in the image, its ends left out.
 Result<StraightEdge> edge_in_image(const RestImage& image, const NominalEdge& edge,
                                    const Eigen::Vector2d& along, const Interval& overlap) {
     const Eigen::Vector2d own = (edge.to_mm - edge.from_mm).normalized();
     const double rate = own.dot(along);
-    const double px = mm_per_px(image.camera.geometry);
+    const double px = picture_around(image, to_image(image, 0.5 * (edge.from_mm + edge.to_mm))).mm_per_px;
     const Interval whole = extent_along(edge, along);
     const double low = std::max(overlap.low, whole.low + corner_px * px);
     const double high = std::min(overlap.high, whole.high - corner_px * px);
@@ -78,7 +87,9 @@ Result<StraightEdge> edge_in_image(const RestImage& image, const NominalEdge& ed
     const Eigen::Vector2d far(image.grey.cols - 1.0, image.grey.rows - 1.0);
     if (from.cwiseMin(to).minCoeff() < fine_reach_px || (far - from.cwiseMax(to)).minCoeff() < fine_reach_px)
         return failure(Reason::not_identifiable, "an edge is partly outside the image");
-    return StraightEdge{0.5 * (from + to), (to - from).normalized(), edge.outward, (to - from).norm()};
+    const Eigen::Vector2d direction = (to - from).normalized();
+    return StraightEdge{0.5 * (from + to), direction, normal_towards(image, direction, edge),
+                        (to - from).norm()};
 }
 
 /// A high quantile of the grey levels around an edge: the paper's level there.
@@ -115,6 +126,14 @@ Measured crossing_px(const OutlineFit<StraightEdge>& edge, const Eigen::Vector2d
     const double handed = edge.shape.along.x() * normal.y() - edge.shape.along.y() * normal.x();
     const Eigen::Vector2d row(1.0, handed * arm);
     return {distance, std::sqrt(row.dot(edge.covariance_px2 * row))};
+}
+
+/// The normal on the plate of an edge found in the image.
+Eigen::Vector2d outward_on_plate(const RestImage& image, const StraightEdge& edge) {
+    const Eigen::Matrix2d plate_by_image = picture_around(image, edge.middle_px).plate_by_image;
+    const Eigen::Vector2d along = (plate_by_image * edge.along).normalized();
+    const Eigen::Vector2d normal(-along.y(), along.x());
+    return normal.dot(plate_by_image * edge.outward) > 0.0 ? normal : Eigen::Vector2d(-normal);
 }
 
 double angle_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -161,7 +180,8 @@ Result<EdgeDistance> measure_edge_distance(const RestImage& image, const Nominal
     if (!edge_a) return tl::make_unexpected(edge_a.error());
     const auto edge_b = edge_in_image(image, b, along, overlap);
     if (!edge_b) return tl::make_unexpected(edge_b.error());
-    const double margin_px = options.margin_mm / mm_per_px(image.camera.geometry);
+    const double margin_px =
+        options.margin_mm / picture_around(image, 0.5 * (edge_a->middle_px + edge_b->middle_px)).mm_per_px;
     const auto fit_a = locate(image, *edge_a, margin_px, options);
     if (!fit_a) return tl::make_unexpected(fit_a.error());
     const auto fit_b = locate(image, *edge_b, margin_px, options);
@@ -171,16 +191,24 @@ Result<EdgeDistance> measure_edge_distance(const RestImage& image, const Nominal
     const Eigen::Vector2d between = 0.5 * (fit_a->shape.middle_px + fit_b->shape.middle_px);
     const Measured to_a = crossing_px(*fit_a, between, direction);
     const Measured to_b = crossing_px(*fit_b, between, direction);
-    const double um_per_px = um_from_mm(mm_per_px(image.camera.geometry));
-    const double noise_um = std::hypot(to_a.std, to_b.std) * um_per_px;
-    return EdgeDistance{
-        {(to_b.value - to_a.value) * um_per_px, std::hypot(noise_um, 2.0 * options.edge_allowance_um)},
-        {angle_between(fit_a->shape.outward, -fit_b->shape.outward),
-         std::sqrt(fit_a->covariance_px2(1, 1) + fit_b->covariance_px2(1, 1))},
-        to_plate(image, between + to_a.value * direction),
-        to_plate(image, between + to_b.value * direction),
-        fit_a->quality,
-        fit_b->quality};
+    const Eigen::Vector2d on_a_mm = to_plate(image, between + to_a.value * direction);
+    const Eigen::Vector2d on_b_mm = to_plate(image, between + to_b.value * direction);
+    const Eigen::Vector2d outward_a = outward_on_plate(image, fit_a->shape);
+    const Eigen::Vector2d outward_b = outward_on_plate(image, fit_b->shape);
+    const double distance_um = um_from_mm((on_b_mm - on_a_mm).dot((outward_a - outward_b).normalized()));
+    const double noise_um = std::hypot(to_a.std, to_b.std) *
+                            um_from_mm(picture_around(image, between).mm_per_px_along(direction));
+    const auto bend_um = [&](const StraightEdge& edge) {
+        return bend_std_um(image, edge.middle_px, 0.5 * edge.length_px * edge.along);
+    };
+    const double bends_um = std::hypot(bend_um(fit_a->shape), bend_um(fit_b->shape));
+    return EdgeDistance{{distance_um, std::hypot(noise_um, 2.0 * options.edge_allowance_um, bends_um)},
+                        {angle_between(outward_a, -outward_b),
+                         std::sqrt(fit_a->covariance_px2(1, 1) + fit_b->covariance_px2(1, 1))},
+                        on_a_mm,
+                        on_b_mm,
+                        fit_a->quality,
+                        fit_b->quality};
 }
 
 }  // namespace fidservo::vision

@@ -42,9 +42,11 @@ struct Section {
 
 /// The part of the nominal line that is in the image with its surroundings, its ends left out.
 Result<Track> visible_track(const RestImage& image, const Line& nominal, double margin_px) {
-    const double px_per_mm = 1.0 / mm_per_px(image.camera.geometry);
+    const Eigen::Vector2d along_mm = (nominal.to_mm - nominal.from_mm).normalized();
+    const LocalPicture picture =
+        picture_around(image, to_image(image, 0.5 * (nominal.from_mm + nominal.to_mm)));
     Track track{to_image(image, nominal.from_mm), to_image(image, nominal.to_mm),
-                nominal.width_mm * px_per_mm};
+                nominal.width_mm * picture.px_per_mm_along({-along_mm.y(), along_mm.x()})};
     const Eigen::Vector2d along = track.along();
     const double beside = 0.5 * track.width_px + reach_px + margin_px;
     const Eigen::Vector2d inset = track.normal().cwiseAbs() * beside + Eigen::Vector2d::Constant(reach_px);
@@ -241,13 +243,16 @@ Result<LineFit> fit_line(const RestImage& image, Track track, const CoarseStrip&
 
 LineMeasurement state(const RestImage& image, const Line& nominal, const LineFit& fit,
                       const SearchOptions& options) {
-    const double px_mm = mm_per_px(image.camera.geometry);
-    const double um_per_px = um_from_mm(px_mm);
     const double widened = widening(fit.centre.excess, fit.centre.used_count - 2);
     const Eigen::Vector2d normal = fit.track.normal();
-    const Eigen::Vector2d middle_mm =
-        to_plate(image, 0.5 * (fit.track.from_px + fit.track.to_px) + fit.centre.correction[0] * normal);
-    const double offset_std_um = std::sqrt(fit.centre.covariance(0, 0)) * widened * um_per_px;
+    const Eigen::Vector2d middle_px =
+        0.5 * (fit.track.from_px + fit.track.to_px) + fit.centre.correction[0] * normal;
+    const Eigen::Vector2d middle_mm = to_plate(image, middle_px);
+    const LocalPicture picture = picture_around(image, middle_px);
+    const double um_per_px = um_from_mm(picture.mm_per_px_along(normal));
+    const double bend_um = bend_std_um(image, middle_px, 0.5 * (fit.track.to_px - fit.track.from_px));
+    const double offset_std_um =
+        std::hypot(std::sqrt(fit.centre.covariance(0, 0)) * widened * um_per_px, bend_um);
     const Eigen::Vector2d axis_std_um = image.axis_std_mm * um_per_mm;
 
     const Eigen::Vector2d nominal_along = (nominal.to_mm - nominal.from_mm).normalized();
@@ -270,10 +275,12 @@ LineMeasurement state(const RestImage& image, const Line& nominal, const LineFit
     line.y_um = {um_from_mm(middle_mm.y()), std::abs(nominal_normal.y()) * offset_std_um};
     line.x_um.std = std::hypot(line.x_um.std, axis_std_um.x());
     line.y_um.std = std::hypot(line.y_um.std, axis_std_um.y());
-    line.angle_rad = {std::atan2(along.y(), along.x()) + fit.centre.correction[1],
+    const Eigen::Vector2d along_mm = picture.plate_by_image * (along + fit.centre.correction[1] * normal);
+    line.angle_rad = {std::atan2(along_mm.y(), along_mm.x()),
                       std::sqrt(fit.centre.covariance(1, 1)) * widened};
-    line.section_um = fit.track.length_px() / fit.strips.looked_at * um_per_px;
-    line.length_um = fit.track.length_px() * um_per_px;
+    line.length_um =
+        um_from_mm((to_plate(image, fit.track.to_px) - to_plate(image, fit.track.from_px)).norm());
+    line.section_um = line.length_um / fit.strips.looked_at;
     line.quality = {median_over(fit.strips, [](const StripFit& s) { return s.contrast; }),
                     optical_blur_px(median_over(fit.strips, [](const StripFit& s) { return s.sigma_px; })),
                     fit.strips.looked_at, static_cast<int>(fit.strips.sections.size()), fit.centre.excess};
@@ -284,7 +291,8 @@ LineMeasurement state(const RestImage& image, const Line& nominal, const LineFit
 
 Result<LineMeasurement> measure_line(const RestImage& image, const Line& nominal,
                                      const SearchOptions& options) {
-    const double margin_px = options.margin_mm / mm_per_px(image.camera.geometry);
+    const Eigen::Vector2d middle_px = to_image(image, 0.5 * (nominal.from_mm + nominal.to_mm));
+    const double margin_px = options.margin_mm / picture_around(image, middle_px).mm_per_px;
     auto track = visible_track(image, nominal, margin_px);
     if (!track) return tl::make_unexpected(track.error());
     const auto coarse = coarse_strip(image.grey, *track, margin_px, options);

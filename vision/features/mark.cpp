@@ -59,7 +59,7 @@ Status check_result(const RestImage& image, const Circle& circle, const Eigen::V
         return failure(Reason::not_identifiable,
                        fmt::format("a dot of {:.1f} px radius is too small; {:.0f} px are needed",
                                    circle.radius_px, least_radius_px));
-    const double away_mm = (circle.centre_px - nominal_px).norm() * mm_per_px(image.camera.geometry);
+    const double away_mm = (to_plate(image, circle.centre_px) - to_plate(image, nominal_px)).norm();
     if (away_mm > 1.5 * options.margin_mm)
         return failure(
             Reason::feature_not_found,
@@ -70,9 +70,9 @@ Status check_result(const RestImage& image, const Circle& circle, const Eigen::V
 }  // namespace
 
 Result<DotMeasurement> measure_dot(const RestImage& image, const Dot& nominal, const SearchOptions& options) {
-    const double um_per_px = um_from_mm(mm_per_px(image.camera.geometry));
     const Eigen::Vector2d nominal_px = to_image(image, nominal.centre_mm);
-    const double nominal_radius_px = 0.5 * um_from_mm(nominal.diameter_mm) / um_per_px;
+    const double nominal_mm_per_px = picture_around(image, nominal_px).mm_per_px;
+    const double nominal_radius_px = 0.5 * nominal.diameter_mm / nominal_mm_per_px;
     const auto coverage = [&](double x, double y) {
         return normal_cdf((nominal_radius_px - std::hypot(x, y)) / edge_sigma_px(image.camera.blur_px));
     };
@@ -81,8 +81,7 @@ Result<DotMeasurement> measure_dot(const RestImage& image, const Dot& nominal, c
     if (!match) return tl::make_unexpected(match.error());
 
     Circle circle{match->centre_px, nominal_radius_px};
-    const double reach_px =
-        std::min(um_from_mm(options.margin_mm) / um_per_px, 0.6 * nominal_radius_px) + 4.0;
+    const double reach_px = std::min(options.margin_mm / nominal_mm_per_px, 0.6 * nominal_radius_px) + 4.0;
     if (const auto found = find_outline(image.grey, circle, reach_px, match->paper_grey, options); !found)
         return tl::make_unexpected(found.error());
     auto fit = fit_outline(image, circle, options);
@@ -94,11 +93,16 @@ Result<DotMeasurement> measure_dot(const RestImage& image, const Dot& nominal, c
     const double radius_px = seen_px + curvature_shift_px(seen_px, edge_sigma_px(fit->quality.blur_px));
     const Eigen::Vector2d centre_um = to_plate(image, fit->shape.centre_px) * um_per_mm;
     const Eigen::Vector2d axis_std_um = image.axis_std_mm * um_per_mm;
-    const Eigen::Vector3d std_um = fit->covariance_px2.diagonal().cwiseSqrt() * um_per_px;
+    const LocalPicture picture = picture_around(image, fit->shape.centre_px);
+    const Eigen::Vector2d centre_std_um = plate_std_um(picture, fit->covariance_px2.topLeftCorner<2, 2>());
+    const double um_per_px = um_from_mm(picture.mm_per_px);
+    const double radius_std_um = std::sqrt(fit->covariance_px2(2, 2)) * um_per_px;
+    const double bend_um =
+        bend_std_um(image, fit->shape.centre_px, Eigen::Vector2d::Constant(fit->shape.radius_px));
     return DotMeasurement{
-        {centre_um.x(), std::hypot(std_um.x(), axis_std_um.x())},
-        {centre_um.y(), std::hypot(std_um.y(), axis_std_um.y())},
-        {2.0 * radius_px * um_per_px, 2.0 * std::hypot(std_um.z(), options.edge_allowance_um)},
+        {centre_um.x(), std::hypot(centre_std_um.x(), axis_std_um.x(), bend_um)},
+        {centre_um.y(), std::hypot(centre_std_um.y(), axis_std_um.y(), bend_um)},
+        {2.0 * radius_px * um_per_px, 2.0 * std::hypot(radius_std_um, options.edge_allowance_um, bend_um)},
         fit->quality};
 }
 

@@ -68,6 +68,10 @@ struct Rectangle {
     }
 };
 
+double angle_of(const Eigen::Vector2d& direction) {
+    return std::atan2(direction.y(), direction.x());
+}
+
 bool within_image(const cv::Mat& grey, const Rectangle& pad) {
     const Eigen::Vector2d far(grey.cols - 1.0, grey.rows - 1.0);
     for (const double x : {-0.5, 0.5})
@@ -87,7 +91,7 @@ Status check_result(const RestImage& image, const Rectangle& pad, const Eigen::V
         return failure(Reason::not_identifiable,
                        fmt::format("a side of {:.1f} px is too short; {:.0f} px are needed",
                                    pad.size_px.minCoeff(), least_side_px));
-    const double away_mm = (pad.centre_px - nominal_px).norm() * mm_per_px(image.camera.geometry);
+    const double away_mm = (to_plate(image, pad.centre_px) - to_plate(image, nominal_px)).norm();
     if (away_mm > 1.5 * options.margin_mm)
         return failure(
             Reason::feature_not_found,
@@ -96,10 +100,15 @@ Status check_result(const RestImage& image, const Rectangle& pad, const Eigen::V
 }
 
 Result<Rectangle> find_rectangle(const RestImage& image, const Pad& nominal, const SearchOptions& options) {
-    const double px_per_mm = 1.0 / mm_per_px(image.camera.geometry);
-    const Eigen::Vector2d half = 0.5 * nominal.size_mm * px_per_mm;
-    const double c = std::cos(nominal.angle_rad);
-    const double s = std::sin(nominal.angle_rad);
+    const Eigen::Vector2d nominal_px = to_image(image, nominal.centre_mm);
+    const LocalPicture picture = picture_around(image, nominal_px);
+    const Eigen::Vector2d own_x(std::cos(nominal.angle_rad), std::sin(nominal.angle_rad));
+    const Eigen::Vector2d own_y(-own_x.y(), own_x.x());
+    const Eigen::Vector2d half = 0.5 * nominal.size_mm.cwiseProduct(Eigen::Vector2d(
+                                           picture.px_per_mm_along(own_x), picture.px_per_mm_along(own_y)));
+    const double angle_rad = angle_of(picture.image_by_plate * own_x);
+    const double c = std::cos(angle_rad);
+    const double s = std::sin(angle_rad);
     const double sigma = edge_sigma_px(image.camera.blur_px);
     const auto between = [&](double x, double a) {
         return normal_cdf((x + a) / sigma) - normal_cdf((x - a) / sigma);
@@ -109,10 +118,10 @@ Result<Rectangle> find_rectangle(const RestImage& image, const Pad& nominal, con
     };
     const Eigen::Vector2d box(std::abs(c) * half.x() + std::abs(s) * half.y(),
                               std::abs(s) * half.x() + std::abs(c) * half.y());
-    const auto match = find_shape(image, to_image(image, nominal.centre_mm), box, coverage, options);
+    const auto match = find_shape(image, nominal_px, box, coverage, options);
     if (!match) return tl::make_unexpected(match.error());
-    Rectangle pad{match->centre_px, 2.0 * half, nominal.angle_rad};
-    const double reach_px = std::min(options.margin_mm * px_per_mm, 0.6 * half.minCoeff()) + 4.0;
+    Rectangle pad{match->centre_px, 2.0 * half, angle_rad};
+    const double reach_px = std::min(options.margin_mm / picture.mm_per_px, 0.6 * half.minCoeff()) + 4.0;
     if (const auto found = find_outline(image.grey, pad, reach_px, match->paper_grey, options); !found)
         return tl::make_unexpected(found.error());
     return pad;
@@ -129,16 +138,23 @@ Result<PadMeasurement> measure_pad(const RestImage& image, const Pad& nominal, c
     if (const auto good = check_result(image, pad, to_image(image, nominal.centre_mm), options); !good)
         return tl::make_unexpected(good.error());
 
-    const double um_per_px = um_from_mm(mm_per_px(image.camera.geometry));
+    const LocalPicture picture = picture_around(image, pad.centre_px);
+    const Eigen::Vector2d um_per_px(um_from_mm(picture.mm_per_px_along(pad.direction(0))),
+                                    um_from_mm(picture.mm_per_px_along(pad.direction(1))));
+    const Eigen::Vector2d centre_std_um = plate_std_um(picture, fit->covariance_px2.topLeftCorner<2, 2>());
     const Eigen::Vector2d centre_um = to_plate(image, pad.centre_px) * um_per_mm;
     const Eigen::Vector2d axis_std_um = image.axis_std_mm * um_per_mm;
     const Eigen::Matrix<double, 5, 1> std = fit->covariance_px2.diagonal().cwiseSqrt();
     const double both_edges_um = 2.0 * options.edge_allowance_um;
-    return PadMeasurement{{centre_um.x(), std::hypot(std[0] * um_per_px, axis_std_um.x())},
-                          {centre_um.y(), std::hypot(std[1] * um_per_px, axis_std_um.y())},
-                          {pad.size_px.x() * um_per_px, std::hypot(std[2] * um_per_px, both_edges_um)},
-                          {pad.size_px.y() * um_per_px, std::hypot(std[3] * um_per_px, both_edges_um)},
-                          {pad.angle_rad, std[4]},
+    const double bend_um = bend_std_um(image, pad.centre_px, 0.5 * pad.size_px);
+    const Eigen::Vector2d size_um = pad.size_px.cwiseProduct(um_per_px);
+    const Eigen::Vector2d size_std_um = std.segment<2>(2).cwiseProduct(um_per_px);
+    return PadMeasurement{{centre_um.x(), std::hypot(centre_std_um.x(), axis_std_um.x(), bend_um)},
+                          {centre_um.y(), std::hypot(centre_std_um.y(), axis_std_um.y(), bend_um)},
+                          {size_um.x(), std::hypot(size_std_um.x(), both_edges_um, bend_um)},
+                          {size_um.y(), std::hypot(size_std_um.y(), both_edges_um, bend_um)},
+                          {angle_of(picture.plate_by_image * pad.direction(0)),
+                           std::hypot(std[4], bend_um / size_um.maxCoeff())},
                           fit->quality};
 }
 

@@ -60,10 +60,11 @@ DifferenceImage difference_of(const cv::Mat& grey, const AlignedReference& align
 }
 
 Defect describe(const RestImage& image, const DefectRegion& region, double paper_grey) {
-    const double um_per_px = um_from_mm(mm_per_px(image.camera.geometry));
+    const Eigen::Vector2d centre_px(region.centre_px.x, region.centre_px.y);
+    const double um_per_px = um_from_mm(picture_around(image, centre_px).mm_per_px);
     const double area_um2 = region.area_px2 * um_per_px * um_per_px;
     const double length_um = region.length_px * um_per_px;
-    return {to_plate(image, {region.centre_px.x, region.centre_px.y}),
+    return {to_plate(image, centre_px),
             area_um2,
             std::sqrt(4.0 * area_um2 / std::numbers::pi),
             length_um,
@@ -73,20 +74,29 @@ Defect describe(const RestImage& image, const DefectRegion& region, double paper
             region.significance};
 }
 
+/// By how much the reference must be shifted to lie over the image: the middle's place there and here.
+Eigen::Vector2d way_of_reference(const RestImage& image, const ReferenceImage& reference,
+                                 const Eigen::Vector2d& middle_px) {
+    RestImage from_there = image;
+    from_there.axis_mm = reference.axis_mm;
+    return to_image(from_there, to_plate(image, middle_px)) - middle_px;
+}
+
 }  // namespace
 
 Result<Comparison> compare_with_reference(const RestImage& image, const ReferenceImage& reference,
                                           const CompareOptions& options) {
     FIDSERVO_DEMAND(image.grey.type() == CV_8UC1 && reference.grey.type() == CV_8UC1);
     FIDSERVO_DEMAND(image.grey.size() == reference.grey.size());
-    const double px_mm = mm_per_px(image.camera.geometry);
+    const Eigen::Vector2d middle_px(0.5 * (image.grey.cols - 1), 0.5 * (image.grey.rows - 1));
+    const double px_mm = picture_around(image, middle_px).mm_per_px;
     const GreyNoise noise = grey_noise(image.camera);
     cv::Mat grey;
     cv::Mat reference_grey;
     image.grey.convertTo(grey, CV_32F);
     reference.grey.convertTo(reference_grey, CV_32F);
 
-    const Eigen::Vector2d start_px = (image.axis_mm - reference.axis_mm) / px_mm;
+    const Eigen::Vector2d start_px = way_of_reference(image, reference, middle_px);
     const auto aligned = align_reference(grey, reference_grey, start_px, options.search_px, noise);
     if (!aligned) return tl::make_unexpected(aligned.error());
     const double edge_px = mm_from_um(options.edge_allowance_um) / px_mm;

@@ -19,7 +19,7 @@ struct Measured {
 struct RestImage {
     cv::Mat grey;                 ///< CV_8UC1, of the camera's width and height
     CameraParameters camera;      ///< geometry, blur and noise
-    Eigen::Vector2d axis_mm;      ///< plate point under the optical axis: (s, y)
+    Eigen::Vector2d axis_mm;      ///< camera position: (s, y)
     Eigen::Vector2d axis_std_mm;  ///< one standard deviation of it
 };
 
@@ -43,6 +43,35 @@ struct EdgeQuality {
     double excess =
         1.0;  ///< r.m.s. of the residuals over their expectation; above 1 it widened the uncertainty
 };
+
+/// The picture around one of its points, as a linear map: straight things there stay straight to second order
+/// of their size.
+struct LocalPicture {
+    Eigen::Matrix2d plate_by_image;  ///< mm per px
+    Eigen::Matrix2d image_by_plate;  ///< px per mm
+    double mm_per_px;                ///< geometric mean of all directions
+
+    /// Length on the plate of a step of one px along a direction of the image, a unit vector.
+    double mm_per_px_along(const Eigen::Vector2d& direction) const {
+        return (plate_by_image * direction).norm();
+    }
+    /// The same for a direction of the plate.
+    double px_per_mm_along(const Eigen::Vector2d& direction) const {
+        return (image_by_plate * direction).norm();
+    }
+};
+
+LocalPicture picture_around(const RestImage& image, const Eigen::Vector2d& image_px);
+
+/// What the linear map leaves of a thing that reaches half_extent_px from a point, um, as a standard
+/// deviation: the largest second-order term of the back projection within, taken as equally probable from -
+/// to +. Zero for a camera that looks straight down.
+double bend_std_um(const RestImage& image, const Eigen::Vector2d& image_px,
+                   const Eigen::Vector2d& half_extent_px);
+
+/// Standard deviations along plate x and y, um, of an image point whose covariance is known, without the
+/// camera's own position.
+Eigen::Vector2d plate_std_um(const LocalPicture& picture, const Eigen::Matrix2d& covariance_px2);
 
 /// Image point in px of a plate point in mm.
 inline Eigen::Vector2d to_image(const RestImage& image, const Eigen::Vector2d& plate_mm) {
