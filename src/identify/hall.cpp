@@ -2,6 +2,7 @@
 #include "core/failure.h"
 #include "src/config/plate_file.h"
 #include "src/identify/identify.h"
+#include "vision/camera_position.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +13,11 @@ namespace fidservo {
 
 namespace {
 
-/// Where the camera is, by the middle of a tag; NaN if the tag is not on the plate.
+/// Where the camera is, by the corners of a tag; NaN if the tag is not on the plate.
 double camera_mm(const Rig& rig, const Plate& plate, const TagDetection& seen) {
     const auto tag = std::ranges::find(plate.tags, seen.tag_id, &PlateTag::id);
     if (tag == plate.tags.end()) return not_in_force;
-    Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
-    for (const Eigen::Vector2d& corner : seen.corners_px) middle_px += 0.25 * corner;
-    return tag->centre_mm.x() - back_project(rig.camera->geometry, middle_px, 0.0).x();
+    return vision::fit_position(rig.camera->geometry, *tag, vision::unrefined(seen)).position.s_mm;
 }
 
 /// Mean reading over an exposure; NaN outside the recording.

@@ -177,9 +177,7 @@ TEST(CameraPosition, RenderedFrames_AreLocatedAsWellAsClaimed) {
     EXPECT_LT(1000 * std::sqrt(squares), 0.02);
     EXPECT_LT(1000 * std::abs(sum), 0.01);
     EXPECT_GT(std::sqrt(normalised), 0.6);
-    // 1.5 for a centre whose covariance is its own: where the diagonals cross scatters by 1.4 times the mean
-    // of the corners.
-    EXPECT_LT(std::sqrt(normalised), 1.5 * std::sqrt(2.0));
+    EXPECT_LT(std::sqrt(normalised), 1.5);
 }
 
 TEST(CameraPosition, EmptyPlate_HasNoTag) {
