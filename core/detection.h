@@ -15,6 +15,7 @@ struct TagDetection {
     int corrected_bits = 0;        ///< code bits that differ from the code book
     double decision_margin = 0.0;  ///< contrast between black and white bits, grey levels
     std::array<Eigen::Vector2d, 4> corners_px;
+    int border_cells = 1;  ///< width of the black border; 2 on a kalibr AprilGrid
 };
 
 /// Where the camera is, from one tag whose place on the plate is known.

@@ -1,6 +1,7 @@
 #include "vision/tag_detector.h"
 
 #include <algorithm>
+#include <numbers>
 #include <tuple>
 
 extern "C" {
@@ -34,6 +35,37 @@ double longest_side_px(const TagDetection& tag) {
 bool same_place(const TagDetection& a, const TagDetection& b) {
     return (centre_of(a.corners_px) - centre_of(b.corners_px)).norm() <
            0.5 * std::min(longest_side_px(a), longest_side_px(b));
+}
+
+/// Those of `more` that are not among the tags yet.
+void add_new(std::vector<TagDetection>& tags, const std::vector<TagDetection>& more) {
+    for (const TagDetection& tag : more)
+        if (std::none_of(tags.begin(), tags.end(),
+                         [&](const TagDetection& other) { return same_place(tag, other); }))
+            tags.push_back(tag);
+}
+
+/// Moves all sides outwards, roughly.
+void widen(TagDetection& tag, double by_px) {
+    const Eigen::Vector2d centre = centre_of(tag.corners_px);
+    for (Eigen::Vector2d& corner : tag.corners_px)
+        corner += std::numbers::sqrt2 * by_px * (corner - centre).normalized();
+}
+
+using Family = std::unique_ptr<apriltag_family_t, decltype(&tag36h11_destroy)>;
+
+/// The library's code book, its cells moved inwards to make room for a wider border.
+Family family_with_border(int border_cells) {
+    FIDSERVO_DEMAND(border_cells == 1 || border_cells == 2);
+    Family family(tag36h11_create(), tag36h11_destroy);
+    const int wider = border_cells - 1;
+    family->width_at_border += 2 * wider;
+    family->total_width += 2 * wider;
+    for (std::uint32_t bit = 0; bit < family->nbits; ++bit) {
+        family->bit_x[bit] += wider;
+        family->bit_y[bit] += wider;
+    }
+    return family;
 }
 
 }  // namespace
@@ -78,6 +110,7 @@ struct TagDetector::Impl {
             tag.tag_id = seen->id;
             tag.corrected_bits = seen->hamming;
             tag.decision_margin = seen->decision_margin;
+            tag.border_cells = options.border_cells;
             for (std::size_t c = 0; c < 4; ++c)
                 tag.corners_px[c] =
                     Eigen::Vector2d(seen->p[c][0], seen->p[c][1]) / magnification +
@@ -88,8 +121,7 @@ struct TagDetector::Impl {
     }
 
     TagDetectorOptions options;
-    std::unique_ptr<apriltag_family_t, decltype(&tag36h11_destroy)> family{tag36h11_create(),
-                                                                           tag36h11_destroy};
+    Family family = family_with_border(options.border_cells);
     std::unique_ptr<apriltag_detector_t, decltype(&apriltag_detector_destroy)> detector{
         apriltag_detector_create(), apriltag_detector_destroy};
 };
@@ -110,13 +142,17 @@ std::vector<TagDetection> TagDetector::detect(const cv::Mat& image, TimeNs time_
     if (impl_->options.magnify) {
         cv::Mat larger;
         cv::resize(view, larger, {}, 2.0, 2.0, cv::INTER_CUBIC);
-        for (const TagDetection& tag : impl_->search(larger, time_ns, part.tl(), 2.0))
-            if (std::none_of(tags.begin(), tags.end(),
-                             [&](const TagDetection& other) { return same_place(tag, other); }))
-                tags.push_back(tag);
+        add_new(tags, impl_->search(larger, time_ns, part.tl(), 2.0));
+        if (impl_->options.border_cells == 2) {
+            // The squares between an AprilGrid's tags touch their corners; a wider white tears them apart.
+            cv::dilate(larger, larger, cv::Mat());
+            std::vector<TagDetection> thinner = impl_->search(larger, time_ns, part.tl(), 2.0);
+            for (TagDetection& tag : thinner) widen(tag, 0.5);
+            add_new(tags, thinner);
+        }
     }
     std::erase_if(tags, [&](const TagDetection& tag) {
-        return explained_contrast(image, tag.corners_px, tag_pattern(tag.tag_id)) <
+        return explained_contrast(image, tag.corners_px, tag_pattern(tag.tag_id, tag.border_cells)) <
                impl_->options.min_explained_contrast;
     });
     std::sort(tags.begin(), tags.end(), by_id_from_left);

@@ -1,5 +1,5 @@
 #pragma once
-// Fiducials (tag36h11) in a grey image, found with libapriltag.
+// Fiducials (tag36h11, their border one cell wide, or two) in a grey image, found with libapriltag.
 #include "core/detection.h"
 #include "core/time.h"
 
@@ -23,6 +23,8 @@ struct TagDetectorOptions {
     /// tags reach 0.43 at 1.5 px a bit and 0.95 on the machine; chance agreements of texture with the code
     /// book, 0.31 at most in 240 images of noise.
     double min_explained_contrast = 0.4;
+    /// Width of the tags' black border in cells: 1, or 2 on a kalibr AprilGrid. Others are not seen.
+    int border_cells = 1;
     /// Look again at twice the resolution, for tags whose bits are about two pixels wide or less.
     bool magnify = false;
 };

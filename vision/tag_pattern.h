@@ -8,11 +8,16 @@
 
 namespace fidservo::vision {
 
-/// Black border and code of a tag36h11: 8 x 8 cells, row by row from the tag's upper left, true is white.
-using TagPattern = std::bitset<64>;
+/// Black border and code of a tag36h11, row by row from the tag's upper left, true is white.
+struct TagPattern {
+    int cells = 8;  ///< a side: six of the code and the border at both ends
+    std::bitset<100> white;
+    bool operator[](std::size_t cell) const { return white[cell]; }
+};
 
 /// The pattern of a code of the book. Demands 0 <= tag_id < 587.
-TagPattern tag_pattern(int tag_id);
+/// @param border_cells  width of the black border: 1, or 2 on a kalibr AprilGrid
+TagPattern tag_pattern(int tag_id, int border_cells = 1);
 
 /// What the cells inside a tag's outline say about a pattern that is thought to be there.
 struct PatternMatch {
@@ -27,7 +32,7 @@ struct PatternMatch {
     double explained = 0.0;
     double contrast = 0.0;        ///< white - black, grey levels
     int wrong_code_bits = 36;     ///< of the 36: on the other side of the middle between black and white
-    int wrong_border_cells = 28;  ///< of the 28 that are always black
+    int wrong_border_cells = 28;  ///< of the 28 (64 where the border is two cells wide) that are always black
     double margin = 0.0;          ///< mean distance of the code's cells from that middle, grey levels
 };
 

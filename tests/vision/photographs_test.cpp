@@ -145,5 +145,31 @@ TEST_F(Photographs, TwelveTagsWithDifferentIds_AreFoundWithTheirCorners) {
     }
 }
 
+TEST_F(Photographs, KalibrAprilGrid_IsFoundWholeAndInItsPlaces) {
+    const cv::Mat image = cv::imread((folder_ / "aprilgrid_EuRoC.png").string(), cv::IMREAD_GRAYSCALE);
+    TagDetectorOptions options = thorough_options();
+    options.border_cells = 2;
+    TagDetector detector(options);
+    const std::vector<TagDetection> found = detector.detect(image, 0);
+    ASSERT_EQ(found.size(), 36U);
+    for (int id = 0; id < 36; ++id) {
+        const TagDetection& tag = found[static_cast<std::size_t>(id)];
+        EXPECT_EQ(tag.tag_id, id);
+        EXPECT_EQ(tag.corrected_bits, 0);
+        EXPECT_EQ(tag.border_cells, 2);
+        // Six tags a row, the next row on their upper side; the target is held upside down.
+        const Eigen::Vector2d to_the_right = tag.corners_px[1] - tag.corners_px[0];
+        const Eigen::Vector2d up = tag.corners_px[3] - tag.corners_px[0];
+        const auto expect_neighbour = [&](int neighbour, const Eigen::Vector2d& side) {
+            const Eigen::Vector2d step =
+                mean(found[static_cast<std::size_t>(neighbour)].corners_px) - mean(tag.corners_px);
+            EXPECT_LT((step - 1.3 * side).norm(), 0.1 * side.norm()) << id << " and " << neighbour;
+        };
+        if (id % 6 < 5) expect_neighbour(id + 1, to_the_right);
+        if (id < 30) expect_neighbour(id + 6, up);
+        EXPECT_LT(to_the_right.x(), 0.0);
+    }
+}
+
 }  // namespace
 }  // namespace fidservo::vision
