@@ -100,12 +100,19 @@ void approach(const Bundle& bundle, const CameraCalibrationOptions& options, Bun
     }
 }
 
+/// Terms that were fitted before are none again, so that the views are asked anew.
+void clear_unfitted(Lens& lens, const LensMask& fitted) {
+    for (std::size_t k = focal_ratio; k < lens_parameters; ++k)
+        if (!fitted[k] && k != centre_u && k != centre_v) lens[k] = k == focal_ratio ? 1.0 : 0.0;
+}
+
 /// What is asked for, or the usual lens and what else the views ask for.
 std::optional<double> adjust(const Bundle& bundle, const CameraCalibrationOptions& options,
                              BundleState& state, LensMask& mask) {
     mask = options.fitted.value_or(usual_lens());
+    if (!options.fitted) mask[focal_ratio] = options.fit_focal_ratio;
+    clear_unfitted(state.lens, mask);
     if (options.fitted) return bundle.adjust(state, mask);
-    mask[focal_ratio] = options.fit_focal_ratio;
     auto chi2 = bundle.adjust(state, mask);
     const std::initializer_list<LensParameter> tangential{p1, p2}, second{k2}, third{k3};
     for (const Candidate& candidate :

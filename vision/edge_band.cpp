@@ -10,13 +10,12 @@
 namespace fidservo::vision {
 namespace {
 
-constexpr int cells = 8;
-constexpr int lines = cells + 1;
-
-/// 1 white, 0 black; the paper around the tag is white.
+/// 1 white, 0 black; the paper around the tag is white, but on an AprilGrid black squares touch its corners.
 float white_at(const TagPattern& pattern, int column, int row) {
-    if (column < 0 || column >= cells || row < 0 || row >= cells) return 1.0F;
-    return pattern[row * cells + column] ? 1.0F : 0.0F;
+    const bool beside = column < 0 || column >= pattern.cells, above = row < 0 || row >= pattern.cells;
+    if (beside && above && pattern.has_corner_squares()) return 0.0F;
+    if (beside || above) return 1.0F;
+    return pattern[row * pattern.cells + column] ? 1.0F : 0.0F;
 }
 
 /// The crossing before cell (column, row); its pixels are not known yet.
@@ -24,8 +23,9 @@ kernel::Node crossing(const TagPattern& pattern, int column, int row) {
     const float c00 = white_at(pattern, column - 1, row - 1), c10 = white_at(pattern, column, row - 1);
     const float c01 = white_at(pattern, column - 1, row), c11 = white_at(pattern, column, row);
     kernel::Node node{};
-    node.x = static_cast<float>(column) - 0.5F * cells;
-    node.y = static_cast<float>(row) - 0.5F * cells;
+    const float half_side = 0.5F * static_cast<float>(pattern.cells);
+    node.x = static_cast<float>(column) - half_side;
+    node.y = static_cast<float>(row) - half_side;
     node.c = c00;
     node.cx = c10 - c00;
     node.cy = c01 - c00;
@@ -194,8 +194,8 @@ void select_band(const cv::Mat& image, const TagPicture& picture, const TagPatte
     band.pixels = 0;
     std::size_t room = 0;
     int with_edges = 0;
-    for (int row = 0; row < lines; ++row)
-        for (int column = 0; column < lines; ++column) {
+    for (int row = 0; row <= pattern.cells; ++row)
+        for (int column = 0; column <= pattern.cells; ++column) {
             kernel::Node node = crossing(pattern, column, row);
             if (node.edge_up + node.edge_down + node.edge_left + node.edge_right == 0) continue;
             if (with_edges++ % every != 0) continue;

@@ -220,7 +220,7 @@ Result<TagDetection> align_tag(const cv::Mat& image, TimeNs time_ns, const Expec
     FIDSERVO_DEMAND(image.type() == CV_8UC1);
     const auto corners = find_outline(image, expected, options.least_contrast);
     if (!corners) return failure(Reason::no_tag, "no tag where it is expected");
-    const PatternMatch match = match_pattern(image, *corners, tag_pattern(expected.tag_id, expected.border_cells));
+    const PatternMatch match = match_pattern(image, *corners, tag_pattern(expected.tag_id));
     if (match.wrong_code_bits > options.most_wrong_bits ||
         match.wrong_border_cells > options.most_wrong_border_cells ||
         match.explained < options.least_explained || match.contrast < options.least_contrast)

@@ -13,6 +13,8 @@ struct TagPattern {
     int cells = 8;  ///< a side: six of the code and the border at both ends
     std::bitset<100> white;
     bool operator[](std::size_t cell) const { return white[cell]; }
+    /// An AprilGrid's tags have black squares between them that touch their corners.
+    bool has_corner_squares() const { return cells == 10; }
 };
 
 /// The pattern of a code of the book. Demands 0 <= tag_id < 587.

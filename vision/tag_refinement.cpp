@@ -15,7 +15,6 @@
 namespace fidservo::vision {
 namespace {
 
-constexpr int cells = 8;
 constexpr double least_side_px = 24.0;
 constexpr double least_contrast = 8.0;  ///< grey levels; below, noise decides where the edges are
 constexpr double least_explained = 0.3;
@@ -40,6 +39,7 @@ Number median_of(std::vector<Number>& values) {
 void read_levels(const cv::Mat& image, const TagPicture& picture, const TagPattern& pattern, BandLook& look) {
     std::vector<double> dark;
     std::vector<double> bright;
+    const int cells = pattern.cells;
     for (int row = 0; row < cells; ++row)
         for (int column = 0; column < cells; ++column) {
             const Eigen::Vector2d at =
@@ -57,8 +57,8 @@ class Fit {
     Fit(const cv::Mat& image, const TagDetection& found, const RefinementOptions& options)
         : image_(image),
           options_(options),
-          pattern_(tag_pattern(found.tag_id)),
-          picture_(found.corners_px, cells, options.camera) {
+          pattern_(tag_pattern(found.tag_id, found.border_cells)),
+          picture_(found.corners_px, pattern_.cells, options.camera) {
         const Eigen::Matrix2d cells_by_px = picture_.cells_by_px(picture_.image_of({0.0, 0.0}));
         cell_px_ = 1.0 / std::max(cells_by_px.row(0).norm(), cells_by_px.row(1).norm());
         const Eigen::Vector2d motion_cells = cells_by_px * options.motion_px;
@@ -123,7 +123,7 @@ class Fit {
         const Eigen::MatrixXd of_geometry = covariance.topLeftCorner(geometry, geometry);
         Eigen::MatrixXd corners(8, geometry);
         for (int k = 0; k < 4; ++k) {
-            const Eigen::Vector2d corner = 0.5 * cells * tag_corners[k];
+            const Eigen::Vector2d corner = 0.5 * pattern_.cells * tag_corners[k];
             tag.corners_px[k] = picture_.image_of(corner);
             corners.middleRows<2>(2 * k) = picture_.image_by_parameters(corner);
         }
@@ -274,7 +274,7 @@ Result<RefinedTag> refine_tag(const cv::Mat& image, const TagDetection& found,
     RefinedTag refined = fit.result(found);
     for (std::size_t k = 0; k < 4; ++k)
         if (!((refined.detection.corners_px[k] - found.corners_px[k]).norm() <=
-              std::max(2.0, shortest_px / cells)))
+              std::max(2.0, shortest_px / tag_pattern(found.tag_id, found.border_cells).cells)))
             return tl::make_unexpected(hidden("the tag's border does not end where its code says"));
     return refined;
 }

@@ -28,6 +28,7 @@ void add_cameras(CLI::App& app, int& exit_code);
 void add_identify(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
+void add_calibrate_camera(CLI::App& calibrate, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 
 /// --rig RIG.yaml; the reference rig where it is not given.

@@ -151,17 +151,19 @@ void add_identification(CLI::App& parent, const Identification& identification, 
         [options, &identification, &exit_code] { exit_code = run_identification(*options, identification); });
 }
 
-void add_group(CLI::App& app, const std::string& name, const std::string& help,
-               std::span<const Identification> members, int& exit_code) {
+CLI::App& add_group(CLI::App& app, const std::string& name, const std::string& help,
+                    std::span<const Identification> members, int& exit_code) {
     CLI::App* group = app.add_subcommand(name, help);
     group->require_subcommand(0, 1);
     for (const Identification& member : members) add_identification(*group, member, exit_code);
-    group->callback([group, name, members] {
-        std::vector<std::string_view> names(members.size());
-        std::ranges::transform(members, names.begin(), &Identification::name);
-        if (group->get_subcommands().empty())
-            throw InputError(fmt::format("{}: what? One of: {}", name, fmt::join(names, ", ")));
+    group->callback([group, name] {
+        if (!group->get_subcommands().empty()) return;
+        std::vector<std::string> names;
+        for (const CLI::App* member : group->get_subcommands([](CLI::App*) { return true; }))
+            names.push_back(member->get_name());
+        throw InputError(fmt::format("{}: what? One of: {}", name, fmt::join(names, ", ")));
     });
+    return *group;
 }
 
 }  // namespace
@@ -171,7 +173,8 @@ void add_identify(CLI::App& app, int& exit_code) {
 }
 
 void add_calibrate(CLI::App& app, int& exit_code) {
-    add_group(app, "calibrate", "Calibrate a sensor from recordings", calibrations, exit_code);
+    add_calibrate_camera(add_group(app, "calibrate", "Calibrate a sensor", calibrations, exit_code),
+                         exit_code);
 }
 
 }  // namespace fidservo

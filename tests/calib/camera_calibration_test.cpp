@@ -99,6 +99,33 @@ TEST(CameraCalibration, StandardErrors_AreThoseOfManyNoises) {
     }
 }
 
+/// As of a hand-held AprilGrid before a wide lens.
+TEST(CameraCalibration, WideLens_IsFoundFromNothing) {
+    CameraGeometry lens{752, 480, 458.0, {367.0, 248.0}, 500.0};
+    lens.distortion = {.k1 = -0.283, .k2 = 0.074, .p1 = 2e-4, .p2 = 2e-5, .k3 = 0.0};
+    const std::vector<PlateTag> tags = tag_grid(6, 6, 88.0, 114.4);
+    NoiseStream noise(1, "corners"), places(1, "places");
+    std::vector<TargetView> views;
+    for (int k = 0; k < 20; ++k) {
+        CameraGeometry camera = lens;
+        camera.tilt_rad = 0.6 * Eigen::Vector2d(std::cos(2.4 * k), std::sin(2.4 * k));
+        camera.distance_mm = 500.0 + 600.0 * places.uniform();
+        const Eigen::Vector2d foot = back_project(camera, camera.principal_point_px, 0.0);
+        views.push_back(synthetic_view(camera, tags, 300.0 * places.uniform() - 150.0 - foot.x(),
+                                       200.0 * places.uniform() - 100.0 - foot.y(), Scatter::every_coordinate,
+                                       0.1, noise));
+        if (views.back().tags.size() < 2) views.pop_back();
+    }
+    const auto found = calibrate_camera(views, options_for(lens));
+    ASSERT_TRUE(found) << found.error().text;
+    EXPECT_LT(std::abs(found->camera.focal_px - lens.focal_px), 4.0 * found->std_of(focal));
+    EXPECT_LT(std::abs(found->camera.distortion.k1 - lens.distortion.k1), 4.0 * found->std_of(k1));
+    EXPECT_LT(found->std_of(focal), 1.0);
+    EXPECT_TRUE(found->fitted[k2]);
+    EXPECT_NEAR(found->rms_px, 0.1 * std::sqrt(2.0), 0.01);
+    EXPECT_EQ(found->unused, 0U);
+}
+
 TEST(CameraCalibration, TermsThatAreNotThere_AreNotFitted) {
     const CameraGeometry lens = bent_lens();
     int extra = 0;

@@ -1,0 +1,29 @@
+#pragma once
+// The images that a camera is calibrated from.
+#include "calib/target_images.h"
+#include "src/calibrate/camera_target.h"
+
+#include <filesystem>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+namespace fidservo {
+
+struct CalibrationImages {
+    std::vector<calib::TargetImage> views;     ///< that show the target, each unlike the one before
+    std::vector<std::vector<cv::Mat>> bursts;  ///< frames at rest among them
+    std::size_t images = 0;
+    std::size_t without_target = 0;
+    int width_px = 0, height_px = 0;
+};
+
+/// Finds the target in all images of folders, recordings and videos. Throws InputError: an input that cannot
+/// be read, images of different sizes, tags that the target does not have (a wrong grid), no tag at all.
+CalibrationImages read_calibration_images(const std::vector<std::filesystem::path>& inputs,
+                                          const CameraTarget& target);
+
+/// All images of a folder as one burst. Throws InputError.
+std::vector<cv::Mat> read_burst(const std::filesystem::path& folder);
+
+}  // namespace fidservo

@@ -1,0 +1,33 @@
+#pragma once
+// What is printed on a camera's calibration target.
+#include "core/plate.h"
+#include "core/rig.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fidservo {
+
+struct CameraTarget {
+    std::vector<PlateTag> tags;
+    int border_cells;  ///< of the tags' black border
+    std::string text;  ///< for people
+};
+
+/// A kalibr AprilGrid: tag36h11 with a border of two cells, tag `row * columns + column`, row 0 at the
+/// bottom.
+/// @param spacing  gap between tags as a share of their side
+CameraTarget april_grid(int columns, int rows, double tag_size_mm, double spacing);
+
+/// The same by a text like "6x6", columns x rows. Throws InputError.
+CameraTarget april_grid(const std::string& grid, double tag_size_mm, double spacing);
+
+/// A target file as kalibr writes them: target_type aprilgrid, tagCols, tagRows, tagSize in m, tagSpacing.
+/// Throws InputError.
+CameraTarget load_kalibr_target(const std::filesystem::path& file);
+
+/// The plate of a rig.
+CameraTarget plate_target(const FiducialParameters& fiducials);
+
+}  // namespace fidservo
