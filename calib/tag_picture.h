@@ -1,0 +1,28 @@
+#pragma once
+// What a refinement without a calibrated camera reports of a tag that a distorting lens shows.
+//
+// Such a refinement lays a perspective picture of the tag over the image, by least squares along all edges of
+// its code. A lens bends those edges; the perspective picture nearest to them has corners that are not where
+// the corners are. With the tag's own coordinates p in [-1, 1]^2 and the lens' shift d(p) in px, in the tag's
+// directions, the corners found are, to first order in the shift,
+//
+//     c_k + B(p_k) argmin_h sum_i w_i |B(p_i) h - d(p_i)|^2
+//
+// c_k: where the pinhole camera sees corner k; B: the eight directions in which a perspective picture can
+// change: 1, x, y for each coordinate, (x x, x y), (x y, y y). Source of the latter: Hartley, Zisserman,
+// Multiple View Geometry, 2nd ed., 2004, ch. 2.4.
+#include "core/camera_geometry.h"
+#include "core/plate.h"
+
+#include <array>
+
+#include <Eigen/Core>
+
+namespace fidservo::calib {
+
+/// Corners in px, in the order of detections, that are found of a tag seen from camera position s. Without
+/// distortion they are the projected corners.
+std::array<Eigen::Vector2d, 4> pictured_corners(const CameraGeometry& camera, const PlateTag& tag,
+                                                double s_mm);
+
+}  // namespace fidservo::calib
