@@ -29,6 +29,7 @@ void add_identify(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
 void add_calibrate_camera(CLI::App& calibrate, int& exit_code);
+void add_calibrate_stage(CLI::App& calibrate, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 
 /// --rig RIG.yaml; the reference rig where it is not given.

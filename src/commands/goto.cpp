@@ -115,6 +115,7 @@ void add_goto(CLI::App& app, int& exit_code) {
     command->add_option("--hold", options->hold_s, "Hold for so many seconds, then switch the heater off")
         ->check(CLI::NonNegativeNumber);
     add_session_options(*command, options->session);
+    add_sim_rig_option(*command, options->session);
     add_example(*command, "fidservo goto --tag 12 --dx-um 150 --hold 5");
     command->callback([options, &exit_code] { exit_code = run_goto(*options); });
 }

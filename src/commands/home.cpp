@@ -32,6 +32,7 @@ void add_home(CLI::App& app, int& exit_code) {
                                            "Find the end stop, register against a fiducial, tune the micro "
                                            "stage (other commands do it when needed)");
     add_session_options(*command, *options);
+    add_sim_rig_option(*command, *options);
     add_example(*command, "fidservo home --rig assets/rig.yaml");
     command->callback([options, &exit_code] { exit_code = run_home(*options); });
 }

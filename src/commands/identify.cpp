@@ -173,8 +173,9 @@ void add_identify(CLI::App& app, int& exit_code) {
 }
 
 void add_calibrate(CLI::App& app, int& exit_code) {
-    add_calibrate_camera(add_group(app, "calibrate", "Calibrate a sensor", calibrations, exit_code),
-                         exit_code);
+    CLI::App& group = add_group(app, "calibrate", "Calibrate a sensor or the stage", calibrations, exit_code);
+    add_calibrate_camera(group, exit_code);
+    add_calibrate_stage(group, exit_code);
 }
 
 }  // namespace fidservo

@@ -49,6 +49,7 @@ void add_record(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--out", options->out, "New folder for the recording")->type_name("DIR")->required();
     add_session_options(*command, options->session);
+    add_sim_rig_option(*command, options->session);
     add_example(*command, "fidservo record --duration 10 --out rest-10s");
     command->callback([options, &exit_code] { exit_code = run_record(*options); });
 }

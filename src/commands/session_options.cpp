@@ -18,6 +18,14 @@ void add_session_options(CLI::App& command, SessionOptions& options) {
     command.add_option("--seed", options.seed, "Seed of the simulated rig's noise")->capture_default_str();
 }
 
+void add_sim_rig_option(CLI::App& command, SessionOptions& options) {
+    command
+        .add_option(
+            "--sim-rig", options.sim_rig_file,
+            "The rig that is simulated, where it is not what --rig says; the program does not look at it")
+        ->type_name("RIG.yaml");
+}
+
 Plate rig_plate(const Rig& rig, const std::filesystem::path& rig_file) {
     if (!rig.fiducials)
         throw InputError(

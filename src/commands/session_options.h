@@ -12,6 +12,9 @@ namespace fidservo {
 /// --rig, --stage, --camera, --seed.
 void add_session_options(CLI::App& command, SessionOptions& options);
 
+/// --sim-rig.
+void add_sim_rig_option(CLI::App& command, SessionOptions& options);
+
 /// The plate that the rig file describes. Throws InputError if it describes none.
 Plate rig_plate(const Rig& rig, const std::filesystem::path& rig_file);
 

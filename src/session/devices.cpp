@@ -1,5 +1,7 @@
 #include "src/session/devices.h"
 
+#include "src/config/rig_file.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -53,11 +55,15 @@ void demand_simulation(const char* option, const std::string& value) {
 SimulatedDevices make_simulated_devices(const SessionOptions& options, const Rig& rig, const Plate& printed) {
     demand_simulation("--stage", options.stage);
     demand_simulation("--camera", options.camera);
+    const Rig truth = options.sim_rig_file.empty() ? rig : load_rig(options.sim_rig_file);
+    if (!truth.camera || !truth.micro)
+        throw InputError(fmt::format("{}: {}: missing; the simulated rig needs it",
+                                     options.sim_rig_file.string(), truth.camera ? "micro" : "camera"));
     SimulatedDevices devices;
     const auto guarding = std::make_shared<SimulationGuardian>(options);
     devices.guardian = std::shared_ptr<control::Guardian>(guarding, &guarding->guardian);
-    devices.rig = std::make_shared<SimulatedRig>(plant::plant_parameters(rig), rig.camera.value(), printed,
-                                                 options.seed);
+    devices.rig =
+        std::make_shared<SimulatedRig>(plant::plant_parameters(truth), *truth.camera, printed, options.seed);
     devices.stage = std::make_shared<SimulatedStage>(devices.rig, devices.guardian);
     devices.camera = std::make_shared<SimulatedCamera>(devices.rig);
     return devices;

@@ -14,9 +14,9 @@ struct SimulatedDevices {
     std::shared_ptr<vision::Camera> camera;
 };
 
-/// The simulated rig as its file describes it, behind a guardian process that holds its outputs. Call it
-/// before the program starts threads. Throws InputError if the options name other devices than this program
-/// drives.
+/// The simulated rig as its file (options.sim_rig_file, else the rig's own) describes it, behind a guardian
+/// process that holds its outputs. Call it before the program starts threads. Throws InputError if the
+/// options name other devices than this program drives.
 SimulatedDevices make_simulated_devices(const SessionOptions& options, const Rig& rig, const Plate& printed);
 
 }  // namespace fidservo

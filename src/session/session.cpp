@@ -140,6 +140,10 @@ Status Session::observe(double duration_s) {
     return {};
 }
 
+Pilot& Session::pilot() {
+    return impl_->pilot;
+}
+
 Eigen::Vector2d Session::camera_mm() const {
     return impl_->pilot.camera_mm;
 }

@@ -14,6 +14,8 @@
 
 namespace fidservo {
 
+class Pilot;
+
 /// What a motion to a fiducial-relative target reached, as the camera measured it at rest.
 struct Arrival {
     int tag_id = -1;            ///< the fiducial that was measured
@@ -30,6 +32,9 @@ struct Arrival {
 /// What the session was told.
 struct SessionOptions {
     std::filesystem::path rig_file;
+    /// The rig that is simulated, where it differs from what rig_file says; the program never sees it. Empty:
+    /// rig_file.
+    std::filesystem::path sim_rig_file;
     std::string stage = "sim";   ///< sim | comedi:/dev/comedi0
     std::string camera = "sim";  ///< sim | v4l2:/dev/video0 | images:DIR
     std::uint64_t seed = 1;      ///< of the simulated rig's noise
@@ -67,6 +72,9 @@ class Session {
     Status hold(double duration_s);
     /// The same, and keeps what every frame shows in the recording.
     Status observe(double duration_s);
+
+    /// The rig under way, for commands that move it in ways of their own.
+    Pilot& pilot();
 
     /// Where the camera's axis was at the last confirmed arrival, plate frame, mm.
     Eigen::Vector2d camera_mm() const;

@@ -1,0 +1,48 @@
+#pragma once
+// What a quick survey would record on a rig of known numbers: no images, no motion, the sensors' noise and
+// rounding and the corners' noise only.
+#include "src/calibrate/stage_numbers.h"
+#include "tests/calib/stage_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace fidservo {
+
+inline int synthetic_reading(const HallParameters& hall, double platform_mm, NoiseStream& noise) {
+    return static_cast<int>(
+        std::lround(hall_voltage_V(hall, platform_mm) / hall_lsb_V(hall) + hall.noise_lsb * noise.normal()));
+}
+
+/// @param truth  the rig as it is
+inline std::vector<StageShot> synthetic_survey(const Rig& truth, std::uint64_t seed, double corner_std_px) {
+    NoiseStream corners(seed, "corners"), sensor(seed, "hall"), places(seed, "places");
+    const HallParameters& hall = truth.micro.value().hall;
+    const double count_mm = truth.macro.encoder_resolution_mm;
+    constexpr int readings = 41;
+    std::vector<StageShot> shots;
+    const auto stand = [&](StageMove move, double carriage_mm, double platform_mm) {
+        StageShot shot{move,
+                       0.0,
+                       calib::synthetic_view(truth.camera.value().geometry, 0.0, carriage_mm + platform_mm,
+                                             corner_std_px, corners),
+                       std::floor(carriage_mm / count_mm + 0.5),
+                       {},
+                       {}};
+        for (int i = 0; i < readings; ++i)
+            shot.hall_adc.push_back(synthetic_reading(hall, platform_mm, sensor));
+        shots.push_back(shot);
+    };
+    const double parked_mm = 2.0 + 0.05 * places.uniform();
+    for (int i = 0; i < quick_plan.travel; ++i)
+        stand(StageMove::travel, 2.0 + 194.0 * (i + places.uniform()) / quick_plan.travel, parked_mm);
+    const double carriage_mm = 190.0 + places.uniform();
+    stand(StageMove::extended, carriage_mm, 0.0);
+    const int platform = quick_plan.platform_up + quick_plan.platform_down;
+    for (int i = 0; i < platform; ++i)
+        stand(StageMove::platform, carriage_mm, 0.2 + 3.6 * (i + places.uniform()) / platform);
+    return shots;
+}
+
+}  // namespace fidservo
