@@ -187,14 +187,17 @@ Status StageSurvey::grow() {
 /// Stands at even distances over what the carriage reaches of the plate, each shifted within the pitch.
 Status StageSurvey::travel(StageMove move, int stands, double phase) {
     constexpr double beside_mm = 1.0, pitch_mm = 2.0;
+    constexpr double unknown_scale = 0.01;  // of the encoder: a stand must not lie beyond the end stop
     const auto by_x = [](const PlateTag& tag) { return tag.centre_mm.x(); };
     const auto tags = vision::reachable_rows(pilot_.rig.camera->geometry, pilot_.nominal);
     if (tags.empty()) return failure(Reason::no_tag, "no row of fiducials can be brought into view");
     const double platform_mm = pilot_.state.micro.average_mm;
+    const MacroParameters& macro = pilot_.rig.macro;
+    const double margin_mm = unknown_scale * (macro.high_mm - macro.low_mm);
     const double low = std::max(by_x(*std::ranges::min_element(tags, {}, by_x)) - beside_mm,
-                                pilot_.rig.macro.low_mm + platform_mm);
+                                macro.low_mm + margin_mm + platform_mm);
     const double high = std::min(by_x(*std::ranges::max_element(tags, {}, by_x)) + beside_mm,
-                                 pilot_.rig.macro.high_mm + platform_mm);
+                                 macro.high_mm - margin_mm + platform_mm);
     int blind = 0;
     for (int i = 0; i < stands; ++i) {
         const double shift = pitch_mm * (std::fmod(phase + golden * i, 1.0) - 0.5);
