@@ -1,7 +1,7 @@
 #include "calib/stage_map.h"
 
+#include "calib/pictured_corners.h"
 #include "calib/significance.h"
-#include "calib/tag_picture.h"
 #include "calib/target_view.h"
 
 #include <algorithm>

@@ -30,7 +30,8 @@ struct SeenTag {
     PlateTag nominal;
     std::array<Eigen::Vector2d, 4> corners_px;
     vision::CornerCovariance covariance_px2;  ///< of rank 4 where the camera was known
-    /// Whether the refinement knew the camera, and so the bend of the tag's edges; else tag_picture.h holds.
+    /// Whether the refinement knew the camera, and so the bend of the tag's edges; else pictured_corners.h
+    /// holds.
     bool camera_known = false;
 };
 

@@ -103,8 +103,8 @@ std::string stand_charts(const StageCalibration& calibration) {
     return figure("The platform by its Hall sensor minus by the camera, over the platform's place.",
                   report::xy_chart_svg("platform, mm", "error, um", hall)) +
            figure(
-               "The encoder's count minus the carriage's exact place in counts: rounding puts it anywhere "
-               "within half a count.",
+               "The encoder's count minus the carriage's exact place in counts: half a count at "
+               "most; many stands are at its edge, where the drive stops.",
                report::xy_chart_svg("camera position, mm", "error, counts", encoder));
 }
 

@@ -175,6 +175,12 @@ Status StageSurvey::grow_to(double side, const StageShot& first) {
 }
 
 Status StageSurvey::grow() {
+    const CameraGeometry& camera = pilot_.rig.camera->geometry;
+    const double half_view_mm = 0.5 * camera.width_px * camera.distance_mm / camera.focal_px;
+    const Way clear = clear_way();
+    const double from_mm = std::max(pilot_.believed_s_mm(), clear.low_mm + half_view_mm);
+    if (auto carried = pilot_.carry_to(std::min(from_mm, clear.high_mm - half_view_mm)); !carried)
+        return carried;
     const auto first = shoot(StageMove::growing);
     if (!first) return forward(first.error());
     if (first->tags.empty())
@@ -184,20 +190,23 @@ Status StageSurvey::grow() {
     return grow_to(-1.0, *first);
 }
 
+StageSurvey::Way StageSurvey::clear_way() const {
+    constexpr double unknown_scale = 0.01;  // of the encoder
+    const MacroParameters& macro = pilot_.rig.macro;
+    const double margin_mm = unknown_scale * (macro.high_mm - macro.low_mm);
+    const double platform_mm = pilot_.state.micro.average_mm;
+    return {macro.low_mm + margin_mm + platform_mm, macro.high_mm - margin_mm + platform_mm};
+}
+
 /// Stands at even distances over what the carriage reaches of the plate, each shifted within the pitch.
 Status StageSurvey::travel(StageMove move, int stands, double phase) {
     constexpr double beside_mm = 1.0, pitch_mm = 2.0;
-    constexpr double unknown_scale = 0.01;  // of the encoder: a stand must not lie beyond the end stop
     const auto by_x = [](const PlateTag& tag) { return tag.centre_mm.x(); };
     const auto tags = vision::reachable_rows(pilot_.rig.camera->geometry, pilot_.nominal);
     if (tags.empty()) return failure(Reason::no_tag, "no row of fiducials can be brought into view");
-    const double platform_mm = pilot_.state.micro.average_mm;
-    const MacroParameters& macro = pilot_.rig.macro;
-    const double margin_mm = unknown_scale * (macro.high_mm - macro.low_mm);
-    const double low = std::max(by_x(*std::ranges::min_element(tags, {}, by_x)) - beside_mm,
-                                macro.low_mm + margin_mm + platform_mm);
-    const double high = std::min(by_x(*std::ranges::max_element(tags, {}, by_x)) + beside_mm,
-                                 macro.high_mm - margin_mm + platform_mm);
+    const Way clear = clear_way();
+    const double low = std::max(by_x(*std::ranges::min_element(tags, {}, by_x)) - beside_mm, clear.low_mm);
+    const double high = std::min(by_x(*std::ranges::max_element(tags, {}, by_x)) + beside_mm, clear.high_mm);
     int blind = 0;
     for (int i = 0; i < stands; ++i) {
         const double shift = pitch_mm * (std::fmod(phase + golden * i, 1.0) - 0.5);

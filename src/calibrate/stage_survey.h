@@ -1,9 +1,8 @@
 #pragma once
 // The moves of a stage calibration, and what camera and sensors say at rest after each.
 //
-//   growing   about where homing left the camera, the carriage moves 0.1, 0.2, 0.4 ... mm to either side
-//   until
-//             the next step would take the first tag out of the image: the view is used
+//   growing   half a view off the end stops, about where homing left the camera, the carriage moves 0.1, 0.2,
+//             0.4 ... mm to either side until the next step would take the first tag out of the image
 //   travel    stands over the whole travel, at uneven places of the tags' pitch
 //   extended  heater off until the platform has relaxed: zero of the platform's travel
 //   platform  from there the platform over its travel, up and down, the carriage at rest
@@ -64,6 +63,12 @@ class StageSurvey {
     std::size_t expected_shots() const;
 
   private:
+    struct Way {
+        double low_mm, high_mm;
+    };
+
+    /// Camera positions that keep the carriage off its end stops, whatever the encoder's scale.
+    Way clear_way() const;
     Status tick();
     Status wait(double duration_s);
     Result<StageShot> shoot(StageMove move);

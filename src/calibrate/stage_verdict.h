@@ -22,7 +22,7 @@ struct FreshTest {
 
 /// The fresh stands against the numbers: the tags' corners in the image, the platform by its Hall sensor
 /// against the camera, the carriage by its encoder against the camera. Each test fails a good calibration
-/// with a probability of about 1 %.
+/// with a probability of at most about 1 %. The encoder promises half a count, not where in it.
 std::vector<FreshTest> test_fresh(const StageNumbers& numbers, std::span<const StageShot> shots);
 
 /// What the rig file says against what was measured, quantity by quantity. Differences that do not matter are

@@ -1,4 +1,4 @@
-#include "calib/tag_picture.h"
+#include "calib/pictured_corners.h"
 
 #include "tests/calib/stage_views.h"
 
@@ -46,7 +46,7 @@ std::array<Eigen::Vector2d, 4> nearest_perspective(const CameraGeometry& camera,
             origin + picture({-1, -1})};
 }
 
-TEST(TagPicture, WithoutDistortion_IsTheProjection) {
+TEST(PicturedCorners, WithoutDistortion_IsTheProjection) {
     CameraGeometry camera = straight_camera();
     camera.tilt_rad = {0.02, -0.01};
     camera.rotation_rad = 0.3;
@@ -57,7 +57,7 @@ TEST(TagPicture, WithoutDistortion_IsTheProjection) {
         EXPECT_LT((pictured[k] - project(camera, corners[k], 8.7)).norm(), 1e-12);
 }
 
-TEST(TagPicture, OfADistortingLens_IsTheNearestPerspective) {
+TEST(PicturedCorners, OfADistortingLens_IsTheNearestPerspective) {
     CameraGeometry camera = straight_camera();
     camera.distortion.k1 = -0.3;
     camera.rotation_rad = 0.05;

@@ -1,4 +1,4 @@
-#include "calib/tag_picture.h"
+#include "calib/pictured_corners.h"
 
 #include "vision/tag_choice.h"
 
