@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -111,6 +112,25 @@ Posterior integrate(const Stands& stands, double best_slope, double least_step) 
     return {about.x() + mean.x(), about.y() + mean.y(), moment / mass - mean * mean.transpose()};
 }
 
+/// Mean square of the places within their counts over that of evenly spread ones, at least 1. It is 3 where
+/// all are at edges, and the true line then is at the rim of what the counts allow, not anywhere inside.
+double crowding(const Stands& stands, const Posterior& line) {
+    const Eigen::ArrayXd within = line.slope * stands.way_mm + line.offset - stands.count;
+    const double even = 1.0 / 12.0 + stands.noise_count * stands.noise_count;
+    return std::max(1.0, within.square().mean() / even);
+}
+
+/// Variances that a likelihood of evenly spread places does not know of: where places pile up at the edges of
+/// their counts, their noise shifts the line, as it does a least-squares line. Noise of a count's size smears
+/// edges out, as dither does (the rounding's first harmonic).
+Eigen::Matrix2d of_edges(const Stands& stands) {
+    constexpr double pi = std::numbers::pi;
+    const double noise = stands.noise_count;
+    const double variance = std::pow(noise * std::exp(-2.0 * pi * pi * noise * noise), 2.0) /
+                            static_cast<double>(stands.count.size());
+    return Eigen::Vector2d(variance / stands.way_mm.square().mean(), variance).asDiagonal();
+}
+
 }  // namespace
 
 Result<EncoderScale> fit_encoder_scale(std::span<const EncoderStand> stands) {
@@ -145,7 +165,8 @@ Result<EncoderScale> fit_encoder_scale(std::span<const EncoderStand> stands) {
     constexpr double largest_in_noise = 3.5;
     scale.fits = scale.excess_count <= largest_in_noise * data.noise_count;
     if (!scale.fits) data.noise_count = scale.excess_count / 2.0;
-    const Posterior posterior = integrate(data, best, 0.01 / way_mm);
+    Posterior posterior = integrate(data, best, 0.01 / way_mm);
+    posterior.covariance = crowding(data, posterior) * posterior.covariance + of_edges(data);
     const double p = 1.0 / posterior.slope;
     scale.resolution_mm = p;
     scale.resolution_std_mm = p * p * std::sqrt(posterior.covariance(0, 0));

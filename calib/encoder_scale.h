@@ -6,7 +6,8 @@
 // the noise of y (rounding_likelihood.h). The uncertainty left by n stands over a way L is a polygon in (u,
 // v) that shrinks with 1 / n, not with 1 / sqrt(n), and least squares would be worse. The estimate is the
 // mean of the posterior under a flat prior, its standard errors are the posterior's standard deviations, both
-// by numerical integration.
+// by numerical integration, widened where places pile up at the edges of their counts, as they do where a
+// drive stops as soon as its count is reached.
 #include "core/failure.h"
 
 #include <span>

@@ -80,7 +80,7 @@ void refine_again(const CameraParameters& rig_camera, const CameraGeometry& came
 StageSurvey::StageSurvey(Pilot& pilot, const StagePlan& plan) : pilot_(pilot), plan_(plan) {}
 
 std::size_t StageSurvey::expected_shots() const {
-    constexpr int of_growing = 9;
+    constexpr int of_growing = 13;
     return static_cast<std::size_t>((plan_.growing ? of_growing : 0) + plan_.travel + 1 + plan_.platform_up +
                                     plan_.platform_down + plan_.fresh_travel + plan_.fresh_platform);
 }

@@ -37,6 +37,8 @@ void demand_sound(const StageOptions& options) {
                                           std::filesystem::file_type::not_found)
         throw InputError(fmt::format("--write-rig: {}: exists already; give the name of a new file",
                                      options.write_rig.string()));
+    if (!options.out.empty() && options.out.lexically_normal() == options.write_rig.lexically_normal())
+        throw InputError(fmt::format("--out, --write-rig: {}: are one name", options.out.string()));
 }
 
 /// Calibrated numbers contain such effects: beside them in a file they would act twice.
@@ -88,7 +90,9 @@ int run_calibration(const StageOptions& options, const Rig& rig, Session& sessio
     write_stage_calibration(options.out, rig, calibration);
     fmt::print("stage, {} stands in {:.0f} s of rig time\n{}", calibration.shots.size(),
                calibration.rig_time_s, describe(rig, calibration));
-    if (!options.write_rig.empty()) {
+    if (!options.write_rig.empty() && !calibration.passed()) {
+        fmt::print("no rig file: fresh moves do not confirm the calibration\n");
+    } else if (!options.write_rig.empty()) {
         write_stage_rig(options.write_rig, options.session.rig_file, rig, calibration);
         fmt::print("rig file: {}\n", options.write_rig.string());
     }
@@ -118,7 +122,9 @@ void add_calibrate_stage(CLI::App& calibrate, int& exit_code) {
                                                  "exit code 1 if fresh moves do not confirm them");
     command->add_option("--out", options->out, "New folder for the report, the numbers and the recording")
         ->type_name("DIR");
-    command->add_option("--write-rig", options->write_rig, "New rig file with the calibrated values")
+    command
+        ->add_option("--write-rig", options->write_rig,
+                     "New rig file with the calibrated values, if fresh moves confirm them")
         ->type_name("FILE.yaml");
     command->add_flag("--check", options->check,
                       "A few quick moves against what the rig file says: what has drifted; exit code 1 if "

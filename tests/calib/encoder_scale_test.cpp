@@ -41,6 +41,32 @@ TEST(EncoderScale, ErrorsOverSeeds_AreAsLargeAsTheirStandardErrorsSay) {
     EXPECT_GT(zero_squares, low);
 }
 
+TEST(EncoderScale, StandsThatPileUpAtTheEdgesOfCounts_KeepTheirStandardErrors) {
+    // A drive that stops as soon as its count is reached: nothing like the even spread that a likelihood of
+    // rounding supposes.
+    constexpr int seeds = 100, way_counts = 3800;
+    for (const int count : {10, 20, 40}) {
+        double squares = 0.0;
+        for (int seed = 1; seed <= seeds; ++seed) {
+            NoiseStream noise(static_cast<std::uint64_t>(seed), "edges");
+            std::vector<EncoderStand> all;
+            for (int i = 0; i < count; ++i) {
+                const double c = std::floor(way_counts * noise.uniform());
+                const double in_count = noise.uniform() < 0.3   ? noise.uniform() - 0.5
+                                        : noise.uniform() < 0.4 ? -0.499
+                                                                : 0.499;
+                all.push_back(
+                    {c, zero_mm + resolution_mm * (c + in_count) + noise_mm * noise.normal(), noise_mm});
+            }
+            const auto scale = fit_encoder_scale(all);
+            ASSERT_TRUE(scale);
+            squares += std::pow((scale->resolution_mm - resolution_mm) / scale->resolution_std_mm, 2.0);
+        }
+        EXPECT_LT(squares, chi_square_bound(seeds, 1e-4)) << count << " stands";
+        EXPECT_GT(squares, 0.5 * seeds);  // nor twice too careful
+    }
+}
+
 TEST(EncoderScale, StandsByTheirCountsAlone_WouldBeWorse) {
     // Least squares of places over counts leaves resolution / sqrt(12 n) over the way's spread.
     constexpr int n = 40;

@@ -43,6 +43,7 @@ std::filesystem::path rig_with_effect(const TemporaryFolder& folder, const std::
 TEST(CalibrateStageCommand, WhatIsWrong_IsSaidInALineAndNothingIsMade) {
     const TemporaryFolder folder;
     expect_refusal({}, folder, {"--out", "missing"});
+    expect_refusal({"--out", "o", "--write-rig", "./o"}, folder, {"--out, --write-rig", "one name"});
     expect_refusal({"--check", "--write-rig", "new.yaml"}, folder, {"--check, --write-rig"});
     expect_refusal({"--out", "o", "--stage", "comedi:/dev/comedi0"}, folder, {"--stage", "allowed: sim"});
     EXPECT_FALSE(std::filesystem::exists(folder / "o"));
