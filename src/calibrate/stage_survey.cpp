@@ -81,8 +81,9 @@ StageSurvey::StageSurvey(Pilot& pilot, const StagePlan& plan) : pilot_(pilot), p
 
 std::size_t StageSurvey::expected_shots() const {
     constexpr int of_growing = 13;
-    return static_cast<std::size_t>((plan_.growing ? of_growing : 0) + plan_.travel + 1 + plan_.platform_up +
-                                    plan_.platform_down + plan_.fresh_travel + plan_.fresh_platform);
+    const int stands = (plan_.growing ? of_growing : 0) + plan_.travel + 1 + plan_.platform_up +
+                       plan_.platform_down + plan_.fresh_travel + plan_.fresh_platform;
+    return static_cast<std::size_t>(stands);
 }
 
 Status StageSurvey::tick() {
