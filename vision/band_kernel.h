@@ -20,6 +20,8 @@ struct Node {
     float c, cx, cy, cxy;
     float edge_up, edge_down;     ///< 1 where the line x = const parts black from white, above and below
     float edge_left, edge_right;  ///< likewise y = const
+    float corners;  ///< cells whose corner stands out here: white ones less black ones; 2 where cells meet
+                    ///< crosswise
 };
 
 /// Pixels: their place q (tag_picture.h), grey level, and square root of weight.
@@ -36,7 +38,7 @@ struct Constants {
     float m[9];                            ///< from q to the tag frame, row by row
     float inverse_blur_x, inverse_blur_y;  ///< 1 / px
     float half_motion_x, half_motion_y;    ///< in standard deviations of the blur
-    float spread, skew, tail;
+    float spread, skew, tail, kink;
     float black, height;
     float light_x, light_y, light_r;  ///< per cell, per cell squared
     float noise_floor, noise_gain, noise_spread;
@@ -49,6 +51,7 @@ enum LookColumn {
     spread,
     skew,
     tail,
+    kink,
     white,
     black,
     light_x,

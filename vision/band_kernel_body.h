@@ -37,14 +37,29 @@ template <std::size_t geometry>
     profile_at((x - node.x) * by_x, c.half_motion_x, fx);
     profile_at((y - node.y) * by_y, c.half_motion_y, fy);
 
-    const Lanes A = fx.f0 + c.tail * fx.f4, A1 = fx.f1 + c.tail * fx.f5;
-    const Lanes B = fy.f0 + c.tail * fy.f4, B1 = fy.f1 + c.tail * fy.f5;
+    // Ink that spreads by e = eps s moves every edge towards white: f(z -+ eps), as a Taylor series. Its even
+    // terms keep the edge's sign, the odd ones do not.
+    const float eps_x = c.spread * c.inverse_blur_x, eps_y = c.spread * c.inverse_blur_y;
+    const float even2_x = 0.5F * eps_x * eps_x, even2_y = 0.5F * eps_y * eps_y;
+    const float even4_x = even2_x * even2_x * (1.0F / 6) + c.tail,
+                even4_y = even2_y * even2_y * (1.0F / 6) + c.tail;
+    const float odd3_x = even2_x * eps_x * (1.0F / 3) - c.skew,
+                odd3_y = even2_y * eps_y * (1.0F / 3) - c.skew;
+    const Lanes A = fx.f0 + even2_x * fx.f2 + even4_x * fx.f4;
+    const Lanes B = fy.f0 + even2_y * fy.f2 + even4_y * fy.f4;
+    const Lanes A1 = fx.f1 + even2_x * fx.f3 + even4_x * fx.f5;
+    const Lanes B1 = fy.f1 + even2_y * fy.f3 + even4_y * fy.f5;
+    const Lanes odd_x = eps_x * fx.f1 + odd3_x * fx.f3 - c.kink * fx.f5;
+    const Lanes odd_y = eps_y * fy.f1 + odd3_y * fy.f3 - c.kink * fy.f5;
     const Lanes dx = node.cx + node.cxy * B, dy = node.cy + node.cxy * A;
     const Lanes edge_x = node.edge_up + (node.edge_down - node.edge_up) * B;
     const Lanes edge_y = node.edge_left + (node.edge_right - node.edge_left) * A;
-    const Lanes by_spread = -c.inverse_blur_x * fx.f1 * edge_x - c.inverse_blur_y * fy.f1 * edge_y;
+    const Lanes covered =
+        node.c + node.cx * A + dy * B - odd_x * edge_x - odd_y * edge_y + node.corners * odd_x * odd_y;
+    const Lanes by_spread = c.inverse_blur_x * (eps_x * fx.f2 * dx - (fx.f1 + even2_x * fx.f3) * edge_x) +
+                            c.inverse_blur_y * (eps_y * fy.f2 * dy - (fy.f1 + even2_y * fy.f3) * edge_y);
     const Lanes by_skew = fx.f3 * edge_x + fy.f3 * edge_y;
-    const Lanes covered = node.c + node.cx * A + dy * B + c.spread * by_spread + c.skew * by_skew;
+    const Lanes by_kink = fx.f5 * edge_x + fy.f5 * edge_y;
     const Lanes r2 = x * x + y * y;
     const Lanes light = 1.0F + c.light_x * x + c.light_y * y + c.light_r * r2;
     const Lanes unlit = c.black + c.height * covered;
@@ -58,7 +73,13 @@ template <std::size_t geometry>
     squares += residual * residual;
 
     const auto put = [&](std::size_t column, const Lanes& values) { store(values, &j.at[column][into]); };
-    const Lanes gx = height * A1 * dx * by_x, gy = height * B1 * dy * by_y;
+    const Lanes odd1_x = eps_x * fx.f2 + odd3_x * fx.f4, odd1_y = eps_y * fy.f2 + odd3_y * fy.f4;
+    const Lanes gx =
+        height * by_x *
+        (A1 * (dx - (node.edge_right - node.edge_left) * odd_y) - odd1_x * (edge_x - node.corners * odd_y));
+    const Lanes gy =
+        height * by_y *
+        (B1 * (dy - (node.edge_down - node.edge_up) * odd_x) - odd1_y * (edge_y - node.corners * odd_x));
     const Lanes radial = gx * x + gy * y;
     put(0, gx);
     put(1, gy);
@@ -75,6 +96,7 @@ template <std::size_t geometry>
     put(geometry + spread, height * by_spread);
     put(geometry + skew, height * by_skew);
     put(geometry + tail, height * (fx.f4 * dx + fy.f4 * dy));
+    put(geometry + kink, height * by_kink);
     put(geometry + white, w * light * covered);
     put(geometry + black, w * light * (1.0F - covered));
     constexpr auto sides_per_cell = static_cast<float>(1.0 / half_side_cells);  // half sides

@@ -15,6 +15,7 @@ kernel::Constants constants_of(const TagPicture& picture, const BandLook& look, 
     c.spread = f(look.spread_px);
     c.skew = f(look.skew_factor);
     c.tail = f(look.tail_factor);
+    c.kink = f(look.kink_factor);
     c.black = f(look.black_grey);
     c.height = f(look.white_grey - look.black_grey);
     c.light_x = f(look.light(0) / kernel::half_side_cells);

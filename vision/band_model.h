@@ -19,6 +19,7 @@ struct BandLook {
     double spread_px = 0.0;    ///< by which black reaches farther out
     double skew_factor = 0.0;  ///< of f3, edge_profile.h: for light or display that is not linear
     double tail_factor = 0.0;  ///< of f4: for a blur that is not normal, and for the pixel's area
+    double kink_factor = 0.0;  ///< of f5: like skew
     double white_grey = 0.0;
     double black_grey = 0.0;
     Eigen::Vector3d light = Eigen::Vector3d::Zero();

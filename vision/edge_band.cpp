@@ -34,6 +34,9 @@ kernel::Node crossing(const TagPattern& pattern, int column, int row) {
     node.edge_down = std::abs(c11 - c01);
     node.edge_left = std::abs(c01 - c00);
     node.edge_right = std::abs(c11 - c10);
+    const float white = c00 + c10 + c01 + c11;
+    const bool crosswise = white == 2.0F && c00 == c11;
+    node.corners = crosswise ? 2.0F : white == 1.0F ? 1.0F : white == 3.0F ? -1.0F : 0.0F;
     return node;
 }
 
@@ -187,8 +190,8 @@ void EdgeBand::weigh(const BandBlock& block, float root_of_weight) {
 
 void select_band(const cv::Mat& image, const TagPicture& picture, const TagPattern& pattern,
                  const BandReach& reach, int every, EdgeBand& band) {
-    std::vector<Run> runs;
-    runs.reserve(8192);
+    thread_local std::vector<Run> runs;  // kept: fresh memory costs more than its use
+    runs.clear();
     band.nodes.clear();
     band.blocks.clear();
     band.pixels = 0;

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -19,13 +21,14 @@ constexpr double least_side_px = 24.0;
 constexpr double least_contrast = 8.0;  ///< grey levels; below, noise decides where the edges are
 constexpr double least_explained = 0.3;
 constexpr double sharpest_px = 0.3;  ///< the area of a pixel alone blurs by 0.29 px
-/// A block is left out if its mean square, in those of the usual block, is above 1 by so many of the standard
-/// deviations that noise gives it.
-constexpr float most_deviations = 6.0F;
+/// What is left out: a block, or all of a crossing, whose mean square, in those of the usual block, is above
+/// 1 by so many of the standard deviations that noise gives it.
+constexpr float most_of_block = 6.0F;
+constexpr float most_of_crossing = 4.0F;
 
 /// Standard deviations of what is known of the look beforehand: so wide that they matter only where the
 /// pixels say nothing.
-constexpr std::array<double, kernel::look_columns> look_prior{1.0,   1.0,   1.0, 0.05, 0.05,
+constexpr std::array<double, kernel::look_columns> look_prior{1.0,   1.0,   1.0, 0.05, 0.05, 0.02,
                                                               300.0, 300.0, 0.5, 0.5,  0.5};
 
 template <class Number>
@@ -51,14 +54,25 @@ void read_levels(const cv::Mat& image, const TagPicture& picture, const TagPatte
     if (!bright.empty()) look.white_grey = median_of(bright);
 }
 
+/// Kept from tag to tag: fresh memory costs more than its use.
+struct WorkingMemory {
+    EdgeBand band;
+    std::vector<float> block_squares;
+    std::vector<float> sorted;
+};
+
 /// One tag under refinement.
 class Fit {
   public:
-    Fit(const cv::Mat& image, const TagDetection& found, const RefinementOptions& options)
+    Fit(const cv::Mat& image, const TagDetection& found, const RefinementOptions& options,
+        WorkingMemory& memory)
         : image_(image),
           options_(options),
           pattern_(tag_pattern(found.tag_id, found.border_cells)),
-          picture_(found.corners_px, pattern_.cells, options.camera) {
+          picture_(found.corners_px, pattern_.cells, options.camera),
+          band_(memory.band),
+          block_squares_(memory.block_squares),
+          sorted_(memory.sorted) {
         const Eigen::Matrix2d cells_by_px = picture_.cells_by_px(picture_.image_of({0.0, 0.0}));
         cell_px_ = 1.0 / std::max(cells_by_px.row(0).norm(), cells_by_px.row(1).norm());
         const Eigen::Vector2d motion_cells = cells_by_px * options.motion_px;
@@ -71,22 +85,21 @@ class Fit {
 
     /// A quick fit that tolerates much: brings the model to within some hundredths of a pixel.
     bool look_roughly() {
-        constexpr double at_rest_px = 0.02;
         constexpr int most_steps = 16;
-        constexpr std::size_t enough_pixels = 4000;
+        constexpr std::size_t enough_pixels = 3000;
         double reach_px = std::min(4.0, 0.5 * cell_px_);
         const double edge_pixels =
             70.0 * cell_px_ * 2.0 * reach_px;  // a code has about 70 cell sides of edge
         const int every = std::max(1, static_cast<int>(edge_pixels / enough_pixels));
         select(reach_px, every);
-        for (int step = 0; step < most_steps; ++step) {
-            const double moved_px = take_step(true);
-            if (!std::isfinite(moved_px) || !has_contrast()) return false;
+        for (int k = 0; k < most_steps; ++k) {
+            const std::optional<Step> step = take_step(Outliers::lose_weight);
+            if (!step || !has_contrast()) return false;
             const double blur_px = std::max(look_.blur_x_px, look_.blur_y_px);
             if (2.3 * blur_px > reach_px && reach_px < 0.5 * cell_px_) {
                 reach_px = std::min(2.0 * reach_px, 0.5 * cell_px_);
                 select(reach_px, every);
-            } else if (moved_px < at_rest_px && step > 0) {
+            } else if (step->is_small() && k > 0) {
                 return true;
             }
         }
@@ -95,17 +108,20 @@ class Fit {
 
     /// The fit that counts. False if too little of the tag can be seen.
     bool look_closely() {
-        constexpr double at_rest_px = 0.02;  // Gauss-Newton: what is left after such a step is below 1e-4 px
-        constexpr int most_steps = 6;
+        constexpr int most_steps = 8;
         constexpr double reach_in_blurs = 2.5;
         select(reach_in_blurs * std::max(look_.blur_x_px, look_.blur_y_px) + 0.2, 1);
-        for (int step = 0; step < most_steps; ++step) {
-            const double moved_px = take_step(false);
-            if (!std::isfinite(moved_px)) return false;
-            if (explained_ < least_explained || !has_contrast()) return false;
-            if (moved_px < at_rest_px) return true;
+        Outliers outliers = Outliers::lose_weight;
+        for (int k = 0; k < most_steps; ++k) {
+            const std::optional<Step> step = take_step(outliers);
+            if (!step || !has_contrast()) return false;
+            if (!step->is_small()) continue;
+            const bool all_used = used_ == band_.pixels;
+            if (all_used || (outliers == Outliers::are_left_out && !step->weights_changed))
+                return explained_ >= least_explained;
+            outliers = Outliers::are_left_out;
         }
-        return false;
+        return explained_ >= least_explained;
     }
 
     RefinedTag result(TagDetection tag) const {
@@ -159,28 +175,41 @@ class Fit {
         look(kernel::spread) -= by_prior(kernel::spread, look_.spread_px);
         look(kernel::skew) -= by_prior(kernel::skew, look_.skew_factor);
         look(kernel::tail) -= by_prior(kernel::tail, look_.tail_factor);
+        look(kernel::kink) -= by_prior(kernel::kink, look_.kink_factor);
         for (int k = 0; k < 3; ++k)
             look(kernel::light_x + k) -= by_prior(kernel::light_x + k, look_.light(k));
     }
 
-    /// One Gauss-Newton step. @param tolerant  whether blocks that do not fit lose weight little by little,
-    /// as long as the model is not yet in its place, or at once
-    /// @return how far the tag moved, px; NaN if the pixels do not determine it
-    double take_step(bool tolerant) {
+    /// What becomes of blocks that do not fit: little by little as long as the model is not in its place.
+    enum class Outliers { lose_weight, are_left_out };
+
+    struct Step {
+        double moved_px;
+        double widened;  ///< largest change of a blur, as a part of it
+        bool weights_changed;
+
+        /// What Gauss-Newton leaves after such a step is below 1e-4 px.
+        bool is_small() const { return moved_px < 0.02 && widened < 0.04; }
+    };
+
+    /// One Gauss-Newton step; empty if the pixels do not determine it.
+    std::optional<Step> take_step(Outliers outliers) {
         last_ = evaluate_band(band_, picture_, look_, options_.noise, block_squares_);
-        if (weigh_blocks(tolerant))
-            last_ = evaluate_band(band_, picture_, look_, options_.noise, block_squares_);
+        const bool changed = weigh_blocks(outliers);
+        if (changed) last_ = evaluate_band(band_, picture_, look_, options_.noise, block_squares_);
         Eigen::MatrixXd normal = last_.normal;
         add_priors(normal);
         Eigen::VectorXd right = last_.right;
         pull(right);
         const Eigen::VectorXd step = normal.ldlt().solve(right);
-        if (!step.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+        if (!step.allFinite()) return {};
         constexpr double longest_px = 1.5;
         const double moved_px = cell_px_ * step.head<2>().norm();
+        const auto look = step.tail<kernel::look_columns>();
+        const double widened = std::max(std::abs(look(kernel::width_x)), std::abs(look(kernel::width_y)));
         apply(moved_px > longest_px ? Eigen::VectorXd(step * (longest_px / moved_px)) : step);
         square_sum_ = last_.square_sum - step.dot(right);
-        return moved_px;
+        return Step{moved_px, widened, changed};
     }
 
     void apply(const Eigen::VectorXd& step) {
@@ -195,31 +224,50 @@ class Fit {
         look_.spread_px += look(kernel::spread);
         look_.skew_factor += look(kernel::skew);
         look_.tail_factor += look(kernel::tail);
+        look_.kink_factor += look(kernel::kink);
         look_.white_grey += look(kernel::white);
         look_.black_grey += look(kernel::black);
         look_.light += look.segment<3>(kernel::light_x);
     }
 
     /// Sets the blocks' weights by what the model leaves of them. True if a weight changed.
-    bool weigh_blocks(bool tolerant) {
+    bool weigh_blocks(Outliers outliers) {
         const std::size_t blocks = band_.blocks.size();
         if (blocks == 0) return false;
         for (std::size_t k = 0; k < blocks; ++k)
             block_squares_[k] /= static_cast<float>(band_.blocks[k].end - band_.blocks[k].begin);
         sorted_ = block_squares_;
         const float usual = std::max(1.0F, median_of(sorted_));
+        const auto limit_of = [&](std::size_t pixels, float deviations) {
+            return usual * (1.0F + deviations * std::sqrt(2.0F / static_cast<float>(pixels)));
+        };
         bool changed = false;
         used_ = 0;
-        for (std::size_t k = 0; k < blocks; ++k) {
-            const BandBlock& at = band_.blocks[k];
-            const float limit =
-                usual * (1.0F + most_deviations * std::sqrt(2.0F / static_cast<float>(at.pixels)));
-            const bool good = block_squares_[k] <= limit;
-            const float weight = good ? 1.0F : tolerant ? 0.5F * std::sqrt(limit / block_squares_[k]) : 0.0F;
-            if (good) used_ += at.pixels;
-            if (band_.weight[at.begin] == weight) continue;
-            changed = true;
-            band_.weigh(at, weight);
+        std::size_t first = 0;
+        for (const kernel::Node& node : band_.nodes) {
+            std::size_t last = first;
+            float sum = 0.0F;
+            std::size_t pixels = 0;
+            for (; last < blocks && band_.blocks[last].begin < node.end; ++last) {
+                const auto count = static_cast<float>(band_.blocks[last].pixels);
+                if (block_squares_[last] > limit_of(band_.blocks[last].pixels, most_of_block)) continue;
+                sum += block_squares_[last] * count;
+                pixels += band_.blocks[last].pixels;
+            }
+            // What is too faint to be seen in a block, a whole crossing shows.
+            const bool whole = sum <= limit_of(pixels, most_of_crossing) * static_cast<float>(pixels);
+            for (; first < last; ++first) {
+                const BandBlock& at = band_.blocks[first];
+                const float limit = limit_of(at.pixels, most_of_block);
+                const bool good = whole && block_squares_[first] <= limit;
+                if (good) used_ += at.pixels;
+                float weight = good ? 1.0F : 0.0F;
+                if (!good && outliers == Outliers::lose_weight)
+                    weight = 0.5F * std::min(1.0F, std::sqrt(limit / block_squares_[first]));
+                if (band_.weight[at.begin] == weight) continue;
+                changed = true;
+                band_.weigh(at, weight);
+            }
         }
         explained_ = static_cast<double>(used_) / static_cast<double>(band_.pixels);
         return changed;
@@ -231,9 +279,9 @@ class Fit {
     TagPicture picture_;
     BandLook look_;
     double cell_px_;
-    EdgeBand band_;
-    std::vector<float> block_squares_;
-    std::vector<float> sorted_;
+    EdgeBand& band_;
+    std::vector<float>& block_squares_;  ///< mean squares once weighed
+    std::vector<float>& sorted_;
     BandEquations last_;
     double square_sum_ = 0.0;
     double explained_ = 1.0;
@@ -267,7 +315,8 @@ Result<RefinedTag> refine_tag(const cv::Mat& image, const TagDetection& found,
     if (!(shortest_px >= least_side_px))
         return tl::make_unexpected(hidden("the tag is too small for its edges to be measured"));
 
-    Fit fit(image, found, options);
+    thread_local WorkingMemory memory;
+    Fit fit(image, found, options, memory);
     if (!fit.has_contrast()) return tl::make_unexpected(hidden("the tag's code is not there"));
     if (!fit.look_roughly() || !fit.look_closely())
         return tl::make_unexpected(hidden("too little of the tag is to be seen"));
