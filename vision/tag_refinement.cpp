@@ -1,6 +1,7 @@
 #include "vision/tag_refinement.h"
 
 #include "vision/band_model.h"
+#include "vision/band_outliers.h"
 #include "vision/edge_band.h"
 #include "vision/quad.h"
 #include "vision/tag_pattern.h"
@@ -21,10 +22,6 @@ constexpr double least_side_px = 24.0;
 constexpr double least_contrast = 8.0;  ///< grey levels; below, noise decides where the edges are
 constexpr double least_explained = 0.3;
 constexpr double sharpest_px = 0.3;  ///< the area of a pixel alone blurs by 0.29 px
-/// What is left out: a block, or all of a crossing, whose mean square, in those of the usual block, is above
-/// 1 by so many of the standard deviations that noise gives it.
-constexpr float most_of_block = 6.0F;
-constexpr float most_of_crossing = 4.0F;
 
 /// Standard deviations of what is known of the look beforehand: so wide that they matter only where the
 /// pixels say nothing.
@@ -58,7 +55,7 @@ void read_levels(const cv::Mat& image, const TagPicture& picture, const TagPatte
 struct WorkingMemory {
     EdgeBand band;
     std::vector<float> block_squares;
-    std::vector<float> sorted;
+    std::vector<float> excess;
 };
 
 /// One tag under refinement.
@@ -72,7 +69,7 @@ class Fit {
           picture_(found.corners_px, pattern_.cells, options.camera),
           band_(memory.band),
           block_squares_(memory.block_squares),
-          sorted_(memory.sorted) {
+          excess_(memory.excess) {
         const Eigen::Matrix2d cells_by_px = picture_.cells_by_px(picture_.image_of({0.0, 0.0}));
         cell_px_ = 1.0 / std::max(cells_by_px.row(0).norm(), cells_by_px.row(1).norm());
         const Eigen::Vector2d motion_cells = cells_by_px * options.motion_px;
@@ -232,44 +229,21 @@ class Fit {
 
     /// Sets the blocks' weights by what the model leaves of them. True if a weight changed.
     bool weigh_blocks(Outliers outliers) {
-        const std::size_t blocks = band_.blocks.size();
-        if (blocks == 0) return false;
-        for (std::size_t k = 0; k < blocks; ++k)
-            block_squares_[k] /= static_cast<float>(band_.blocks[k].end - band_.blocks[k].begin);
-        sorted_ = block_squares_;
-        const float usual = std::max(1.0F, median_of(sorted_));
-        const auto limit_of = [&](std::size_t pixels, float deviations) {
-            return usual * (1.0F + deviations * std::sqrt(2.0F / static_cast<float>(pixels)));
-        };
+        judge_blocks(band_, block_squares_, excess_);
         bool changed = false;
         used_ = 0;
-        std::size_t first = 0;
-        for (const kernel::Node& node : band_.nodes) {
-            std::size_t last = first;
-            float sum = 0.0F;
-            std::size_t pixels = 0;
-            for (; last < blocks && band_.blocks[last].begin < node.end; ++last) {
-                const auto count = static_cast<float>(band_.blocks[last].pixels);
-                if (block_squares_[last] > limit_of(band_.blocks[last].pixels, most_of_block)) continue;
-                sum += block_squares_[last] * count;
-                pixels += band_.blocks[last].pixels;
-            }
-            // What is too faint to be seen in a block, a whole crossing shows.
-            const bool whole = sum <= limit_of(pixels, most_of_crossing) * static_cast<float>(pixels);
-            for (; first < last; ++first) {
-                const BandBlock& at = band_.blocks[first];
-                const float limit = limit_of(at.pixels, most_of_block);
-                const bool good = whole && block_squares_[first] <= limit;
-                if (good) used_ += at.pixels;
-                float weight = good ? 1.0F : 0.0F;
-                if (!good && outliers == Outliers::lose_weight)
-                    weight = 0.5F * std::min(1.0F, std::sqrt(limit / block_squares_[first]));
-                if (band_.weight[at.begin] == weight) continue;
-                changed = true;
-                band_.weigh(at, weight);
-            }
+        for (std::size_t k = 0; k < excess_.size(); ++k) {
+            const BandBlock& at = band_.blocks[k];
+            float weight = 1.0F;
+            if (excess_[k] <= 1.0F)
+                used_ += at.pixels;
+            else
+                weight = outliers == Outliers::are_left_out ? 0.0F : 0.5F / std::sqrt(excess_[k]);
+            if (band_.weight[at.begin] == weight) continue;
+            changed = true;
+            band_.weigh(at, weight);
         }
-        explained_ = static_cast<double>(used_) / static_cast<double>(band_.pixels);
+        explained_ = static_cast<double>(used_) / static_cast<double>(std::max<std::size_t>(1, band_.pixels));
         return changed;
     }
 
@@ -280,8 +254,8 @@ class Fit {
     BandLook look_;
     double cell_px_;
     EdgeBand& band_;
-    std::vector<float>& block_squares_;  ///< mean squares once weighed
-    std::vector<float>& sorted_;
+    std::vector<float>& block_squares_;
+    std::vector<float>& excess_;  ///< band_outliers.h
     BandEquations last_;
     double square_sum_ = 0.0;
     double explained_ = 1.0;

@@ -62,7 +62,40 @@ std::string axes(const LogScale& x, const LogScale& y, const std::string& x_labe
                      (area.top + area.bottom) / 2, escaped(y_label));
 }
 
-std::string dots(const LogSeries& series, const LogScale& x, const LogScale& y) {
+/// Puts names beside their dots, where they do not cover names that are there already.
+class Names {
+  public:
+    std::string beside(double x, double y, const std::string& name) {
+        const double width = 7.4 * static_cast<double>(name.size());
+        const bool left = x > 0.72 * area.right;
+        const double from = left ? x - 11 - width : x + 11;
+        double base = y + 4.5;
+        for (const double shift : {0.0, -15.0, 15.0, -30.0, 30.0})
+            if (is_free({from, y + 4.5 + shift, width})) {
+                base = y + 4.5 + shift;
+                break;
+            }
+        taken_.push_back({from, base, width});
+        return fmt::format(
+            "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" style=\"fill:var(--part);font-weight:650;"
+            "paint-order:stroke;stroke:var(--card);stroke-width:4px\">{}</text>",
+            left ? x - 11 : x + 11, base, left ? "end" : "start", escaped(name));
+    }
+
+  private:
+    struct Box {
+        double from, base, width;
+    };
+    bool is_free(const Box& box) const {
+        return std::none_of(taken_.begin(), taken_.end(), [&](const Box& other) {
+            return std::abs(box.base - other.base) < 14.0 && box.from < other.from + other.width &&
+                   other.from < box.from + box.width;
+        });
+    }
+    std::vector<Box> taken_;
+};
+
+std::string dots(const LogSeries& series, const LogScale& x, const LogScale& y, Names& names) {
     std::string small, large;
     for (const LogPoint& point : series.points) {
         const double at_x = x(point.x), at_y = y(point.y);
@@ -70,12 +103,7 @@ std::string dots(const LogSeries& series, const LogScale& x, const LogScale& y) 
         to += fmt::format(
             "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" opacity=\"{}\"><title>{}</title></circle>", at_x,
             at_y, point.main ? 6.5 : 3.0, point.main ? 1.0 : 0.45, escaped(point.hint));
-        if (!point.main) continue;
-        const bool left = at_x > 0.72 * area.right;
-        to += fmt::format(
-            "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" style=\"fill:var(--part);font-weight:650;"
-            "paint-order:stroke;stroke:var(--card);stroke-width:4px\">{}</text>",
-            at_x + (left ? -11 : 11), at_y + 4.5, left ? "end" : "start", escaped(series.name));
+        if (point.main) to += names.beside(at_x, at_y, series.name);
     }
     return fmt::format("<g class=\"curve\" style=\"--part:{}\">{}{}</g>", series.colour, small, large);
 }
@@ -100,7 +128,8 @@ std::string log_chart_svg(const std::string& x_label, const std::string& y_label
         "<line class=\"mark\" x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>"
         "<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\" style=\"fill:var(--bad)\">{}</text>",
         area.left, area.right, y(floor.y), y(floor.y), area.right - 4, y(floor.y) + 15, escaped(floor.name));
-    for (const LogSeries& one : series) svg += dots(one, x, y);
+    Names names;
+    for (const LogSeries& one : series) svg += dots(one, x, y, names);
     return svg + "</svg>\n";
 }
 

@@ -3,6 +3,7 @@
 #include "core/random.h"
 #include "plant/actual_camera.h"
 #include "tests/plant_view/view_fixture.h"
+#include "vision/tag_choice.h"
 #include "vision/tag_detector.h"
 #include "vision/tag_refinement.h"
 
@@ -13,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -82,33 +82,6 @@ TEST_P(Geometry, DotsAllOverTheImage_AreWhereTheyProject) {
     EXPECT_GE(seen, 20);
 }
 
-/// Where straight lines through the image of a square's sides meet, p0..p3: the tag's corners as an edge fit
-/// finds them. Beyond a perspective's straight lines (distortion) that is not the image of the corners.
-std::array<Eigen::Vector2d, 4> fitted_corners(const CameraGeometry& actual, const Eigen::Vector2d& centre_mm,
-                                              double half_mm, double s_mm) {
-    const std::array<Eigen::Vector2d, 4> signs{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
-    std::array<Eigen::Hyperplane<double, 2>, 4> sides;  // from corner k to corner k + 1
-    for (std::size_t k = 0; k < 4; ++k) {
-        constexpr int points = 200;
-        Eigen::Matrix<double, 2, points> along;
-        for (int i = 0; i < points; ++i) {
-            const double share = 0.06 + 0.88 * (i + 0.5) / points;
-            const Eigen::Vector2d corner = (1.0 - share) * signs[k] + share * signs[(k + 1) % 4];
-            along.col(i) = project(actual, centre_mm + half_mm * corner, s_mm);
-        }
-        const Eigen::Vector2d mean = along.rowwise().mean();
-        const Eigen::Matrix<double, 2, points> centred = along.colwise() - mean;
-        const Eigen::Vector2d direction =
-            Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(centred * centred.transpose())
-                .eigenvectors()
-                .col(1);
-        sides[k] = Eigen::Hyperplane<double, 2>::Through(mean, mean + direction);
-    }
-    std::array<Eigen::Vector2d, 4> corners;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = sides[k].intersection(sides[(k + 3) % 4]);
-    return corners;
-}
-
 TEST_P(Geometry, TagsFoundInTheImage_AreWhereTheyProject) {
     const CameraParameters camera = reference_camera();
     const CameraGeometry actual = actual_camera(camera.geometry, GetParam().deviation);
@@ -117,33 +90,31 @@ TEST_P(Geometry, TagsFoundInTheImage_AreWhereTheyProject) {
         plate.tags.push_back({.id = k + 5, .centre_mm = {1.9 * k, 0.2 * k}, .side_mm = 1.2});
     const PlateView view(camera, plate, ideal_view(), GetParam().deviation);
     vision::TagDetector detector;
+    vision::RefinementOptions calibrated;
+    calibrated.camera = actual;
     int seen = 0;
-    double worst_px = 0.0, worst_bend_px = 0.0;
+    double worst_corner_px = 0.0, worst_centre_px = 0.0;
     for (const double s_mm : {-0.8, -0.1234, 0.4}) {
         const cv::Mat image = render_at(view, s_mm);
         for (const TagDetection& tag : detector.detect(image, 0)) {
-            const auto refined = vision::refine_tag(image, tag);
+            const auto refined = vision::refine_tag(image, tag, calibrated);
             if (!refined) continue;
             ++seen;
-            const Eigen::Vector2d centre_mm = plate.tags[static_cast<std::size_t>(tag.tag_id - 4)].centre_mm;
-            const auto expected = fitted_corners(actual, centre_mm, 0.6, s_mm);
-            const std::array<Eigen::Vector2d, 4> signs{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
-            for (std::size_t c = 0; c < 4; ++c) {
-                worst_px = std::max(worst_px, (refined->detection.corners_px[c] - expected[c]).norm());
-                worst_bend_px = std::max(
-                    worst_bend_px, (expected[c] - project(actual, centre_mm + 0.6 * signs[c], s_mm)).norm());
-            }
+            const PlateTag& nominal = plate.tags[static_cast<std::size_t>(tag.tag_id - 4)];
+            const auto corners_mm = vision::corners_mm(nominal);
+            for (std::size_t c = 0; c < 4; ++c)
+                worst_corner_px = std::max(
+                    worst_corner_px,
+                    (refined->detection.corners_px[c] - project(actual, corners_mm[c], s_mm)).norm());
+            worst_centre_px = std::max(
+                worst_centre_px, (refined->centre_px - project(actual, nominal.centre_mm, s_mm)).norm());
         }
     }
     EXPECT_GE(seen, 4);
-    EXPECT_LT(worst_px, 0.02) << "found against what straight edges give";
-    if (GetParam().deviation.distortion == 0.0) {
-        EXPECT_LT(worst_bend_px, 1e-6);
-    }
-    std::printf(
-        "%-14s %d tags, corners within %.4f px; straight edges beside "
-        "corners by %.4f px\n",
-        GetParam().name.c_str(), seen, worst_px, worst_bend_px);
+    EXPECT_LT(worst_corner_px, 0.01);
+    EXPECT_LT(worst_centre_px, 0.003);
+    std::printf("%-14s %d tags, corners within %.4f px, centres within %.4f px\n", GetParam().name.c_str(),
+                seen, worst_corner_px, worst_centre_px);
 }
 
 INSTANTIATE_TEST_SUITE_P(Camera, Geometry, testing::ValuesIn(geometries()),

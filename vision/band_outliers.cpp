@@ -1,0 +1,82 @@
+#include "vision/band_outliers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fidservo::vision {
+namespace {
+
+constexpr float most_of_block = 6.0F;
+constexpr float most_of_crossing = 4.0F;
+constexpr float most_beside_misfit = 2.0F;
+
+/// A crossing of the code's lines with its blocks [first, last).
+struct Crossing {
+    float x, y;
+    std::size_t first, last;
+    float square_sum = 0.0F;  ///< of the blocks that fit
+    float pixels = 0.0F;      ///< likewise
+    float excess = 0.0F;
+};
+
+/// Limit of the mean of so many squares of unit normals.
+float limit_of(float pixels, float deviations) {
+    return 1.0F + deviations * std::sqrt(2.0F / pixels);
+}
+
+float excess_of(const Crossing& crossing, float usual, float deviations) {
+    if (crossing.pixels == 0.0F) return 0.0F;
+    return crossing.square_sum / (crossing.pixels * usual * limit_of(crossing.pixels, deviations));
+}
+
+}  // namespace
+
+void judge_blocks(const EdgeBand& band, const std::vector<float>& block_squares, std::vector<float>& excess) {
+    const std::size_t blocks = band.blocks.size();
+    excess.resize(blocks);
+    if (blocks == 0) return;
+    const auto size_of = [&](std::size_t k) {
+        return static_cast<float>(band.blocks[k].end - band.blocks[k].begin);
+    };
+    for (std::size_t k = 0; k < blocks; ++k) excess[k] = block_squares[k] / size_of(k);
+    thread_local std::vector<float> sorted;
+    sorted = excess;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(blocks / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const float usual = std::max(1.0F, *middle);
+
+    std::vector<Crossing> crossings;
+    crossings.reserve(band.nodes.size());
+    std::vector<const Crossing*> misfits;
+    std::size_t k = 0;
+    for (const kernel::Node& node : band.nodes) {
+        Crossing crossing{node.x, node.y, k, k};
+        bool damaged = false;
+        for (; k < blocks && band.blocks[k].begin < node.end; ++k) {
+            excess[k] /= usual * limit_of(static_cast<float>(band.blocks[k].pixels), most_of_block);
+            if (excess[k] > 1.0F) {
+                damaged = true;
+                continue;
+            }
+            crossing.square_sum += block_squares[k];
+            crossing.pixels += size_of(k);
+        }
+        crossing.last = k;
+        crossing.excess = excess_of(crossing, usual, most_of_crossing);
+        crossings.push_back(crossing);
+        if (damaged || crossing.excess > 1.0F) misfits.push_back(&crossings.back());
+    }
+    if (misfits.empty()) return;
+    for (Crossing& crossing : crossings) {
+        const bool beside = std::any_of(misfits.begin(), misfits.end(), [&](const Crossing* misfit) {
+            return std::max(std::abs(misfit->x - crossing.x), std::abs(misfit->y - crossing.y)) < 1.5F;
+        });
+        if (beside)
+            crossing.excess = std::max(crossing.excess, excess_of(crossing, usual, most_beside_misfit));
+        if (crossing.excess > 1.0F)
+            for (std::size_t at = crossing.first; at < crossing.last; ++at)
+                excess[at] = std::max(excess[at], crossing.excess);
+    }
+}
+
+}  // namespace fidservo::vision
