@@ -29,9 +29,26 @@ float excess_of(const Crossing& crossing, float usual, float deviations) {
     return crossing.square_sum / (crossing.pixels * usual * limit_of(crossing.pixels, deviations));
 }
 
+/// The mean square of a block that fits as well as any. Where even the median one does not fit, the print or
+/// the noise is not as believed, and blocks differ by more than noise lets them.
+float usual_of(const std::vector<float>& mean_squares, float allowance) {
+    constexpr float fits = 1.3F, spread_of_misfits = 1.5F;
+    thread_local std::vector<float> sorted;
+    sorted = mean_squares;
+    const auto at = [&](double share) {
+        const auto place =
+            sorted.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size()));
+        std::nth_element(sorted.begin(), place, sorted.end());
+        return *place;
+    };
+    const float median = at(0.5);
+    return std::max(allowance, median < fits * allowance ? median : spread_of_misfits * at(0.75));
+}
+
 }  // namespace
 
-void judge_blocks(const EdgeBand& band, const std::vector<float>& block_squares, std::vector<float>& excess) {
+void judge_blocks(const EdgeBand& band, float allowance, const std::vector<float>& block_squares,
+                  std::vector<float>& excess) {
     const std::size_t blocks = band.blocks.size();
     excess.resize(blocks);
     if (blocks == 0) return;
@@ -39,11 +56,7 @@ void judge_blocks(const EdgeBand& band, const std::vector<float>& block_squares,
         return static_cast<float>(band.blocks[k].end - band.blocks[k].begin);
     };
     for (std::size_t k = 0; k < blocks; ++k) excess[k] = block_squares[k] / size_of(k);
-    thread_local std::vector<float> sorted;
-    sorted = excess;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(blocks / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const float usual = std::max(1.0F, *middle);
+    const float usual = usual_of(excess, allowance);
 
     std::vector<Crossing> crossings;
     crossings.reserve(band.nodes.size());

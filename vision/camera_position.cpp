@@ -214,7 +214,7 @@ Result<PositionFit> locate_camera(const CameraGeometry& camera, const Plate& nom
         refine_tag(frame.image, tag, refinement_of(camera, *expected, tag, options));
     if (!refined) return tl::make_unexpected(refined.error());
     if (refined->explained < options.least_explained)
-        return failure(Reason::occluded, fmt::format("{:.0f} % of an edge of tag {} is hidden",
+        return failure(Reason::occluded, fmt::format("{:.0f} % of the edges of tag {} cannot be seen",
                                                      100 * (1 - refined->explained), expected_tag_id));
     return fit_position(camera, *expected, *refined);
 }

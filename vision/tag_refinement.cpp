@@ -35,6 +35,12 @@ Number median_of(std::vector<Number>& values) {
     return *middle;
 }
 
+/// Less motion than this only widens the blur, which is fitted.
+double motion_that_matters(double along_normal_px) {
+    constexpr double least_px = 0.5;
+    return std::abs(along_normal_px) < least_px ? 0.0 : std::abs(along_normal_px);
+}
+
 /// The light from the middles of the cells.
 void read_levels(const cv::Mat& image, const TagPicture& picture, const TagPattern& pattern, BandLook& look) {
     std::vector<double> dark;
@@ -73,8 +79,8 @@ class Fit {
         const Eigen::Matrix2d cells_by_px = picture_.cells_by_px(picture_.image_of({0.0, 0.0}));
         cell_px_ = 1.0 / std::max(cells_by_px.row(0).norm(), cells_by_px.row(1).norm());
         const Eigen::Vector2d motion_cells = cells_by_px * options.motion_px;
-        look_.motion_x_px = std::abs(motion_cells.x()) / cells_by_px.row(0).norm();
-        look_.motion_y_px = std::abs(motion_cells.y()) / cells_by_px.row(1).norm();
+        look_.motion_x_px = motion_that_matters(motion_cells.x() / cells_by_px.row(0).norm());
+        look_.motion_y_px = motion_that_matters(motion_cells.y() / cells_by_px.row(1).norm());
         read_levels(image_, picture_, pattern_, look_);
     }
 
@@ -107,6 +113,7 @@ class Fit {
     bool look_closely() {
         constexpr int most_steps = 8;
         constexpr double reach_in_blurs = 2.5;
+        infer_motion();
         select(reach_in_blurs * std::max(look_.blur_x_px, look_.blur_y_px) + 0.2, 1);
         Outliers outliers = Outliers::lose_weight;
         for (int k = 0; k < most_steps; ++k) {
@@ -153,6 +160,18 @@ class Fit {
     }
 
   private:
+    /// Motion that nobody told of shows in unequal blurs: a stretch m has the variance m^2 / 12.
+    void infer_motion() {
+        constexpr double unequal = 1.25;
+        const auto infer = [](double& blur_px, double other_px, double& motion_px) {
+            if (motion_px > 0.0 || blur_px < unequal * other_px) return;
+            motion_px = std::sqrt(12.0 * (blur_px * blur_px - other_px * other_px));
+            blur_px = other_px;
+        };
+        infer(look_.blur_x_px, look_.blur_y_px, look_.motion_x_px);
+        infer(look_.blur_y_px, look_.blur_x_px, look_.motion_y_px);
+    }
+
     void select(double reach_px, int every) {
         select_band(image_, picture_, pattern_,
                     {reach_px + 0.5 * look_.motion_x_px, reach_px + 0.5 * look_.motion_y_px}, every, band_);
@@ -229,7 +248,10 @@ class Fit {
 
     /// Sets the blocks' weights by what the model leaves of them. True if a weight changed.
     bool weigh_blocks(Outliers outliers) {
-        judge_blocks(band_, block_squares_, excess_);
+        constexpr double rounding_in_common =
+            0.09;  // grey levels squared: a 12th, and a little for the model
+        const double allowance = 1.0 + rounding_in_common / options_.noise.variance(look_.black_grey);
+        judge_blocks(band_, static_cast<float>(allowance), block_squares_, excess_);
         bool changed = false;
         used_ = 0;
         for (std::size_t k = 0; k < excess_.size(); ++k) {

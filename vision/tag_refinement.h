@@ -36,7 +36,8 @@ struct RefinementOptions {
     /// perspective is fitted too, which costs precision (1.4 times the standard deviation).
     std::optional<CameraGeometry> camera;
     GreyNoise noise{white_grey / 10000.0, 0.1, 0.0};
-    Eigen::Vector2d motion_px = Eigen::Vector2d::Zero();  ///< of the picture during the exposure
+    /// Of the picture during the exposure. Zero: unknown; the edges' unequal blurs tell it.
+    Eigen::Vector2d motion_px = Eigen::Vector2d::Zero();
 };
 
 /// Weighted least squares of a picture of the tag against the raw pixels along all edges of its code:

@@ -47,8 +47,9 @@ void FilmCamera::look(const plant::StageState& state, TimeNs time_ns, double mac
                          static_cast<std::uint64_t>(next_frame_));
         keep_(frame.stamp_ns, image);
         for (TagDetection& tag : detector_.detect(image, frame.stamp_ns)) {
+            // The picture is measured as it is: what the file says of tilt and lens may be what is wrong.
             const auto refined = vision::refine_tag(
-                image, tag, {camera_.geometry, vision::grey_noise(camera_), motion_px(tag, middle_s)});
+                image, tag, {std::nullopt, vision::grey_noise(camera_), motion_px(tag, middle_s)});
             detections.push_back(refined ? refined->detection : tag);
         }
     }

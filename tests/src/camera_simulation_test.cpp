@@ -67,9 +67,9 @@ TEST_P(CameraOfARecording, DetectionsWithAndWithoutImages_Agree) {
             worst_px = std::max(worst_px, (corners[k] - found->second[k]).norm());
     }
     EXPECT_GE(compared, 4);
-    // The detector fits straight edges; a lens that bends them puts its corners 0.02 px beside.
+    // A picture in perspective is fitted; a lens that bends it puts its corners 0.04 px beside.
     const bool bends = GetParam().size() == 1 && GetParam()[0].starts_with("lens_distortion");
-    EXPECT_LT(worst_px, bends ? 0.03 : 0.01);
+    EXPECT_LT(worst_px, bends ? 0.05 : 0.01);
     std::printf("%d frames, corners within %.4f px of each other\n", compared, worst_px);
 }
 
