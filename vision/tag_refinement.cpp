@@ -21,6 +21,8 @@ namespace {
 constexpr double least_side_px = 24.0;
 constexpr double least_contrast = 8.0;  ///< grey levels; below, noise decides where the edges are
 constexpr double least_explained = 0.3;
+constexpr double enough_explained = 0.95;  ///< as a tag that fits has it
+constexpr double clearly_more = 0.02;
 constexpr double sharpest_px = 0.3;  ///< the area of a pixel alone blurs by 0.29 px
 
 /// Standard deviations of what is known of the look beforehand: so wide that they matter only where the
@@ -295,6 +297,21 @@ Failure hidden(const char* why) {
     return {Reason::occluded, why};
 }
 
+Result<RefinedTag> fit_picture(const cv::Mat& image, const TagDetection& found,
+                               const RefinementOptions& options, double shortest_px) {
+    thread_local WorkingMemory memory;
+    Fit fit(image, found, options, memory);
+    if (!fit.has_contrast()) return tl::make_unexpected(hidden("the tag's code is not there"));
+    if (!fit.look_roughly() || !fit.look_closely())
+        return tl::make_unexpected(hidden("too little of the tag is to be seen"));
+    RefinedTag refined = fit.result(found);
+    const double cell_px = shortest_px / tag_pattern(found.tag_id, found.border_cells).cells;
+    for (std::size_t k = 0; k < 4; ++k)
+        if (!((refined.detection.corners_px[k] - found.corners_px[k]).norm() <= std::max(2.0, cell_px)))
+            return tl::make_unexpected(hidden("the tag's border does not end where its code says"));
+    return refined;
+}
+
 }  // namespace
 
 Result<RefinedTag> refine_tag(const cv::Mat& image, const TagDetection& found,
@@ -311,17 +328,14 @@ Result<RefinedTag> refine_tag(const cv::Mat& image, const TagDetection& found,
     if (!(shortest_px >= least_side_px))
         return tl::make_unexpected(hidden("the tag is too small for its edges to be measured"));
 
-    thread_local WorkingMemory memory;
-    Fit fit(image, found, options, memory);
-    if (!fit.has_contrast()) return tl::make_unexpected(hidden("the tag's code is not there"));
-    if (!fit.look_roughly() || !fit.look_closely())
-        return tl::make_unexpected(hidden("too little of the tag is to be seen"));
-    RefinedTag refined = fit.result(found);
-    for (std::size_t k = 0; k < 4; ++k)
-        if (!((refined.detection.corners_px[k] - found.corners_px[k]).norm() <=
-              std::max(2.0, shortest_px / tag_pattern(found.tag_id, found.border_cells).cells)))
-            return tl::make_unexpected(hidden("the tag's border does not end where its code says"));
-    return refined;
+    const Result<RefinedTag> refined = fit_picture(image, found, options, shortest_px);
+    if (!options.camera || (refined && refined->explained >= enough_explained)) return refined;
+    // The camera may not be as its calibration says: then a free perspective shows more of the tag.
+    RefinementOptions free = options;
+    free.camera.reset();
+    const Result<RefinedTag> freely = fit_picture(image, found, free, shortest_px);
+    const bool shows_more = freely && (!refined || freely->explained > refined->explained + clearly_more);
+    return shows_more ? freely : refined;
 }
 
 RefinedTag tag_of_corners(const TagDetection& corners, const CornerCovariance& covariance_px2) {

@@ -33,7 +33,8 @@ struct RefinedTag {
 /// What is known of the picture beforehand.
 struct RefinementOptions {
     /// A calibrated camera: tilt and distortion of the tag's picture are taken from it. Without one the
-    /// perspective is fitted too, which costs precision (1.4 times the standard deviation).
+    /// perspective is fitted too, which costs precision (1.4 times the standard deviation); so it is where a
+    /// tag fits a free perspective but not the camera's.
     std::optional<CameraGeometry> camera;
     GreyNoise noise{white_grey / 10000.0, 0.1, 0.0};
     /// Of the picture during the exposure. Zero: unknown; the edges' unequal blurs tell it.

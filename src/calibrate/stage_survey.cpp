@@ -17,7 +17,7 @@ namespace {
 constexpr double settle_s = 0.06;
 constexpr double reading_s = 0.02;  ///< to either side of the exposure
 constexpr double frame_timeout_s = 0.5;
-constexpr double least_explained = 0.9;
+constexpr double least_explained = 0.7;
 constexpr double golden = 0.6180339887498949;
 
 std::optional<calib::SeenTag> same_tag(const calib::StageView& view, int id) {
