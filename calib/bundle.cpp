@@ -1,5 +1,7 @@
 #include "calib/bundle.h"
 
+#include "vision/tag_choice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -76,7 +78,7 @@ Bundle::Bundle(const std::vector<TargetView>& views, double extra_std_px) {
         std::vector<Sight>& sights = sights_.emplace_back();
         for (const TagSight& tag : view.tags) {
             Sight sight{
-                printed_corners_mm(tag.printed), {}, corner_weights(tag.seen.covariance_px2, extra_std_px)};
+                vision::corners_mm(tag.printed), {}, corner_weights(tag.seen.covariance_px2, extra_std_px)};
             for (int k = 0; k < 4; ++k)
                 sight.seen_px.segment<2>(2 * k) = tag.seen.detection.corners_px[static_cast<std::size_t>(k)];
             sights.push_back(sight);

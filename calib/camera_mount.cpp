@@ -2,6 +2,8 @@
 
 #include "calib/lens_projection.h"
 #include "calib/plane_pose.h"
+#include "core/camera_slopes.h"
+#include "vision/tag_choice.h"
 
 #include <algorithm>
 #include <array>
@@ -64,15 +66,10 @@ struct MountResidual {
     }
 };
 
-/// The stage's axis a.
-Eigen::Vector3d axis_of(const CameraGeometry& lens) {
-    return Eigen::Vector3d(1.0, lens.axis_rad.x(), lens.axis_rad.y()).normalized();
-}
-
 /// The mount by the view that shows most tags, and every view's place by its own homography.
 Status start(const CameraGeometry& lens, const std::vector<TargetView>& views, Mount& mount,
              std::vector<Place>& places) {
-    const Eigen::Vector3d axis = axis_of(lens);
+    const Eigen::Vector3d axis = stage_axis(lens);
     std::size_t most_tags = 1;
     for (std::size_t i = 0; i < views.size(); ++i) {
         const auto homography = target_homography(lens, views[i]);
@@ -107,7 +104,7 @@ Result<CameraMount> fit_camera_mount(const CameraGeometry& lens, const std::vect
         return tl::make_unexpected(started.error());
 
     const Lens numbers = lens_of(lens);
-    const Eigen::Vector3d axis = axis_of(lens);
+    const Eigen::Vector3d axis = stage_axis(lens);
     ceres::Problem problem;
     int measured = 0;
     for (std::size_t i = 0; i < views.size(); ++i)
@@ -115,7 +112,7 @@ Result<CameraMount> fit_camera_mount(const CameraGeometry& lens, const std::vect
             const CornerWeights weights = corner_weights(sight.seen.covariance_px2, 0.0);
             measured += weights.rank;
             problem.AddResidualBlock(new ceres::AutoDiffCostFunction<MountResidual, 8, mount_parameters, 2>(
-                                         new MountResidual{numbers, axis, printed_corners_mm(sight.printed),
+                                         new MountResidual{numbers, axis, vision::corners_mm(sight.printed),
                                                            seen_corners_px(sight), weights.whiten}),
                                      nullptr, mount.data(), places[i].data());
         }
@@ -151,7 +148,7 @@ Result<CameraMount> fit_camera_mount(const CameraGeometry& lens, const std::vect
     for (std::size_t i = 0; i < views.size(); ++i) {
         Sums sums;
         for (const TagSight& sight : views[i].tags) {
-            sums.squared_px += (corners_of(numbers, axis, printed_corners_mm(sight.printed), mount.data(),
+            sums.squared_px += (corners_of(numbers, axis, vision::corners_mm(sight.printed), mount.data(),
                                            places[i].data()) -
                                 seen_corners_px(sight))
                                    .squaredNorm();

@@ -1,5 +1,7 @@
 #include "calib/heater_data.h"
 
+#include "core/median.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,12 +16,6 @@ std::span<const double> around(std::span<const double> values, std::size_t k) {
     const std::size_t first = k - std::min(k, half_window),
                       last = std::min(values.size(), k + half_window + 1);
     return values.subspan(first, last - first);
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 double mean(std::span<const double> values) {
@@ -51,11 +47,11 @@ std::vector<std::size_t> corrupt_samples(std::span<const double> command) {
     if (command.size() < window) return corrupt;
     for (std::size_t k = 0; k < command.size(); ++k) {
         const auto near = around(command, k);
-        const double middle = median({near.begin(), near.end()});
+        const double middle = median_of(std::vector(near.begin(), near.end()));
         std::vector<double> away;
         away.reserve(window);
         for (const double value : near) away.push_back(std::abs(value - middle));
-        const double threshold = std::max(share_of_range * range, spreads * median(away));
+        const double threshold = std::max(share_of_range * range, spreads * median_of(away));
         if (std::abs(command[k] - middle) > threshold) corrupt.push_back(k);
     }
     // A run of more than two is a pulse that somebody commanded.

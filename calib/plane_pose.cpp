@@ -1,5 +1,7 @@
 #include "calib/plane_pose.h"
 
+#include "vision/tag_choice.h"
+
 #include <cmath>
 
 #include <Eigen/Dense>
@@ -32,7 +34,7 @@ std::optional<Eigen::Matrix3d> target_homography(const CameraGeometry& lens, con
     Eigen::Matrix2Xd printed(2, points), seen(2, points);
     Eigen::Index column = 0;
     for (const TagSight& sight : view.tags) {
-        const auto corners_mm = printed_corners_mm(sight.printed);
+        const auto corners_mm = vision::corners_mm(sight.printed);
         for (std::size_t k = 0; k < 4; ++k, ++column) {
             printed.col(column) = corners_mm[k];
             seen.col(column) = straightened(lens, sight.seen.detection.corners_px[k]);

@@ -1,5 +1,7 @@
 #include "calib/preisach_data.h"
 
+#include "core/median.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -131,9 +133,8 @@ double noise_reversal(std::span<const double> input) {
     for (std::size_t k = 4; k < input.size(); ++k)
         size.push_back(
             std::abs(input[k] - 4.0 * input[k - 1] + 6.0 * input[k - 2] - 4.0 * input[k - 3] + input[k - 4]));
-    const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-    std::nth_element(size.begin(), middle, size.end());
-    return standard_deviations * normal_per_median * *middle / difference_gain + smallest_step(input);
+    return standard_deviations * normal_per_median * median_of(std::move(size)) / difference_gain +
+           smallest_step(input);
 }
 
 double smallest_step(std::span<const double> values) {

@@ -3,6 +3,7 @@
 #include "calib/pictured_corners.h"
 #include "calib/significance.h"
 #include "calib/target_view.h"
+#include "vision/tag_choice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,7 @@ Posed posed(const CameraGeometry& intrinsics, const MapNumbers& v, double middle
 }
 
 std::array<Eigen::Vector2d, 4> shown_corners(const CameraGeometry& camera, const PlateTag& tag, double s_mm) {
-    std::array<Eigen::Vector2d, 4> corners = printed_corners_mm(tag);
+    std::array<Eigen::Vector2d, 4> corners = vision::corners_mm(tag);
     for (Eigen::Vector2d& corner : corners) corner = project(camera, corner, s_mm);
     return corners;
 }
@@ -120,7 +121,7 @@ Similarity similarity_of(const CameraGeometry& camera, const StageView& view) {
     Eigen::Vector2d plate_mean = Eigen::Vector2d::Zero(), image_mean = Eigen::Vector2d::Zero();
     std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> pairs;
     for (const SeenTag& tag : view) {
-        const auto printed = printed_corners_mm(tag.nominal);
+        const auto printed = vision::corners_mm(tag.nominal);
         for (std::size_t k = 0; k < 4; ++k) {
             pairs.emplace_back(printed[k], tag.corners_px[k]);
             plate_mean += pairs.back().first;

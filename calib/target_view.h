@@ -23,9 +23,6 @@ struct TargetView {
     std::vector<TagSight> tags;
 };
 
-/// Corners in detection order, mm, the target's frame: centre + R(angle) side / 2 (+-1, +-1).
-std::array<Eigen::Vector2d, 4> printed_corners_mm(const PlateTag& tag);
-
 /// Weights of a tag's corners by what was measured of them: W with W C W^T = I on the directions that C
 /// knows. A tag refined with a calibrated camera has four of them (place, rotation, scale); along the other
 /// directions nothing was measured, and W is zero there.

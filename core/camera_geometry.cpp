@@ -1,6 +1,7 @@
 #include "core/camera_geometry.h"
 
 #include "core/camera_slopes.h"
+#include "core/plumb_bob.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -21,10 +22,7 @@ Eigen::Matrix3d camera_from_plate(const CameraGeometry& camera) {
 }
 
 Eigen::Vector2d distort(const LensDistortion& lens, const Eigen::Vector2d& ideal) {
-    const double x = ideal.x(), y = ideal.y(), r2 = ideal.squaredNorm();
-    const double radial = 1.0 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3));
-    return {x * radial + 2.0 * lens.p1 * x * y + lens.p2 * (r2 + 2.0 * x * x),
-            y * radial + lens.p1 * (r2 + 2.0 * y * y) + 2.0 * lens.p2 * x * y};
+    return distorted(numbers_of(lens).data(), ideal);
 }
 
 Eigen::Vector2d undistort(const LensDistortion& lens, const Eigen::Vector2d& distorted) {

@@ -14,6 +14,13 @@ Eigen::Vector2d pictured_at(const CameraGeometry& camera, const Eigen::Vector2d&
     return pictured;
 }
 
+/// ideal_by_image() of the image point whose ideal point is given.
+Eigen::Matrix2d slope_at(const CameraGeometry& camera, const Eigen::Vector2d& ideal) {
+    Eigen::Matrix2d slope = distortion_slope(camera.distortion, ideal).inverse() / camera.focal_px;
+    slope.col(1) /= camera.focal_ratio;
+    return slope;
+}
+
 /// Whether undistort() finds the ideal point of an image point, and the lens does not fold on the way there.
 bool pictures_once(const CameraGeometry& camera, const Eigen::Vector2d& image_px) {
     constexpr int steps = 32;
@@ -50,10 +57,7 @@ Eigen::Matrix2d distortion_slope(const LensDistortion& lens, const Eigen::Vector
 }
 
 Eigen::Matrix2d ideal_by_image(const CameraGeometry& camera, const Eigen::Vector2d& image_px) {
-    Eigen::Matrix2d slope =
-        distortion_slope(camera.distortion, ideal_point(camera, image_px)).inverse() / camera.focal_px;
-    slope.col(1) /= camera.focal_ratio;
-    return slope;
+    return slope_at(camera, ideal_point(camera, image_px));
 }
 
 Eigen::Matrix2d plate_by_image(const CameraGeometry& camera, const Eigen::Vector2d& image_px, double s_mm) {
@@ -65,7 +69,7 @@ Eigen::Matrix2d plate_by_image(const CameraGeometry& camera, const Eigen::Vector
     const double height_mm = camera.distance_mm - s_mm * stage_axis(camera).z();
     const Eigen::Matrix2d plate_by_ideal =
         height_mm / ray.z() * (ray_by_ideal.topRows<2>() - ray.head<2>() / ray.z() * ray_by_ideal.row(2));
-    return plate_by_ideal * ideal_by_image(camera, image_px);
+    return plate_by_ideal * slope_at(camera, ideal);
 }
 
 double mm_per_px_at(const CameraGeometry& camera, const Eigen::Vector2d& image_px, double s_mm) {

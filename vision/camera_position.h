@@ -41,7 +41,7 @@ struct LocateOptions {
     /// Where the stage believes the camera is, to within a third of a tag's cell. Only used to tell why the
     /// expected tag is not found where no other tag tells where to look.
     std::optional<double> predicted_s_mm = {};
-    double least_explained = 0.7;  ///< of all edges' length; below: occluded
+    double least_explained = enough_to_measure;  ///< below: occluded
     double most_saturated = 0.01;  ///< share of the tag's area at the grey level 255; above: glare
     GreyNoise noise = RefinementOptions{}.noise;  ///< of the camera
     double moved_mm = 0.0;                        ///< by the stage during the exposure

@@ -1,5 +1,6 @@
 #include "vision/tag_refinement.h"
 
+#include "core/median.h"
 #include "vision/band_model.h"
 #include "vision/band_outliers.h"
 #include "vision/edge_band.h"
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -30,13 +32,6 @@ constexpr double sharpest_px = 0.3;  ///< the area of a pixel alone blurs by 0.2
 constexpr std::array<double, kernel::look_columns> look_prior{1.0,   1.0,   1.0, 0.05, 0.05, 0.02,
                                                               300.0, 300.0, 0.5, 0.5,  0.5};
 
-template <class Number>
-Number median_of(std::vector<Number>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// Less motion than this only widens the blur, which is fitted.
 double motion_that_matters(double along_normal_px) {
     constexpr double least_px = 0.5;
@@ -55,8 +50,8 @@ void read_levels(const cv::Mat& image, const TagPicture& picture, const TagPatte
             if (can_sample(image, at))
                 (pattern[row * cells + column] ? bright : dark).push_back(sample(image, at));
         }
-    if (!dark.empty()) look.black_grey = median_of(dark);
-    if (!bright.empty()) look.white_grey = median_of(bright);
+    if (!dark.empty()) look.black_grey = median_of(std::move(dark));
+    if (!bright.empty()) look.white_grey = median_of(std::move(bright));
 }
 
 /// Kept from tag to tag: fresh memory costs more than its use.
@@ -158,7 +153,8 @@ class Fit {
                 0.5 * (look_.blur_x_px + look_.blur_y_px),
                 look_.spread_px,
                 misfit,
-                fits};
+                fits,
+                options_.camera.has_value()};
     }
 
   private:

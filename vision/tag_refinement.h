@@ -15,6 +15,9 @@ namespace fidservo::vision {
 
 using CornerCovariance = Eigen::Matrix<double, 8, 8>;
 
+/// RefinedTag::explained below which a tag that could be refined is yet not measured by.
+inline constexpr double enough_to_measure = 0.7;
+
 /// A tag that was measured.
 struct RefinedTag {
     TagDetection detection;  ///< with the refined corners
@@ -28,6 +31,9 @@ struct RefinedTag {
     double misfit = 1.0;  ///< mean square of what the model leaves, in variances of the noise: 1 if it fits
     bool fits =
         true;  ///< whether that can be noise alone, at 1 %; if not, covariances are sandwich estimates
+    /// Whether perspective and distortion of the picture are those of the camera in the options; if not, all
+    /// eight coordinates of the corners were measured.
+    bool camera_known = false;
 };
 
 /// What is known of the picture beforehand.

@@ -3,6 +3,7 @@
 #include "calib/photon_transfer.h"
 #include "calib/target_images.h"
 #include "core/failure.h"
+#include "core/plumb_bob.h"
 #include "src/calibrate/camera_images.h"
 #include "src/calibrate/camera_report.h"
 #include "src/commands/commands.h"
@@ -79,14 +80,14 @@ void measure_noise(const CalibrateCameraOptions& options, const CalibrationImage
 void write_rig(const CalibrateCameraOptions& options, const CameraAnswer& answer,
                const CameraParameters& before) {
     const CameraGeometry& camera = answer.calibration.camera;
-    const LensDistortion& lens = camera.distortion;
     RigEdit edit(options.rig_file);
     edit.set("camera.width_px", camera.width_px);
     edit.set("camera.height_px", camera.height_px);
     edit.set("camera.focal_px", camera.focal_px);
     edit.set("camera.focal_ratio", camera.focal_ratio);
-    edit.set("camera.principal_point_px", {camera.principal_point_px.x(), camera.principal_point_px.y()});
-    edit.set("camera.distortion", {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3});
+    edit.set("camera.principal_point_px",
+             std::array{camera.principal_point_px.x(), camera.principal_point_px.y()});
+    edit.set("camera.distortion", numbers_of(camera.distortion));
     edit.set("camera.distance_mm", before.geometry.distance_mm * camera.focal_px / before.geometry.focal_px);
     const auto error = [&](calib::LensParameter parameter) { return answer.calibration.std_of(parameter); };
     RigProvenance provenance{"camera",

@@ -1,9 +1,11 @@
+#include "core/plumb_bob.h"
 #include "src/calibrate/calibrate_stage.h"
 #include "src/calibrate/stage_values.h"
 #include "src/config/rig_edit.h"
 #include "src/recording/durable_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -121,14 +123,13 @@ void write_stage_rig(const std::filesystem::path& file, const std::filesystem::p
                      const Rig& rig, const StageCalibration& calibration) {
     const StageNumbers& numbers = calibration.numbers;
     const CameraGeometry& camera = numbers.map.camera;
-    const LensDistortion& lens = camera.distortion;
     const HallParameters& hall = numbers.hall.hall;
     RigEdit edit(source_rig_file);
     edit.set("camera.distance_mm", camera.distance_mm);
-    edit.set("camera.distortion", std::vector{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3});
+    edit.set("camera.distortion", numbers_of(camera.distortion));
     edit.set("camera.rotation_rad", camera.rotation_rad);
-    edit.set("camera.tilt_rad", std::vector{camera.tilt_rad.x(), camera.tilt_rad.y()});
-    edit.set("camera.axis_rad", std::vector{camera.axis_rad.x(), camera.axis_rad.y()});
+    edit.set("camera.tilt_rad", std::array{camera.tilt_rad.x(), camera.tilt_rad.y()});
+    edit.set("camera.axis_rad", std::array{camera.axis_rad.x(), camera.axis_rad.y()});
     edit.set("macro.encoder_resolution_mm", numbers.encoder.resolution_mm);
     edit.set("micro.hall.mid_V", hall.mid_V);
     edit.set("micro.hall.span_V", hall.span_V);

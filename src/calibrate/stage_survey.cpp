@@ -17,7 +17,6 @@ namespace {
 constexpr double settle_s = 0.06;
 constexpr double reading_s = 0.02;  ///< to either side of the exposure
 constexpr double frame_timeout_s = 0.5;
-constexpr double least_explained = 0.7;
 constexpr double golden = 0.6180339887498949;
 
 std::optional<calib::SeenTag> same_tag(const calib::StageView& view, int id) {
@@ -25,6 +24,10 @@ std::optional<calib::SeenTag> same_tag(const calib::StageView& view, int id) {
         std::ranges::find_if(view, [id](const calib::SeenTag& seen) { return seen.nominal.id == id; });
     if (tag == view.end()) return std::nullopt;
     return *tag;
+}
+
+calib::SeenTag seen_tag(const PlateTag& nominal, const vision::RefinedTag& refined) {
+    return {nominal, refined.detection.corners_px, refined.covariance_px2, refined.camera_known};
 }
 
 Eigen::Vector2d middle_px(const calib::SeenTag& tag) {
@@ -69,8 +72,8 @@ void refine_again(const CameraParameters& rig_camera, const CameraGeometry& came
         for (const calib::SeenTag& seen : shot.tags) {
             const TagDetection start{.tag_id = seen.nominal.id, .corners_px = seen.corners_px};
             const auto refined = vision::refine_tag(shot.image, start, options);
-            if (refined && refined->explained >= least_explained)
-                again.push_back({seen.nominal, refined->detection.corners_px, refined->covariance_px2, true});
+            if (refined && refined->explained >= vision::enough_to_measure)
+                again.push_back(seen_tag(seen.nominal, *refined));
         }
         shot.tags = std::move(again);
     }
@@ -111,8 +114,8 @@ calib::StageView StageSurvey::tags_in(const vision::Frame& frame) {
         const bool once = std::ranges::count(found, tag.tag_id, &TagDetection::tag_id) == 1;
         if (!nominal || !once) continue;
         const auto refined = vision::refine_tag(frame.image, tag, options);
-        if (refined && refined->explained >= least_explained)
-            view.push_back({*nominal, refined->detection.corners_px, refined->covariance_px2});
+        if (refined && refined->explained >= vision::enough_to_measure)
+            view.push_back(seen_tag(*nominal, *refined));
     }
     return view;
 }

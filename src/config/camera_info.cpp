@@ -1,6 +1,7 @@
 #include "src/config/camera_info.h"
 
 #include "core/failure.h"
+#include "core/plumb_bob.h"
 #include "src/config/rig_camera.h"
 #include "src/config/yaml_reader.h"
 
@@ -43,8 +44,8 @@ void check_model(const YamlValue& root) {
 }
 
 LensDistortion read_distortion(const YamlValue& map) {
-    const std::vector<double> k = matrix_of(map, 1, 5);
-    return {.k1 = k[0], .k2 = k[1], .p1 = k[2], .p2 = k[3], .k3 = k[4]};
+    const std::vector<double> numbers = matrix_of(map, 1, 5);
+    return distortion_of(std::span<const double, 5>(numbers));
 }
 
 std::string matrix_text(const char* name, int rows, int columns, const std::vector<double>& data) {
@@ -95,14 +96,14 @@ CameraInfo load_camera_info(const std::filesystem::path& file) {
 std::string camera_info_text(const CameraInfo& info) {
     const double fx = info.focal_px.x(), fy = info.focal_px.y();
     const double cx = info.principal_point_px.x(), cy = info.principal_point_px.y();
-    const LensDistortion& lens = info.distortion;
+    const DistortionNumbers lens = numbers_of(info.distortion);
     YAML::Emitter name;  // quoted where it must be
     name << info.camera_name;
     return fmt::format("image_width: {}\nimage_height: {}\ncamera_name: {}\n", info.width_px, info.height_px,
                        name.c_str()) +
            matrix_text("camera_matrix", 3, 3, {fx, 0, cx, 0, fy, cy, 0, 0, 1}) +
            "distortion_model: plumb_bob\n" +
-           matrix_text("distortion_coefficients", 1, 5, {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}) +
+           matrix_text("distortion_coefficients", 1, 5, {lens.begin(), lens.end()}) +
            matrix_text("rectification_matrix", 3, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1}) +
            matrix_text("projection_matrix", 3, 4, {fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0});
 }

@@ -1,6 +1,7 @@
 #include "src/config/rig_camera.h"
 
 #include "core/camera_slopes.h"
+#include "core/plumb_bob.h"
 #include "src/config/camera_info.h"
 
 #include <numbers>
@@ -22,8 +23,8 @@ Eigen::Vector2d pair_of(const YamlValue& value, const NumberRange& range) {
 }
 
 LensDistortion read_lens(const YamlValue& value) {
-    const std::vector<double> k = value.numbers(5, coefficients);
-    return {.k1 = k[0], .k2 = k[1], .p1 = k[2], .p2 = k[3], .k3 = k[4]};
+    const std::vector<double> numbers = value.numbers(5, coefficients);
+    return distortion_of(std::span<const double, 5>(numbers));
 }
 
 CameraGeometry read_own_intrinsics(const YamlValue& map) {

@@ -1,6 +1,7 @@
 #include "src/config/rig_edit.h"
 
 #include "core/failure.h"
+#include "core/plumb_bob.h"
 #include "src/config/camera_info.h"
 #include "src/config/fod_file.h"
 #include "src/config/rig_camera.h"
@@ -53,7 +54,6 @@ void copy_camera_info(YAML::Node camera, const fs::path& rig_file) {
     const auto exact = [](double value) { return fmt::format("{}", value); };
     const CameraInfo info =
         load_camera_info(fs::absolute(rig_file).parent_path() / camera["camera_info"].as<std::string>());
-    const LensDistortion& lens = info.distortion;
     camera.remove("camera_info");
     camera["width_px"] = info.width_px;
     camera["height_px"] = info.height_px;
@@ -61,8 +61,9 @@ void copy_camera_info(YAML::Node camera, const fs::path& rig_file) {
     camera["focal_ratio"] = exact(info.focal_px.y() / info.focal_px.x());
     camera["principal_point_px"] =
         list_of({exact(info.principal_point_px.x()), exact(info.principal_point_px.y())});
-    camera["distortion"] =
-        list_of({exact(lens.k1), exact(lens.k2), exact(lens.p1), exact(lens.p2), exact(lens.k3)});
+    std::vector<std::string> distortion;
+    std::ranges::transform(numbers_of(info.distortion), std::back_inserter(distortion), exact);
+    camera["distortion"] = list_of(distortion);
 }
 
 /// A path that is relative to one file, as one that is relative to another.
@@ -119,7 +120,7 @@ void RigEdit::set(std::string_view key, double value) {
     impl_->set(key, YAML::Node(digits_of(value)));
 }
 
-void RigEdit::set(std::string_view key, const std::vector<double>& values) {
+void RigEdit::set(std::string_view key, std::span<const double> values) {
     std::vector<std::string> digits;
     digits.reserve(values.size());
     for (const double value : values) digits.push_back(digits_of(value));

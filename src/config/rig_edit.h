@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,7 +33,7 @@ class RigEdit {
     /// Intrinsics of a camera whose file names a camera_info are first copied from there.
     void set(std::string_view key, double value);
     /// The same for a list, e.g. "camera.distortion".
-    void set(std::string_view key, const std::vector<double>& values);
+    void set(std::string_view key, std::span<const double> values);
     /// Adds an effect to those that the file states; one of the same name is replaced.
     void state_effect(const StatedEffect& effect);
     /// Writes the table beside the rig file, as NAME_fod.csv, and refers to it.

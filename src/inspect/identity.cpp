@@ -1,5 +1,6 @@
 #include "src/inspect/identity.h"
 
+#include "core/plumb_bob.h"
 #include "src/inspect/sha256.h"
 
 #include <set>
@@ -33,14 +34,13 @@ struct ShapeText {
 
 std::string camera_text(const CameraParameters& camera) {
     const CameraGeometry& geometry = camera.geometry;
-    const LensDistortion& lens = geometry.distortion;
     std::string text = fmt::format(
         "camera {} x {} px, focal {} px, principal point {}, distance {} mm, blur {} px, full well {} e, "
         "read noise {} e, latency {} s\n",
         geometry.width_px, geometry.height_px, geometry.focal_px, text_of(geometry.principal_point_px),
         geometry.distance_mm, camera.blur_px, camera.full_well_e, camera.read_noise_e, camera.latency_s);
-    text += fmt::format("focal ratio {}, distortion {} {} {} {} {}, rotation {} rad, tilt {}, axis {}\n",
-                        geometry.focal_ratio, lens.k1, lens.k2, lens.p1, lens.p2, lens.k3,
+    text += fmt::format("focal ratio {}, distortion {}, rotation {} rad, tilt {}, axis {}\n",
+                        geometry.focal_ratio, fmt::join(numbers_of(geometry.distortion), " "),
                         geometry.rotation_rad, text_of(geometry.tilt_rad), text_of(geometry.axis_rad));
     return text + fmt::format("exposure {} s, gain spread {}\n", camera.exposure_s, camera.gain_spread);
 }

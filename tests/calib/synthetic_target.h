@@ -4,6 +4,7 @@
 #include "core/camera_geometry.h"
 #include "core/random.h"
 #include "vision/quad.h"
+#include "vision/tag_choice.h"
 
 #include <string>
 #include <vector>
@@ -56,7 +57,7 @@ inline TargetView synthetic_view(const CameraGeometry& camera, const std::vector
     for (const PlateTag& tag : tags) {
         TagDetection seen;
         seen.tag_id = tag.id;
-        const auto corners_mm = printed_corners_mm(tag);
+        const auto corners_mm = vision::corners_mm(tag);
         bool inside = true;
         for (std::size_t k = 0; k < 4; ++k) {
             seen.corners_px[k] = project(camera, corners_mm[k] - Eigen::Vector2d(0.0, y_mm), s_mm);

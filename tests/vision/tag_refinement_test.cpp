@@ -156,6 +156,30 @@ TEST(TagRefinement, TagCoveredButForASliver_IsOccluded) {
     EXPECT_EQ(covered.refined.error().reason, Reason::occluded);
 }
 
+/// A camera that looks straight down does not show a square as a trapezoid.
+TEST(TagRefinement, CameraThatCannotShowThisPicture_IsNotSaidToBeKnown) {
+    const RenderedTag tag{3};
+    cv::Mat image = render({tag}, {.noise = false});
+    constexpr double shorter = 0.08;
+    cv::Mat squeeze = cv::Mat::eye(3, 3, CV_64F);
+    squeeze.at<double>(2, 1) = -shorter / tag.side_px;
+    squeeze.at<double>(0, 1) = squeeze.at<double>(2, 1) * tag.centre_px.x();
+    squeeze.at<double>(2, 2) = 1.0 + shorter * tag.centre_px.y() / tag.side_px;
+    cv::Mat bent;
+    cv::warpPerspective(image, bent, squeeze, image.size(), cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+    RefinementOptions options;
+    options.camera = CameraGeometry{640, 480, 3200.0, {319.5, 239.5}, 100.0};
+
+    for (const auto& [picture, known] : {std::pair{image, true}, std::pair{bent, false}}) {
+        TagDetector detector;
+        const std::vector<TagDetection> found = detector.detect(picture, 0);
+        ASSERT_EQ(found.size(), 1U);
+        const Result<RefinedTag> refined = refine_tag(picture, found[0], options);
+        ASSERT_TRUE(refined) << refined.error().text;
+        EXPECT_EQ(refined->camera_known, known);
+    }
+}
+
 TEST(TagRefinement, TagAcrossTheImageBorder_IsOccluded) {
     const RenderedTag tag{3, {148.0, 240.0}};
     const cv::Mat image = render({tag}, {});

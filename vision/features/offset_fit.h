@@ -1,6 +1,8 @@
 #pragma once
 // Robust weighted linear least squares: how a shape must change so that its outline passes through the edges
 // found.
+#include "core/median.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -27,12 +29,6 @@ struct OffsetFit {
     int used_count = 0;
     bool determined = false;
 };
-
-inline double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// Least absolute deviations first (iteratively reweighted), then least squares on the offsets within 4.5 of
 /// their standard deviations, widened by the median residual where that is larger than expected.
