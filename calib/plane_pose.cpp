@@ -1,10 +1,13 @@
 #include "calib/plane_pose.h"
 
+#include "calib/dense.h"
 #include "vision/tag_choice.h"
 
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
 
 namespace fidservo::calib {
 namespace {
@@ -48,10 +51,9 @@ std::optional<Eigen::Matrix3d> target_homography(const CameraGeometry& lens, con
         system.row(2 * k) << p, Eigen::RowVector3d::Zero(), -q.x() * p;
         system.row(2 * k + 1) << Eigen::RowVector3d::Zero(), p, -q.y() * p;
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> parts(system.transpose() * system);
-    if (!system.allFinite() || !(parts.eigenvalues()(1) > 1e-12 * parts.eigenvalues()(8)))
-        return std::nullopt;
-    const Eigen::Matrix3d normalised = parts.eigenvectors().col(0).reshaped<Eigen::RowMajor>(3, 3);
+    const SymmetricParts parts = symmetric_parts(product(system.transpose(), system));
+    if (!system.allFinite() || !(parts.values(1) > 1e-12 * parts.values(8))) return std::nullopt;
+    const Eigen::Matrix3d normalised = parts.vectors.col(0).reshaped<Eigen::RowMajor>(3, 3);
     Eigen::Matrix3d homography = to.inverse() * normalised * from;
     return homography / homography.leftCols<1>().norm();
 }
@@ -63,7 +65,8 @@ PlanePose pose_of_homography(const CameraGeometry& lens, const Eigen::Matrix3d& 
     if (columns(2, 2) < 0.0) columns = -columns;
     Eigen::Matrix3d turn;
     turn << columns.col(0), columns.col(1), columns.col(0).cross(columns.col(1));
-    const Eigen::JacobiSVD<Eigen::Matrix3d> parts(turn, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::NoQRPreconditioner> parts(
+        turn, Eigen::ComputeFullU | Eigen::ComputeFullV);
     return {parts.matrixU() * parts.matrixV().transpose(), columns.col(2)};
 }
 

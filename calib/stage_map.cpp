@@ -1,5 +1,6 @@
 #include "calib/stage_map.h"
 
+#include "calib/dense.h"
 #include "calib/pictured_corners.h"
 #include "calib/significance.h"
 #include "calib/target_view.h"
@@ -9,7 +10,9 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 namespace fidservo::calib {
@@ -65,7 +68,7 @@ Eigen::VectorXd expected_px(const Posed& posed, const StageView& view, double s_
 /// A view's residuals and derivatives.
 struct Linearised {
     Eigen::VectorXd residual_px;  ///< seen minus expected
-    Eigen::Matrix<double, Eigen::Dynamic, map_values> by_map;
+    Eigen::MatrixXd by_map;       ///< a column for each of MapNumbers
     Eigen::VectorXd by_s;
 };
 
@@ -193,17 +196,18 @@ Normal normal_of(const CameraGeometry& camera, const Start& at, std::span<const 
     for (std::size_t i = 0; i < views.size(); ++i) {
         Linearised view = linearise(camera, at.values, at.middle_mm, views[i], at.s_mm[i]);
         const Eigen::MatrixXd white = whitener(views[i]);
-        view.residual_px = white * view.residual_px;
-        view.by_map = white * view.by_map;
-        view.by_s = white * view.by_s;
+        view.residual_px = product(white, view.residual_px);
+        view.by_map = product(white, view.by_map);
+        view.by_s = product(white, view.by_s);
+        const Eigen::MatrixXd transposed = view.by_map.transpose();
         normal.measured += white.rows();
-        normal.coupling.emplace_back(view.by_map.transpose() * view.by_s);
+        normal.coupling.emplace_back(product(transposed, view.by_s));
         normal.own.push_back(view.by_s.squaredNorm());
         normal.own_right.push_back(view.by_s.dot(view.residual_px));
         const MapNumbers& c = normal.coupling.back();
-        normal.matrix += view.by_map.transpose() * view.by_map - c * c.transpose() / normal.own.back();
+        normal.matrix += product(transposed, view.by_map) - product(c, c.transpose()) / normal.own.back();
         normal.right +=
-            view.by_map.transpose() * view.residual_px - c * normal.own_right.back() / normal.own.back();
+            product(transposed, view.residual_px) - c * normal.own_right.back() / normal.own.back();
         normal.squares += view.residual_px.squaredNorm();
     }
     return normal;
@@ -212,13 +216,14 @@ Normal normal_of(const CameraGeometry& camera, const Start& at, std::span<const 
 /// Fails if some combination of the numbers is not determined.
 Result<MapCovariance> inverse_of(const MapCovariance& matrix) {
     constexpr double least_eigenvalue = 1e-11;
-    const MapNumbers scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-    const MapCovariance scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<MapCovariance> eigen(scaled);
-    if (!scaled.allFinite() || eigen.eigenvalues()(0) < least_eigenvalue)
+    const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd scales = product(scale, scale.transpose());
+    const Eigen::MatrixXd scaled = matrix.cwiseProduct(scales);
+    if (!scaled.allFinite() || symmetric_parts(scaled).values(0) < least_eigenvalue)
         return failure(Reason::not_identifiable, "the views are too alike to determine the camera's mount");
-    return MapCovariance(scale.asDiagonal() * scaled.ldlt().solve(MapCovariance::Identity()) *
-                         scale.asDiagonal());
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(map_values, map_values);
+    const Eigen::MatrixXd inverse = scaled.ldlt().solve(identity);
+    return MapCovariance(inverse.cwiseProduct(scales));
 }
 
 Status demand_variety(const CameraGeometry& camera, std::span<const StageView> views, const Start& start) {
@@ -264,7 +269,7 @@ Result<StageMap> fit_stage_map(const CameraGeometry& nominal, std::span<const St
         const auto inverse = inverse_of(normal.matrix);
         if (!inverse) return tl::make_unexpected(inverse.error());
         covariance = *inverse;
-        const MapNumbers change = covariance * normal.right;
+        const MapNumbers change = product(covariance, normal.right);
         at.values += change;
         for (std::size_t i = 0; i < views.size(); ++i)
             at.s_mm[i] += (normal.own_right[i] - normal.coupling[i].dot(change)) / normal.own[i];
@@ -293,13 +298,13 @@ Result<StageMap> fit_stage_map(const CameraGeometry& nominal, std::span<const St
     const double widening = map.fits ? 1.0 : map.misfit;
     map.covariance = widening * covariance;
     for (std::size_t i = 0; i < views.size(); ++i)
-        map.s_std_mm.push_back(
-            std::sqrt(widening / normal.own[i] + normal.coupling[i].dot(map.covariance * normal.coupling[i]) /
-                                                     (normal.own[i] * normal.own[i])));
+        map.s_std_mm.push_back(std::sqrt(widening / normal.own[i] +
+                                         propagated(map.covariance, normal.coupling[i].transpose())(0, 0) /
+                                             (normal.own[i] * normal.own[i])));
     MapNumbers to_distance = MapNumbers::Zero();
     to_distance(map_distance) = 1.0;
     to_distance(map_axis_z) = at.middle_mm;
-    map.distance_std_mm = std::sqrt(to_distance.dot(map.covariance * to_distance));
+    map.distance_std_mm = std::sqrt(propagated(map.covariance, to_distance.transpose())(0, 0));
     return map;
 }
 
@@ -310,30 +315,31 @@ ViewCheck check_view(const StageMap& map, const StageView& view) {
     double s_mm = similarity_of(map.camera, view).foot_mm.x();
     Linearised at = linearise(map.camera, map.values, map.middle_mm, view, s_mm);
     for (int step = 0; step < steps; ++step) {
-        const Eigen::VectorXd by_s = white * at.by_s;
-        s_mm += by_s.dot(white * at.residual_px) / by_s.squaredNorm();
+        const Eigen::VectorXd by_s = product(white, at.by_s), residual = product(white, at.residual_px);
+        s_mm += by_s.dot(residual) / by_s.squaredNorm();
         at = linearise(map.camera, map.values, map.middle_mm, view, s_mm);
     }
-    const Eigen::VectorXd residual = white * at.residual_px, by_s = white * at.by_s;
-    const Eigen::MatrixXd by_map = white * at.by_map;
+    const Eigen::VectorXd residual = product(white, at.residual_px), by_s = product(white, at.by_s);
     const double widening = map.fits ? 1.0 : map.misfit;
     const Eigen::MatrixXd covariance = widening * Eigen::MatrixXd::Identity(white.rows(), white.rows()) +
-                                       by_map * map.covariance * by_map.transpose();
-    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
-    const double along = by_s.dot(root.solve(residual)), own = by_s.dot(root.solve(by_s));
+                                       propagated(map.covariance, product(white, at.by_map));
+    const Eigen::LDLT<Eigen::MatrixXd> root(covariance);
+    const Eigen::VectorXd residual_weighed = root.solve(residual), by_s_weighed = root.solve(by_s);
+    const double along = by_s.dot(residual_weighed), own = by_s.dot(by_s_weighed);
 
     // What the fit of s leaves of noise and of the map's errors, in px.
-    const Eigen::RowVectorXd gain = by_s.transpose() * white / by_s.squaredNorm();
-    const Eigen::MatrixXd leave = Eigen::MatrixXd::Identity(at.by_s.size(), at.by_s.size()) - at.by_s * gain;
-    Eigen::MatrixXd errors = at.by_map * map.covariance * at.by_map.transpose();
+    const Eigen::MatrixXd gain = product(by_s.transpose(), white) / by_s.squaredNorm();
+    const Eigen::MatrixXd leave =
+        Eigen::MatrixXd::Identity(at.by_s.size(), at.by_s.size()) - product(at.by_s, gain);
+    Eigen::MatrixXd errors = propagated(map.covariance, at.by_map);
     for (std::size_t k = 0; k < view.size(); ++k)
         errors.block<8, 8>(static_cast<Eigen::Index>(8 * k), static_cast<Eigen::Index>(8 * k)) +=
             widening * view[k].covariance_px2;
-    const Eigen::MatrixXd left = leave * errors * leave.transpose();
+    const Eigen::MatrixXd left = propagated(errors, leave);
     ViewCheck check{};
     check.s_mm = s_mm;
-    check.s_std_mm = std::sqrt((gain * errors * gain.transpose())(0, 0));
-    check.chi_square = residual.dot(root.solve(residual)) - along * along / own;
+    check.s_std_mm = std::sqrt(propagated(errors, gain)(0, 0));
+    check.chi_square = residual.dot(residual_weighed) - along * along / own;
     check.freedom = static_cast<double>(residual.size()) - 1.0;
     const auto n = static_cast<double>(at.residual_px.size());
     check.rms_px = std::sqrt(at.residual_px.squaredNorm() / n);
