@@ -1,4 +1,5 @@
 // refine_tag against the Cramer-Rao bound of every kind of picture.
+#include "tests/effort.h"
 #include "tests/tag_precision/precision_trials.h"
 
 #include <cctype>
@@ -21,7 +22,8 @@ class RefinementPrecision : public ::testing::TestWithParam<PrecisionCase> {};
 /// 200 frames: what is found wrong is wrong for certain.
 TEST_P(RefinementPrecision, FewFrames_DoNotContradictTheLimits) {
     const PrecisionFigures figures =
-        judge(GetParam(), {.shifts = 10, .draws = 20, .seed = 1}, refinement(GetParam()));
+        judge(GetParam(), {.shifts = 10, .draws = fidservo::testing::cases(20, 3), .seed = 1},
+              refinement(GetParam()));
     const auto found = reproaches(figures, GetParam().limits, true);
     EXPECT_THAT(found, ::testing::IsEmpty()) << table_heading() << "\n" << table_row(figures);
 }

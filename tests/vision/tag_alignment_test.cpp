@@ -2,6 +2,7 @@
 #include "vision/tag_alignment.h"
 
 #include "core/random.h"
+#include "tests/effort.h"
 #include "tests/vision/quick_tag.h"
 
 #include <cmath>
@@ -61,7 +62,7 @@ class Draw {
 
 TEST(TagAlignment, TagWithinReach_IsFoundToHalfAPixelOrSo) {
     constexpr std::uint64_t seed = 11;
-    constexpr int pictures = 400;
+    constexpr int pictures = fidservo::testing::cases(400, 100);
     Draw random(seed);
     double squares = 0.0, worst = 0.0;
     for (int k = 0; k < pictures; ++k) {
@@ -104,7 +105,7 @@ TEST(TagAlignment, LargeTagFifteenPixelsOff_IsFound) {
 
 TEST(TagAlignment, AnotherTagAtThePlace_IsNeverTakenForTheExpectedOne) {
     constexpr std::uint64_t seed = 13;
-    constexpr int pictures = 3000;
+    constexpr int pictures = fidservo::testing::cases(3000, 300);
     Draw random(seed);
     for (int k = 0; k < pictures; ++k) {
         SCOPED_TRACE(::testing::Message() << "seed " << seed << ", picture " << k);
@@ -173,7 +174,7 @@ TEST(TagAlignment, NearestCodesMisprintedTowardsEachOther_AreRefusedFromThreeBit
 TEST(TagAlignment, EmptyPaperAndNoise_HoldNoTag) {
     constexpr std::uint64_t seed = 16;
     Draw random(seed);
-    for (int k = 0; k < 1000; ++k) {
+    for (int k = 0; k < fidservo::testing::cases(1000, 100); ++k) {
         SCOPED_TRACE(::testing::Message() << "seed " << seed << ", picture " << k);
         const int id = random.below(book_size);
         const double noise_grey = k % 2 == 0 ? 2.0 : 60.0;

@@ -1,6 +1,7 @@
 #include "vision/tag_detector.h"
 
 #include "core/random.h"
+#include "tests/effort.h"
 #include "tests/vision/rendered_tag.h"
 
 #include <gtest/gtest.h>
@@ -122,7 +123,7 @@ void expect_no_tag(int images) {
 }
 
 TEST(TagDetector, Texture_HoldsNoTag) {
-    expect_no_tag(24);
+    expect_no_tag(fidservo::testing::cases(24, 8));
 }
 TEST(SlowTagDetector, MuchTexture_HoldsNoTag) {
     expect_no_tag(800);

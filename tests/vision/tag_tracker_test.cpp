@@ -2,6 +2,7 @@
 #include "vision/tag_tracker.h"
 
 #include "core/random.h"
+#include "tests/effort.h"
 #include "tests/vision/quick_tag.h"
 
 #include <algorithm>
@@ -147,7 +148,7 @@ Event draw_event(double u) {
 
 TEST(TagTracker, WhateverHappensToTheTag_NoWrongIdAndNoTagMissed) {
     constexpr std::uint64_t seed = 21;
-    constexpr int sequences = 60, frames = 25;
+    constexpr int sequences = fidservo::testing::cases(60, 8), frames = 25;
     NoiseStream random(seed, "events");
     const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
     const cv::Size size(240, 180);
