@@ -13,9 +13,9 @@ namespace fidservo::vision::kernel {
 ///
 ///     c + cx A + cy B + cxy A B
 struct Node {
-    std::size_t begin, end;  ///< its pixels in the band: a multiple of lane_count
-    float x, y;              ///< tag frame
-    float px_per_cell_x;     ///< distance in the image from the line x = const, per cell
+    std::size_t first_block, last_block;  ///< last: one after
+    float x, y;                           ///< tag frame
+    float px_per_cell_x;                  ///< distance in the image from the line x = const, per cell
     float px_per_cell_y;
     float c, cx, cy, cxy;
     float edge_up, edge_down;     ///< 1 where the line x = const parts black from white, above and below
@@ -24,18 +24,33 @@ struct Node {
                     ///< crosswise
 };
 
-/// Pixels: their place q (tag_picture.h), grey level, and square root of weight.
+/// Which of a crossing's lines pixels are near. Of the other one they see only on which side they are.
+enum class Near { both, line_x, line_y };
+
+/// Pixels that are judged and weighted together, at most.
+inline constexpr std::size_t block = 32;
+
+struct Block {
+    std::size_t begin;   ///< of its pixels in the band; a multiple of lane_count
+    std::size_t pixels;  ///< those that fill up to a multiple are not counted
+    Near near;
+    float far_level;  ///< profile of the line that is not near: 0 or 1
+};
+
+/// Pixels: their place (TagPicture::Cubic's U and V) and grey level; blocks with square roots of weights.
 struct Band {
-    const float* qx;
-    const float* qy;
+    const float* u;
+    const float* v;
     const float* grey;
-    const float* weight;
+    const Block* blocks;
+    const float* weights;
     const Node* nodes;
     std::size_t node_count;
 };
 
 struct Constants {
-    float m[9];                            ///< from q to the tag frame, row by row
+    float cubic_x[10], cubic_y[10];        ///< from (U, V) to the tag frame, for 4 geometry parameters
+    float homography[9];                   ///< the same for 8, row by row
     float inverse_blur_x, inverse_blur_y;  ///< 1 / px
     float half_motion_x, half_motion_y;    ///< in standard deviations of the blur
     float spread, skew, tail, kink;
@@ -66,19 +81,16 @@ constexpr std::size_t columns_of(std::size_t geometry) {
 inline constexpr std::size_t most_columns = columns_of(8);
 inline constexpr double half_side_cells = 4.0;
 
-/// Pixels that are judged and weighted together, at most; counted from each node's first.
-inline constexpr std::size_t block = 32;
-
 struct Sums {
     double products[most_columns][most_columns];  ///< of columns; on and below the diagonal
 };
 
 /// @param geometry  4 or 8 parameters
 /// @param block_squares  is filled with each block's sum of squared residuals in standard deviations, without
-///                       weights
+///                       weights; may be null, and blocks of weight 0 are passed over then
 using AddBand = void (*)(std::size_t geometry, const Band& band, const Constants& constants,
                          float* block_squares, Sums& sums);
-/// Outer products of every block's sums of column times residual, added up.
+/// Outer products of every crossing's sums of column times residual, added up.
 using AddScatter = void (*)(std::size_t geometry, const Band& band, const Constants& constants, Sums& sums);
 
 void add_band_plain(std::size_t, const Band&, const Constants&, float*, Sums&);

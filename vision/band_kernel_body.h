@@ -7,35 +7,62 @@ namespace fidservo::vision::kernel {
 namespace {
 
 /// Pixels whose columns are multiplied at a time: they stay in the first-level cache.
-constexpr std::size_t chunk = 4 * block;
+constexpr std::size_t chunk = 8 * block;
 
 /// Columns of the weighted Jacobian and, after them, the weighted residual.
 struct Columns {
     alignas(32) float at[most_columns][chunk];
 };
 
-/// Eight pixels. @return their squared residuals in standard deviations, without weights
+/// A profile that is at its end on one side of the line.
+[[gnu::always_inline]] inline void level_profile(float level, EdgeProfile& f) {
+    f.f0 = Lanes{} + level;
+    f.f1 = f.f2 = f.f3 = f.f4 = f.f5 = Lanes{};
+}
+
+/// Eight pixels' places in the tag frame.
 template <std::size_t geometry>
-[[gnu::always_inline]] inline void fill_columns(const Band& band, const Node& node, std::size_t first,
-                                                std::size_t into, const Constants& c, Columns& j,
+[[gnu::always_inline]] inline void locate(const Band& band, std::size_t first, const Constants& c, Lanes& x,
+                                          Lanes& y) {
+    Lanes u, v;
+    load(band.u + first, u);
+    load(band.v + first, v);
+    if constexpr (geometry == 4) {
+        const auto cubic = [&](const float(&k)[10], Lanes& value) {
+            value = (k[0] + v * (k[2] + v * (k[5] + v * k[9]))) +
+                    u * ((k[1] + v * (k[4] + v * k[8])) + u * ((k[3] + v * k[7]) + u * k[6]));
+        };
+        cubic(c.cubic_x, x);
+        cubic(c.cubic_y, y);
+    } else {
+        const float(&h)[9] = c.homography;
+        const Lanes by_depth = 1.0F / (h[6] * u + h[7] * v + h[8]);
+        x = by_depth * (h[0] * u + h[1] * v + h[2]);
+        y = by_depth * (h[3] * u + h[4] * v + h[5]);
+    }
+}
+
+/// Eight pixels of a block. Adds their squared residuals in standard deviations, without weights.
+/// @param shown  1 for the block's pixels, 0 for those that fill up
+template <std::size_t geometry, Near near>
+[[gnu::always_inline]] inline void fill_columns(const Band& band, const Node& node, const Block& of,
+                                                std::size_t first, const Lanes& shown, float root_of_weight,
+                                                const Constants& c, Columns& j, std::size_t into,
                                                 Lanes& squares) {
     const float by_x = node.px_per_cell_x * c.inverse_blur_x;
     const float by_y = node.px_per_cell_y * c.inverse_blur_y;
-    Lanes qx, qy, grey, weight;
-    load(band.qx + first, qx);
-    load(band.qy + first, qy);
+    Lanes x, y, grey;
+    locate<geometry>(band, first, c, x, y);
     load(band.grey + first, grey);
-    load(band.weight + first, weight);
-    Lanes x = c.m[0] * qx + c.m[1] * qy + c.m[2];
-    Lanes y = c.m[3] * qx + c.m[4] * qy + c.m[5];
-    if constexpr (geometry == 8) {
-        const Lanes by_depth = 1.0F / (c.m[6] * qx + c.m[7] * qy + c.m[8]);
-        x *= by_depth;
-        y *= by_depth;
-    }
     EdgeProfile fx, fy;
-    profile_at((x - node.x) * by_x, c.half_motion_x, fx);
-    profile_at((y - node.y) * by_y, c.half_motion_y, fy);
+    if constexpr (near == Near::line_y)
+        level_profile(of.far_level, fx);
+    else
+        profile_at((x - node.x) * by_x, c.half_motion_x, fx);
+    if constexpr (near == Near::line_x)
+        level_profile(of.far_level, fy);
+    else
+        profile_at((y - node.y) * by_y, c.half_motion_y, fy);
 
     // Ink that spreads by e = eps s moves every edge towards white: f(z -+ eps), as a Taylor series. Its even
     // terms keep the edge's sign, the odd ones do not.
@@ -67,9 +94,10 @@ template <std::size_t geometry>
     const Lanes lit = model > 0.0F ? model : model * 0.0F;
     Lanes by_std;
     inverse_root(c.noise_floor + lit * (c.noise_gain + lit * c.noise_spread), by_std);
+    const Lanes weight = shown * root_of_weight;
     const Lanes w = by_std * weight;
     const Lanes height = w * c.height * light;
-    const Lanes residual = (grey - model) * by_std;
+    const Lanes residual = (grey - model) * by_std * shown;
     squares += residual * residual;
 
     const auto put = [&](std::size_t column, const Lanes& values) { store(values, &j.at[column][into]); };
@@ -104,7 +132,40 @@ template <std::size_t geometry>
     put(geometry + light_x, by_light * x);
     put(geometry + light_y, by_light * y);
     put(geometry + light_r, by_light * sides_per_cell * r2);
-    put(geometry + look_columns, residual * weight);
+    put(geometry + look_columns, residual * root_of_weight);
+}
+
+template <std::size_t geometry, Near near>
+[[gnu::always_inline]] inline float fill_block_near(const Band& band, const Node& node, const Block& of,
+                                                    float root_of_weight, const Constants& c, Columns& j,
+                                                    std::size_t into) {
+    constexpr Lanes lane{0, 1, 2, 3, 4, 5, 6, 7};
+    Lanes squares = {};
+    for (std::size_t i = 0; i < of.pixels; i += lane_count) {
+        const Lanes shown = lane < static_cast<float>(of.pixels - i) ? Lanes{} + 1.0F : Lanes{};
+        fill_columns<geometry, near>(band, node, of, of.begin + i, shown, root_of_weight, c, j, into + i,
+                                     squares);
+    }
+    return sum_of(squares);
+}
+
+/// @return the block's squared residuals in standard deviations, without weight
+template <std::size_t geometry>
+float fill_block(const Band& band, const Node& node, const Block& of, float root_of_weight,
+                 const Constants& c, Columns& j, std::size_t into) {
+    switch (of.near) {
+        case Near::line_x:
+            return fill_block_near<geometry, Near::line_x>(band, node, of, root_of_weight, c, j, into);
+        case Near::line_y:
+            return fill_block_near<geometry, Near::line_y>(band, node, of, root_of_weight, c, j, into);
+        case Near::both:
+            break;
+    }
+    return fill_block_near<geometry, Near::both>(band, node, of, root_of_weight, c, j, into);
+}
+
+constexpr std::size_t whole_lanes(std::size_t pixels) {
+    return (pixels + lane_count - 1) / lane_count * lane_count;
 }
 
 /// sums[i][k] += columns i times k, on and below the diagonal (and a little above it). Two by four sums at a
@@ -144,22 +205,25 @@ template <std::size_t columns>
 template <std::size_t geometry>
 void add_band_of(const Band& band, const Constants& constants, float* block_squares, Sums& sums) {
     constexpr std::size_t columns = columns_of(geometry);
-    Columns j{};
+    Columns j;
     alignas(32) Lanes products[columns][columns] = {};
+    std::size_t filled = 0;
     for (std::size_t n = 0; n < band.node_count; ++n) {
         const Node& node = band.nodes[n];
-        for (std::size_t first = node.begin; first < node.end; first += chunk) {
-            const std::size_t count = node.end - first < chunk ? node.end - first : chunk;
-            for (std::size_t from = 0; from < count; from += block) {
-                const std::size_t to = from + block < count ? from + block : count;
-                Lanes squares = {};
-                for (std::size_t i = from; i < to; i += lane_count)
-                    fill_columns<geometry>(band, node, first + i, i, constants, j, squares);
-                *block_squares++ = sum_of(squares);
-            }
-            add_products<columns>(j, count, products);
+        for (std::size_t b = node.first_block; b < node.last_block; ++b) {
+            const float weight = band.weights[b];
+            if (block_squares == nullptr && weight == 0.0F) continue;
+            const float squares =
+                fill_block<geometry>(band, node, band.blocks[b], weight, constants, j, filled);
+            if (block_squares != nullptr) block_squares[b] = squares;
+            if (weight == 0.0F) continue;
+            filled += whole_lanes(band.blocks[b].pixels);
+            if (filled + block <= chunk) continue;
+            add_products<columns>(j, filled, products);
+            filled = 0;
         }
     }
+    add_products<columns>(j, filled, products);
     for (std::size_t row = 0; row < columns; ++row)
         for (std::size_t column = 0; column <= row; ++column)
             sums.products[row][column] += static_cast<double>(sum_of(products[row][column]));
@@ -168,29 +232,27 @@ void add_band_of(const Band& band, const Constants& constants, float* block_squa
 template <std::size_t geometry>
 void add_scatter_of(const Band& band, const Constants& constants, Sums& sums) {
     constexpr std::size_t parameters = geometry + look_columns;
-    Columns j{};
+    Columns j;
     for (std::size_t n = 0; n < band.node_count; ++n) {
         const Node& node = band.nodes[n];
-        for (std::size_t first = node.begin; first < node.end; first += block) {
-            const std::size_t count = node.end - first < block ? node.end - first : block;
-            Lanes squares = {};
-            for (std::size_t i = 0; i < count; i += lane_count)
-                fill_columns<geometry>(band, node, first + i, i, constants, j, squares);
-            double score[parameters];
+        double score[parameters] = {};
+        for (std::size_t b = node.first_block; b < node.last_block; ++b) {
+            const Block& of = band.blocks[b];
+            fill_block<geometry>(band, node, of, band.weights[b], constants, j, 0);
             for (std::size_t k = 0; k < parameters; ++k) {
                 Lanes sum = {};
-                for (std::size_t i = 0; i < count; i += lane_count) {
+                for (std::size_t i = 0; i < of.pixels; i += lane_count) {
                     Lanes left, right;
                     load(&j.at[k][i], left);
                     load(&j.at[parameters][i], right);
                     sum += left * right;
                 }
-                score[k] = static_cast<double>(sum_of(sum));
+                score[k] += static_cast<double>(sum_of(sum));
             }
-            for (std::size_t row = 0; row < parameters; ++row)
-                for (std::size_t column = 0; column <= row; ++column)
-                    sums.products[row][column] += score[row] * score[column];
         }
+        for (std::size_t row = 0; row < parameters; ++row)
+            for (std::size_t column = 0; column <= row; ++column)
+                sums.products[row][column] += score[row] * score[column];
     }
 }
 

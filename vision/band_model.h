@@ -14,8 +14,8 @@ namespace fidservo::vision {
 /// and coverage by white m, the grey level is (black + (white - black) m) (1 + lx x + ly y + lr (x^2 + y^2)).
 /// Parameters are in the order of kernel::LookColumn.
 struct BandLook {
-    double blur_x_px = 1.2;  ///< standard deviation across lines x = const; fitted as its logarithm
-    double blur_y_px = 1.2;
+    double blur_x_px = 1.0;  ///< standard deviation across lines x = const; fitted as its logarithm
+    double blur_y_px = 1.0;
     double spread_px = 0.0;    ///< by which black reaches farther out
     double skew_factor = 0.0;  ///< of f3, edge_profile.h: for light or display that is not linear
     double tail_factor = 0.0;  ///< of f4: for a blur that is not normal, and for the pixel's area
@@ -39,8 +39,15 @@ struct BandEquations {
 BandEquations evaluate_band(const EdgeBand& band, const TagPicture& picture, const BandLook& look,
                             const GreyNoise& noise, std::vector<float>& block_squares);
 
-/// Sum over blocks of s s^T, s the sum of w J (pixel - model) over a block: the middle of a sandwich estimate
-/// that allows for what a block's pixels have in common.
+/// Brings equations up to date after some blocks' weights have changed: only those blocks are looked at
+/// again.
+void reweigh(BandEquations& equations, const EdgeBand& band, const std::vector<float>& weights_before,
+             const TagPicture& picture, const BandLook& look, const GreyNoise& noise);
+
+/// Sum over crossings of s s^T, s the sum of w J (pixel - model) over a crossing's pixels, times n / (n - 1)
+/// for n crossings: the middle of a sandwich estimate that allows for what a crossing's pixels have in
+/// common. Source: Cameron and Miller, A practitioner's guide to cluster-robust inference, 2015, eq. 11
+/// and 12.
 Eigen::MatrixXd band_scatter(const EdgeBand& band, const TagPicture& picture, const BandLook& look,
                              const GreyNoise& noise);
 

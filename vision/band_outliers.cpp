@@ -6,9 +6,9 @@
 namespace fidservo::vision {
 namespace {
 
-constexpr float most_of_block = 6.0F;
-constexpr float most_of_crossing = 4.0F;
-constexpr float most_beside_misfit = 2.0F;
+constexpr float most_of_block = 4.4F;
+constexpr float most_of_crossing = 3.6F;
+constexpr float most_beside_misfit = 1.9F;
 
 /// A crossing of the code's lines with its blocks [first, last).
 struct Crossing {
@@ -19,9 +19,11 @@ struct Crossing {
     float excess = 0.0F;
 };
 
-/// Limit of the mean of so many squares of unit normals.
+/// Limit of the mean of so many squares of unit normals (Wilson and Hilferty 1931).
 float limit_of(float pixels, float deviations) {
-    return 1.0F + deviations * std::sqrt(2.0F / pixels);
+    const float variance = 2.0F / (9.0F * pixels);
+    const float root = 1.0F - variance + deviations * std::sqrt(variance);
+    return root * root * root;
 }
 
 float excess_of(const Crossing& crossing, float usual, float deviations) {
@@ -52,21 +54,18 @@ void judge_blocks(const EdgeBand& band, float allowance, const std::vector<float
     const std::size_t blocks = band.blocks.size();
     excess.resize(blocks);
     if (blocks == 0) return;
-    const auto size_of = [&](std::size_t k) {
-        return static_cast<float>(band.blocks[k].end - band.blocks[k].begin);
-    };
+    const auto size_of = [&](std::size_t k) { return static_cast<float>(band.blocks[k].pixels); };
     for (std::size_t k = 0; k < blocks; ++k) excess[k] = block_squares[k] / size_of(k);
     const float usual = usual_of(excess, allowance);
 
     std::vector<Crossing> crossings;
     crossings.reserve(band.nodes.size());
     std::vector<const Crossing*> misfits;
-    std::size_t k = 0;
     for (const kernel::Node& node : band.nodes) {
-        Crossing crossing{node.x, node.y, k, k};
+        Crossing crossing{node.x, node.y, node.first_block, node.last_block};
         bool damaged = false;
-        for (; k < blocks && band.blocks[k].begin < node.end; ++k) {
-            excess[k] /= usual * limit_of(static_cast<float>(band.blocks[k].pixels), most_of_block);
+        for (std::size_t k = node.first_block; k < node.last_block; ++k) {
+            excess[k] /= usual * limit_of(size_of(k), most_of_block);
             if (excess[k] > 1.0F) {
                 damaged = true;
                 continue;
@@ -74,7 +73,6 @@ void judge_blocks(const EdgeBand& band, float allowance, const std::vector<float
             crossing.square_sum += block_squares[k];
             crossing.pixels += size_of(k);
         }
-        crossing.last = k;
         crossing.excess = excess_of(crossing, usual, most_of_crossing);
         crossings.push_back(crossing);
         if (damaged || crossing.excess > 1.0F) misfits.push_back(&crossings.back());

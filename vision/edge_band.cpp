@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <cstring>
 
 #include <Eigen/LU>
 
@@ -40,32 +40,57 @@ kernel::Node crossing(const TagPattern& pattern, int column, int row) {
     return node;
 }
 
-/// Half-open in whole pixels once rounded; empty if low >= high.
-struct Interval {
-    double low, high;
-
-    Interval operator&(const Interval& other) const {
-        return {std::max(low, other.low), std::min(high, other.high)};
-    }
+/// x_low <= x < x_high and y_low <= y < y_high, cells, counted from a crossing.
+struct Rectangle {
+    double x_low, x_high, y_low, y_high;
 };
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Where a line of the tag passes an image row: at_px in row 0.
+struct Crossed {
+    double at_px, shift_px;
 
-/// A coordinate that changes along an image row by so much a pixel.
-class Affine {
+    double in(int row) const { return at_px + row * shift_px; }
+};
+
+/// Two such lines, the left one first; a pixel lies between them if it is not before the left one but before
+/// the right one.
+struct Strip {
+    Crossed left, right;
+
+    double width_px() const { return right.at_px - left.at_px; }
+};
+
+/// How the picture of the cells around a crossing lies in the image's rows, by the map's derivative there.
+class Surroundings {
   public:
-    explicit Affine(double slope) : inverse_(std::abs(slope) < 1e-12 ? 0.0 : 1.0 / slope) {}
+    Surroundings(const TagPicture& picture, const Eigen::Vector2d& cell)
+        : at_px_(picture.image_of(cell)), by_px_(picture.cells_by_px(at_px_)), to_px_(by_px_.inverse()) {}
 
-    /// Where low <= offset + slope u < high.
-    Interval where_between(double offset, double low, double high) const {
-        if (inverse_ == 0.0)
-            return offset >= low && offset < high ? Interval{-infinity, infinity} : Interval{0.0, 0.0};
-        const double a = (low - offset) * inverse_, b = (high - offset) * inverse_;
-        return inverse_ > 0 ? Interval{a, b} : Interval{b, a};
+    double px_per_cell_x() const { return 1.0 / by_px_.row(0).norm(); }
+    double px_per_cell_y() const { return 1.0 / by_px_.row(1).norm(); }
+
+    /// Between the lines x = low and x = high (axis 0), or y (axis 1).
+    Strip strip(int axis, double low, double high) const {
+        constexpr double least = 1e-9;  // a line along the rows passes them as good as nowhere
+        const double slope = std::abs(by_px_(axis, 0)) < least ? least : by_px_(axis, 0);
+        const double shift_px = -by_px_(axis, 1) / slope;
+        const double middle_px = at_px_.x() - shift_px * at_px_.y();
+        const Crossed a{middle_px + low / slope, shift_px}, b{middle_px + high / slope, shift_px};
+        return slope > 0.0 ? Strip{a, b} : Strip{b, a};
+    }
+
+    double lowest_row(const Rectangle& of) const {
+        return at_px_.y() + std::min(to_px_(1, 0) * of.x_low, to_px_(1, 0) * of.x_high) +
+               std::min(to_px_(1, 1) * of.y_low, to_px_(1, 1) * of.y_high);
+    }
+    double highest_row(const Rectangle& of) const {
+        return at_px_.y() + std::max(to_px_(1, 0) * of.x_low, to_px_(1, 0) * of.x_high) +
+               std::max(to_px_(1, 1) * of.y_low, to_px_(1, 1) * of.y_high);
     }
 
   private:
-    double inverse_;
+    Eigen::Vector2d at_px_;
+    Eigen::Matrix2d by_px_, to_px_;
 };
 
 /// The first whole number from x on, for |x| < 2^31.
@@ -74,156 +99,179 @@ int whole_from(double x) {
     return cut + (cut < x ? 1 : 0);
 }
 
-/// Pixels of one image row that belong to a node's band, as up to four intervals that do not overlap.
-struct RowSpans {
-    std::array<Interval, 4> spans{};
-    std::size_t count = 0;
+/// Pixels' places as the map's cubic takes them.
+struct Grid {
+    double per_px, u_start, v_start;
+    std::array<float, lane_count> steps;  ///< of U, from a pixel to those right of it
 
-    void add(Interval span) {
-        if (span.low >= span.high) return;
-        std::size_t kept = 0;
-        for (std::size_t k = 0; k < count; ++k) {
-            if (spans[k].low <= span.high && span.low <= spans[k].high)
-                span = {std::min(span.low, spans[k].low), std::max(span.high, spans[k].high)};
-            else
-                spans[kept++] = spans[k];
-        }
-        spans[kept] = span;
-        count = kept + 1;
+    explicit Grid(const TagPicture::Cubic& cubic)
+        : per_px(1.0 / cubic.unit_px),
+          u_start(-cubic.origin_px.x() * per_px),
+          v_start(-cubic.origin_px.y() * per_px) {
+        for (std::size_t k = 0; k < lane_count; ++k)
+            steps[k] = static_cast<float>(per_px) * static_cast<float>(k);
     }
+
+    float u(int column) const { return static_cast<float>(u_start + column * per_px); }
+    float v(int row) const { return static_cast<float>(v_start + row * per_px); }
 };
 
-/// Pixels [first, last) of one image row.
-struct Run {
-    int row, first, last;
+/// Fills a band from its beginning.
+class BandWriter {
+  public:
+    BandWriter(const cv::Mat& image, const TagPicture::Cubic& cubic, EdgeBand& band)
+        : image_(image), grid_(cubic), band_(band) {
+        band.nodes.clear();
+        band.blocks.clear();
+        band.pixels = 0;
+    }
+
+    /// Adds a rectangle's pixels. Whole lanes are written: what is too much, the next row overwrites.
+    void add(const Surroundings& around, const Rectangle& of) {
+        if (of.x_low >= of.x_high || of.y_low >= of.y_high) return;
+        const Strip x = around.strip(0, of.x_low, of.x_high), y = around.strip(1, of.y_low, of.y_high);
+        const double height_px = image_.rows;
+        const int first_row = whole_from(std::min(height_px, std::max(0.0, around.lowest_row(of))));
+        const int end_row = whole_from(std::max(0.0, std::min(height_px, around.highest_row(of))));
+        if (first_row >= end_row) return;
+        // Copies, which no store to the band can change.
+        const Grid grid = grid_;
+        const int columns = image_.cols;
+        const double width_px = columns;
+        constexpr int lanes = lane_count;
+
+        const double widest_px = std::min(width_px, std::min(x.width_px(), y.width_px()));
+        make_room(static_cast<std::size_t>((end_row - first_row) * (widest_px + 1.0)) + lane_count);
+        float *u_at = band_.u.data() + at_, *v_at = band_.v.data() + at_;
+        unsigned char* level_at = band_.levels.data() + at_;
+        for (int row = first_row; row < end_row; ++row) {
+            const double low = std::max(0.0, std::max(x.left.in(row), y.left.in(row)));
+            const double high = std::min(width_px, std::min(x.right.in(row), y.right.in(row)));
+            if (!(low < high)) continue;
+            const int first = whole_from(low), end = whole_from(high);
+            const auto* const pixels = image_.ptr<unsigned char>(row);
+            const float v = grid.v(row);
+            for (int k = 0; first + k < end; k += lanes) {
+                const float u = grid.u(first + k);
+                for (int i = 0; i < lanes; ++i) u_at[k + i] = u + grid.steps[i];
+                for (int i = 0; i < lanes; ++i) v_at[k + i] = v;
+                if (first + k + lanes <= columns)
+                    std::memcpy(level_at + k, pixels + first + k, lane_count);
+                else
+                    std::memcpy(level_at + k, pixels + first + k,
+                                static_cast<std::size_t>(columns - first - k));
+            }
+            u_at += end - first, v_at += end - first, level_at += end - first;
+        }
+        at_ = static_cast<std::size_t>(u_at - band_.u.data());
+    }
+
+    /// Makes blocks, as even as can be, of the pixels added since the last ones.
+    void end_part(kernel::Near near, float far_level) {
+        if (at_ == begin_) return;
+        const std::size_t groups = (at_ - begin_ + lane_count - 1) / lane_count;
+        const std::size_t end = begin_ + groups * lane_count;
+        for (auto* const column : {&band_.u, &band_.v})
+            std::fill(column->data() + at_, column->data() + end, (*column)[at_ - 1]);
+        std::fill(band_.levels.data() + at_, band_.levels.data() + end, band_.levels[at_ - 1]);
+        constexpr std::size_t most = kernel::block / lane_count;
+        const std::size_t parts = (groups + most - 1) / most;
+        for (std::size_t k = 0; k < parts; ++k) {
+            const std::size_t from = begin_ + k * groups / parts * lane_count;
+            const std::size_t to = std::min(begin_ + (k + 1) * groups / parts * lane_count, at_);
+            band_.blocks.push_back({from, to - from, near, far_level});
+        }
+        band_.pixels += at_ - begin_;
+        at_ = begin_ = end;
+    }
+
+    /// After the last part.
+    void end_band() {
+        band_.grey.resize(std::max(band_.grey.size(), at_));
+        std::copy_n(band_.levels.data(), at_, band_.grey.data());
+        band_.weights.assign(band_.blocks.size(), 1.0F);
+    }
+
+  private:
+    void make_room(std::size_t for_pixels) {
+        const std::size_t room = at_ + for_pixels + lane_count;
+        if (room <= band_.u.size()) return;
+        band_.u.resize(2 * room);
+        band_.v.resize(2 * room);
+        band_.levels.resize(2 * room);
+    }
+
+    const cv::Mat& image_;
+    Grid grid_;
+    EdgeBand& band_;
+    std::size_t begin_ = 0, at_ = 0;
 };
 
-/// The runs of a node's band: of its square and within reach of its edges, by the map's derivative there.
-void find_runs(const cv::Mat& image, const TagPicture& picture, const BandReach& reach, kernel::Node& node,
-               std::vector<Run>& runs) {
-    const Eigen::Vector2d at = picture.image_of({node.x, node.y});
-    const Eigen::Matrix2d by_px = picture.cells_by_px(at);
-    node.px_per_cell_x = static_cast<float>(1.0 / by_px.row(0).norm());
-    node.px_per_cell_y = static_cast<float>(1.0 / by_px.row(1).norm());
-    const double x_reach = std::min(0.5, reach.x_px / node.px_per_cell_x);
-    const double y_reach = std::min(0.5, reach.y_px / node.px_per_cell_y);
-    const Affine x_slope(by_px(0, 0)), y_slope(by_px(1, 0));
+/// Takes a share of what is offered, evenly spread and without a period of its own: multiples of the golden
+/// ratio.
+class Choice {
+  public:
+    explicit Choice(double share) : share_(share) {}
 
-    // Half the height of the image box around a square of half a cell.
-    const Eigen::Matrix2d to_px = by_px.inverse();
-    const double half_height = 0.5 * (std::abs(to_px(1, 0)) + std::abs(to_px(1, 1)));
-    const int first_row = std::max(0, static_cast<int>(std::ceil(at.y() - half_height)));
-    const int last_row = std::min(image.rows - 1, static_cast<int>(std::floor(at.y() + half_height)));
-    const Interval picture_width{0.0, static_cast<double>(image.cols)};
+    bool takes_next() {
+        constexpr double golden_ratio = 0.618033988749895;
+        place_ += golden_ratio;
+        if (place_ >= 1.0) place_ -= 1.0;
+        return place_ < share_;
+    }
 
-    for (int v = first_row; v <= last_row; ++v) {
-        const double x0 = by_px(0, 1) * (v - at.y()) - by_px(0, 0) * at.x();
-        const double y0 = by_px(1, 1) * (v - at.y()) - by_px(1, 0) * at.x();
-        const Interval square =
-            x_slope.where_between(x0, -0.5, 0.5) & y_slope.where_between(y0, -0.5, 0.5) & picture_width;
-        if (square.low >= square.high) continue;
-        const Interval near_x = square & x_slope.where_between(x0, -x_reach, x_reach);
-        const Interval near_y = square & y_slope.where_between(y0, -y_reach, y_reach);
-        RowSpans row;
-        if (near_x.low < near_x.high) {
-            if (node.edge_up > 0) row.add(near_x & y_slope.where_between(y0, -0.5, y_reach));
-            if (node.edge_down > 0) row.add(near_x & y_slope.where_between(y0, -y_reach, 0.5));
-        }
-        if (near_y.low < near_y.high) {
-            if (node.edge_left > 0) row.add(near_y & x_slope.where_between(x0, -0.5, x_reach));
-            if (node.edge_right > 0) row.add(near_y & x_slope.where_between(x0, -x_reach, 0.5));
-        }
-        for (std::size_t k = 0; k < row.count; ++k) {
-            const Run run{v, whole_from(row.spans[k].low), whole_from(row.spans[k].high)};
-            if (run.first < run.last) runs.push_back(run);
-        }
-    }
-}
+  private:
+    double share_, place_ = 0.0;
+};
 
-/// Writes a run's pixels from `at` on.
-void fill_run(const cv::Mat& image, const TagPicture::Cubic& cubic, const Run& run, std::size_t at,
-              EdgeBand& band) {
-    const auto* const row = image.ptr<unsigned char>(run.row) + run.first;
-    const auto& k = cubic.coefficients;
-    const double V = (run.row - cubic.origin_px.y()) / cubic.unit_px;
-    const Eigen::Vector2f c0 = (k[0] + V * (k[2] + V * (k[5] + V * k[9]))).cast<float>();
-    const Eigen::Vector2f c1 = (k[1] + V * (k[4] + V * k[8])).cast<float>();
-    const Eigen::Vector2f c2 = (k[3] + V * k[7]).cast<float>();
-    const Eigen::Vector2f c3 = k[6].cast<float>();
-    const auto unit = static_cast<float>(1.0 / cubic.unit_px);
-    const auto start = static_cast<float>((run.first - cubic.origin_px.x()) / cubic.unit_px);
-    const int count = run.last - run.first;
-    float* const qx = band.qx.data() + at;
-    float* const qy = band.qy.data() + at;
-    float* const grey = band.grey.data() + at;
-    for (int i = 0; i < count; ++i) {
-        const float U = start + unit * static_cast<float>(i);
-        qx[i] = c0.x() + U * (c1.x() + U * (c2.x() + U * c3.x()));
-        qy[i] = c0.y() + U * (c1.y() + U * (c2.y() + U * c3.y()));
-        grey[i] = static_cast<float>(row[i]);
-    }
-}
+/// Adds a crossing's pixels: about the crossing itself, where both lines matter, and along each edge that
+/// leaves it, where the other line is too far away to.
+void add_node(const TagPicture& picture, const BandReach& reach, kernel::Node node, Choice& choice,
+              BandWriter& writer, EdgeBand& band) {
+    constexpr double half_cell = 0.5;
+    constexpr double far = 1.75;  // reaches: more than four standard deviations of the blur
+    const Surroundings around(picture, {node.x, node.y});
+    node.px_per_cell_x = static_cast<float>(around.px_per_cell_x());
+    node.px_per_cell_y = static_cast<float>(around.px_per_cell_y());
+    const double x = std::min(half_cell, reach.x_px / around.px_per_cell_x());
+    const double y = std::min(half_cell, reach.y_px / around.px_per_cell_y());
+    const double far_x = std::min(half_cell, far * x), far_y = std::min(half_cell, far * y);
+    const bool up = node.edge_up > 0, down = node.edge_down > 0;
+    const bool left = node.edge_left > 0, right = node.edge_right > 0;
 
-/// Fills up the node that begins at `begin` and has this many pixels, and divides it into blocks.
-std::size_t end_node(std::size_t begin, std::size_t pixels, EdgeBand& band) {
-    const std::size_t last = begin + pixels - 1;
-    const std::size_t end = begin + (pixels + lane_count - 1) / lane_count * lane_count;
-    for (std::size_t i = begin; i <= last; ++i) band.weight[i] = 1.0F;
-    for (std::size_t i = last + 1; i < end; ++i) {
-        band.qx[i] = band.qx[last];
-        band.qy[i] = band.qy[last];
-        band.grey[i] = band.grey[last];
-        band.weight[i] = 0.0F;
+    node.first_block = band.blocks.size();
+    if (choice.takes_next()) {
+        writer.add(around, {-x, x, up ? -far_y : -y, down ? far_y : y});
+        if (left) writer.add(around, {-far_x, -x, -y, y});
+        if (right) writer.add(around, {x, far_x, -y, y});
+        writer.end_part(kernel::Near::both, 0.0F);
     }
-    for (std::size_t at = begin; at < end; at += kernel::block) {
-        const std::size_t block_end = std::min(at + kernel::block, end);
-        band.blocks.push_back({at, block_end, std::min(block_end, last + 1) - at});
-    }
-    return end;
+    const auto add_edge = [&](bool is_there, const Rectangle& along, kernel::Near near, float far_level) {
+        if (!is_there || !choice.takes_next()) return;
+        writer.add(around, along);
+        writer.end_part(near, far_level);
+    };
+    add_edge(up, {-x, x, -half_cell, -far_y}, kernel::Near::line_x, 0.0F);
+    add_edge(down, {-x, x, far_y, half_cell}, kernel::Near::line_x, 1.0F);
+    add_edge(left, {-half_cell, -far_x, -y, y}, kernel::Near::line_y, 0.0F);
+    add_edge(right, {far_x, half_cell, -y, y}, kernel::Near::line_y, 1.0F);
+    node.last_block = band.blocks.size();
+    if (node.last_block > node.first_block) band.nodes.push_back(node);
 }
 
 }  // namespace
 
-void EdgeBand::weigh(const BandBlock& block, float root_of_weight) {
-    std::fill_n(weight.begin() + static_cast<std::ptrdiff_t>(block.begin), block.pixels, root_of_weight);
-}
-
 void select_band(const cv::Mat& image, const TagPicture& picture, const TagPattern& pattern,
-                 const BandReach& reach, int every, EdgeBand& band) {
-    thread_local std::vector<Run> runs;  // kept: fresh memory costs more than its use
-    runs.clear();
-    band.nodes.clear();
-    band.blocks.clear();
-    band.pixels = 0;
-    std::size_t room = 0;
-    int with_edges = 0;
+                 const BandReach& reach, double share, EdgeBand& band) {
+    BandWriter writer(image, picture.cubic(), band);
+    Choice choice(share);
     for (int row = 0; row <= pattern.cells; ++row)
         for (int column = 0; column <= pattern.cells; ++column) {
-            kernel::Node node = crossing(pattern, column, row);
-            if (node.edge_up + node.edge_down + node.edge_left + node.edge_right == 0) continue;
-            if (with_edges++ % every != 0) continue;
-            node.begin = runs.size();  // of the runs for now
-            find_runs(image, picture, reach, node, runs);
-            node.end = runs.size();
-            if (node.begin == node.end) continue;
-            for (std::size_t k = node.begin; k < node.end; ++k)
-                room += static_cast<std::size_t>(runs[k].last - runs[k].first);
-            room += lane_count;
-            band.nodes.push_back(node);
+            const kernel::Node node = crossing(pattern, column, row);
+            if (node.edge_up + node.edge_down + node.edge_left + node.edge_right > 0)
+                add_node(picture, reach, node, choice, writer, band);
         }
-    if (band.grey.size() < room)
-        for (auto* const column : {&band.qx, &band.qy, &band.grey, &band.weight}) column->resize(room);
-    std::size_t at = 0;
-    for (kernel::Node& node : band.nodes) {
-        const std::size_t begin = at;
-        for (std::size_t k = node.begin; k < node.end; ++k) {
-            fill_run(image, picture.cubic(), runs[k], at, band);
-            at += static_cast<std::size_t>(runs[k].last - runs[k].first);
-        }
-        band.pixels += at - begin;
-        node.begin = begin;
-        node.end = at = end_node(begin, at - begin, band);
-    }
+    writer.end_band();
 }
 
 }  // namespace fidservo::vision

@@ -11,24 +11,15 @@
 
 namespace fidservo::vision {
 
-/// Neighbouring pixels of one node that are judged together.
-struct BandBlock {
-    std::size_t begin, end;  ///< the kernel's: with pixels that fill up
-    std::size_t pixels;      ///< without them
-};
-
-/// Structure of arrays. Each node's pixels are filled up to a multiple of lane_count with copies of the last
-/// one, of weight 0.
+/// Structure of arrays. Each block's pixels are filled up to a multiple of lane_count.
 struct EdgeBand {
-    std::vector<float> qx, qy;  ///< tag_picture.h
-    std::vector<float> grey;
-    std::vector<float> weight;  ///< square root of
+    std::vector<float> u, v;            ///< TagPicture::Cubic's U and V
+    std::vector<unsigned char> levels;  ///< grey levels as the image has them
+    std::vector<float> grey;            ///< and as the kernel takes them
     std::vector<kernel::Node> nodes;
-    std::vector<BandBlock> blocks;
-    std::size_t pixels = 0;  ///< without those that fill up
-
-    /// Gives all pixels of a block a weight.
-    void weigh(const BandBlock& block, float root_of_weight);
+    std::vector<kernel::Block> blocks;
+    std::vector<float> weights;  ///< of the blocks, square roots of
+    std::size_t pixels = 0;      ///< without those that fill up
 };
 
 /// How far from the edges to look, px, for the lines x = const and y = const.
@@ -37,9 +28,9 @@ struct BandReach {
 };
 
 /// Fills a band with all pixels within reach of the pattern's edges where `picture` sees them, at most half a
-/// cell away.
-/// @param every  only every so-manieth crossing: a quicker look
+/// cell away. All weights are 1.
+/// @param share  of the edges that are taken, spread over the tag: less than 1 for a quicker look
 void select_band(const cv::Mat& image, const TagPicture& picture, const TagPattern& pattern,
-                 const BandReach& reach, int every, EdgeBand& band);
+                 const BandReach& reach, double share, EdgeBand& band);
 
 }  // namespace fidservo::vision

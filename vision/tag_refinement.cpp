@@ -59,6 +59,7 @@ struct WorkingMemory {
     EdgeBand band;
     std::vector<float> block_squares;
     std::vector<float> excess;
+    std::vector<float> weights_before;
 };
 
 /// One tag under refinement.
@@ -72,12 +73,14 @@ class Fit {
           picture_(found.corners_px, pattern_.cells, options.camera),
           band_(memory.band),
           block_squares_(memory.block_squares),
-          excess_(memory.excess) {
+          excess_(memory.excess),
+          weights_before_(memory.weights_before) {
         const Eigen::Matrix2d cells_by_px = picture_.cells_by_px(picture_.image_of({0.0, 0.0}));
         cell_px_ = 1.0 / std::max(cells_by_px.row(0).norm(), cells_by_px.row(1).norm());
         const Eigen::Vector2d motion_cells = cells_by_px * options.motion_px;
         look_.motion_x_px = motion_that_matters(motion_cells.x() / cells_by_px.row(0).norm());
         look_.motion_y_px = motion_that_matters(motion_cells.y() / cells_by_px.row(1).norm());
+        look_.blur_x_px = look_.blur_y_px = possible_blur(options.blur_px);
         read_levels(image_, picture_, pattern_, look_);
     }
 
@@ -86,20 +89,20 @@ class Fit {
     /// A quick fit that tolerates much: brings the model to within some hundredths of a pixel.
     bool look_roughly() {
         constexpr int most_steps = 16;
-        constexpr std::size_t enough_pixels = 3000;
-        double reach_px = std::min(4.0, 0.5 * cell_px_);
+        constexpr double enough_pixels = 1500.0;
+        double reach_px = std::min(std::max(4.0, 2.5 * look_.blur_x_px), 0.5 * cell_px_);
         const double edge_pixels =
             70.0 * cell_px_ * 2.0 * reach_px;  // a code has about 70 cell sides of edge
-        const int every = std::max(1, static_cast<int>(edge_pixels / enough_pixels));
-        select(reach_px, every);
+        const double share = std::min(1.0, enough_pixels / edge_pixels);
+        select(reach_px, share);
         for (int k = 0; k < most_steps; ++k) {
             const std::optional<Step> step = take_step(Outliers::lose_weight);
             if (!step || !has_contrast()) return false;
             const double blur_px = std::max(look_.blur_x_px, look_.blur_y_px);
             if (2.3 * blur_px > reach_px && reach_px < 0.5 * cell_px_) {
                 reach_px = std::min(2.0 * reach_px, 0.5 * cell_px_);
-                select(reach_px, every);
-            } else if (step->is_small() && k > 0) {
+                select(reach_px, share);
+            } else if (step->is_within(0.06, 0.06) && k > 0) {
                 return true;
             }
         }
@@ -110,17 +113,13 @@ class Fit {
     bool look_closely() {
         constexpr int most_steps = 8;
         constexpr double reach_in_blurs = 2.5;
+        constexpr double nearly_all = 0.98;  ///< less left out does not change which blocks fit
         infer_motion();
-        select(reach_in_blurs * std::max(look_.blur_x_px, look_.blur_y_px) + 0.2, 1);
-        Outliers outliers = Outliers::lose_weight;
+        select(reach_in_blurs * std::max(look_.blur_x_px, look_.blur_y_px) + 0.2, 1.0);
         for (int k = 0; k < most_steps; ++k) {
-            const std::optional<Step> step = take_step(outliers);
+            const std::optional<Step> step = take_step(Outliers::are_left_out);
             if (!step || !has_contrast()) return false;
-            if (!step->is_small()) continue;
-            const bool all_used = used_ == band_.pixels;
-            if (all_used || (outliers == Outliers::are_left_out && !step->weights_changed))
-                return explained_ >= least_explained;
-            outliers = Outliers::are_left_out;
+            if (step->is_within(0.02, 0.04) && (k > 0 || explained_ > nearly_all)) break;
         }
         return explained_ >= least_explained;
     }
@@ -158,6 +157,10 @@ class Fit {
     }
 
   private:
+    double possible_blur(double blur_px) const {
+        return std::clamp(blur_px, sharpest_px, std::max(0.5 * cell_px_, sharpest_px));
+    }
+
     /// Motion that nobody told of shows in unequal blurs: a stretch m has the variance m^2 / 12.
     void infer_motion() {
         constexpr double unequal = 1.25;
@@ -170,9 +173,9 @@ class Fit {
         infer(look_.blur_y_px, look_.blur_x_px, look_.motion_y_px);
     }
 
-    void select(double reach_px, int every) {
+    void select(double reach_px, double share) {
         select_band(image_, picture_, pattern_,
-                    {reach_px + 0.5 * look_.motion_x_px, reach_px + 0.5 * look_.motion_y_px}, every, band_);
+                    {reach_px + 0.5 * look_.motion_x_px, reach_px + 0.5 * look_.motion_y_px}, share, band_);
     }
 
     static void add_priors(Eigen::MatrixXd& normal) {
@@ -200,17 +203,20 @@ class Fit {
     struct Step {
         double moved_px;
         double widened;  ///< largest change of a blur, as a part of it
-        bool weights_changed;
 
-        /// What Gauss-Newton leaves after such a step is below 1e-4 px.
-        bool is_small() const { return moved_px < 0.02 && widened < 0.04; }
+        /// Gauss-Newton converges quadratically: a step of 0.06 px leaves 0.002 px, one of 0.02 px 0.0002 px.
+        bool is_within(double most_px, double most_widened) const {
+            return moved_px < most_px && widened < most_widened;
+        }
     };
 
     /// One Gauss-Newton step; empty if the pixels do not determine it.
     std::optional<Step> take_step(Outliers outliers) {
         last_ = evaluate_band(band_, picture_, look_, options_.noise, block_squares_);
-        const bool changed = weigh_blocks(outliers);
-        if (changed) last_ = evaluate_band(band_, picture_, look_, options_.noise, block_squares_);
+        weights_before_ = band_.weights;
+        weigh_blocks(outliers);
+        if (band_.weights != weights_before_)
+            reweigh(last_, band_, weights_before_, picture_, look_, options_.noise);
         Eigen::MatrixXd normal = last_.normal;
         add_priors(normal);
         Eigen::VectorXd right = last_.right;
@@ -223,15 +229,14 @@ class Fit {
         const double widened = std::max(std::abs(look(kernel::width_x)), std::abs(look(kernel::width_y)));
         apply(moved_px > longest_px ? Eigen::VectorXd(step * (longest_px / moved_px)) : step);
         square_sum_ = last_.square_sum - step.dot(right);
-        return Step{moved_px, widened, changed};
+        return Step{moved_px, widened};
     }
 
     void apply(const Eigen::VectorXd& step) {
         picture_.change(step);
         const auto look = step.tail<kernel::look_columns>();
         const auto widened = [&](double blur_px, double change) {
-            return std::clamp(blur_px * std::exp(std::clamp(change, -0.7, 0.7)), sharpest_px,
-                              std::max(0.5 * cell_px_, sharpest_px));
+            return possible_blur(blur_px * std::exp(std::clamp(change, -0.7, 0.7)));
         };
         look_.blur_x_px = widened(look_.blur_x_px, look(kernel::width_x));
         look_.blur_y_px = widened(look_.blur_y_px, look(kernel::width_y));
@@ -244,27 +249,21 @@ class Fit {
         look_.light += look.segment<3>(kernel::light_x);
     }
 
-    /// Sets the blocks' weights by what the model leaves of them. True if a weight changed.
-    bool weigh_blocks(Outliers outliers) {
+    /// Sets the blocks' weights by what the model leaves of them.
+    void weigh_blocks(Outliers outliers) {
         constexpr double rounding_in_common =
             0.09;  // grey levels squared: a 12th, and a little for the model
         const double allowance = 1.0 + rounding_in_common / options_.noise.variance(look_.black_grey);
         judge_blocks(band_, static_cast<float>(allowance), block_squares_, excess_);
-        bool changed = false;
         used_ = 0;
         for (std::size_t k = 0; k < excess_.size(); ++k) {
-            const BandBlock& at = band_.blocks[k];
-            float weight = 1.0F;
-            if (excess_[k] <= 1.0F)
-                used_ += at.pixels;
-            else
-                weight = outliers == Outliers::are_left_out ? 0.0F : 0.5F / std::sqrt(excess_[k]);
-            if (band_.weight[at.begin] == weight) continue;
-            changed = true;
-            band_.weigh(at, weight);
+            const bool fits = excess_[k] <= 1.0F;
+            if (fits) used_ += band_.blocks[k].pixels;
+            band_.weights[k] = fits                                 ? 1.0F
+                               : outliers == Outliers::are_left_out ? 0.0F
+                                                                    : 0.5F / std::sqrt(excess_[k]);
         }
         explained_ = static_cast<double>(used_) / static_cast<double>(std::max<std::size_t>(1, band_.pixels));
-        return changed;
     }
 
     const cv::Mat& image_;
@@ -276,6 +275,7 @@ class Fit {
     EdgeBand& band_;
     std::vector<float>& block_squares_;
     std::vector<float>& excess_;  ///< band_outliers.h
+    std::vector<float>& weights_before_;
     BandEquations last_;
     double square_sum_ = 0.0;
     double explained_ = 1.0;

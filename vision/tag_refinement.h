@@ -45,6 +45,8 @@ struct RefinementOptions {
     GreyNoise noise{white_grey / 10000.0, 0.1, 0.0};
     /// Of the picture during the exposure. Zero: unknown; the edges' unequal blurs tell it.
     Eigen::Vector2d motion_px = Eigen::Vector2d::Zero();
+    /// Standard deviation of the edges' profiles to begin with: a good guess saves a step or two.
+    double blur_px = 1.0;
 };
 
 /// Weighted least squares of a picture of the tag against the raw pixels along all edges of its code:

@@ -70,7 +70,8 @@ RefinedTag refine(const cv::Mat& image, const FoundTag& found, const RefinementO
 
 }  // namespace
 
-TagTracker::TagTracker(const TagTrackerOptions& options) : options_(options), detector_(options.detector) {}
+TagTracker::TagTracker(const TagTrackerOptions& options)
+    : options_(options), detector_(options.detector), blur_px_(options.refinement.blur_px) {}
 
 std::vector<FoundTag> TagTracker::find(const cv::Mat& image, TimeNs time_ns,
                                        const std::vector<ExpectedTag>& expected) {
@@ -150,10 +151,14 @@ std::vector<TrackedTag> TagTracker::track(const cv::Mat& image, TimeNs time_ns,
             if (!is_known(found, seen)) found.push_back({seen, FoundBy::full_search});
     }
     RefinementOptions refinement = options_.refinement;
+    refinement.blur_px = blur_px_;
     if (motion) refinement.motion_px = motion->during_exposure_px;
     std::vector<TrackedTag> tags;
     tags.reserve(found.size());
-    for (const FoundTag& tag : found) tags.push_back({refine(image, tag, refinement), tag.found_by});
+    for (const FoundTag& tag : found) {
+        tags.push_back({refine(image, tag, refinement), tag.found_by});
+        if (tags.back().tag.blur_px > 0.0) blur_px_ = tags.back().tag.blur_px;
+    }
     remember(tags);
     return tags;
 }

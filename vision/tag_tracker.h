@@ -75,6 +75,7 @@ class TagTracker {
     TagTrackerOptions options_;
     TagDetector detector_;
     std::vector<Followed> followed_;
+    double blur_px_;  ///< of the tag refined last
     int frames_since_full_search_ = 0;
 };
 

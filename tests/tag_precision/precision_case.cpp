@@ -16,11 +16,9 @@ constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr PrecisionLimits in_good_order{1.1, 0.001, 0.0003};
 constexpr PrecisionLimits robust{1.5, 0.002, no_limit};
 constexpr PrecisionLimits damaged{1.5, 0.005, no_limit};
-/// Claims that are known to be too small, and too large: normalised squared errors of 1.26, 1.07 and 0.92
-/// were measured in 5,000 frames, where true claims give 0.96 to 1.04.
-constexpr PrecisionLimits spread_ink{1.5, 0.002, no_limit, 0.25};
-constexpr PrecisionLimits glaring{1.5, 0.005, no_limit, 0.06};
-constexpr PrecisionLimits bent_response{1.5, 0.002, no_limit, 0.0, 0.1};
+/// Claims that are known to be a little too small: a normalised squared error of 1.042 was measured in 5,000
+/// frames, where true claims give 0.964 to 1.037.
+constexpr PrecisionLimits glaring{1.5, 0.005, no_limit, 0.02};
 
 vision::GreyNoise noise_of(const Sensor& sensor) {
     const double grey_per_e = vision::white_grey / sensor.full_well_e;
@@ -85,13 +83,13 @@ std::vector<PrecisionCase> precision_cases() {
         variant("along the pixels", in_good_order, [](Case& c) { c.scene.angle_rad = 0.0; }),
         variant("gain spread 1 %", in_good_order, [](Case& c) { c.sensor.gain_spread = 0.01; }),
         variant("camera unknown", in_good_order, [](Case&) {}),
-        variant("ink spread 0.3 px", spread_ink, [](Case& c) { c.scene.ink_spread_px = 0.3; }),
-        variant("gamma 2.2", bent_response,
+        variant("ink spread 0.3 px", robust, [](Case& c) { c.scene.ink_spread_px = 0.3; }),
+        variant("gamma 2.2", robust,
                 [](Case& c) {
                     c.sensor.gamma = 2.2;
                     c.sensor.noise_after_gamma = true;
                 }),
-        variant("gamma 2.2, noise too", bent_response, [](Case& c) { c.sensor.gamma = 2.2; }),
+        variant("gamma 2.2, noise too", robust, [](Case& c) { c.sensor.gamma = 2.2; }),
         variant("edges 20 % wider", robust, [](Case& c) { c.scene.blur.sigma_px = 0.96; }),
         variant("edges with a halo", robust,
                 [](Case& c) { c.scene.blur = {.sigma_px = 0.7, .halo_share = 0.3, .halo_sigma_px = 1.389}; }),

@@ -198,8 +198,7 @@ std::vector<std::string> reproaches(const PrecisionFigures& figures, const Preci
     const double widened = certain ? 0.5 : 0.0;
     check("NEES / 2", figures.nees,
           figures.nees_high + widened * (figures.nees_high - 1.0) + limits.nees_above);
-    check("-NEES / 2", -figures.nees,
-          -(figures.nees_low + widened * (figures.nees_low - 1.0) - limits.nees_below));
+    check("-NEES / 2", -figures.nees, -(figures.nees_low + widened * (figures.nees_low - 1.0)));
     return found;
 }
 
