@@ -32,9 +32,9 @@ Coverage coverage_of(const CameraCalibration& calibration) {
     for (const ViewFit& view : calibration.views)
         for (const SightResidual& tag : view.tags)
             for (const Eigen::Vector2d& corner : tag.seen_px)
-                ++coverage.corners[static_cast<std::size_t>(
-                    cell(corner.y(), calibration.camera.height_px, Coverage::rows) * Coverage::columns +
-                    cell(corner.x(), calibration.camera.width_px, Coverage::columns))];
+                ++coverage.corners[cell(corner.y(), calibration.camera.height_px, Coverage::rows) *
+                                       Coverage::columns +
+                                   cell(corner.x(), calibration.camera.width_px, Coverage::columns)];
     const auto empty = std::ranges::count(coverage.corners, 0);
     coverage.share = 1.0 - static_cast<double>(empty) / static_cast<double>(coverage.corners.size());
     return coverage;
