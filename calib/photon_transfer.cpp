@@ -99,6 +99,7 @@ struct Line {
 Line fit_line(std::vector<TransferPoint>& points) {
     constexpr int rounds = 4;
     std::vector<double> relative_std;
+    relative_std.reserve(points.size());
     for (const TransferPoint& point : points) relative_std.push_back(point.variance_std / point.variance);
     Line line{};
     for (int round = 0; round < rounds; ++round) {

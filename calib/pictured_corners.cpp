@@ -14,7 +14,8 @@ constexpr int points = (cells + 1) * (cells + 1);
 
 /// Of point i, in units of half the tag's side.
 Eigen::Vector2d point_at(int i) {
-    return {2.0 * (i % (cells + 1)) / cells - 1.0, 2.0 * (i / (cells + 1)) / cells - 1.0};
+    const int column = i % (cells + 1), row = i / (cells + 1);
+    return {2.0 * column / cells - 1.0, 2.0 * row / cells - 1.0};
 }
 
 /// The border is an edge all along; of the lines between cells about half.

@@ -47,7 +47,7 @@ std::string coverage_svg(const calib::CameraCalibration& calibration, const cali
     const double width = drawn_width / Coverage::columns, height = at.height / Coverage::rows;
     for (int row = 0; row < Coverage::rows; ++row)
         for (int column = 0; column < Coverage::columns; ++column)
-            if (coverage.corners[static_cast<std::size_t>(row * Coverage::columns + column)] == 0)
+            if (coverage.corners[row * Coverage::columns + column] == 0)
                 svg += fmt::format(
                     "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
                     "fill=\"currentColor\" opacity=\"0.15\"><title>no corner here</title></rect>",
@@ -74,7 +74,7 @@ std::string residual_field_svg(const calib::CameraCalibration& calibration) {
         const Eigen::Vector2d place = at(seen);
         const int column = std::clamp(static_cast<int>(place.x() / drawn_width * columns), 0, columns - 1);
         const int row = std::clamp(static_cast<int>(place.y() / at.height * rows), 0, rows - 1);
-        Cell& cell = cells[static_cast<std::size_t>(row * columns + column)];
+        Cell& cell = cells[row * columns + column];
         cell.place += place;
         cell.error += error;
         cell.count += 1.0;
