@@ -21,9 +21,14 @@ double hall_slope_V_per_mm(const HallParameters& hall, double position_mm) {
 
 double hall_position_mm(const HallParameters& hall, double voltage_V) {
     const double w = (voltage_V - hall.mid_V) / hall.span_V;
-    if (hall.cubic <= 0.0) return hall.centre_mm + hall.half_range_mm * w;
+    if (hall.cubic == 0.0) return hall.centre_mm + hall.half_range_mm * w;
     // (1 + c) s - c s^3 = w: with s = 2 sqrt(p) sin(t), p = (1 + c) / (3 c), it is 2 p sqrt(p) c sin(3 t) =
-    // w.
+    // w. With c < 0 the hyperbolic sine stands for the sine, and |c| for c.
+    if (hall.cubic < 0.0) {
+        const double root_p = std::sqrt((1.0 + hall.cubic) / (-3.0 * hall.cubic));
+        const double sine = w / (-2.0 * hall.cubic * root_p * root_p * root_p);
+        return hall.centre_mm + hall.half_range_mm * 2.0 * root_p * std::sinh(std::asinh(sine) / 3.0);
+    }
     const double root_p = std::sqrt((1.0 + hall.cubic) / (3.0 * hall.cubic));
     const double sine = std::clamp(w / (2.0 * hall.cubic * root_p * root_p * root_p), -1.0, 1.0);
     return hall.centre_mm + hall.half_range_mm * 2.0 * root_p * std::sin(std::asin(sine) / 3.0);

@@ -12,7 +12,7 @@ struct HallParameters {
     double span_V;
     double centre_mm;
     double half_range_mm;
-    double cubic;  ///< >= 0
+    double cubic;  ///< above -1; at least 0 in a rig file
     int adc_bits;
     double adc_range_V;
     double noise_lsb;  ///< r.m.s., before rounding

@@ -14,11 +14,14 @@ double ripple_mm(const EncoderRipple& ripple, double position_mm) {
 }
 
 std::int64_t count_from_left_end(const Encoder& encoder, double position_mm) {
-    position_mm += ripple_mm(encoder.ripple, position_mm);
-    return static_cast<std::int64_t>(std::floor(position_mm / encoder.resolution_mm + 0.5));
+    return static_cast<std::int64_t>(std::floor(mean_reading_count(encoder, position_mm) + 0.5));
 }
 
 }  // namespace
+
+double mean_reading_count(const Encoder& encoder, double position_mm) {
+    return (position_mm + ripple_mm(encoder.ripple, position_mm)) / encoder.resolution_mm;
+}
 
 EncoderState start(const Encoder& encoder, double position_mm, EncoderOrigin origin) {
     return {origin == EncoderOrigin::power_up ? count_from_left_end(encoder, position_mm) : 0};

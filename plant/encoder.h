@@ -31,6 +31,9 @@ struct EncoderState {
 
 EncoderState start(const Encoder& encoder, double position_mm, EncoderOrigin origin);
 
+/// What is rounded to the count, in counts from the left end of travel: (y + ripple) / resolution.
+double mean_reading_count(const Encoder& encoder, double position_mm);
+
 /// The count at a carriage position in mm.
 std::int64_t sample(const Encoder& encoder, const EncoderState& state, double position_mm);
 

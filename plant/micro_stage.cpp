@@ -44,6 +44,11 @@ MicroStageState start(const MicroStage& stage, std::uint64_t seed) {
     return state;
 }
 
+double mean_reading_lsb(const MicroStage& stage, const MicroStageState& state) {
+    return mean_reading_lsb(stage.hall, state.position_mm) +
+           hall_disturbance_V(stage, state) * stage.hall.lsb_per_V;
+}
+
 int sample(const MicroStage& stage, MicroStageState& state) {
     return sample(stage.hall, state.hall_noise, state.position_mm, hall_disturbance_V(stage, state));
 }

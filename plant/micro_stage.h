@@ -76,6 +76,9 @@ MicroStage make_micro_stage(const MicroStageParameters& parameters, double tick_
 /// A wire that was cold for long: at ambient temperature, fully extended.
 MicroStageState start(const MicroStage& stage, std::uint64_t seed);
 
+/// The Hall sensor's reading without noise, rounding and the converter's ends, in LSB.
+double mean_reading_lsb(const MicroStage& stage, const MicroStageState& state);
+
 /// One reading of the Hall sensor, in LSB. Draws once from its noise.
 int sample(const MicroStage& stage, MicroStageState& state);
 

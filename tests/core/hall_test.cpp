@@ -25,6 +25,15 @@ TEST(Hall, LinearCurve_InvertsToo) {
     EXPECT_NEAR(hall_position_mm(linear, hall_voltage_V(linear, 3.3)), 3.3, 1e-12);
 }
 
+TEST(Hall, CurveThatBendsTheOtherWay_InvertsEverywhere) {
+    HallParameters bent = reference;
+    for (const double cubic : {-0.9, -0.12, -1e-6}) {
+        bent.cubic = cubic;
+        for (double x = -4.0; x < 8.0; x += 0.01)
+            EXPECT_NEAR(hall_position_mm(bent, hall_voltage_V(bent, x)), x, 1e-9) << cubic;
+    }
+}
+
 TEST(Hall, Slope_IsTheDerivative) {
     constexpr double h = 1e-5;
     for (double x = 0.0; x <= 4.0; x += 0.25)

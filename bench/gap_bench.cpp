@@ -1,0 +1,64 @@
+// How long a hypothesis takes on a whole practice campaign: what a search does some hundred times.
+#include "gap/evidence.h"
+#include "plant/effects/catalogue.h"
+#include "src/config/rig_file.h"
+#include "src/recording/reader.h"
+
+#include <filesystem>
+#include <string>
+
+#include <benchmark/benchmark.h>
+
+namespace fidservo {
+
+namespace {
+
+using namespace gap;
+
+const Evidence& campaign() {
+    static const Evidence evidence = [] {
+        std::vector<Recording> recordings;
+        for (const auto& folder :
+             find_recordings(std::filesystem::path(FIDSERVO_DATA_DIR) / "campaigns" / "no-effect"))
+            recordings.push_back(read_recording(folder));
+        return Evidence(load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml"), recordings);
+    }();
+    return evidence;
+}
+
+void predict(benchmark::State& state, const std::string& effect, Signal signal) {
+    if (!std::filesystem::is_directory(std::filesystem::path(FIDSERVO_DATA_DIR) / "campaigns")) {
+        state.SkipWithError("the shared data are absent");
+        return;
+    }
+    Wanted wanted = everything(campaign());
+    wanted.signals = {};
+    wanted.signals[static_cast<std::size_t>(signal)] = true;
+    const Hypothesis hypothesis{plant::parse_effect(effect)};
+    for (auto _ : state) benchmark::DoNotOptimize(campaign().errors(hypothesis, wanted));
+}
+
+BENCHMARK_CAPTURE(predict, encoder_drive_gain, "drive_gain:factor=1.02", Signal::encoder)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, encoder_drive_delay, "drive_delay:delay_ms=3", Signal::encoder)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, encoder_stribeck, "stribeck_friction", Signal::encoder)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, encoder_stribeck_creeping, "stribeck_friction:creep_mm_per_s=0.37",
+                  Signal::encoder)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, encoder_cogging, "cogging", Signal::encoder)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, encoder_belt, "belt_compliance", Signal::encoder)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, hall_airflow, "airflow:factor=0.8", Signal::hall)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, hall_coupling, "macro_coupling", Signal::hall)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, tag_pixel_scale, "pixel_scale", Signal::tag)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, tag_tilt, "camera_tilt", Signal::tag)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, tag_hall_gain, "hall_gain", Signal::tag)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, tag_drive_gain, "drive_gain:factor=1.02", Signal::tag)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+}  // namespace fidservo
+
+BENCHMARK_MAIN();

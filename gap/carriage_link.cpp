@@ -1,0 +1,166 @@
+#include "gap/carriage_link.h"
+
+#include "gap/carriage_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace fidservo::gap {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+const plant::MacroAxis& axis_of(const CarriageModel& model, const CarriageRun& run) {
+    return run.is_homed ? model.axis : model.endless_axis;
+}
+
+/// Whether a carriage that a tick left where it was stays there under the same command.
+bool stays(const plant::MacroAxis& axis) {
+    return !axis.has_belt && axis.parameters.delay_s == 0.0 && axis.parameters.play_mm == 0.0;
+}
+
+/// Runs the plant over rows; what it shows at row k goes to element k - origin.
+void run_rows(const CarriageModel& model, const CarriageRun& run, std::size_t first, std::size_t end,
+              plant::MacroAxisState& state, CarriagePath& motion, std::size_t origin = 0) {
+    const plant::MacroAxis& axis = axis_of(model, run);
+    const bool may_rest = stays(axis);
+    bool rests = false;
+    for (std::size_t k = first; k < end; ++k) {
+        const double before_mm = state.position_mm, before_mm_per_s = state.velocity_mm_per_s;
+        motion.position_mm[k - origin] = before_mm;
+        motion.velocity_mm_per_s[k - origin] = before_mm_per_s;
+        if (!rests || run.command_V[k] != run.command_V[k - 1]) plant::advance(axis, state, run.command_V[k]);
+        rests = may_rest && state.position_mm == before_mm && state.velocity_mm_per_s == 0.0 &&
+                before_mm_per_s == 0.0;
+        motion.acceleration_mm_per_s2[k - origin] = (state.velocity_mm_per_s - before_mm_per_s) / run.tick_s;
+    }
+}
+
+/// The state in which a stretch begins, before its counts correct it: at its first count; at rest, or as fast
+/// as its first counts are.
+plant::MacroAxisState first_state(const CarriageModel& model, const CarriageRun& run, std::size_t row) {
+    const std::size_t glance = std::min<std::size_t>(20, lead_rows(run.tick_s));
+    auto state = plant::start(model.axis, position_mm(model.encoder, run.reading_count[row]));
+    const double way_mm = position_mm(model.encoder, run.reading_count[row + glance]) - state.position_mm;
+    if (std::abs(way_mm) > 1.5 * model.encoder.resolution_mm)
+        state.velocity_mm_per_s = way_mm / (static_cast<double>(glance) * run.tick_s);
+    state.mechanism.driven_mm_per_s = state.velocity_mm_per_s;
+    if (row > 0) state.delay.acting = state.delay.given = run.command_V[row];
+    return state;
+}
+
+/// The rows before a window, run from a state that the counts correct.
+class Lead {
+  public:
+    Lead(const CarriageModel& model, const CarriageRun& run)
+        : model_(model),
+          run_(run),
+          motion_(unknown_path(lead_rows(run.tick_s))),
+          trial_(motion_),
+          errors_(motion_.position_mm.size()) {}
+
+    /// @return the state at the window's first row
+    plant::MacroAxisState enter(const WindowRows& window, const plant::MacroAxisState& carried) {
+        constexpr int most_rounds = 3;
+        constexpr double enough_count = 0.01;
+        const bool is_linear = model_.axis.has_closed_form && model_.encoder.ripple.amplitude_mm == 0.0;
+        const double ticks_per_tau = model_.axis.parameters.time_constant_s / run_.tick_s;
+        StartCorrection done;
+        plant::MacroAxisState end = play(window, carried, done, motion_);
+        double loss = std::numeric_limits<double>::infinity();
+        for (int round = 0; round < most_rounds; ++round) {
+            const auto estimate = estimate_start(errors_, done, ticks_per_tau);
+            if (round == 0) loss = start_loss(errors_, done);
+            const double change = std::hypot(estimate.correction.place_count - done.place_count,
+                                             estimate.correction.coast_count - done.coast_count);
+            if (change < enough_count && round > 0) break;
+            const auto trial_end = play(window, carried, estimate.correction, trial_);
+            const double trial_loss = is_linear ? 0.0 : start_loss(errors_, estimate.correction);
+            if (trial_loss > loss) break;
+            loss = trial_loss;
+            done = estimate.correction;
+            end = trial_end;
+            std::swap(motion_, trial_);
+            if (is_linear) break;
+        }
+        return end;
+    }
+
+    const CarriagePath& motion() const { return motion_; }
+
+  private:
+    plant::MacroAxisState play(const WindowRows& window, const plant::MacroAxisState& carried,
+                               const StartCorrection& correction, CarriagePath& motion) {
+        const double scale_mm = mm_per_count(model_.encoder, carried.position_mm);
+        const double extra_mm_per_s =
+            scale_mm * correction.coast_count / model_.axis.parameters.time_constant_s;
+        plant::MacroAxisState state = carried;
+        state.position_mm += scale_mm * correction.place_count;
+        state.velocity_mm_per_s += extra_mm_per_s;
+        state.mechanism.driven_mm_per_s += extra_mm_per_s;
+        run_rows(model_, run_, window.lead, window.first, state, motion, window.lead);
+        for (std::size_t i = 0; i < errors_.size(); ++i)
+            errors_[i] = mean_reading_count(model_.encoder, motion.position_mm[i]) -
+                         run_.reading_count[window.lead + i];
+        return state;
+    }
+
+    const CarriageModel& model_;
+    const CarriageRun& run_;
+    CarriagePath motion_, trial_;
+    std::vector<double> errors_;
+};
+
+std::vector<double> simulate(const CarriageModel& model, const CarriageRun& run, CarriagePath* path) {
+    const std::size_t rows = run.command_V.size();
+    std::vector<double> predicted(rows, nan);
+    CarriagePath motion = unknown_path(rows);
+    Lead lead(model, run);
+    for (std::size_t stretch = 0; stretch < run.windows.size(); ++stretch) {
+        const std::vector<WindowRows>& windows = run.windows[stretch];
+        plant::MacroAxisState carried = first_state(model, run, windows.front().lead);
+        plant::MacroAxisState state = carried;
+        for (std::size_t i = 0; i < windows.size(); ++i) {
+            const WindowRows& window = windows[i];
+            state = lead.enter(window, carried);
+            const std::size_t next_lead = i + 1 < windows.size() ? windows[i + 1].lead : window.end;
+            run_rows(model, run, window.first, next_lead, state, motion);
+            carried = state;
+            run_rows(model, run, next_lead, window.end, state, motion);
+            for (std::size_t k = window.first; k < window.end; ++k)
+                predicted[k] = mean_reading_count(model.encoder, motion.position_mm[k]);
+            if (!path) continue;
+            CarriagePath before = lead.motion();
+            pull_to_counts(model.encoder, run, window, before, motion);
+            fade_in(window, before, motion);
+        }
+        if (path) run_rows(model, run, windows.back().end, run.run_on_end[stretch], state, motion);
+    }
+    if (!path || rows == 0) return predicted;
+    fill(model.encoder, run, motion);
+    *path = std::move(motion);
+    return predicted;
+}
+
+}  // namespace
+
+CarriageModel carriage_model(const plant::PlantParameters& parameters) {
+    plant::MacroAxisParameters endless = parameters.axis;
+    endless.low_mm = -std::numeric_limits<double>::infinity();
+    endless.high_mm = std::numeric_limits<double>::infinity();
+    return {plant::make_macro_axis(parameters.axis, parameters.tick_s),
+            plant::make_macro_axis(endless, parameters.tick_s), parameters.encoder};
+}
+
+std::vector<double> predicted_counts(const CarriageModel& model, const CarriageRun& run) {
+    return simulate(model, run, nullptr);
+}
+
+std::vector<double> predicted_counts(const CarriageModel& model, const CarriageRun& run, CarriagePath& path) {
+    return simulate(model, run, &path);
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,95 @@
+#include "gap/carriage_run.h"
+
+#include "calib/macro_trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace fidservo::gap {
+
+namespace {
+
+/// Whether all readings lie within the travel that the rig file states, in its frame. Where they do not, the
+/// encoder counts from elsewhere, and an end of travel shows only by what happens there.
+bool is_homed(const std::vector<double>& reading_count, const MacroParameters& macro) {
+    constexpr double beyond_mm = 1.0;
+    return std::ranges::all_of(reading_count, [&](double count) {
+        const double place_mm = count * macro.encoder_resolution_mm;
+        return !(place_mm < macro.low_mm - beyond_mm || place_mm > macro.high_mm + beyond_mm);
+    });
+}
+
+/// Whether the reading of each row is that of all rows within 50 ms.
+std::vector<bool> standing_rows(const CarriageRun& run) {
+    const std::size_t rows = run.reading_count.size(), reach = lead_rows(run.tick_s) / 2;
+    std::vector<bool> stands(rows, false);
+    for (std::size_t first = 0; first < rows;) {
+        std::size_t end = first + 1;
+        while (end < rows && run.reading_count[end] == run.reading_count[first]) ++end;
+        const std::size_t from = first == 0 ? 0 : first + reach,
+                          to = end == rows ? rows : end - std::min(end, reach);
+        for (std::size_t k = from; k < to; ++k) stands[k] = true;
+        first = end;
+    }
+    return stands;
+}
+
+/// Where in a usable stretch the carriage is free of the ends of travel.
+std::vector<bool> free_rows(const CarriageRun& run, const Stretch& stretch, const MacroParameters& macro,
+                            const calib::Travel& travel) {
+    calib::MacroTrace trace{{}, run.tick_s, {}, {}};
+    for (std::size_t k = stretch.first; k < stretch.end; ++k) {
+        trace.command_V.push_back(run.command_V[k]);
+        trace.position_mm.push_back(run.reading_count[k] * macro.encoder_resolution_mm);
+    }
+    return calib::free_ticks(trace, macro.encoder_resolution_mm, travel);
+}
+
+}  // namespace
+
+CarriageRun carriage_run(const Recording& recording, const MacroParameters& macro) {
+    CarriageRun run;
+    run.tick_s = recording.tick_s;
+    std::vector<bool> usable;
+    for (const StageRow& row : recording.rows) {
+        run.command_V.push_back(row.macro_command_V);
+        run.reading_count.push_back(std::isfinite(row.encoder_count)
+                                        ? row.encoder_count
+                                        : row.position_mm / macro.encoder_resolution_mm);
+        usable.push_back(std::isfinite(run.command_V.back()) && std::isfinite(run.reading_count.back()));
+    }
+    run.stands = standing_rows(run);
+    run.is_homed = is_homed(run.reading_count, macro);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const calib::Travel travel =
+        run.is_homed ? calib::Travel{macro.low_mm, macro.high_mm} : calib::Travel{-infinity, infinity};
+    const std::vector<Stretch> whole = stretches(recording, usable);
+    for (const Stretch& stretch : whole) {
+        const std::vector<bool> free = free_rows(run, stretch, macro, travel);
+        std::copy(free.begin(), free.end(), usable.begin() + static_cast<std::ptrdiff_t>(stretch.first));
+    }
+    for (const Stretch& stretch : stretches(recording, usable)) {
+        auto windows = cut(stretch, recording.tick_s, LeadIn::estimates_state);
+        if (windows.empty()) continue;
+        const auto around = std::ranges::find_if(
+            whole, [&](const Stretch& all) { return all.first <= stretch.first && stretch.end <= all.end; });
+        if (!run.run_on_end.empty())
+            run.run_on_end.back() = std::min(run.run_on_end.back(), windows.front().lead);
+        run.run_on_end.push_back(around->end);
+        run.windows.push_back(std::move(windows));
+    }
+    return run;
+}
+
+double beyond_rounding(double error_count) {
+    return std::copysign(std::max(0.0, std::abs(error_count) - 0.5), error_count);
+}
+
+double counted_error(const CarriageRun& run, std::size_t row, double predicted_count) {
+    const double error = predicted_count - run.reading_count[row];
+    return run.stands[row] ? beyond_rounding(error) : error;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,32 @@
+#pragma once
+// What a recording says of the carriage, and where it may be compared with a model of it.
+#include "core/recording.h"
+#include "core/rig.h"
+#include "gap/windows.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// Row by row.
+struct CarriageRun {
+    double tick_s = 0.0;
+    std::vector<double> command_V;      ///< NaN where missing
+    std::vector<double> reading_count;  ///< likewise; position / resolution where that was recorded
+    std::vector<std::vector<WindowRows>> windows;  ///< by stretch; only where the carriage is free
+    std::vector<std::size_t> run_on_end;  ///< of each stretch: up to which row commands go on after it
+    std::vector<bool> stands;             ///< whether the reading is the same for 50 ms before and after
+    bool is_homed = false;                ///< readings are places in the rig file's travel
+};
+
+CarriageRun carriage_run(const Recording& recording, const MacroParameters& macro);
+
+/// Prediction minus reading in counts. Where the reading stands, a place that rounds to it is as good as any
+/// other: the error is what lies beyond half a count.
+double counted_error(const CarriageRun& run, std::size_t row, double predicted_count);
+
+/// What lies beyond half a count of an error.
+double beyond_rounding(double error_count);
+
+}  // namespace fidservo::gap

@@ -1,0 +1,142 @@
+#include "gap/controller_link.h"
+
+#include "control/nonlinear_pd.h"
+#include "control/pi_antiwindup.h"
+#include "core/hall.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace fidservo::gap {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Commands of a stretch, from the state in which a controller starts.
+using Replay = std::function<std::vector<double>(const Stretch&)>;
+
+double square_sum(const std::vector<double>& errors) {
+    double sum = 0.0;
+    for (const double error : errors) sum += error * error;
+    return sum;
+}
+
+/// Fills a run with what the best of several replays leaves in each stretch.
+struct Candidate {
+    std::string name;
+    Replay replay;
+};
+
+ControllerRun best_run(const Recording& recording, const std::vector<bool>& usable,
+                       const std::vector<Candidate>& candidates, double StageRow::*command_V) {
+    ControllerRun run;
+    run.error_V.assign(recording.rows.size(), nan);
+    if (candidates.empty()) return run;
+    for (const Stretch& stretch : stretches(recording, usable)) {
+        const auto windows = cut(stretch, recording.tick_s, LeadIn::none);
+        std::vector<double> best;
+        for (const Candidate& candidate : candidates) {
+            std::vector<double> errors = candidate.replay(stretch);
+            for (std::size_t i = 0; i < errors.size(); ++i)
+                errors[i] -= recording.rows[stretch.first + i].*command_V;
+            if (!best.empty() && square_sum(errors) >= square_sum(best)) continue;
+            best = std::move(errors);
+            run.controller = candidate.name;
+        }
+        for (const WindowRows& window : windows) {
+            run.windows.push_back(window);
+            for (std::size_t k = window.first; k < window.end; ++k) run.error_V[k] = best[k - stretch.first];
+        }
+    }
+    return run;
+}
+
+}  // namespace
+
+ControllerRun macro_controller_run(const Recording& recording, const Rig& rig) {
+    std::vector<bool> usable;
+    std::vector<double> error_count;
+    for (const StageRow& row : recording.rows) {
+        const double resolution_mm = rig.macro.encoder_resolution_mm;
+        const double setpoint_count = std::floor(row.macro_setpoint_mm / resolution_mm + 0.5);
+        error_count.push_back(setpoint_count - row.encoder_count);
+        usable.push_back(std::isfinite(error_count.back()) && std::isfinite(row.macro_command_V));
+    }
+    const double limit_V = rig.macro.command_limit_V;
+    const auto pd = [&](bool restarts) {
+        return [&, restarts](const Stretch& stretch) {
+            std::vector<double> commands;
+            control::PdState state;
+            for (std::size_t k = stretch.first; k < stretch.end; ++k) {
+                const bool is_new = k > stretch.first && recording.rows[k].macro_setpoint_mm !=
+                                                             recording.rows[k - 1].macro_setpoint_mm;
+                if (restarts && is_new) state = {};
+                commands.push_back(control::pd_update(*rig.macro.pd, limit_V, state, error_count[k]));
+            }
+            return commands;
+        };
+    };
+    const auto pid = [&](const Stretch& stretch) {
+        std::vector<double> commands;
+        control::PidState state;
+        for (std::size_t k = stretch.first; k < stretch.end; ++k)
+            commands.push_back(
+                control::pid_update(*rig.macro.pid, limit_V, recording.tick_s, state, error_count[k]));
+        return commands;
+    };
+    std::vector<Candidate> candidates;
+    if (rig.macro.pd) candidates = {{"pd", pd(false)}, {"pd, restarted", pd(true)}};
+    if (rig.macro.pid) candidates.push_back({"pid", pid});
+    return best_run(recording, usable, candidates, &StageRow::macro_command_V);
+}
+
+ControllerRun micro_controller_run(const Recording& recording, const Rig& rig) {
+    std::vector<bool> usable;
+    for (const StageRow& row : recording.rows)
+        usable.push_back(std::isfinite(row.micro_setpoint_mm) && std::isfinite(row.hall_adc) &&
+                         std::isfinite(row.micro_command_V));
+    std::vector<Candidate> candidates;
+    if (rig.micro && rig.micro->pi) {
+        candidates.push_back(
+            {"pi", [&](const Stretch& stretch) {
+                 const PiGains& gains = *rig.micro->pi;
+                 std::vector<double> commands;
+                 control::PiState state = control::pi_start(gains);
+                 for (std::size_t k = stretch.first; k < stretch.end; ++k) {
+                     const StageRow& row = recording.rows[k];
+                     const double position_mm =
+                         hall_position_mm(rig.micro->hall, row.hall_adc * hall_lsb_V(rig.micro->hall));
+                     commands.push_back(control::pi_update(gains, recording.tick_s, state,
+                                                           row.micro_setpoint_mm - position_mm));
+                 }
+                 return commands;
+             }});
+    }
+    return best_run(recording, usable, candidates, &StageRow::micro_command_V);
+}
+
+double controller_floor_V(const std::vector<double>& command_V) {
+    constexpr double least_V = 1e-4, coarsest_V = 1.0, tolerance = 1e-6;
+    const auto all_multiples = [&](double quantum_V) {
+        return std::ranges::all_of(command_V, [&](double command) {
+            const double steps = command / quantum_V;
+            return !std::isfinite(command) || std::abs(steps - std::round(steps)) < tolerance;
+        });
+    };
+    const bool is_idle =
+        std::ranges::none_of(command_V, [](double command) { return std::abs(command) > 0.0; });
+    double quantum_V = least_V;
+    if (is_idle || !all_multiples(quantum_V)) return least_V;
+    while (quantum_V < coarsest_V && all_multiples(10.0 * quantum_V)) quantum_V *= 10.0;
+    return std::max(least_V, quantum_V / std::sqrt(12.0));
+}
+
+double counted_floors(double error_V, double floor_V) {
+    constexpr double most = 10.0;
+    return std::clamp(error_V / floor_V, -most, most);
+}
+
+}  // namespace fidservo::gap

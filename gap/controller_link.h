@@ -1,0 +1,38 @@
+#pragma once
+// From setpoints and readings to commands: the rig file's controllers, replayed on what was recorded.
+//
+// A controller is deterministic: with the gains that the rig file states it gives the recorded command to the
+// last digit of the file, and there is no noise to compare a difference with. Its floor is therefore set: 0.1
+// mV, or the file's digits where they are coarser. A millivolt is 10 floors, and no single value counts more,
+// so that a rig with another controller says so without drowning what else is wrong with it. Under the truth
+// the errors are near 0, not near 1.
+#include "core/recording.h"
+#include "core/rig.h"
+#include "gap/windows.h"
+
+#include <string>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// One controller along a recording.
+struct ControllerRun {
+    std::vector<WindowRows> windows;  ///< where its setpoint is in force
+    std::vector<double> error_V;      ///< replayed minus recorded command, row by row; NaN outside of windows
+    std::string controller;           ///< which of the rig's fits best
+};
+
+/// The PD, the PD started anew with each setpoint, or the benchmark PID: in each stretch the one that fits
+/// best. No windows where the rig file states no gains.
+ControllerRun macro_controller_run(const Recording& recording, const Rig& rig);
+
+/// The PI with anti-windup.
+ControllerRun micro_controller_run(const Recording& recording, const Rig& rig);
+
+/// What the file's digits leave of a command, at least 0.1 mV.
+double controller_floor_V(const std::vector<double>& command_V);
+
+/// Error in floors, as it counts.
+double counted_floors(double error_V, double floor_V);
+
+}  // namespace fidservo::gap

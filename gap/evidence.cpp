@@ -1,0 +1,247 @@
+#include "gap/evidence.h"
+
+#include "core/failure.h"
+#include "gap/evidence_parts.h"
+#include "plant/effects/catalogue.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+namespace fidservo::gap {
+
+namespace {
+
+constexpr std::array<std::string_view, signal_count> names{"encoder", "hall", "tag", "macro_command",
+                                                           "micro_command"};
+constexpr std::array<std::string_view, signal_count> units{"count", "adc", "px", "V", "V"};
+
+constexpr std::size_t index_of(Signal signal) {
+    return static_cast<std::size_t>(signal);
+}
+
+/// A hypothesis as the plants of the signal chain.
+struct Models {
+    CarriageModel carriage;
+    std::optional<PlatformModel> platform;
+    std::optional<TagModel> tag;
+    bool platform_feels_carriage = false;
+};
+
+/// Throws InputError where the plant refuses the hypothesis.
+Models models_of(const Rig& rig, const Hypothesis& hypothesis) {
+    plant::PlantParameters parameters = plant::plant_parameters(rig);
+    plant::apply_effects(parameters, hypothesis);
+    Models models{.carriage = carriage_model(parameters), .platform = std::nullopt, .tag = std::nullopt};
+    if (parameters.micro) models.platform = platform_model(parameters);
+    if (parameters.camera) models.tag = tag_model(parameters, rig);
+    models.platform_feels_carriage = models.platform && models.platform->stage.feels_carriage();
+    return models;
+}
+
+/// Which predictions a hypothesis can change, and whether the carriage moves otherwise.
+struct Touched {
+    std::array<bool, signal_count> signals{};
+    bool carriage = false;
+};
+
+Touched touched_by(const Hypothesis& hypothesis, const Models& models) {
+    Touched touched;
+    for (const plant::EffectSetting& setting : hypothesis) {
+        for (const Signal signal : reach_of(*setting.effect)) touched.signals[index_of(signal)] = true;
+        if (setting.effect->block.starts_with("macro.")) touched.carriage = true;
+    }
+    if (touched.carriage && models.platform_feels_carriage) touched.signals[index_of(Signal::hall)] = true;
+    return touched;
+}
+
+void write_detections(Errors& errors, const Window& window, const TagRun& run,
+                      const std::vector<CornerValues>& found, double corner_noise_px) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const TagSighting& sighting = run.sightings[window.first_detection + i];
+        for (int value = 0; value < 8; ++value) {
+            const double floor_px = value == 0 ? sighting.along_floor_px : corner_noise_px;
+            errors[window.begin + 8 * i + static_cast<std::size_t>(value)] =
+                static_cast<float>(found[i][value] / floor_px);
+        }
+    }
+}
+
+/// Predicts those signals of a run that are asked for.
+class RunPredictor {
+  public:
+    RunPredictor(const Evidence::Parts& parts, std::size_t run, const Models& models, bool other_carriage)
+        : parts_(parts),
+          links_(parts.links[run]),
+          windows_(
+              std::span(parts.windows)
+                  .subspan(parts.first_window[run], parts.first_window[run + 1] - parts.first_window[run])),
+          models_(models),
+          other_carriage_(other_carriage) {}
+
+    void predict(const std::array<bool, signal_count>& signals, Errors& errors) {
+        const bool hall = signals[index_of(Signal::hall)], tag = signals[index_of(Signal::tag)];
+        const bool needs_path = other_carriage_ && (tag || (hall && models_.platform_feels_carriage));
+        std::vector<double> counts;
+        if (needs_path)
+            counts = predicted_counts(models_.carriage, links_.carriage, path_);
+        else if (signals[index_of(Signal::encoder)])
+            counts = predicted_counts(models_.carriage, links_.carriage);
+        if (signals[index_of(Signal::encoder)]) write_counts(counts, errors);
+        if (hall && links_.platform) predict_hall(errors);
+        if (tag && models_.tag) predict_tags(errors);
+        for (const Signal signal : {Signal::macro_command, Signal::micro_command})
+            if (signals[index_of(signal)]) replay(signal, errors);
+    }
+
+  private:
+    const CarriagePath& path() const { return path_.position_mm.empty() ? links_.path : path_; }
+
+    void write_counts(const std::vector<double>& predicted, Errors& errors) const {
+        const double floor = parts_.floors[index_of(Signal::encoder)];
+        for_rows(Signal::encoder, errors, [&](std::size_t row) {
+            return counted_error(links_.carriage, row, predicted[row]) / floor;
+        });
+    }
+
+    void predict_hall(Errors& errors) const {
+        std::span<const double> acceleration;
+        if (models_.platform_feels_carriage) acceleration = path().acceleration_mm_per_s2;
+        const auto found = predicted_readings(*models_.platform, *links_.platform, acceleration);
+        for_rows(Signal::hall, errors, [&](std::size_t row) {
+            return (found.reading_lsb[row] - links_.platform->hall_adc[row]) / links_.platform->floor_lsb;
+        });
+    }
+
+    void predict_tags(Errors& errors) const {
+        const SmoothedReading* reading = links_.smoothed ? &*links_.smoothed : nullptr;
+        auto window = std::ranges::find(windows_, Signal::tag, &Window::signal);
+        for (const TagWindow& rows : links_.tags.windows)
+            write_detections(errors, *window++, links_.tags,
+                             tag_errors(*models_.tag, links_.tags, rows, path(), reading),
+                             parts_.floors[index_of(Signal::tag)]);
+    }
+
+    void replay(Signal signal, Errors& errors) const {
+        const ControllerRun& run = signal == Signal::macro_command ? links_.macro : links_.micro;
+        for_rows(signal, errors, [&](std::size_t row) {
+            return counted_floors(run.error_V[row], parts_.floors[index_of(signal)]);
+        });
+    }
+
+    /// @param error  of a row, in floors
+    template <class RowError>
+    void for_rows(Signal signal, Errors& errors, RowError error) const {
+        for (const Window& window : windows_)
+            for (std::size_t i = 0; window.signal == signal && i < window.rows; ++i)
+                errors[window.begin + i] = static_cast<float>(error(window.first_row + i));
+    }
+
+    const Evidence::Parts& parts_;
+    const RunLinks& links_;
+    std::span<const Window> windows_;
+    const Models& models_;
+    bool other_carriage_;
+    CarriagePath path_;
+};
+
+double command_floor_V(const std::vector<Recording>& recordings, double StageRow::*command_V) {
+    std::vector<double> commands;
+    for (const Recording& recording : recordings)
+        for (const StageRow& row : recording.rows) commands.push_back(row.*command_V);
+    return controller_floor_V(commands);
+}
+
+}  // namespace
+
+std::string_view name_of(Signal signal) {
+    return names[index_of(signal)];
+}
+
+std::string_view unit_of(Signal signal) {
+    return units[index_of(signal)];
+}
+
+Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings) : parts_(std::make_unique<Parts>()) {
+    Parts& parts = *parts_;
+    parts.rig = rig;
+    parts.recordings = std::move(recordings);
+    for (Recording& recording : parts.recordings) {
+        check(rig, recording);
+        std::ranges::stable_sort(recording.detections, {}, &TagDetection::time_ns);
+    }
+    find_noise(parts);
+    parts.floors[index_of(Signal::macro_command)] =
+        command_floor_V(parts.recordings, &StageRow::macro_command_V);
+    parts.floors[index_of(Signal::micro_command)] =
+        command_floor_V(parts.recordings, &StageRow::micro_command_V);
+    parts.links.reserve(parts.recordings.size());
+    for (std::size_t run = 0; run < parts.recordings.size(); ++run) add_run(parts, run);
+    parts.first_window.push_back(parts.windows.size());
+    for (std::size_t signal = 0; signal < signal_count; ++signal)
+        if (std::ranges::none_of(parts.windows,
+                                 [&](const Window& window) { return index_of(window.signal) == signal; }))
+            parts.floors[signal] = std::numeric_limits<double>::quiet_NaN();
+
+    parts.nominal.assign(parts.values, std::numeric_limits<float>::quiet_NaN());
+    const Models models = models_of(parts.rig, {});
+    const Wanted all = everything(*this);
+    for (std::size_t run = 0; run < parts.recordings.size(); ++run)
+        RunPredictor(parts, run, models, false).predict(all.signals, parts.nominal);
+}
+
+Evidence::~Evidence() = default;
+Evidence::Evidence(Evidence&&) noexcept = default;
+
+const Rig& Evidence::rig() const {
+    return parts_->rig;
+}
+const std::vector<Recording>& Evidence::recordings() const {
+    return parts_->recordings;
+}
+const std::vector<Window>& Evidence::windows() const {
+    return parts_->windows;
+}
+double Evidence::floor(Signal signal) const {
+    return parts_->floors[index_of(signal)];
+}
+const std::vector<Omission>& Evidence::omissions() const {
+    return parts_->omissions;
+}
+const Course& Evidence::course(std::size_t run) const {
+    return parts_->courses[run];
+}
+
+Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted) const {
+    const Parts& parts = *parts_;
+    FIDSERVO_DEMAND(wanted.runs.size() == parts.recordings.size());
+    try {
+        const Models models = models_of(parts.rig, hypothesis);
+        const Touched touched = touched_by(hypothesis, models);
+        Errors errors(parts.values, std::numeric_limits<float>::quiet_NaN());
+        for (const Window& window : parts.windows)
+            if (wanted.runs[window.run] != 0 && wanted.signals[index_of(window.signal)] &&
+                !touched.signals[index_of(window.signal)])
+                std::copy(parts.nominal.begin() + static_cast<std::ptrdiff_t>(window.begin),
+                          parts.nominal.begin() + static_cast<std::ptrdiff_t>(window.end),
+                          errors.begin() + static_cast<std::ptrdiff_t>(window.begin));
+        std::array<bool, signal_count> signals{};
+        for (std::size_t i = 0; i < signal_count; ++i) signals[i] = wanted.signals[i] && touched.signals[i];
+        if (std::ranges::none_of(signals, std::identity{})) return errors;
+        for (std::size_t run = 0; run < parts.recordings.size(); ++run)
+            if (wanted.runs[run] != 0)
+                RunPredictor(parts, run, models, touched.carriage).predict(signals, errors);
+        return errors;
+    } catch (const InputError&) {
+        return {};
+    }
+}
+
+Wanted everything(const Evidence& evidence) {
+    Wanted wanted{std::vector<std::uint8_t>(evidence.recordings().size(), 1), {}};
+    wanted.signals.fill(true);
+    return wanted;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,119 @@
+#pragma once
+// What recordings of a rig say about a hypothesis: how far its predictions are from what was measured.
+//
+// The signal chain is cut where something was measured. Every stretch between two cuts is fed with what was
+// recorded at its entrance and predicts what was recorded at its exit, so that an error of one stretch does
+// not look like one of the next:
+//
+//     macro_command                        -> encoder         carriage
+//     micro_command (macro_command)        -> hall            wire, platform, Hall sensor
+//     encoder, hall                        -> tag             camera over the plate
+//     macro_setpoint, encoder              -> macro_command   controllers
+//     micro_setpoint, hall                 -> micro_command
+//
+// Predictions run over windows of 1 s. The state in which a window begins is estimated from the 100 ms before
+// it, by the hypothesis itself; what cannot be seen in 100 ms (hysteresis memory, temperature, play,
+// bristles, commands on their way) is carried over from the windows before. Nothing is differentiated and no
+// reading inside a window is fed back.
+//
+// The floor of a signal is what remains under the truth: floor^2 = noise^2 + quantum^2 / 12.
+#include "core/recording.h"
+#include "core/rig.h"
+#include "plant/effects/effect.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fidservo::gap {
+
+enum class Signal : std::uint8_t { encoder, hall, tag, macro_command, micro_command };
+inline constexpr std::size_t signal_count = 5;
+
+std::string_view name_of(Signal signal);
+std::string_view unit_of(Signal signal);  ///< count, adc, px, V, V
+
+/// What a rig is claimed to have beyond its file.
+using Hypothesis = std::vector<plant::EffectSetting>;
+
+/// A stretch of one recording over which one signal is predicted from the state at its start.
+struct Window {
+    std::size_t run = 0;  ///< which recording
+    Signal signal = Signal::encoder;
+    TimeNs start_ns = 0;
+    std::size_t first_row = 0, rows = 0;  ///< of the recording
+    std::size_t begin = 0, end = 0;       ///< its values in Errors: one a row; of tags, eight a detection
+    std::size_t first_detection = 0;      ///< of the recording's, for tags; sorted by time
+};
+
+/// Prediction minus recording in floors, window after window; NaN where a value does not count (a tag that
+/// the plate does not have).
+///
+/// Counts: where the encoder's reading stands, a place that rounds to it is as good as any other, and the
+/// error is what lies beyond half a count; a recording at rest thus counts less than a floor.
+///
+/// A detection's eight corner coordinates are turned so that the first value lies along the stage's motion in
+/// the image; the other seven do not move with it (gap/tag_link.h). Their floor is the corner noise,
+/// floor(Signal::tag). The first value's own floor also holds what is uncertain of the camera's position.
+///
+/// Commands: gap/controller_link.h. They are near 0 under the truth.
+using Errors = std::vector<float>;
+
+/// What moved the rig while it was predicted, row by row of a recording: what errors may depend on. All from
+/// the recording and the rig file's model. NaN where the rig has no micro stage.
+struct Course {
+    std::vector<float> position_mm, velocity_mm_per_s;  ///< of the carriage, smoothed over the counts
+    std::vector<float> temperature_degC;                ///< of the wire, by the rig file's heater
+    std::vector<float> contraction_mm;                  ///< by the Hall reading, smoothed
+};
+
+/// A signal that was not judged, or a part of one, and why.
+struct Omission {
+    std::string recording;
+    std::string text;  ///< one line for people
+};
+
+/// What is to be predicted.
+struct Wanted {
+    std::vector<std::uint8_t> runs;  ///< a flag for each recording
+    std::array<bool, signal_count> signals{};
+};
+
+class Evidence {
+  public:
+    struct Parts;  ///< gap/evidence_parts.h
+
+    /// @param rig  as its file describes it; its stated effects belong to it
+    /// Throws InputError where a recording cannot be of this rig (columns that it cannot have, another tick).
+    Evidence(const Rig& rig, std::vector<Recording> recordings);
+    ~Evidence();
+    Evidence(Evidence&&) noexcept;
+
+    const Rig& rig() const;
+    const std::vector<Recording>& recordings() const;
+    /// By run, then by signal, then by time.
+    const std::vector<Window>& windows() const;
+    /// In the signal's unit. NaN for signals that no window has.
+    double floor(Signal signal) const;
+    const std::vector<Omission>& omissions() const;
+    const Course& course(std::size_t run) const;
+
+    /// Predictions of a hypothesis; values of windows that are not wanted are NaN.
+    /// Deterministic, const and safe to call from several threads at once.
+    /// Empty if the hypothesis is none that a rig can have (the plant refuses it).
+    Errors errors(const Hypothesis& hypothesis, const Wanted& wanted) const;
+
+  private:
+    std::unique_ptr<Parts> parts_;
+};
+
+/// All runs and signals.
+Wanted everything(const Evidence& evidence);
+
+/// The signals whose prediction an effect can change, by its block.
+std::vector<Signal> reach_of(const plant::Effect& effect);
+
+}  // namespace fidservo::gap

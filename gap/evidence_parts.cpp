@@ -1,0 +1,181 @@
+#include "gap/evidence_parts.h"
+
+#include "core/failure.h"
+#include "gap/noise_floor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace fidservo::gap {
+
+namespace {
+
+constexpr std::size_t index_of(Signal signal) {
+    return static_cast<std::size_t>(signal);
+}
+
+/// What the rig file's model makes of a recording.
+Course course_of(const Rig& rig, const RunLinks& links, const PlatformPrediction* platform) {
+    Course course;
+    const std::size_t rows = links.carriage.command_V.size();
+    course.position_mm.assign(links.path.position_mm.begin(), links.path.position_mm.end());
+    course.velocity_mm_per_s.assign(links.path.velocity_mm_per_s.begin(), links.path.velocity_mm_per_s.end());
+    course.temperature_degC.assign(rows, std::numeric_limits<float>::quiet_NaN());
+    course.contraction_mm = course.temperature_degC;
+    if (platform == nullptr) return course;
+    course.temperature_degC.assign(platform->temperature_degC.begin(), platform->temperature_degC.end());
+    const HallParameters& hall = rig.micro->hall;
+    for (std::size_t k = 0; k < rows; ++k)
+        course.contraction_mm[k] =
+            static_cast<float>(hall_position_mm(hall, links.smoothed->reading_lsb[k] * hall_lsb_V(hall)));
+    return course;
+}
+
+/// Appends a recording's windows of one signal.
+void add_windows(Evidence::Parts& parts, std::size_t run, Signal signal, const std::vector<WindowRows>& all) {
+    for (const WindowRows& window : all) {
+        const std::size_t rows = window.end - window.first;
+        parts.windows.push_back({run, signal, parts.recordings[run].rows[window.first].time_ns, window.first,
+                                 rows, parts.values, parts.values + rows});
+        parts.values += rows;
+    }
+}
+
+void add_tag_windows(Evidence::Parts& parts, std::size_t run) {
+    for (const TagWindow& window : parts.links[run].tags.windows) {
+        const std::size_t values = 8 * (window.end - window.first);
+        parts.windows.push_back({run, Signal::tag, parts.recordings[run].rows[window.rows.first].time_ns,
+                                 window.rows.first, window.rows.end - window.rows.first, parts.values,
+                                 parts.values + values, window.first});
+        parts.values += values;
+    }
+}
+
+/// What is not judged of a signal that a recording has.
+void note_rows(Evidence::Parts& parts, std::size_t run, std::string_view signal, std::size_t recorded,
+               const std::vector<WindowRows>& windows, std::string_view why) {
+    constexpr double worth_telling_s = 0.5;
+    const double tick_s = parts.rig.tick_s;
+    std::size_t judged = 0;
+    for (const WindowRows& window : windows) judged += window.end - window.first;
+    const double left_out_s = static_cast<double>(recorded - std::min(judged, recorded)) * tick_s;
+    if (judged > 0 && left_out_s < worth_telling_s) return;
+    if (recorded == 0) return;
+    parts.omissions.push_back(
+        {parts.recordings[run].name, fmt::format("{}: {:.1f} s of {:.1f} s are not judged: {}", signal,
+                                                 left_out_s, static_cast<double>(recorded) * tick_s, why)});
+}
+
+template <class Has>
+std::size_t count_rows(const Recording& recording, Has has) {
+    return static_cast<std::size_t>(std::ranges::count_if(recording.rows, has));
+}
+
+void note_omissions(Evidence::Parts& parts, std::size_t run) {
+    const Recording& recording = parts.recordings[run];
+    const RunLinks& links = parts.links[run];
+    std::vector<WindowRows> carriage;
+    for (const auto& windows : links.carriage.windows)
+        carriage.insert(carriage.end(), windows.begin(), windows.end());
+    note_rows(parts, run, "encoder",
+              static_cast<std::size_t>(std::ranges::count_if(
+                  links.carriage.reading_count, [](double count) { return std::isfinite(count); })),
+              carriage, "ends of travel, gaps, or rows without a command");
+    if (links.platform)
+        note_rows(parts, run, "hall",
+                  count_rows(recording, [](const StageRow& row) { return std::isfinite(row.hall_adc); }),
+                  links.platform->windows,
+                  "readings at an end of the range, gaps and the wire's unknown memory after them, or rows "
+                  "without a command");
+    if (!recording.detections.empty() && !(parts.rig.camera && parts.rig.fiducials))
+        parts.omissions.push_back({recording.name, "tag: the rig file has no camera or no fiducials"});
+    const auto unknown = std::ranges::count_if(
+        links.tags.sightings, [](const TagSighting& sighting) { return !sighting.is_known; });
+    if (unknown > 0)
+        parts.omissions.push_back(
+            {recording.name,
+             fmt::format("tag: {} detections of tags that the plate does not have", unknown)});
+    const auto controlled = [&](double StageRow::*setpoint) {
+        return count_rows(recording, [&](const StageRow& row) { return std::isfinite(row.*setpoint); });
+    };
+    note_rows(parts, run, "macro_command", controlled(&StageRow::macro_setpoint_mm), links.macro.windows,
+              "the rig file states no gains, or rows lack a command or a count");
+    note_rows(parts, run, "micro_command", controlled(&StageRow::micro_setpoint_mm), links.micro.windows,
+              "the rig file states no gains, or rows lack a command or a reading");
+}
+
+}  // namespace
+
+void check(const Rig& rig, const Recording& recording) {
+    constexpr double same_tick = 1e-6;
+    if (!recording.rows.empty() && std::abs(recording.tick_s - rig.tick_s) > same_tick * rig.tick_s)
+        throw InputError(
+            fmt::format("{}: tick_s {} is not the rig's {}", recording.name, recording.tick_s, rig.tick_s));
+    if (!rig.micro && recording.columns.hall)
+        throw InputError(recording.name + ": hall [adc]: the rig has no micro stage");
+}
+
+void find_noise(Evidence::Parts& parts) {
+    std::vector<QuietStretch> encoder, hall;
+    const auto add = [](std::vector<QuietStretch>& to, const std::vector<QuietStretch>& found) {
+        to.insert(to.end(), found.begin(), found.end());
+    };
+    for (const Recording& recording : parts.recordings) {
+        std::vector<double> count, macro_V, adc, micro_V;
+        for (const StageRow& row : recording.rows) {
+            count.push_back(std::isfinite(row.encoder_count)
+                                ? row.encoder_count
+                                : row.position_mm / parts.rig.macro.encoder_resolution_mm);
+            macro_V.push_back(row.macro_command_V);
+            adc.push_back(row.hall_adc);
+            micro_V.push_back(row.micro_command_V);
+        }
+        add(encoder, quiet_stretches(count, macro_V));
+        add(hall, quiet_stretches(adc, micro_V));
+    }
+    parts.floors[index_of(Signal::encoder)] = floor_of(noise_before_rounding(encoder).value_or(0.0));
+    if (parts.rig.micro)
+        parts.floors[index_of(Signal::hall)] =
+            floor_of(noise_before_rounding(hall).value_or(parts.rig.micro->hall.noise_lsb));
+    if (!parts.rig.camera) return;
+    constexpr double least_px = 1e-3;
+    const CameraParameters& camera = *parts.rig.camera;
+    parts.floors[index_of(Signal::tag)] = std::max(
+        least_px,
+        corner_noise_px(parts.recordings, 1.0 / camera.frame_rate_hz).value_or(camera.corner_noise_px));
+}
+
+void add_run(Evidence::Parts& parts, std::size_t run) {
+    const Recording& recording = parts.recordings[run];
+    const Rig& rig = parts.rig;
+    const plant::PlantParameters nominal = plant::plant_parameters(rig);
+    RunLinks& links = parts.links.emplace_back();
+    links.carriage = carriage_run(recording, rig.macro);
+    predicted_counts(carriage_model(nominal), links.carriage, links.path);
+    std::optional<PlatformPrediction> platform;
+    if (rig.micro) {
+        links.platform = platform_run(recording, *rig.micro, parts.floors[index_of(Signal::hall)]);
+        platform =
+            predicted_readings(platform_model(nominal), *links.platform, links.path.acceleration_mm_per_s2);
+        links.smoothed = smoothed_reading(*links.platform, platform->path_lsb, rig.macro.command_limit_V);
+    }
+    if (rig.camera && rig.fiducials)
+        links.tags =
+            tag_run(recording, rig, links.path, links.carriage, links.platform ? &*links.platform : nullptr,
+                    links.smoothed ? &*links.smoothed : nullptr, parts.floors[index_of(Signal::tag)]);
+    links.macro = macro_controller_run(recording, rig);
+    links.micro = micro_controller_run(recording, rig);
+    parts.courses.push_back(course_of(rig, links, platform ? &*platform : nullptr));
+
+    parts.first_window.push_back(parts.windows.size());
+    for (const auto& windows : links.carriage.windows) add_windows(parts, run, Signal::encoder, windows);
+    if (links.platform) add_windows(parts, run, Signal::hall, links.platform->windows);
+    add_tag_windows(parts, run);
+    add_windows(parts, run, Signal::macro_command, links.macro.windows);
+    add_windows(parts, run, Signal::micro_command, links.micro.windows);
+    note_omissions(parts, run);
+}
+
+}  // namespace fidservo::gap

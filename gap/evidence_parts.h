@@ -1,0 +1,49 @@
+#pragma once
+// What Evidence holds: every recording prepared for every stretch of the signal chain.
+#include "gap/carriage_link.h"
+#include "gap/controller_link.h"
+#include "gap/evidence.h"
+#include "gap/hall_smoothing.h"
+#include "gap/platform_link.h"
+#include "gap/tag_link.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// One recording.
+struct RunLinks {
+    CarriageRun carriage;
+    std::optional<PlatformRun> platform;      ///< empty without micro stage
+    std::optional<SmoothedReading> smoothed;  ///< likewise
+    TagRun tags;
+    ControllerRun macro, micro;
+    CarriagePath path;  ///< of the rig file's carriage
+};
+
+struct Evidence::Parts {
+    Rig rig;
+    std::vector<Recording> recordings;
+    std::vector<RunLinks> links;
+    std::vector<Window> windows;
+    std::vector<std::size_t> first_window;  ///< of each run, and one past the last
+    std::size_t values = 0;
+    std::array<double, signal_count> floors{};
+    std::vector<Omission> omissions;
+    std::vector<Course> courses;
+    Errors nominal;  ///< without a hypothesis
+};
+
+/// Throws InputError where a recording cannot be of this rig.
+void check(const Rig& rig, const Recording& recording);
+
+/// Noise of all sensors, from all recordings: sets their floors.
+void find_noise(Evidence::Parts& parts);
+
+/// Prepares a recording, lists its windows, and notes what is left out.
+void add_run(Evidence::Parts& parts, std::size_t run);
+
+}  // namespace fidservo::gap

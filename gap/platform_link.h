@@ -1,0 +1,57 @@
+#pragma once
+// From the micro command to the Hall reading: a hypothesis's wire, platform and sensor along a recording.
+//
+// One pass from the start of the recording carries temperature, hysteresis memory, swing and drift. Before
+// each window the temperature is corrected by the readings of the 100 ms before it, as a Kalman filter would
+// (Maybeck, Stochastic Models, Estimation, and Control 1, 1979, ch. 5): with h the change of the prediction
+// per degree and r the reading minus the prediction,
+//
+//     dT = (sum h r / floor^2) / (1 / std^2 + sum h^2 / floor^2)
+//
+// at most three times std, what the carried temperature is trusted to. Where the wire does not move with its
+// temperature nothing is corrected. The correction slides the end of the branch on which the wire is: no turn
+// is remembered that never was.
+#include "core/recording.h"
+#include "core/rig.h"
+#include "gap/windows.h"
+#include "plant/stage_plant.h"
+
+#include <span>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// What a recording says of the platform, row by row.
+struct PlatformRun {
+    double tick_s = 0.0;
+    std::vector<double> command_V;        ///< what was last commanded where a row has none
+    std::vector<double> macro_command_V;  ///< likewise
+    std::vector<double> hall_adc;         ///< NaN where missing, or at an end of the converter's range
+    std::vector<int> ticks;               ///< to the next row
+    std::vector<WindowRows> windows;      ///< by time
+    double floor_lsb = 0.0;
+};
+
+/// After a pause in the rows or commands of more than 0.1 s nobody knows what a warm wire remembers: windows
+/// begin again when it has been cold for five cooling time constants.
+PlatformRun platform_run(const Recording& recording, const MicroParameters& micro, double floor_lsb);
+
+struct PlatformModel {
+    plant::MicroStage stage;
+    plant::MacroAxisParameters axis;
+};
+
+/// Demands a micro stage.
+PlatformModel platform_model(const plant::PlantParameters& parameters);
+
+struct PlatformPrediction {
+    std::vector<double> reading_lsb;       ///< mean reading for the rows of all windows; NaN elsewhere
+    std::vector<double> path_lsb;          ///< for all rows, each window faded into the next
+    std::vector<double> temperature_degC;  ///< of the wire, likewise, not faded
+};
+
+/// @param acceleration_mm_per_s2  of the carriage, a value a row; empty where the platform does not feel it
+PlatformPrediction predicted_readings(const PlatformModel& model, const PlatformRun& run,
+                                      std::span<const double> acceleration_mm_per_s2);
+
+}  // namespace fidservo::gap

@@ -1,0 +1,283 @@
+#include "gap/tag_link.h"
+
+#include "core/failure.h"
+#include "plant/actual_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fidservo::gap {
+
+namespace {
+
+/// The carriage's path is uncertain by this share of the way since its offset was found.
+constexpr double way_share = 0.02;
+/// Standard deviation of what rounding hides, in counts.
+const double hidden_count = 1.0 / std::sqrt(12.0);
+
+const std::array<Eigen::Vector2d, 4> corner_signs{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
+
+/// A time between two rows.
+struct Moment {
+    std::size_t row;
+    double share;  ///< of the way to the next row
+    bool is_tick;  ///< whether that is a tick away
+};
+
+/// Times before the first and after the last row count as theirs.
+Moment moment_at(const TagRun& run, double at_s) {
+    const std::vector<double>& time_s = run.time_s;
+    const std::size_t last = time_s.size() - 1;
+    if (last == 0 || at_s <= time_s.front()) return {0, 0.0, true};
+    if (at_s >= time_s.back()) return {last - 1, 1.0, true};
+    auto row = std::min(static_cast<std::size_t>(at_s / run.tick_s), last - 1);
+    if (time_s[row] > at_s || time_s[row + 1] <= at_s)
+        row = static_cast<std::size_t>(std::ranges::upper_bound(time_s, at_s) - time_s.begin()) - 1;
+    const double way_s = time_s[row + 1] - time_s[row];
+    return {row, (at_s - time_s[row]) / way_s, way_s < 1.5 * run.tick_s};
+}
+
+/// Cubic through the path's places with its velocities (Hermite); straight where rows are missing.
+double carriage_mm(const CarriagePath& path, const Moment& at, double tick_s) {
+    const double t = at.share;
+    if (t == 0.0) return path.position_mm[at.row];
+    const double a = path.position_mm[at.row], b = path.position_mm[at.row + 1];
+    if (!at.is_tick) return a + t * (b - a);
+    const double va = tick_s * path.velocity_mm_per_s[at.row],
+                 vb = tick_s * path.velocity_mm_per_s[at.row + 1];
+    const double way = b - a;
+    return a + t * (va + t * (3.0 * way - 2.0 * va - vb + t * (va + vb - 2.0 * way)));
+}
+
+/// Cubic through four neighbours (Catmull and Rom).
+double between(const std::vector<double>& values, const Moment& at) {
+    const std::size_t i = at.row, last = values.size() - 1;
+    if (at.share == 0.0) return values[i];
+    const double b = values[i], c = values[i + 1];
+    const double a = i == 0 ? b : values[i - 1], d = i + 2 > last ? c : values[i + 2];
+    const double t = at.share;
+    return b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
+}
+
+/// Where the camera is, by its time since the recording's first row.
+class CameraPlace {
+  public:
+    CameraPlace(const TagModel& model, const TagRun& run, const CarriagePath& path,
+                const SmoothedReading* reading)
+        : model_(model), run_(run), path_(path), reading_(reading) {}
+
+    double s_mm(double at_s) const {
+        const Moment at = moment_at(run_, at_s);
+        const double y_mm = carriage_mm(path_, at, run_.tick_s);
+        return reading_ == nullptr ? y_mm : y_mm + platform_mm(at, at_s);
+    }
+
+    /// With a longer exposure than the rig file's: its mean over the one less that over the other.
+    double seen_s_mm(double at_s) const {
+        const double extra_s = model_.deviation.extra_exposure_s;
+        if (extra_s == 0.0) return s_mm(at_s);
+        const auto mean_over = [&](double exposure_s) {
+            constexpr int parts = 8;
+            double sum = 0.0;
+            for (int k = 0; k < parts; ++k) sum += s_mm(at_s + exposure_s * ((k + 0.5) / parts - 0.5));
+            return sum / parts;
+        };
+        return s_mm(at_s) + mean_over(model_.exposure_s + extra_s) - mean_over(model_.exposure_s);
+    }
+
+  private:
+    double platform_mm(const Moment& at, double at_s) const {
+        const plant::MicroStageParameters& micro = *model_.micro;
+        const plant::HallDisturbance& disturbance = micro.hall_disturbance;
+        double voltage_V = between(reading_->reading_lsb, at) * hall_lsb_V(micro.hall);
+        if (!disturbance.is_none()) {
+            constexpr double limit_V = plant::HallDisturbance::drift_limit_V;
+            voltage_V -= std::clamp(disturbance.drift_V_per_s * at_s, -limit_V, limit_V) +
+                         disturbance.leak_V_per_V * model_.drive_gain * between(reading_->drive_V, at);
+        }
+        return hall_position_mm(micro.hall, voltage_V);
+    }
+
+    const TagModel& model_;
+    const TagRun& run_;
+    const CarriagePath& path_;
+    const SmoothedReading* reading_;
+};
+
+/// Where a camera sees a tag's corners from s.
+CornerValues seen(const CameraGeometry& camera, const Eigen::Vector2d& centre_mm, double side_mm,
+                  double s_mm) {
+    CornerValues corners;
+    for (int c = 0; c < 4; ++c)
+        corners.segment<2>(2 * c) =
+            project(camera, centre_mm + 0.5 * side_mm * corner_signs[static_cast<std::size_t>(c)], s_mm);
+    return corners;
+}
+
+/// d corners / ds, px per mm.
+CornerValues seen_slope(const CameraGeometry& camera, const Eigen::Vector2d& centre_mm, double side_mm,
+                        double s_mm) {
+    constexpr double step_mm = 0.01;
+    return (seen(camera, centre_mm, side_mm, s_mm + step_mm) -
+            seen(camera, centre_mm, side_mm, s_mm - step_mm)) /
+           (2.0 * step_mm);
+}
+
+/// Prediction of one sighting, with the carriage off by an offset.
+CornerValues predicted(const TagModel& model, const TagRun& run, const CameraPlace& place,
+                       const TagSighting& sighting, double offset_mm) {
+    const double true_s = (sighting.stamp_s - model.deviation.delay_s) / model.deviation.clock_rate;
+    CornerValues corners =
+        seen(model.camera, sighting.centre_mm, run.side_mm, place.seen_s_mm(true_s) + offset_mm);
+    if (model.deviation.readout_s == 0.0) return corners;
+    constexpr int rounds = 2;
+    for (int round = 0; round < rounds; ++round)
+        for (int c = 0; c < 4; ++c) {
+            const double v_px = std::clamp(corners[2 * c + 1], 0.0, model.camera.height_px - 1.0);
+            const double late_s = plant::row_delay_s(model.camera, model.deviation, v_px);
+            const Eigen::Vector2d corner_mm =
+                sighting.centre_mm + 0.5 * run.side_mm * corner_signs[static_cast<std::size_t>(c)];
+            corners.segment<2>(2 * c) =
+                project(model.camera, corner_mm, place.seen_s_mm(true_s + late_s) + offset_mm);
+        }
+    return corners;
+}
+
+CornerValues turned(const TagSighting& sighting, const CornerValues& values) {
+    return values - 2.0 * sighting.mirror.dot(values) * sighting.mirror;
+}
+
+/// What makes a detection's first value the one along the slope. The slope is never along the first axis
+/// alone.
+CornerValues mirror_of(const CornerValues& slope) {
+    return (slope.normalized() - CornerValues::Unit(0)).normalized();
+}
+
+/// In the middle of the travel.
+double mm_per_lsb(const HallParameters& hall) {
+    return hall_lsb_V(hall) / hall_slope_V_per_mm(hall, hall.centre_mm);
+}
+
+std::optional<Eigen::Vector2d> tag_centre_mm(const FiducialParameters& plate, int id) {
+    const int index = id - plate.first_id;
+    if (index < 0 || index >= plate.columns * plate.rows) return std::nullopt;
+    const int column = index % plate.columns, row = index / plate.columns;
+    return Eigen::Vector2d(column * plate.pitch_x_mm, row * plate.pitch_y_mm);
+}
+
+std::vector<WindowRows> window_rows(const Recording& recording, const CarriageRun& carriage,
+                                    const PlatformRun* platform) {
+    std::vector<bool> usable(recording.rows.size(), false);
+    for (const auto& windows : carriage.windows)
+        for (std::size_t k = windows.front().lead; k < windows.back().end; ++k)
+            usable[k] = platform == nullptr || std::isfinite(platform->hall_adc[k]);
+    std::vector<WindowRows> found;
+    for (const Stretch& stretch : stretches(recording, usable))
+        for (const WindowRows& window : cut(stretch, recording.tick_s, LeadIn::estimates_state))
+            found.push_back(window);
+    return found;
+}
+
+}  // namespace
+
+TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& path,
+               const CarriageRun& carriage, const PlatformRun* platform, const SmoothedReading* reading,
+               double corner_noise_px) {
+    TagRun run;
+    if (recording.rows.empty() || recording.detections.empty()) return run;
+    const FiducialParameters& plate = *rig.fiducials;
+    const CameraGeometry& camera = rig.camera->geometry;
+    run.side_mm = plate.side_mm;
+    run.tick_s = recording.tick_s;
+    const TimeNs start_ns = recording.rows.front().time_ns;
+    for (const StageRow& row : recording.rows) run.time_s.push_back(seconds(row.time_ns - start_ns));
+    std::vector<double> way_mm{0.0};
+    for (const double speed : path.velocity_mm_per_s)
+        way_mm.push_back(way_mm.back() + recording.tick_s * std::abs(speed));
+    const double hidden_mm = hidden_count * rig.macro.encoder_resolution_mm;
+
+    for (const TagDetection& detection : recording.detections) {
+        TagSighting sighting;
+        sighting.stamp_s = seconds(detection.time_ns - start_ns);
+        const auto centre_mm = tag_centre_mm(plate, detection.tag_id);
+        sighting.is_known = centre_mm.has_value();
+        sighting.centre_mm = centre_mm.value_or(Eigen::Vector2d::Zero());
+        for (int c = 0; c < 4; ++c)
+            sighting.corners_px.segment<2>(2 * c) = detection.corners_px[static_cast<std::size_t>(c)];
+        run.sightings.push_back(sighting);
+    }
+    const auto sighting_at = [&](std::size_t row) {
+        return static_cast<std::size_t>(
+            std::ranges::lower_bound(run.sightings, run.time_s[row], {}, &TagSighting::stamp_s) -
+            run.sightings.begin());
+    };
+    for (const WindowRows& rows : window_rows(recording, carriage, platform)) {
+        const std::size_t last = rows.end - 1;
+        TagWindow window{rows, sighting_at(rows.lead), sighting_at(rows.first), sighting_at(last)};
+        if (window.end == window.first) continue;
+        double offset_weights = 0.0, lead_platform = 0.0;  // 1/px^2; px^2, summed
+        for (std::size_t i = window.lead; i < window.end; ++i) {
+            TagSighting& sighting = run.sightings[i];
+            const Moment at = moment_at(run, sighting.stamp_s);
+            CornerValues slope =
+                seen_slope(camera, sighting.centre_mm, run.side_mm, path.position_mm[at.row]);
+            const double platform_mm = reading ? reading->std_lsb[at.row] * mm_per_lsb(rig.micro->hall) : 0.0;
+            const double strayed_mm = std::min(hidden_mm, way_share * (way_mm[at.row] - way_mm[rows.lead]));
+            const double platform_px = slope.norm() * platform_mm, strayed_px = slope.norm() * strayed_mm;
+            if (i < window.first) {
+                sighting.offset_weight = 1.0 / (corner_noise_px * corner_noise_px + strayed_px * strayed_px);
+                offset_weights += sighting.offset_weight;
+                lead_platform += platform_px * platform_px;
+                continue;
+            }
+            const auto leads = static_cast<double>(window.first - window.lead);
+            const double offset_px = leads > 0.0 ? std::sqrt(1.0 / offset_weights + lead_platform / leads)
+                                                 : slope.norm() * hidden_mm;
+            sighting.mirror = mirror_of(slope);
+            sighting.along_floor_px =
+                std::hypot(std::hypot(corner_noise_px, offset_px), std::hypot(platform_px, strayed_px));
+        }
+        run.windows.push_back(window);
+    }
+    return run;
+}
+
+TagModel tag_model(const plant::PlantParameters& parameters, const Rig& rig) {
+    FIDSERVO_DEMAND(rig.camera && parameters.camera);
+    return {plant::actual_camera(rig.camera->geometry, *parameters.camera),
+            *parameters.camera,
+            rig.camera->exposure_s,
+            rig.macro.encoder_resolution_mm,
+            parameters.micro,
+            parameters.axis.drive_gain};
+}
+
+std::vector<CornerValues> tag_errors(const TagModel& model, const TagRun& run, const TagWindow& window,
+                                     const CarriagePath& path, const SmoothedReading* reading) {
+    const CameraPlace place(model, run, path, reading);
+    double pull = 0.0, stiffness = 0.0;
+    for (std::size_t i = window.lead; i < window.first; ++i) {
+        const TagSighting& sighting = run.sightings[i];
+        if (!sighting.is_known) continue;
+        const CornerValues error = predicted(model, run, place, sighting, 0.0) - sighting.corners_px;
+        const CornerValues slope =
+            seen_slope(model.camera, sighting.centre_mm, run.side_mm, place.s_mm(sighting.stamp_s));
+        pull += sighting.offset_weight * slope.dot(error);
+        stiffness += sighting.offset_weight * slope.squaredNorm();
+    }
+    const double offset_mm =
+        stiffness > 0.0 ? std::clamp(-pull / stiffness, -model.resolution_mm, model.resolution_mm) : 0.0;
+    std::vector<CornerValues> errors;
+    for (std::size_t i = window.first; i < window.end; ++i) {
+        const TagSighting& sighting = run.sightings[i];
+        if (sighting.is_known)
+            errors.push_back(
+                turned(sighting, predicted(model, run, place, sighting, offset_mm) - sighting.corners_px));
+        else
+            errors.push_back(CornerValues::Constant(std::numeric_limits<double>::quiet_NaN()));
+    }
+    return errors;
+}
+
+}  // namespace fidservo::gap

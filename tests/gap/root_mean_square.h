@@ -1,0 +1,34 @@
+#pragma once
+#include "gap/evidence.h"
+#include "plant/effects/catalogue.h"
+
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <string_view>
+
+namespace fidservo::testing {
+
+/// R.m.s. over the values of a signal that count, of all recordings or one; NaN without any.
+inline double rms(const gap::Evidence& evidence, const gap::Errors& errors, gap::Signal signal,
+                  std::optional<std::size_t> run = std::nullopt) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const gap::Window& window : evidence.windows()) {
+        if (window.signal != signal || (run && window.run != *run)) continue;
+        for (std::size_t k = window.begin; k < window.end; ++k) {
+            if (!std::isfinite(errors[k])) continue;
+            sum += static_cast<double>(errors[k]) * static_cast<double>(errors[k]);
+            ++count;
+        }
+    }
+    return std::sqrt(sum / static_cast<double>(count));
+}
+
+inline gap::Hypothesis effects(std::initializer_list<std::string_view> texts) {
+    gap::Hypothesis hypothesis;
+    for (const std::string_view text : texts) hypothesis.push_back(plant::parse_effect(text));
+    return hypothesis;
+}
+
+}  // namespace fidservo::testing
