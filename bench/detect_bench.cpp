@@ -1,7 +1,9 @@
 // Detection and refinement of one frame of the machine's camera (1280 x 960, one tag of 300 px in view), with
 // libapriltag as it comes beside it. Median, p99 and worst of single frames, ms.
-#include "core/rig.h"
+#include "bench/frame_times.h"
 #include "plant/view/plate_view.h"
+#include "tests/reference_camera.h"
+#include "tests/row_of_tags.h"
 #include "vision/camera_position.h"
 #include "vision/tag_choice.h"
 #include "vision/tag_detector.h"
@@ -19,16 +21,6 @@ namespace {
 using namespace fidservo;
 
 constexpr int distinct_frames = 16;
-
-CameraParameters reference_camera() {
-    return {{1280, 960, 5000.0, {639.5, 479.5}, 20.0}, 50.0, 0.002, 10000.0, 5.0, 0.8, 0.03, 0.02, 20.0};
-}
-
-Plate row_of_tags() {
-    Plate plate;
-    for (int k = 0; k < 100; ++k) plate.tags.push_back({k, {2.0 * k, 0.0}, 1.2});
-    return plate;
-}
 
 /// Frames near tag 20, at many phases of the pixel grid; the tag alone is wholly in view.
 const std::vector<cv::Mat>& frames() {
@@ -56,13 +48,7 @@ void run(benchmark::State& state, Work work) {
         state.SetIterationTime(took.count());
         times_ms.push_back(1000 * took.count());
     }
-    std::sort(times_ms.begin(), times_ms.end());
-    const auto quantile = [&](double q) {
-        return times_ms[static_cast<std::size_t>(q * static_cast<double>(times_ms.size() - 1))];
-    };
-    state.counters["median_ms"] = quantile(0.5);
-    state.counters["p99_ms"] = quantile(0.99);
-    state.counters["worst_ms"] = quantile(1.0);
+    bench::report_times(state, times_ms);
 }
 
 void find(vision::TagDetector& detector, const cv::Mat& image, const cv::Rect& region = {}) {

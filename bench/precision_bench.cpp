@@ -3,8 +3,10 @@
 // lies beside the program if not told otherwise. Takes some ten minutes; SHARE of the frames
 // takes that share of the time. Prints every figure and writes the report.
 // Times are processor time of one core.
+#include "bench/frame_times.h"
 #include "bench/precision/peers.h"
 #include "bench/precision/precision_report.h"
+#include "tests/core_time.h"
 #include "tests/tag_precision/precision_trials.h"
 #include "vision/tag_detector.h"
 #include "vision/tag_refinement.h"
@@ -47,11 +49,6 @@ Estimator found_and_refined(const PrecisionCase& of) {
     };
 }
 
-double quantile(std::vector<double> values, double q) {
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
-}
-
 /// The machine's own frame size; refinement and detector take turns on the same frames.
 bench::FrameTimes time_frames(double share) {
     PrecisionCase large = precision_cases().front();
@@ -61,16 +58,17 @@ bench::FrameTimes time_frames(double share) {
     const Estimator refine = refinement(large), detect = bench::tuned_apriltag(large.scene.tag_id);
     std::vector<double> refine_ms, detect_ms;
     const auto timed = [](const Estimator& estimator, const Trial& trial, std::vector<double>& times_ms) {
-        const double begin_ms = cpu_ms();
+        const double begin_s = core_time_s();
         estimator(trial);
-        times_ms.push_back(cpu_ms() - begin_ms);
+        times_ms.push_back(1e3 * (core_time_s() - begin_s));
     };
     const int draws = std::max(1, static_cast<int>(std::lround(10 * share)));
     for_each_trial(large, {.shifts = 20, .draws = draws}, [&](const Trial& trial) {
         timed(refine, trial, refine_ms);
         timed(detect, trial, detect_ms);
     });
-    return {quantile(refine_ms, 0.5), quantile(refine_ms, 0.99), quantile(detect_ms, 0.5)};
+    return {bench::quantile(refine_ms, 0.5), bench::quantile(refine_ms, 0.99),
+            bench::quantile(detect_ms, 0.5)};
 }
 
 }  // namespace

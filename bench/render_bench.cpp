@@ -1,10 +1,10 @@
 // Frames a second of the simulated camera, on one core, beside what a run in real time and more asks for.
+#include "bench/frame_times.h"
 #include "plant/view/plate_view.h"
+#include "tests/core_time.h"
 #include "tests/reference_camera.h"
 
-#include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -32,17 +32,6 @@ Plate one_tag_and_twelve_features() {
     }
     plate.features.back().shape = Scratch{{{-0.5, 0.8}, {0.1, 1.0}, {0.4, 1.4}}, 0.02};
     return plate;
-}
-
-double quantile(std::vector<double>& sorted, double p) {
-    return sorted[static_cast<std::size_t>(p * static_cast<double>(sorted.size() - 1))];
-}
-
-/// Time that this thread had on a core: other programs on the machine do not count.
-double core_time_ms() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
 CameraParameters straight_camera() {
@@ -75,17 +64,14 @@ void render(benchmark::State& state, const Plate& plate, double speed_mm_per_s,
         for (std::size_t k = 0; k < s_mm.size(); ++k) {
             s_mm[k] = start_mm + speed_mm_per_s * camera.exposure_s * static_cast<double>(k) / 8.0;
         }
-        const double begin_ms = core_time_ms();
+        const double begin_s = core_time_s();
         cv::Mat image = view.render(s_mm, frame++);
         benchmark::DoNotOptimize(image.data);
-        times_ms.push_back(core_time_ms() - begin_ms);
+        times_ms.push_back(1e3 * (core_time_s() - begin_s));
     }
-    std::sort(times_ms.begin(), times_ms.end());
-    state.counters["frames_per_s"] = 1000.0 / quantile(times_ms, 0.5);
+    state.counters["frames_per_s"] = 1000.0 / bench::quantile(times_ms, 0.5);
     state.counters["limit_frames_per_s"] = limit_frames_per_s;
-    state.counters["median_ms"] = quantile(times_ms, 0.5);
-    state.counters["p99_ms"] = quantile(times_ms, 0.99);
-    state.counters["worst_ms"] = times_ms.back();
+    bench::report_times(state, times_ms);
 }
 
 BENCHMARK_CAPTURE(render, one_tag_at_rest, one_tag(), 0.0)->Unit(benchmark::kMillisecond)->MinTime(2.0);

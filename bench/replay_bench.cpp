@@ -8,6 +8,7 @@
 #include "plant/view/plate_view.h"
 #include "src/recording/writer.h"
 #include "src/replay/replay.h"
+#include "tests/core_time.h"
 #include "tests/reference_camera.h"
 #include "tests/src/temporary_folder.h"
 #include "vision/tag_detector.h"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -72,12 +72,6 @@ void make_photographs(const fs::path& folder, int copies) {
         for (int copy = 0; copy < copies; ++copy)
             fs::copy(entry.path(), folder / fmt::format("{:03}-{}", copy, entry.path().filename().string()));
     }
-}
-
-double core_time_s(clockid_t clock) {
-    timespec time{};
-    ::clock_gettime(clock, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 struct Round {

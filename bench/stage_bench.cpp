@@ -4,6 +4,7 @@
 #include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 #include "src/config/rig_file.h"
+#include "tests/core_time.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,13 +44,6 @@ std::vector<Command> busy_commands() {
                        std::clamp(level_V + 0.003 * noise.normal(), 1.3, 1.9)};
     }
     return commands;
-}
-
-/// Time that this thread has had on a core, in s: what other programs do meanwhile does not count.
-double core_time_s() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 /// Runs blocks of one simulated second, and reports the times real time of the median, the 99th percentile of

@@ -1,15 +1,17 @@
 // A tag followed from frame to frame on the machine's camera (1280 x 960, one tag of 300 px wholly in view,
 // the stage 10 um further in every frame, the prediction 3 um off), beside libapriltag on the same frames in
 // the same run. Core time of single frames, ms: median, p99, worst.
+#include "bench/frame_times.h"
 #include "plant/view/plate_view.h"
+#include "tests/core_time.h"
 #include "tests/reference_camera.h"
+#include "tests/row_of_tags.h"
 #include "vision/tag_choice.h"
 #include "vision/tag_detector.h"
 #include "vision/tag_tracker.h"
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <stdexcept>
 #include <vector>
 
@@ -22,12 +24,6 @@ using namespace fidservo;
 constexpr int distinct_frames = 32;
 constexpr int tag_id = 20;
 constexpr double first_s_mm = 39.84, step_mm = 0.010, prediction_error_mm = 0.003;
-
-Plate row_of_tags() {
-    Plate plate;
-    for (int k = 0; k < 100; ++k) plate.tags.push_back({k, {2.0 * k, 0.0}, 1.2});
-    return plate;
-}
 
 double s_mm(int frame) {
     return first_s_mm + step_mm * frame;
@@ -52,12 +48,6 @@ vision::ExpectedTag expected(int frame, double error_mm) {
     return place;
 }
 
-double core_time_s() {
-    timespec time{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 /// Times work(frame number) frame by frame.
 template <class Work>
 void run(benchmark::State& state, Work work) {
@@ -71,13 +61,7 @@ void run(benchmark::State& state, Work work) {
         state.SetIterationTime(took_s);
         times_ms.push_back(1000 * took_s);
     }
-    std::sort(times_ms.begin(), times_ms.end());
-    const auto quantile = [&](double q) {
-        return times_ms[static_cast<std::size_t>(q * static_cast<double>(times_ms.size() - 1))];
-    };
-    state.counters["median_ms"] = quantile(0.5);
-    state.counters["p99_ms"] = quantile(0.99);
-    state.counters["worst_ms"] = quantile(1.0);
+    bench::report_times(state, times_ms);
 }
 
 void demand(bool condition) {

@@ -21,7 +21,7 @@ class NominalTrace {
     NominalTrace(const HallParameters& hall, const HallTrace& trace)
         : trace_(trace), sum_(trace.adc.size() + 1, 0.0) {
         for (std::size_t k = 0; k < trace.adc.size(); ++k)
-            sum_[k + 1] = sum_[k] + hall_position_mm(hall, trace.adc[k] * hall_lsb_V(hall)) - hall.centre_mm;
+            sum_[k + 1] = sum_[k] + hall_position_mm_of_adc(hall, trace.adc[k]) - hall.centre_mm;
     }
 
     /// Mean over [time - width/2, time + width/2]; NaN where the trace does not cover it.

@@ -8,6 +8,11 @@
 
 namespace fidservo {
 
+/// The corners of the tag's own square, in the order in which detections list them. Tag frame: x to the
+/// right, y down on an upright tag, the black border's outer edge at +-1.
+inline const std::array<Eigen::Vector2d, 4> tag_corners{Eigen::Vector2d(-1, 1), Eigen::Vector2d(1, 1),
+                                                        Eigen::Vector2d(1, -1), Eigen::Vector2d(-1, -1)};
+
 /// Corners in px, pixel centres at integers, in plate order: (-,+), (+,+), (+,-), (-,-) in plate x, y.
 struct TagDetection {
     TimeNs time_ns = 0;  ///< middle of the frame's exposure

@@ -34,7 +34,7 @@ double hall_position_mm(const HallParameters& hall, double voltage_V) {
     return hall.centre_mm + hall.half_range_mm * 2.0 * root_p * std::sin(std::asin(sine) / 3.0);
 }
 
-double hall_position_mm_of_adc(const HallParameters& hall, int adc) {
+double hall_position_mm_of_adc(const HallParameters& hall, double adc) {
     return hall_position_mm(hall, adc * hall_lsb_V(hall));
 }
 

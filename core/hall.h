@@ -29,7 +29,7 @@ double hall_slope_V_per_mm(const HallParameters& hall, double position_mm);
 /// Exact inverse, not clamped to the travel; voltages beyond the rising part give its end.
 double hall_position_mm(const HallParameters& hall, double voltage_V);
 
-/// Position in mm of an ADC reading.
-double hall_position_mm_of_adc(const HallParameters& hall, int adc);
+/// Position in mm of an ADC reading, or of a mean of some.
+double hall_position_mm_of_adc(const HallParameters& hall, double adc);
 
 }  // namespace fidservo

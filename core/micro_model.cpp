@@ -10,7 +10,7 @@ MicroModel nominal_micro_model(const MicroParameters& micro) {
 }
 
 double platform_position_mm(const MicroModel& model, double hall_adc) {
-    const double d = hall_position_mm(model.hall, hall_adc * hall_lsb_V(model.hall)) - model.hall.centre_mm;
+    const double d = hall_position_mm_of_adc(model.hall, hall_adc) - model.hall.centre_mm;
     const auto& k = model.hall_correction;
     return k[0] + d * (k[1] + d * (k[2] + d * k[3]));
 }

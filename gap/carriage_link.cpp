@@ -72,16 +72,16 @@ class Lead {
         plant::MacroAxisState end = play(window, carried, done, motion_);
         double loss = std::numeric_limits<double>::infinity();
         for (int round = 0; round < most_rounds; ++round) {
-            const auto estimate = estimate_start(errors_, done, ticks_per_tau);
+            const StartCorrection better = estimate_start(errors_, done, ticks_per_tau);
             if (round == 0) loss = start_loss(errors_, done);
-            const double change = std::hypot(estimate.correction.place_count - done.place_count,
-                                             estimate.correction.coast_count - done.coast_count);
+            const double change =
+                std::hypot(better.place_count - done.place_count, better.coast_count - done.coast_count);
             if (change < enough_count && round > 0) break;
-            const auto trial_end = play(window, carried, estimate.correction, trial_);
-            const double trial_loss = is_linear ? 0.0 : start_loss(errors_, estimate.correction);
+            const auto trial_end = play(window, carried, better, trial_);
+            const double trial_loss = is_linear ? 0.0 : start_loss(errors_, better);
             if (trial_loss > loss) break;
             loss = trial_loss;
-            done = estimate.correction;
+            done = better;
             end = trial_end;
             std::swap(motion_, trial_);
             if (is_linear) break;

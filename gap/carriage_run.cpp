@@ -49,15 +49,18 @@ std::vector<bool> free_rows(const CarriageRun& run, const Stretch& stretch, cons
 
 }  // namespace
 
+double reading_count(const StageRow& row, const MacroParameters& macro) {
+    return std::isfinite(row.encoder_count) ? row.encoder_count
+                                            : row.position_mm / macro.encoder_resolution_mm;
+}
+
 CarriageRun carriage_run(const Recording& recording, const MacroParameters& macro) {
     CarriageRun run;
     run.tick_s = recording.tick_s;
     std::vector<bool> usable;
     for (const StageRow& row : recording.rows) {
         run.command_V.push_back(row.macro_command_V);
-        run.reading_count.push_back(std::isfinite(row.encoder_count)
-                                        ? row.encoder_count
-                                        : row.position_mm / macro.encoder_resolution_mm);
+        run.reading_count.push_back(reading_count(row, macro));
         usable.push_back(std::isfinite(run.command_V.back()) && std::isfinite(run.reading_count.back()));
     }
     run.stands = standing_rows(run);

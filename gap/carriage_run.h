@@ -20,6 +20,9 @@ struct CarriageRun {
     bool is_homed = false;                ///< readings are places in the rig file's travel
 };
 
+/// A row's count; where the position was recorded, position / resolution.
+double reading_count(const StageRow& row, const MacroParameters& macro);
+
 CarriageRun carriage_run(const Recording& recording, const MacroParameters& macro);
 
 /// Prediction minus reading in counts. Where the reading stands, a place that rounds to it is as good as any

@@ -20,15 +20,11 @@ constexpr double place_std_count = 0.3, coast_std_count = 1.0;
 constexpr double place_weight = 1.0 / (place_std_count * place_std_count);
 constexpr double coast_weight = 1.0 / (coast_std_count * coast_std_count);
 
-double prior_loss(const StartCorrection& done) {
-    return 0.5 * (place_weight * done.place_count * done.place_count +
-                  coast_weight * done.coast_count * done.coast_count);
-}
-
 }  // namespace
 
 double start_loss(std::span<const double> error_count, const StartCorrection& done) {
-    double loss = prior_loss(done);
+    double loss = 0.5 * (place_weight * done.place_count * done.place_count +
+                         coast_weight * done.coast_count * done.coast_count);
     for (const double error : error_count) {
         const double excess = beyond_rounding(error) / noise_count;
         loss += 0.5 * excess * excess;
@@ -36,27 +32,24 @@ double start_loss(std::span<const double> error_count, const StartCorrection& do
     return loss;
 }
 
-StartEstimate estimate_start(std::span<const double> error_count, const StartCorrection& done,
-                             double ticks_per_tau) {
+StartCorrection estimate_start(std::span<const double> error_count, const StartCorrection& done,
+                               double ticks_per_tau) {
     constexpr int most_steps = 12;
     constexpr double enough_count = 1e-4;
     const double weight = 1.0 / (noise_count * noise_count);
     const double decay = std::exp(-1.0 / ticks_per_tau);
     StartCorrection found = done;
-    double loss = 0.0;
     for (int step = 0; step < most_steps; ++step) {
         const double place = found.place_count - done.place_count;
         const double coast = found.coast_count - done.coast_count;
         Eigen::Vector2d slope(place_weight * found.place_count, coast_weight * found.coast_count);
         Eigen::Matrix2d curvature = Eigen::Vector2d(place_weight, coast_weight).asDiagonal();
-        loss = prior_loss(found);
         double left = 1.0;
         for (const double error : error_count) {
             const double covered = 1.0 - left;
             left *= decay;
             const double excess = beyond_rounding(error + place + covered * coast);
             if (excess == 0.0) continue;
-            loss += 0.5 * weight * excess * excess;
             slope += weight * excess * Eigen::Vector2d(1.0, covered);
             curvature(0, 0) += weight;
             curvature(0, 1) += weight * covered;
@@ -68,7 +61,7 @@ StartEstimate estimate_start(std::span<const double> error_count, const StartCor
         found.coast_count -= change.y();
         if (change.cwiseAbs().maxCoeff() < enough_count) break;
     }
-    return {found, loss};
+    return found;
 }
 
 }  // namespace fidservo::gap

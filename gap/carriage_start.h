@@ -11,20 +11,14 @@ struct StartCorrection {
     double coast_count = 0.0;
 };
 
-/// The best correction, and what remains: half the sum of squares beyond rounding and of the prior, in
-/// standard deviations.
-struct StartEstimate {
-    StartCorrection correction;
-    double loss;
-};
-
-/// Newton's method from `done`, where the errors were found.
+/// The best correction: Newton's method on start_loss() from `done`, where the errors were found.
 /// @param error_count  prediction minus count, tick by tick, with `done` applied
 /// @param ticks_per_tau  of the velocity's decay
-StartEstimate estimate_start(std::span<const double> error_count, const StartCorrection& done,
-                             double ticks_per_tau);
+StartCorrection estimate_start(std::span<const double> error_count, const StartCorrection& done,
+                               double ticks_per_tau);
 
-/// What remains with `done` applied.
+/// What remains with `done` applied: half the sum of squares beyond rounding and of the prior, in standard
+/// deviations.
 double start_loss(std::span<const double> error_count, const StartCorrection& done);
 
 }  // namespace fidservo::gap

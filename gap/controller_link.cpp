@@ -25,26 +25,20 @@ double square_sum(const std::vector<double>& errors) {
 }
 
 /// Fills a run with what the best of several replays leaves in each stretch.
-struct Candidate {
-    std::string name;
-    Replay replay;
-};
-
 ControllerRun best_run(const Recording& recording, const std::vector<bool>& usable,
-                       const std::vector<Candidate>& candidates, double StageRow::*command_V) {
+                       const std::vector<Replay>& candidates, double StageRow::*command_V) {
     ControllerRun run;
     run.error_V.assign(recording.rows.size(), nan);
     if (candidates.empty()) return run;
     for (const Stretch& stretch : stretches(recording, usable)) {
         const auto windows = cut(stretch, recording.tick_s, LeadIn::none);
         std::vector<double> best;
-        for (const Candidate& candidate : candidates) {
-            std::vector<double> errors = candidate.replay(stretch);
+        for (const Replay& replay : candidates) {
+            std::vector<double> errors = replay(stretch);
             for (std::size_t i = 0; i < errors.size(); ++i)
                 errors[i] -= recording.rows[stretch.first + i].*command_V;
             if (!best.empty() && square_sum(errors) >= square_sum(best)) continue;
             best = std::move(errors);
-            run.controller = candidate.name;
         }
         for (const WindowRows& window : windows) {
             run.windows.push_back(window);
@@ -87,9 +81,9 @@ ControllerRun macro_controller_run(const Recording& recording, const Rig& rig) {
                 control::pid_update(*rig.macro.pid, limit_V, recording.tick_s, state, error_count[k]));
         return commands;
     };
-    std::vector<Candidate> candidates;
-    if (rig.macro.pd) candidates = {{"pd", pd(false)}, {"pd, restarted", pd(true)}};
-    if (rig.macro.pid) candidates.push_back({"pid", pid});
+    std::vector<Replay> candidates;
+    if (rig.macro.pd) candidates = {pd(false), pd(true)};
+    if (rig.macro.pid) candidates.push_back(pid);
     return best_run(recording, usable, candidates, &StageRow::macro_command_V);
 }
 
@@ -98,22 +92,20 @@ ControllerRun micro_controller_run(const Recording& recording, const Rig& rig) {
     for (const StageRow& row : recording.rows)
         usable.push_back(std::isfinite(row.micro_setpoint_mm) && std::isfinite(row.hall_adc) &&
                          std::isfinite(row.micro_command_V));
-    std::vector<Candidate> candidates;
+    std::vector<Replay> candidates;
     if (rig.micro && rig.micro->pi) {
-        candidates.push_back(
-            {"pi", [&](const Stretch& stretch) {
-                 const PiGains& gains = *rig.micro->pi;
-                 std::vector<double> commands;
-                 control::PiState state = control::pi_start(gains);
-                 for (std::size_t k = stretch.first; k < stretch.end; ++k) {
-                     const StageRow& row = recording.rows[k];
-                     const double position_mm =
-                         hall_position_mm(rig.micro->hall, row.hall_adc * hall_lsb_V(rig.micro->hall));
-                     commands.push_back(control::pi_update(gains, recording.tick_s, state,
-                                                           row.micro_setpoint_mm - position_mm));
-                 }
-                 return commands;
-             }});
+        candidates.push_back([&](const Stretch& stretch) {
+            const PiGains& gains = *rig.micro->pi;
+            std::vector<double> commands;
+            control::PiState state = control::pi_start(gains);
+            for (std::size_t k = stretch.first; k < stretch.end; ++k) {
+                const StageRow& row = recording.rows[k];
+                const double position_mm = hall_position_mm_of_adc(rig.micro->hall, row.hall_adc);
+                commands.push_back(
+                    control::pi_update(gains, recording.tick_s, state, row.micro_setpoint_mm - position_mm));
+            }
+            return commands;
+        });
     }
     return best_run(recording, usable, candidates, &StageRow::micro_command_V);
 }

@@ -10,7 +10,6 @@
 #include "core/rig.h"
 #include "gap/windows.h"
 
-#include <string>
 #include <vector>
 
 namespace fidservo::gap {
@@ -19,7 +18,6 @@ namespace fidservo::gap {
 struct ControllerRun {
     std::vector<WindowRows> windows;  ///< where its setpoint is in force
     std::vector<double> error_V;      ///< replayed minus recorded command, row by row; NaN outside of windows
-    std::string controller;           ///< which of the rig's fits best
 };
 
 /// The PD, the PD started anew with each setpoint, or the benchmark PID: in each stretch the one that fits

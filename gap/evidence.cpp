@@ -17,10 +17,6 @@ constexpr std::array<std::string_view, signal_count> names{"encoder", "hall", "t
                                                            "micro_command"};
 constexpr std::array<std::string_view, signal_count> units{"count", "adc", "px", "V", "V"};
 
-constexpr std::size_t index_of(Signal signal) {
-    return static_cast<std::size_t>(signal);
-}
-
 /// A hypothesis as the plants of the signal chain.
 struct Models {
     CarriageModel carriage;

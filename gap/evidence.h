@@ -33,6 +33,11 @@ namespace fidservo::gap {
 enum class Signal : std::uint8_t { encoder, hall, tag, macro_command, micro_command };
 inline constexpr std::size_t signal_count = 5;
 
+/// A signal's place in arrays of signal_count.
+constexpr std::size_t index_of(Signal signal) {
+    return static_cast<std::size_t>(signal);
+}
+
 std::string_view name_of(Signal signal);
 std::string_view unit_of(Signal signal);  ///< count, adc, px, V, V
 

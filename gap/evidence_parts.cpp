@@ -12,10 +12,6 @@ namespace fidservo::gap {
 
 namespace {
 
-constexpr std::size_t index_of(Signal signal) {
-    return static_cast<std::size_t>(signal);
-}
-
 /// What the rig file's model makes of a recording.
 Course course_of(const Rig& rig, const RunLinks& links, const PlatformPrediction* platform) {
     Course course;
@@ -29,7 +25,7 @@ Course course_of(const Rig& rig, const RunLinks& links, const PlatformPrediction
     const HallParameters& hall = rig.micro->hall;
     for (std::size_t k = 0; k < rows; ++k)
         course.contraction_mm[k] =
-            static_cast<float>(hall_position_mm(hall, links.smoothed->reading_lsb[k] * hall_lsb_V(hall)));
+            static_cast<float>(hall_position_mm_of_adc(hall, links.smoothed->reading_lsb[k]));
     return course;
 }
 
@@ -125,9 +121,7 @@ void find_noise(Evidence::Parts& parts) {
     for (const Recording& recording : parts.recordings) {
         std::vector<double> count, macro_V, adc, micro_V;
         for (const StageRow& row : recording.rows) {
-            count.push_back(std::isfinite(row.encoder_count)
-                                ? row.encoder_count
-                                : row.position_mm / parts.rig.macro.encoder_resolution_mm);
+            count.push_back(reading_count(row, parts.rig.macro));
             macro_V.push_back(row.macro_command_V);
             adc.push_back(row.hall_adc);
             micro_V.push_back(row.micro_command_V);

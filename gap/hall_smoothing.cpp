@@ -47,13 +47,9 @@ class LineFits {
     std::vector<double> sums_, moments_;
 };
 
-/// Rows with readings, one a tick.
-struct Piece {
-    std::size_t first, end;
-};
-
-std::vector<Piece> pieces_of(const PlatformRun& run) {
-    std::vector<Piece> pieces;
+/// Stretches of rows with readings, one a tick.
+std::vector<Stretch> pieces_of(const PlatformRun& run) {
+    std::vector<Stretch> pieces;
     bool open = false;
     for (std::size_t k = 0; k < run.hall_adc.size(); ++k) {
         const bool usable = std::isfinite(run.hall_adc[k]);
@@ -61,12 +57,12 @@ std::vector<Piece> pieces_of(const PlatformRun& run) {
         if (usable) pieces.back().end = k + 1;
         open = usable && run.ticks[k] == 1;
     }
-    std::erase_if(pieces, [](const Piece& piece) { return piece.end - piece.first < 3; });
+    std::erase_if(pieces, [](const Stretch& piece) { return piece.rows() < 3; });
     return pieces;
 }
 
 /// Rows on either side, as far as there are.
-Piece around(std::size_t at, std::size_t half, std::size_t rows) {
+Stretch around(std::size_t at, std::size_t half, std::size_t rows) {
     return {at < half ? 0 : at - half, std::min(rows, at + half + 1)};
 }
 
@@ -74,7 +70,7 @@ Piece around(std::size_t at, std::size_t half, std::size_t rows) {
 std::size_t width_at(const LineFits& fits, std::size_t at, std::size_t rows, double floor_lsb) {
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = 0; i < half_widths.size(); ++i) {
-        const Piece fitted = around(at, half_widths[i], rows);
+        const Stretch fitted = around(at, half_widths[i], rows);
         const double fit = fits.line(at, fitted.first, fitted.end);
         const double reach =
             interval_stds * floor_lsb * std::sqrt(LineFits::variance(at, fitted.first, fitted.end));
@@ -100,9 +96,9 @@ std::vector<std::size_t> medians(const std::vector<std::size_t>& widths) {
     return found;
 }
 
-void smooth(const PlatformRun& run, const Piece& piece, std::span<const double> path_lsb,
+void smooth(const PlatformRun& run, const Stretch& piece, std::span<const double> path_lsb,
             double command_limit_V, SmoothedReading& found) {
-    const std::size_t rows = piece.end - piece.first;
+    const std::size_t rows = piece.rows();
     std::vector<double> residual(rows), drive(rows);
     for (std::size_t i = 0; i < rows; ++i) {
         const std::size_t k = piece.first + i;
@@ -115,7 +111,7 @@ void smooth(const PlatformRun& run, const Piece& piece, std::span<const double> 
     const std::vector<std::size_t> steady = medians(widths);
     for (std::size_t i = 0; i < rows; ++i) {
         const std::size_t k = piece.first + i;
-        const Piece fitted = around(i, half_widths[steady[i]], rows);
+        const Stretch fitted = around(i, half_widths[steady[i]], rows);
         found.reading_lsb[k] = path_lsb[k] + residual_fits.line(i, fitted.first, fitted.end);
         found.std_lsb[k] =
             bias_share * run.floor_lsb * std::sqrt(LineFits::variance(i, fitted.first, fitted.end));
@@ -139,7 +135,7 @@ SmoothedReading smoothed_reading(const PlatformRun& run, std::span<const double>
                                  double command_limit_V) {
     const std::vector<double> none(run.hall_adc.size(), std::numeric_limits<double>::quiet_NaN());
     SmoothedReading found{none, none, none};
-    for (const Piece& piece : pieces_of(run)) smooth(run, piece, path_lsb, command_limit_V, found);
+    for (const Stretch& piece : pieces_of(run)) smooth(run, piece, path_lsb, command_limit_V, found);
     hold(found.reading_lsb, 0.0);
     hold(found.std_lsb, run.floor_lsb);
     hold(found.drive_V, 0.0);

@@ -16,8 +16,6 @@ constexpr double way_share = 0.02;
 /// Standard deviation of what rounding hides, in counts.
 const double hidden_count = 1.0 / std::sqrt(12.0);
 
-const std::array<Eigen::Vector2d, 4> corner_signs{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
-
 /// A time between two rows.
 struct Moment {
     std::size_t row;
@@ -111,7 +109,7 @@ CornerValues seen(const CameraGeometry& camera, const Eigen::Vector2d& centre_mm
     CornerValues corners;
     for (int c = 0; c < 4; ++c)
         corners.segment<2>(2 * c) =
-            project(camera, centre_mm + 0.5 * side_mm * corner_signs[static_cast<std::size_t>(c)], s_mm);
+            project(camera, centre_mm + 0.5 * side_mm * tag_corners[static_cast<std::size_t>(c)], s_mm);
     return corners;
 }
 
@@ -137,7 +135,7 @@ CornerValues predicted(const TagModel& model, const TagRun& run, const CameraPla
             const double v_px = std::clamp(corners[2 * c + 1], 0.0, model.camera.height_px - 1.0);
             const double late_s = plant::row_delay_s(model.camera, model.deviation, v_px);
             const Eigen::Vector2d corner_mm =
-                sighting.centre_mm + 0.5 * run.side_mm * corner_signs[static_cast<std::size_t>(c)];
+                sighting.centre_mm + 0.5 * run.side_mm * tag_corners[static_cast<std::size_t>(c)];
             corners.segment<2>(2 * c) =
                 project(model.camera, corner_mm, place.seen_s_mm(true_s + late_s) + offset_mm);
         }

@@ -1,16 +1,13 @@
 #pragma once
 // The outline of a tag as a projective map of a square.
+#include "core/detection.h"
+
 #include <array>
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 
 namespace fidservo::vision {
-
-/// The corners of the tag's own square, in the order in which detections list them. Tag frame: x to the
-/// right, y down on an upright tag, the black border's outer edge at +-1.
-inline const std::array<Eigen::Vector2d, 4> tag_corners{Eigen::Vector2d(-1, 1), Eigen::Vector2d(1, 1),
-                                                        Eigen::Vector2d(1, -1), Eigen::Vector2d(-1, -1)};
 
 /// H that takes tag_corners to the four image points: (u, v, 1) ~ H (x, y, 1), H(2,2) = 1. Three points on a
 /// line have no such map: the result is not finite then.

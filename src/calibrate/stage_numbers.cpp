@@ -11,10 +11,6 @@ namespace fidservo {
 
 namespace {
 
-double hall_mm(const HallParameters& hall, double adc) {
-    return hall_position_mm(hall, adc * hall_lsb_V(hall));
-}
-
 bool of_platform(StageMove move) {
     return move == StageMove::extended || move == StageMove::platform;
 }
@@ -61,9 +57,10 @@ Status fit_hall(const Rig& rig, StageNumbers& numbers, const std::vector<Platfor
     double squares = 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
         const PlatformPlace& place = places[static_cast<std::size_t>(i)];
-        line.row(i) << 1.0, hall_mm(micro.hall, place.shot->hall_mean());
+        line.row(i) << 1.0, hall_position_mm_of_adc(micro.hall, place.shot->hall_mean());
         reference_mm(i) = place.reference_mm;
-        squares += std::pow(hall_mm(curve->hall, place.shot->hall_mean()) - place.reference_mm, 2.0);
+        squares +=
+            std::pow(hall_position_mm_of_adc(curve->hall, place.shot->hall_mean()) - place.reference_mm, 2.0);
     }
     const Eigen::Vector2d fit = line.colPivHouseholderQr().solve(reference_mm);
     const double variance =
@@ -79,7 +76,8 @@ Status fit_encoder(StageNumbers& numbers) {
     for (std::size_t i = 0; i < numbers.mapped.size(); ++i) {
         const StageShot& shot = *numbers.mapped[i];
         if (of_platform(shot.move) && shot.move != StageMove::extended) continue;  // one stand is one stand
-        stands.push_back({shot.count, numbers.map.s_mm[i] - hall_mm(numbers.hall.hall, shot.hall_mean()),
+        stands.push_back({shot.count,
+                          numbers.map.s_mm[i] - hall_position_mm_of_adc(numbers.hall.hall, shot.hall_mean()),
                           std::hypot(numbers.map.s_std_mm[i], numbers.platform_error_mm)});
     }
     const auto scale = calib::fit_encoder_scale(stands);
@@ -102,8 +100,8 @@ bool is_fresh(const StageShot& shot) {
 }
 
 StandResidual residual_of(const StageNumbers& numbers, const StageShot& shot, double s_mm) {
-    StandResidual residual{shot.move, s_mm, hall_mm(numbers.hall.hall, shot.hall_mean()), std::nan(""),
-                           std::nan("")};
+    StandResidual residual{shot.move, s_mm, hall_position_mm_of_adc(numbers.hall.hall, shot.hall_mean()),
+                           std::nan(""), std::nan("")};
     const bool platform_alone = of_platform(shot.move) || shot.move == StageMove::fresh_platform;
     if (platform_alone && shot.count == numbers.extended_count)
         residual.hall_error_mm = residual.platform_mm - (s_mm - numbers.extended_s_mm);

@@ -23,7 +23,7 @@ std::string kind_of(const Visit& visit) {
 
 float platform_mm(const Rig& rig, const StageRow& row) {
     if (!rig.micro || !std::isfinite(row.hall_adc)) return static_cast<float>(not_in_force);
-    return static_cast<float>(hall_position_mm_of_adc(rig.micro->hall, static_cast<int>(row.hall_adc)));
+    return static_cast<float>(hall_position_mm_of_adc(rig.micro->hall, row.hall_adc));
 }
 
 /// The encoder is incremental: its count at the end stop, the lowest while homing, stands for the low end of

@@ -18,7 +18,7 @@ Recording perform(const Laboratory& laboratory, const std::string& name, const E
 std::vector<double> platform_mm(const Rig& rig, const Recording& recording) {
     std::vector<double> positions(recording.rows.size());
     std::ranges::transform(recording.rows, positions.begin(), [&](const StageRow& row) {
-        return hall_position_mm_of_adc(rig.micro->hall, static_cast<int>(row.hall_adc));
+        return hall_position_mm_of_adc(rig.micro->hall, row.hall_adc);
     });
     return positions;
 }

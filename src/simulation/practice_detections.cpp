@@ -81,10 +81,9 @@ std::optional<TagDetection> PracticeDetector::detect(TimeNs stamp_ns, const Path
     TagDetection detection;
     detection.time_ns = stamp_ns;
     detection.tag_id = fiducials_.first_id + row * fiducials_.columns + column;
-    const std::array<Eigen::Vector2d, 4> corner_signs{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
     for (std::size_t k = 0; k < 4; ++k) {
         const Eigen::Vector2d ideal_px =
-            corner_px(centre_mm + 0.5 * fiducials_.side_mm * corner_signs[k], s_mm);
+            corner_px(centre_mm + 0.5 * fiducials_.side_mm * tag_corners[k], s_mm);
         if (!is_inside(camera_.geometry, ideal_px)) return std::nullopt;
         const double noise_u = noise_.normal();
         detection.corners_px[k] =

@@ -39,7 +39,7 @@ double micro_command_V(const Rig& rig, const Experiment& experiment, Loops& loop
                        double t_s) {
     if (experiment.micro_setpoint_mm) {
         row.micro_setpoint_mm = experiment.micro_setpoint_mm(t_s);
-        const double position_mm = hall_position_mm_of_adc(rig.micro->hall, static_cast<int>(row.hall_adc));
+        const double position_mm = hall_position_mm_of_adc(rig.micro->hall, row.hall_adc);
         if (!loops.pi) loops.pi = control::pi_start(*rig.micro->pi);
         return control::pi_update(*rig.micro->pi, rig.tick_s, *loops.pi, row.micro_setpoint_mm - position_mm);
     }

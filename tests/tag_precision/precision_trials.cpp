@@ -1,8 +1,9 @@
 #include "tests/tag_precision/precision_trials.h"
 
+#include "tests/core_time.h"
+
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -127,12 +128,6 @@ Estimator refinement(const PrecisionCase& of) {
     };
 }
 
-double cpu_ms() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 PrecisionFigures judge(const PrecisionCase& of, const TrialPlan& plan, const Estimator& estimator) {
     PrecisionFigures figures;
     figures.name = of.name;
@@ -141,9 +136,9 @@ PrecisionFigures judge(const PrecisionCase& of, const TrialPlan& plan, const Est
     int claimed = 0;
     std::vector<double> times_ms;
     for_each_trial(of, plan, [&](const Trial& trial) {
-        const double begin_ms = cpu_ms();
+        const double begin_s = core_time_s();
         const std::optional<Estimate> estimate = estimator(trial);
-        const double own_ms = cpu_ms() - begin_ms;
+        const double own_ms = 1e3 * (core_time_s() - begin_s);
         times_ms.push_back(estimate && estimate->took_ms ? *estimate->took_ms : own_ms);
         ++figures.trials;
         if (!estimate || (estimate->centre_px - trial.truth_px).norm() > 1.0) {

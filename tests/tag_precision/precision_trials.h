@@ -35,9 +35,6 @@ struct Estimate {
     std::optional<double> took_ms = std::nullopt;  ///< where another process did the work
 };
 
-/// Processor time of this thread: other programs on the machine do not count.
-double cpu_ms();
-
 using Estimator = std::function<std::optional<Estimate>(const Trial&)>;
 
 /// The measured refinement, told what the case allows.

@@ -3,6 +3,7 @@
 
 #include "core/random.h"
 #include "plant/view/plate_view.h"
+#include "tests/row_of_tags.h"
 #include "vision/tag_choice.h"
 #include "vision/tag_detector.h"
 
@@ -20,12 +21,6 @@ using ::testing::HasSubstr;
 
 CameraParameters reference_camera() {
     return {{1280, 960, 5000.0, {639.5, 479.5}, 20.0}, 50.0, 0.002, 10000.0, 5.0, 0.8, 0.03, 0.02, 20.0};
-}
-
-Plate row_of_tags() {
-    Plate plate;
-    for (int k = 0; k < 100; ++k) plate.tags.push_back({k, {2.0 * k, 0.0}, 1.2});
-    return plate;
 }
 
 Frame take(const Plate& plate, double s_mm, std::uint64_t number, const plant::ViewOptions& options = {}) {
