@@ -18,6 +18,14 @@ void add_example(CLI::App& command, const std::string& example) {
     command.footer("Example:\n  " + example);
 }
 
+void demand_new_file(const char* option, const std::filesystem::path& file) {
+    std::error_code error;
+    if (!file.empty() &&
+        std::filesystem::symlink_status(file, error).type() != std::filesystem::file_type::not_found)
+        throw InputError(
+            fmt::format("{}: {}: exists already; give the name of a new file", option, file.string()));
+}
+
 void make_output_folder(const std::filesystem::path& folder) {
     std::error_code error;
     if (std::filesystem::symlink_status(folder, error).type() != std::filesystem::file_type::not_found)

@@ -31,12 +31,16 @@ void add_calibrate(CLI::App& app, int& exit_code);
 void add_calibrate_camera(CLI::App& calibrate, int& exit_code);
 void add_calibrate_stage(CLI::App& calibrate, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
+void add_diagnose(CLI::App& app, int& exit_code);
 
 /// --rig RIG.yaml; the reference rig where it is not given.
 void add_rig_option(CLI::App& command, std::filesystem::path& rig_file);
 
 /// The example that ends a command's --help.
 void add_example(CLI::App& command, const std::string& example);
+
+/// Throws InputError if a file that an option names exists. @param file  empty where the option was not given
+void demand_new_file(const char* option, const std::filesystem::path& file);
 
 /// Makes a new output folder. Throws InputError if something of that name exists or it cannot be made:
 /// nothing is ever overwritten.

@@ -82,14 +82,6 @@ IdentifyInput read_input(const IdentifyOptions& options, const Identification& i
     return input;
 }
 
-void demand_new_file(const char* option, const std::filesystem::path& file) {
-    std::error_code error;
-    if (!file.empty() &&
-        std::filesystem::symlink_status(file, error).type() != std::filesystem::file_type::not_found)
-        throw InputError(
-            fmt::format("{}: {}: exists already; give the name of a new file", option, file.string()));
-}
-
 /// Numbers from a rig that is known to have such effects contain them: beside them in a file they would act
 /// twice. Friction and offset are identified themselves, and replaced.
 void demand_no_effects_twice(const Rig& rig, const Identification& identification) {

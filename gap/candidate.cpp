@@ -1,0 +1,105 @@
+#include "gap/candidate.h"
+
+#include "plant/effects/catalogue.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace fidservo::gap {
+namespace {
+
+/// Both move the wire's temperature against the table by a constant.
+constexpr std::string_view temperature_class = "ambient_temperature";
+
+bool says_how_large(const plant::EffectParameter& parameter) {
+    return parameter.vanishing != parameter.typical;
+}
+
+/// Values from which a fit of a shape may begin.
+std::vector<double> grid_of(const plant::EffectParameter& parameter, const TravelledRange& range) {
+    const auto within = [&](double value) { return std::clamp(value, parameter.low, parameter.high); };
+    std::vector<double> grid;
+    if (parameter.unit == "rad") {
+        for (const double share : {-1.0, 0.0, 1.0}) grid.push_back(share * 2.0 / 3.0 * std::numbers::pi);
+    } else if (parameter.unit == "deg") {
+        for (const double angle_deg : {0.0, 90.0}) grid.push_back(within(angle_deg));
+    } else if (parameter.unit == "mm" && parameter.low < 0.0) {
+        constexpr int places = 6;
+        for (int k = 0; k < places; ++k)
+            grid.push_back(within(range.low_mm + (range.high_mm - range.low_mm) * (k + 0.5) / places));
+    } else if (parameter.low > 0.0 && parameter.high >= 20.0 * parameter.low) {
+        for (const double factor : {0.3, 1.0, 3.0}) grid.push_back(within(factor * parameter.typical));
+    } else {
+        grid.push_back(parameter.typical);
+    }
+    grid.erase(std::unique(grid.begin(), grid.end()), grid.end());
+    return grid;
+}
+
+/// All combinations of the shapes' grids.
+std::vector<std::vector<double>> shapes_of(const plant::Effect& effect, const TravelledRange& range) {
+    std::vector<std::vector<double>> shapes{{}};
+    for (const plant::EffectParameter& parameter : effect.parameters) {
+        const std::vector<double> grid =
+            says_how_large(parameter) ? std::vector{parameter.typical} : grid_of(parameter, range);
+        std::vector<std::vector<double>> longer;
+        for (const std::vector<double>& shape : shapes)
+            for (const double value : grid) {
+                longer.push_back(shape);
+                longer.back().push_back(value);
+            }
+        shapes = std::move(longer);
+    }
+    return shapes;
+}
+
+bool names(std::span<const std::string> list, std::string_view name) {
+    return std::ranges::find(list, name) != list.end();
+}
+
+}  // namespace
+
+TravelledRange travelled(const Evidence& evidence) {
+    TravelledRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (std::size_t run = 0; run < evidence.recordings().size(); ++run)
+        for (const float position_mm : evidence.course(run).position_mm) {
+            if (std::isnan(position_mm)) continue;
+            range.low_mm = std::min(range.low_mm, static_cast<double>(position_mm));
+            range.high_mm = std::max(range.high_mm, static_cast<double>(position_mm));
+        }
+    return range.low_mm <= range.high_mm ? range : TravelledRange{};
+}
+
+std::string_view class_of(std::string_view effect) {
+    return effect == "stress_shift" ? temperature_class : effect;
+}
+
+std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std::string> only,
+                                  std::span<const std::string> without) {
+    std::array<bool, signal_count> recorded{};
+    for (const Window& window : evidence.windows()) recorded[static_cast<std::size_t>(window.signal)] = true;
+    const auto is_withheld = [&](std::string_view name) {
+        return std::ranges::any_of(
+            without, [&](const std::string& other) { return class_of(other) == class_of(name); });
+    };
+    const TravelledRange range = travelled(evidence);
+    std::vector<Candidate> found;
+    for (const plant::Effect* effect : plant::effect_catalogue()) {
+        if (effect->block == "camera.image" || is_withheld(effect->name)) continue;
+        if (!only.empty() && !names(only, effect->name)) continue;
+        const std::vector<Signal> reach = reach_of(*effect);
+        if (std::ranges::none_of(reach, [&](Signal s) { return recorded[static_cast<std::size_t>(s)]; }))
+            continue;
+        Candidate candidate{
+            effect, {}, shapes_of(*effect, range), reach, std::string(class_of(effect->name))};
+        for (std::size_t k = 0; k < effect->parameters.size(); ++k)
+            if (says_how_large(effect->parameters[k])) candidate.sizes.push_back(k);
+        found.push_back(std::move(candidate));
+    }
+    return found;
+}
+
+}  // namespace fidservo::gap

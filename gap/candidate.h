@@ -1,0 +1,39 @@
+#pragma once
+// The effects that a diagnosis tries, and where their fits may begin.
+#include "gap/evidence.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// An effect as a family of hypotheses. Of its parameters, those whose vanishing value is not their typical
+/// one say how large it is; the others say what shape it has.
+struct Candidate {
+    const plant::Effect* effect;
+    std::vector<std::size_t> sizes;           ///< parameters that say how large; one at least
+    std::vector<std::vector<double>> shapes;  ///< all values, sizes at typical ones, shapes over a grid
+    std::vector<Signal> reach;
+    std::string class_name;  ///< effects that no data can tell apart share it, otherwise the effect's name
+};
+
+/// Where the carriage has been in all recordings, mm.
+struct TravelledRange {
+    double low_mm = 0.0, high_mm = 0.0;
+};
+
+TravelledRange travelled(const Evidence& evidence);
+
+/// Effects of the catalogue that the rig can have and a recorded signal can show. camera.image effects show
+/// in frames only and are not among them.
+/// @param only  names to keep; empty: all
+/// @param without  names to leave out, with all of their class
+std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std::string> only,
+                                  std::span<const std::string> without);
+
+/// The class of an effect.
+std::string_view class_of(std::string_view effect);
+
+}  // namespace fidservo::gap

@@ -1,0 +1,140 @@
+#include "gap/diagnose.h"
+
+#include "gap/gap_size.h"
+#include "gap/posterior.h"
+#include "gap/remainder.h"
+#include "plant/effects/catalogue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace fidservo::gap {
+namespace {
+
+/// Probabilities of the alternatives of a choice, the one of no further effect at the end.
+std::vector<double> shares_of(const std::vector<Trial>& trials, double loss_without) {
+    std::vector<double> losses;
+    for (const Trial& trial : trials) losses.push_back(trial.fitted.loss);
+    losses.push_back(loss_without);
+    return probabilities(losses);
+}
+
+/// Sum over the effects of a class.
+double probability_of_class(const Choice& choice) {
+    const std::vector<double> shares = shares_of(choice.alternatives, choice.loss_without);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < choice.alternatives.size(); ++k)
+        if (choice.alternatives[k].candidate->class_name == choice.candidate->class_name) sum += shares[k];
+    return sum;
+}
+
+std::vector<std::string> indistinguishable(const Choice& choice) {
+    std::vector<std::string> names;
+    const auto add = [&](std::string_view name) {
+        if (name != choice.candidate->effect->name && std::ranges::find(names, name) == names.end())
+            names.emplace_back(name);
+    };
+    for (const plant::Effect* effect : plant::effect_catalogue())
+        if (class_of(effect->name) == choice.candidate->class_name) add(effect->name);
+    for (const Candidate* tie : choice.ties) add(tie->effect->name);
+    return names;
+}
+
+std::vector<FittedParameter> parameters_of(const plant::EffectSetting& setting,
+                                           const Eigen::MatrixXd& covariance, Eigen::Index first) {
+    std::vector<FittedParameter> parameters;
+    for (std::size_t k = 0; k < setting.values.size(); ++k) {
+        const plant::EffectParameter& parameter = setting.effect->parameters[k];
+        const Eigen::Index at = first + static_cast<Eigen::Index>(k);
+        parameters.push_back({std::string(parameter.name), std::string(parameter.unit), setting.values[k],
+                              std::sqrt(std::max(0.0, covariance(at, at)))});
+    }
+    return parameters;
+}
+
+std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection,
+                                       const Fit& fitted) {
+    std::vector<FoundEffect> found;
+    const std::vector<double>& before = selection.steps.front().mean_squares;
+    Eigen::Index first = 0;
+    for (std::size_t k = 0; k < selection.choices.size(); ++k) {
+        const Choice& choice = selection.choices[k];
+        const std::vector<double>& after = selection.steps[k + 1].mean_squares;
+        const auto [low, high] = removed_interval(evidence, before, after);
+        found.push_back({.effect = std::string(choice.candidate->effect->name),
+                         .block = std::string(choice.candidate->effect->block),
+                         .probability = probability_of_class(choice),
+                         .parameters = parameters_of(fitted.hypothesis[k], fitted.covariance, first),
+                         .indistinguishable_from = indistinguishable(choice),
+                         .gap_removed = total_gap(signal_gaps(evidence, before, after)).removed(),
+                         .gap_removed_low = low,
+                         .gap_removed_high = high});
+        first += static_cast<Eigen::Index>(fitted.hypothesis[k].values.size());
+    }
+    return found;
+}
+
+std::vector<TriedEffect> tried_effects(const Evidence& evidence, const Selection& selection) {
+    const CrossFit& nothing = selection.steps.front();
+    const std::vector<double> shares = shares_of(selection.alone, nothing.loss);
+    std::vector<TriedEffect> tried;
+    for (std::size_t k = 0; k < selection.alone.size(); ++k) {
+        const Trial& trial = selection.alone[k];
+        tried.push_back(
+            {std::string(trial.candidate->effect->name), std::string(trial.candidate->effect->block),
+             shares[k],
+             total_gap(signal_gaps(evidence, nothing.mean_squares, trial.fitted.mean_squares)).removed()});
+    }
+    return tried;
+}
+
+/// Of each block that one of its effects, as far as the choices tell, is part of the explanation.
+std::vector<BlockProbability> blocks_of(const Selection& selection) {
+    std::map<std::string, double> by_block;
+    for (const Choice& choice : selection.choices) {
+        const std::vector<double> shares = shares_of(choice.alternatives, choice.loss_without);
+        std::map<std::string, double> here;
+        for (std::size_t k = 0; k < choice.alternatives.size(); ++k)
+            here[std::string(choice.alternatives[k].candidate->effect->block)] += shares[k];
+        for (const auto& [block, probability] : here)
+            by_block[block] = 1.0 - (1.0 - by_block[block]) * (1.0 - probability);
+    }
+    std::vector<BlockProbability> where;
+    for (const auto& [block, probability] : by_block)
+        if (probability > 1e-4) where.push_back({block, probability});
+    std::ranges::stable_sort(where, std::greater{}, &BlockProbability::probability);
+    return where;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
+    Diagnosis diagnosis;
+    const std::vector<Candidate> tried = candidates(evidence, options.only, options.without);
+    const Selection selection = select(evidence, tried, options.selection);
+    const CrossFit& nothing = selection.steps.front();
+    const CrossFit& explained = selection.steps.back();
+    const Fit fitted = fit_to_all(evidence, explained);
+    diagnosis.hypothesis = fitted.hypothesis;
+    diagnosis.signals = signal_gaps(evidence, nothing.mean_squares, explained.mean_squares);
+    diagnosis.gap = total_gap(diagnosis.signals);
+    diagnosis.effects = found_effects(evidence, selection, fitted);
+    diagnosis.candidates = tried_effects(evidence, selection);
+    diagnosis.where = blocks_of(selection);
+    diagnosis.unexplained = remainder_of(evidence, explained, options.selection.tail);
+    if (diagnosis.unexplained) {
+        diagnosis.verdict = selection.choices.empty() ? Verdict::unexplained : Verdict::partly_explained;
+        if (selection.choices.empty())
+            diagnosis.where.insert(diagnosis.where.begin(), {diagnosis.unexplained->block, 1.0});
+    } else {
+        diagnosis.verdict = selection.choices.empty() ? Verdict::no_gap : Verdict::explained;
+    }
+    for (const Omission& omission : evidence.omissions())
+        diagnosis.notes.push_back(fmt::format("{}: {}", omission.recording, omission.text));
+    return diagnosis;
+}
+
+}  // namespace fidservo::gap

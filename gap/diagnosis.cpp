@@ -1,0 +1,12 @@
+#include "gap/diagnosis.h"
+
+#include <array>
+
+namespace fidservo::gap {
+
+std::string_view name_of(Verdict verdict) {
+    constexpr std::array<std::string_view, 4> names{"no-gap", "explained", "partly-explained", "unexplained"};
+    return names.at(static_cast<std::size_t>(verdict));
+}
+
+}  // namespace fidservo::gap

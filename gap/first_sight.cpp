@@ -1,0 +1,100 @@
+#include "gap/first_sight.h"
+
+#include "gap/score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
+
+namespace fidservo::gap {
+namespace {
+
+/// The base with an effect at a size that is a share of the given one.
+Hypothesis with(const Hypothesis& base, const Candidate& candidate, const std::vector<double>& shape,
+                const Eigen::VectorXd& share) {
+    std::vector<double> values = shape;
+    for (std::size_t k = 0; k < candidate.sizes.size(); ++k) {
+        const std::size_t at = candidate.sizes[k];
+        const plant::EffectParameter& parameter = candidate.effect->parameters[at];
+        values[at] = std::clamp(
+            parameter.vanishing + share(static_cast<Eigen::Index>(k)) * (shape[at] - parameter.vanishing),
+            parameter.low, parameter.high);
+    }
+    Hypothesis changed = base;
+    changed.push_back({candidate.effect, values});
+    return changed;
+}
+
+/// Shares of the sizes that make the errors smallest, weighted by the loss at the base.
+Eigen::VectorXd best_shares(std::span<const Window> windows, const std::vector<bool>& counted,
+                            const Errors& base, const std::vector<Errors>& changes) {
+    const auto width = static_cast<Eigen::Index>(changes.size());
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(width, width);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(width), change(width);
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        if (!counted[w]) continue;
+        Eigen::MatrixXd own = Eigen::MatrixXd::Zero(width, width);
+        Eigen::VectorXd own_right = Eigen::VectorXd::Zero(width);
+        double squares = 0.0, count = 0.0;
+        for (std::size_t row = windows[w].begin; row < windows[w].end; ++row) {
+            if (std::isnan(base[row])) continue;
+            for (Eigen::Index k = 0; k < width; ++k) {
+                const float value = changes[static_cast<std::size_t>(k)][row];
+                change(k) = std::isfinite(value) ? value : 0.0F;
+            }
+            own.selfadjointView<Eigen::Lower>().rankUpdate(change);
+            own_right -= static_cast<double>(base[row]) * change;
+            squares += static_cast<double>(base[row]) * base[row];
+            count += 1.0;
+        }
+        if (count == 0.0) continue;
+        normal += own / (count + squares);
+        right += own_right / (count + squares);
+    }
+    const Eigen::MatrixXd full = normal.selfadjointView<Eigen::Lower>();
+    return full.completeOrthogonalDecomposition().solve(right);
+}
+
+/// Loss saved in the windows that both predict.
+double gained(std::span<const Window> windows, const std::vector<bool>& counted, const Errors& base,
+              const Errors& errors) {
+    if (errors.empty()) return -std::numeric_limits<double>::infinity();
+    const std::vector<double> before = mean_squares(windows, base), after = mean_squares(windows, errors);
+    double gain = 0.0;
+    for (std::size_t w = 0; w < windows.size(); ++w)
+        if (counted[w] && !std::isnan(before[w]) && !std::isnan(after[w]))
+            gain += window_loss(before[w]) - window_loss(after[w]);
+    return gain;
+}
+
+}  // namespace
+
+Promise at_first_sight(const Predict& predict, std::span<const Window> windows,
+                       const std::vector<bool>& counted, const Hypothesis& base, const Errors& base_errors,
+                       const Candidate& candidate) {
+    constexpr double probe = 0.25;  // of the typical size
+    const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
+    Promise best{base, -std::numeric_limits<double>::infinity()};
+    for (const std::vector<double>& shape : candidate.shapes) {
+        std::vector<Errors> changes;
+        for (Eigen::Index k = 0; k < width; ++k) {
+            Errors change = predict(with(base, candidate, shape, probe * Eigen::VectorXd::Unit(width, k)));
+            if (change.empty()) break;
+            for (std::size_t i = 0; i < change.size(); ++i)
+                change[i] = (change[i] - base_errors[i]) / static_cast<float>(probe);
+            changes.push_back(std::move(change));
+        }
+        if (static_cast<Eigen::Index>(changes.size()) < width) continue;
+        const Eigen::VectorXd shares = best_shares(windows, counted, base_errors, changes);
+        for (const double part : {1.0, 0.4}) {
+            const Hypothesis there = with(base, candidate, shape, part * shares);
+            const double gain = gained(windows, counted, base_errors, predict(there));
+            if (gain > best.gain) best = {there, gain};
+        }
+    }
+    return best;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,20 @@
+#pragma once
+// How much a candidate promises, and from which values its fit should begin.
+#include "gap/candidate.h"
+#include "gap/fit.h"
+
+namespace fidservo::gap {
+
+struct Promise {
+    Hypothesis start;  ///< the base with the candidate
+    double gain;       ///< loss that it saves over the base, in the windows counted and predicted
+};
+
+/// Along each shape of the grid the sizes that fit best if errors changed in proportion to them: weighted
+/// least squares of the base's errors against what each size changes. The best of these places, by the loss
+/// that it really has.
+Promise at_first_sight(const Predict& predict, std::span<const Window> windows,
+                       const std::vector<bool>& counted, const Hypothesis& base, const Errors& base_errors,
+                       const Candidate& candidate);
+
+}  // namespace fidservo::gap

@@ -1,0 +1,224 @@
+#include "gap/fit.h"
+
+#include "gap/score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
+#include <ceres/ceres.h>
+
+namespace fidservo::gap {
+namespace {
+
+/// Steps of the numerical derivatives, in scales: above what friction's events and float errors scatter.
+constexpr double difference_step = 0.01;
+
+/// All parameters of a hypothesis, in scales.
+class Parameters {
+  public:
+    explicit Parameters(const Hypothesis& start) : hypothesis_(start) {
+        for (const plant::EffectSetting& setting : start)
+            for (std::size_t k = 0; k < setting.values.size(); ++k) {
+                const plant::EffectParameter& parameter = setting.effect->parameters[k];
+                all_.push_back(&parameter);
+                values.push_back(setting.values[k] / scale_of(parameter));
+            }
+    }
+
+    std::size_t size() const { return all_.size(); }
+    double scale(std::size_t k) const { return scale_of(*all_[k]); }
+    double low(std::size_t k) const { return all_[k]->low / scale(k); }
+    double high(std::size_t k) const { return all_[k]->high / scale(k); }
+    bool at_bound(std::size_t k) const { return values[k] <= low(k) || values[k] >= high(k); }
+
+    Hypothesis at(std::span<const double> scaled) const {
+        Hypothesis changed = hypothesis_;
+        std::size_t k = 0;
+        for (plant::EffectSetting& setting : changed)
+            for (double& value : setting.values) {
+                value = std::clamp(scaled[k] * scale(k), all_[k]->low, all_[k]->high);
+                ++k;
+            }
+        return changed;
+    }
+
+    std::vector<double> values;
+
+  private:
+    Hypothesis hypothesis_;
+    std::vector<const plant::EffectParameter*> all_;
+};
+
+/// Errors and their derivatives at one point, computed once for all windows.
+class Linearised : public ceres::EvaluationCallback {
+  public:
+    Linearised(const Predict& predict, const Parameters& parameters)
+        : predict_(predict), parameters_(parameters) {}
+
+    void PrepareForEvaluation(bool with_derivatives, bool at_new_point) override {
+        if (at_new_point) {
+            errors = predict_(parameters_.at(parameters_.values));
+            has_derivatives_ = false;
+        }
+        if (!with_derivatives || has_derivatives_ || errors.empty()) return;
+        by_parameter.assign(parameters_.size(), {});
+        for (std::size_t k = 0; k < parameters_.size(); ++k) differentiate(k);
+        has_derivatives_ = true;
+    }
+
+    Errors errors;
+    std::vector<Errors> by_parameter;
+
+  private:
+    void differentiate(std::size_t k) {
+        std::vector<double> beside = parameters_.values;
+        const double step =
+            beside[k] + difference_step <= parameters_.high(k) ? difference_step : -difference_step;
+        beside[k] += step;
+        Errors& slope = by_parameter[k];
+        slope = predict_(parameters_.at(beside));
+        if (slope.empty()) slope = errors;
+        for (std::size_t i = 0; i < slope.size(); ++i)
+            slope[i] = (slope[i] - errors[i]) / static_cast<float>(step);
+    }
+
+    const Predict& predict_;
+    const Parameters& parameters_;
+    bool has_derivatives_ = false;
+};
+
+/// The values of a window that count, over the root of their number: the sum of their squares is S_w.
+class WindowErrors : public ceres::CostFunction {
+  public:
+    WindowErrors(const Linearised& at, std::vector<std::size_t> rows, int parameters)
+        : at_(at), rows_(std::move(rows)), share_(1.0 / std::sqrt(static_cast<double>(rows_.size()))) {
+        mutable_parameter_block_sizes()->push_back(parameters);
+        set_num_residuals(static_cast<int>(rows_.size()));
+    }
+
+    bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+        if (at_.errors.empty()) return false;
+        for (std::size_t i = 0; i < rows_.size(); ++i) residuals[i] = share_ * value(at_.errors, i);
+        if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+        const std::size_t width = at_.by_parameter.size();
+        for (std::size_t i = 0; i < rows_.size(); ++i)
+            for (std::size_t k = 0; k < width; ++k)
+                jacobians[0][i * width + k] = share_ * value(at_.by_parameter[k], i);
+        return true;
+    }
+
+  private:
+    double value(const Errors& errors, std::size_t i) const {
+        const float value = errors[rows_[i]];
+        return std::isfinite(value) ? value : 0.0;
+    }
+
+    const Linearised& at_;
+    std::vector<std::size_t> rows_;
+    double share_;
+};
+
+std::vector<std::size_t> counted_rows(const Window& window, const Errors& errors) {
+    std::vector<std::size_t> rows;
+    for (std::size_t k = window.begin; k < window.end; ++k)
+        if (!std::isnan(errors[k])) rows.push_back(k);
+    return rows;
+}
+
+/// H^-1 (sum of g g') H^-1 over windows; parameters at their bounds count as known.
+Eigen::MatrixXd sandwich(const Linearised& at, std::span<const Window> windows,
+                         const std::vector<bool>& counted, const Parameters& parameters) {
+    std::vector<std::size_t> free;
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+        if (!parameters.at_bound(k)) free.push_back(k);
+    const auto width = static_cast<Eigen::Index>(free.size());
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(width, width), scatter = normal;
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        if (!counted[w]) continue;
+        const std::vector<std::size_t> rows = counted_rows(windows[w], at.errors);
+        if (rows.empty()) continue;
+        Eigen::VectorXd gradient = Eigen::VectorXd::Zero(width), slope(width);
+        Eigen::MatrixXd own = Eigen::MatrixXd::Zero(width, width);
+        double squares = 0.0;
+        for (const std::size_t row : rows) {
+            const double error = at.errors[row];
+            for (Eigen::Index k = 0; k < width; ++k)
+                slope(k) = at.by_parameter[free[static_cast<std::size_t>(k)]][row];
+            gradient += error * slope;
+            own += slope * slope.transpose();
+            squares += error * error;
+        }
+        const double weight = 1.0 / (static_cast<double>(rows.size()) + squares);
+        normal += weight * own;
+        scatter += (weight * weight) * gradient * gradient.transpose();
+    }
+    const Eigen::MatrixXd inverse = normal.completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::MatrixXd of_free = inverse * scatter * inverse;
+    const auto all = static_cast<Eigen::Index>(parameters.size());
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(all, all);
+    for (Eigen::Index i = 0; i < width; ++i)
+        for (Eigen::Index k = 0; k < width; ++k) {
+            const std::size_t a = free[static_cast<std::size_t>(i)], b = free[static_cast<std::size_t>(k)];
+            covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
+                of_free(i, k) * parameters.scale(a) * parameters.scale(b);
+        }
+    return covariance;
+}
+
+}  // namespace
+
+double scale_of(const plant::EffectParameter& parameter) {
+    constexpr double share_of_value = 0.2, share_of_range = 0.05;
+    if (parameter.vanishing != parameter.typical) return std::abs(parameter.typical - parameter.vanishing);
+    if (parameter.unit == "rad" || parameter.typical == 0.0 || parameter.low < 0.0)
+        return share_of_range * (parameter.high - parameter.low);
+    return share_of_value * std::abs(parameter.typical);
+}
+
+Fit fit(const Predict& predict, std::span<const Window> windows, const std::vector<bool>& counted,
+        const Hypothesis& start, const FitOptions& options) {
+    Parameters parameters(start);
+    Linearised linearised(predict, parameters);
+    linearised.PrepareForEvaluation(false, true);
+    const auto size = static_cast<Eigen::Index>(parameters.size());
+    Fit result{start, total_loss(windows, counted, linearised.errors), Eigen::MatrixXd::Zero(size, size)};
+    if (parameters.size() == 0 || linearised.errors.empty()) return result;
+
+    ceres::Problem::Options how;
+    how.evaluation_callback = &linearised;
+    ceres::Problem problem(how);
+    auto* const loss = new ceres::CauchyLoss(1.0);  // owned by the problem
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        if (!counted[w]) continue;
+        std::vector<std::size_t> rows = counted_rows(windows[w], linearised.errors);
+        if (rows.empty()) continue;
+        problem.AddResidualBlock(
+            new WindowErrors(linearised, std::move(rows), static_cast<int>(parameters.size())), loss,
+            parameters.values.data());
+    }
+    if (problem.NumResidualBlocks() == 0) return result;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+        problem.SetParameterLowerBound(parameters.values.data(), static_cast<int>(k), parameters.low(k));
+        problem.SetParameterUpperBound(parameters.values.data(), static_cast<int>(k), parameters.high(k));
+    }
+    ceres::Solver::Options solver;
+    solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+    solver.max_num_iterations = options.most_iterations;
+    solver.function_tolerance = 1e-5;
+    solver.parameter_tolerance = 1e-5;
+    solver.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, &problem, &summary);
+
+    linearised.PrepareForEvaluation(true, true);
+    const double loss_there = total_loss(windows, counted, linearised.errors);
+    if (!(loss_there < result.loss)) return result;
+    result.hypothesis = parameters.at(parameters.values);
+    result.loss = loss_there;
+    result.covariance = sandwich(linearised, windows, counted, parameters);
+    return result;
+}
+
+}  // namespace fidservo::gap

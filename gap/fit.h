@@ -1,0 +1,38 @@
+#pragma once
+// The parameters of a hypothesis that predict recordings best.
+#include "gap/evidence.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace fidservo::gap {
+
+/// Errors of a hypothesis, as Evidence::errors gives them; empty if the plant refuses it.
+using Predict = std::function<Errors(const Hypothesis&)>;
+
+struct Fit {
+    Hypothesis hypothesis;
+    double loss = 0.0;  ///< of the windows fitted, as in gap/score.h
+    /// Of all parameters in order, from the scatter of the windows' gradients (sandwich), which holds where
+    /// errors within a window are not independent. Zero for parameters at a bound.
+    Eigen::MatrixXd covariance;
+};
+
+struct FitOptions {
+    int most_iterations = 15;
+};
+
+/// Minimises the windows' total loss over all parameters of the hypothesis within their bounds, from the
+/// values given: Levenberg-Marquardt on the windows' errors, reweighted by the loss (Ceres).
+/// @param counted  which windows to fit
+Fit fit(const Predict& predict, std::span<const Window> windows, const std::vector<bool>& counted,
+        const Hypothesis& start, const FitOptions& options = {});
+
+/// Length over which a parameter matters: what separates its typical value from its vanishing one, or for a
+/// shape a share of its typical value or of its range.
+double scale_of(const plant::EffectParameter& parameter);
+
+}  // namespace fidservo::gap

@@ -1,0 +1,95 @@
+#include "gap/gap_size.h"
+
+#include "core/random.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fidservo::gap {
+namespace {
+
+/// Sums over windows: squared errors in floors, and the number of values.
+struct Sums {
+    std::array<double, signal_count> before{}, after{}, values{};
+
+    void add(const Window& window, double before_square, double after_square) {
+        if (std::isnan(before_square) || std::isnan(after_square)) return;
+        const auto signal = static_cast<std::size_t>(window.signal);
+        const auto count = static_cast<double>(window.end - window.begin);
+        before[signal] += count * before_square;
+        after[signal] += count * after_square;
+        values[signal] += count;
+    }
+
+    TotalGap total() const {
+        double sum_before = 0.0, sum_after = 0.0, signals = 0.0;
+        for (std::size_t s = 0; s < signal_count; ++s) {
+            if (values[s] == 0.0) continue;
+            sum_before += before[s] / values[s];
+            sum_after += after[s] / values[s];
+            signals += 1.0;
+        }
+        if (signals == 0.0) return {1.0, 1.0};
+        return {std::sqrt(sum_before / signals), std::sqrt(sum_after / signals)};
+    }
+};
+
+}  // namespace
+
+std::vector<SignalGap> signal_gaps(const Evidence& evidence, std::span<const double> before,
+                                   std::span<const double> after) {
+    Sums sums;
+    for (std::size_t w = 0; w < before.size(); ++w) sums.add(evidence.windows()[w], before[w], after[w]);
+    std::vector<SignalGap> gaps;
+    for (std::size_t s = 0; s < signal_count; ++s) {
+        if (sums.values[s] == 0.0) continue;
+        const auto signal = static_cast<Signal>(s);
+        const double floor = evidence.floor(signal);
+        gaps.push_back({signal, floor * std::sqrt(sums.before[s] / sums.values[s]),
+                        floor * std::sqrt(sums.after[s] / sums.values[s]), floor});
+    }
+    return gaps;
+}
+
+TotalGap total_gap(std::span<const SignalGap> signals) {
+    if (signals.empty()) return {1.0, 1.0};
+    double before = 0.0, after = 0.0;
+    for (const SignalGap& signal : signals) {
+        before += std::pow(signal.before / signal.floor, 2);
+        after += std::pow(signal.after / signal.floor, 2);
+    }
+    const auto count = static_cast<double>(signals.size());
+    return {std::sqrt(before / count), std::sqrt(after / count)};
+}
+
+double TotalGap::removed() const {
+    const double excess = before * before - 1.0;
+    return excess > 0.0 ? std::clamp(1.0 - (after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
+}
+
+std::pair<double, double> removed_interval(const Evidence& evidence, std::span<const double> before,
+                                           std::span<const double> after) {
+    constexpr int draws = 400;
+    constexpr std::size_t block = 3;
+    constexpr double tail = 0.025;
+    const std::size_t blocks = (before.size() + block - 1) / block;
+    if (blocks == 0) return {0.0, 0.0};
+    NoiseStream random(1, "bootstrap of the gap removed");
+    std::vector<double> removed;
+    for (int draw = 0; draw < draws; ++draw) {
+        Sums sums;
+        for (std::size_t k = 0; k < blocks; ++k) {
+            const auto which = std::min(
+                blocks - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(blocks)));
+            for (std::size_t w = block * which; w < std::min(before.size(), block * (which + 1)); ++w)
+                sums.add(evidence.windows()[w], before[w], after[w]);
+        }
+        removed.push_back(sums.total().removed());
+    }
+    std::ranges::sort(removed);
+    const auto at = [&](double share) { return removed[static_cast<std::size_t>(share * (draws - 1))]; };
+    return {at(tail), at(1.0 - tail)};
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,26 @@
+#pragma once
+// How large a gap is, and how much of it an explanation removes.
+//
+// Of a signal: r.m.s. error over all values of held-out windows, against its floor. Of a rig: r.m.s. of these
+// ratios over the signals. What is removed is counted in what exceeds the floor:
+//
+//     removed = 1 - (after^2 - 1) / (before^2 - 1),  clipped to 0 .. 1
+#include "gap/diagnosis.h"
+#include "gap/evidence.h"
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace fidservo::gap {
+
+std::vector<SignalGap> signal_gaps(const Evidence& evidence, std::span<const double> before,
+                                   std::span<const double> after);
+
+TotalGap total_gap(std::span<const SignalGap> signals);
+
+/// 95 % interval of what is removed, by drawing the windows again in blocks of three (bootstrap, 400 draws).
+std::pair<double, double> removed_interval(const Evidence& evidence, std::span<const double> before,
+                                           std::span<const double> after);
+
+}  // namespace fidservo::gap

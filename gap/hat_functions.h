@@ -1,0 +1,29 @@
+#pragma once
+// Piecewise linear functions over knots, one for each knot: 1 there, 0 at all others.
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// Knots with the same number of values between any two. @param values  sorted here
+inline std::vector<double> knots_by_share(std::vector<float> values, std::size_t count) {
+    std::vector<double> knots;
+    if (values.empty()) return knots;
+    std::ranges::sort(values);
+    for (std::size_t k = 0; k < count; ++k) {
+        const double knot = values[k * (values.size() - 1) / (count - 1)];
+        if (knots.empty() || knot > knots.back() + 1e-9) knots.push_back(knot);
+    }
+    return knots;
+}
+
+/// Value of hat k at x; constant beyond the outer knots.
+inline double hat(const std::vector<double>& knots, std::size_t k, double x) {
+    if (k > 0 && x < knots[k]) return std::max(0.0, 1.0 - (knots[k] - x) / (knots[k] - knots[k - 1]));
+    if (k + 1 < knots.size() && x > knots[k])
+        return std::max(0.0, 1.0 - (x - knots[k]) / (knots[k + 1] - knots[k]));
+    return 1.0;
+}
+
+}  // namespace fidservo::gap

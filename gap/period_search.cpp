@@ -1,0 +1,124 @@
+#include "gap/period_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include <Eigen/Dense>
+
+namespace fidservo::gap {
+namespace {
+
+constexpr double shortest_mm = 0.8, longest_mm = 50.0;
+constexpr double moving_mm_per_s = 1.0;
+constexpr std::size_t every = 4;  ///< rows that are compared; the carriage is followed through all
+
+using Rows = Eigen::Index;
+
+/// A window's rows, ready for waves of any period.
+struct Stretch {
+    std::vector<float> position_mm;
+    std::vector<char> moves;
+    std::vector<Rows> compared;
+    Eigen::MatrixXd start;   ///< orthonormal: what an unknown state at the start adds
+    Eigen::VectorXd errors;  ///< without that
+    double weight = 0.0;
+    std::vector<std::complex<float>> wave, turn;  ///< exp(i k y) and its change from one k to the next
+};
+
+Stretch stretch_of(const Evidence& evidence, const Window& window, const Errors& errors) {
+    const Course& course = evidence.course(window.run);
+    const double decay = evidence.rig().macro.velocity_pole;
+    Stretch stretch;
+    double way = 0.0, velocity = 1.0;
+    std::vector<double> ways, values;
+    for (std::size_t k = 0; k < window.rows; ++k) {
+        const std::size_t row = window.first_row + k;
+        stretch.position_mm.push_back(course.position_mm[row]);
+        stretch.moves.push_back(std::abs(course.velocity_mm_per_s[row]) > moving_mm_per_s);
+        const float error = errors[window.begin + k];
+        if (k % every == 0 && !std::isnan(error)) {
+            stretch.compared.push_back(static_cast<Rows>(k));
+            ways.push_back(way);
+            values.push_back(error);
+        }
+        velocity *= decay;
+        way += velocity;
+    }
+    const auto height = static_cast<Rows>(values.size());
+    if (height < 8 || std::ranges::count(stretch.moves, 1) == 0) return {};
+    Eigen::MatrixXd start(height, 2);
+    start.col(0).setOnes();
+    start.col(1) = Eigen::Map<const Eigen::VectorXd>(ways.data(), height);
+    stretch.start =
+        Eigen::HouseholderQR<Eigen::MatrixXd>(start).householderQ() * Eigen::MatrixXd::Identity(height, 2);
+    const Eigen::Map<const Eigen::VectorXd> all(values.data(), height);
+    stretch.errors = all - stretch.start * (stretch.start.transpose() * all);
+    stretch.weight = 1.0 / (static_cast<double>(height) + all.squaredNorm());
+    return stretch;
+}
+
+/// Sums of weighted least squares of four columns.
+struct Normal {
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+};
+
+/// Sine and cosine of the position, as readings and as what they do as forces.
+void add(Normal& normal, const Stretch& stretch, double decay) {
+    const auto height = static_cast<Rows>(stretch.compared.size());
+    Eigen::Matrix<double, Eigen::Dynamic, 4> columns(height, 4);
+    std::complex<double> velocity = 0.0, way = 0.0;
+    Rows next = 0;
+    for (std::size_t k = 0; k < stretch.wave.size() && next < height; ++k) {
+        const std::complex<double> wave(stretch.wave[k]);
+        if (static_cast<Rows>(k) == stretch.compared[static_cast<std::size_t>(next)])
+            columns.row(next++) << wave.real(), wave.imag(), way.real(), way.imag();
+        velocity = stretch.moves[k] != 0 ? decay * velocity + (1.0 - decay) * wave : 0.0;
+        way += 1e-2 * velocity;
+    }
+    columns -= stretch.start * (stretch.start.transpose() * columns);
+    normal.matrix += stretch.weight * columns.transpose() * columns;
+    normal.right += stretch.weight * columns.transpose() * stretch.errors;
+}
+
+}  // namespace
+
+PositionPeriod strongest_period(const Evidence& evidence, const Errors& errors) {
+    std::vector<Stretch> stretches;
+    double squares = 0.0, low_mm = 1e9, high_mm = -1e9;
+    for (const Window& window : evidence.windows()) {
+        if (window.signal != Signal::encoder) continue;
+        Stretch stretch = stretch_of(evidence, window, errors);
+        if (stretch.compared.empty()) continue;
+        squares += stretch.weight * stretch.errors.squaredNorm();
+        const auto [low, high] = std::ranges::minmax(stretch.position_mm);
+        low_mm = std::min<double>(low_mm, low);
+        high_mm = std::max<double>(high_mm, high);
+        stretches.push_back(std::move(stretch));
+    }
+    if (stretches.empty() || high_mm - low_mm < 2.0 * shortest_mm) return {};
+    const double first = 1.0 / std::min(longest_mm, high_mm - low_mm), step = 0.5 / (high_mm - low_mm);
+    for (Stretch& stretch : stretches)
+        for (const float position_mm : stretch.position_mm) {
+            const double angle = 2.0 * std::numbers::pi * position_mm;
+            stretch.wave.emplace_back(std::polar(1.0, angle * first));
+            stretch.turn.emplace_back(std::polar(1.0, angle * step));
+        }
+    const double decay = evidence.rig().macro.velocity_pole;
+    PositionPeriod best;
+    for (double per_mm = first; per_mm <= 1.0 / shortest_mm; per_mm += step) {
+        Normal normal;
+        for (Stretch& stretch : stretches) {
+            add(normal, stretch, decay);
+            for (std::size_t k = 0; k < stretch.wave.size(); ++k) stretch.wave[k] *= stretch.turn[k];
+        }
+        const double taken =
+            normal.right.dot(normal.matrix.completeOrthogonalDecomposition().solve(normal.right));
+        if (taken > best.share * squares) best = {1.0 / per_mm, taken / squares};
+    }
+    return best;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,116 @@
+#include "gap/hat_functions.h"
+#include "gap/surrogate.h"
+#include "plant/effects/catalogue.h"
+
+#include <cmath>
+#include <functional>
+
+namespace fidservo::gap {
+namespace {
+
+/// What a row offers to the functions below.
+struct Row {
+    double temperature_degC, contraction_mm, command_V, macro_command_V, carriage_mm_per_s2, time_s;
+    double direction;  ///< of the temperature: -1 cooling, 1 heating
+};
+
+class Columns {
+  public:
+    explicit Columns(const Evidence& evidence) : evidence_(evidence) {
+        for (const Window& window : evidence.windows())
+            if (window.signal == Signal::hall) size_ = std::max(size_, window.end);
+    }
+
+    Row row(const Window& window, std::size_t k) const {
+        constexpr std::size_t look_back = 20;
+        const Course& course = evidence_.course(window.run);
+        const Recording& recording = evidence_.recordings()[window.run];
+        const std::size_t before = k >= look_back ? k - look_back : 0;
+        const double tick_s = evidence_.rig().tick_s;
+        const bool has_carriage = !course.velocity_mm_per_s.empty();
+        return {course.temperature_degC[k],
+                course.contraction_mm[k],
+                recording.rows[k].micro_command_V,
+                recording.rows[k].macro_command_V,
+                has_carriage && k > 0
+                    ? (course.velocity_mm_per_s[k] - course.velocity_mm_per_s[k - 1]) / tick_s
+                    : 0.0,
+                seconds(recording.rows[k].time_ns - recording.rows.front().time_ns),
+                course.temperature_degC[k] < course.temperature_degC[before] ? -1.0 : 1.0};
+    }
+
+    Column of(Dependence group,
+              const std::function<double(const Window&, std::size_t, const Row&)>& value) const {
+        Column column{static_cast<int>(group), std::vector<float>(size_, 0.0F)};
+        for (const Window& window : evidence_.windows()) {
+            if (window.signal != Signal::hall) continue;
+            for (std::size_t k = 0; k < window.rows; ++k) {
+                const double here = value(window, k, row(window, window.first_row + k));
+                column.values[window.begin + k] = std::isfinite(here) ? static_cast<float>(here) : 0.0F;
+            }
+        }
+        return column;
+    }
+
+    std::vector<float> all(const std::function<double(const Row&)>& quantity) const {
+        constexpr std::size_t every = 11;
+        std::vector<float> values;
+        for (const Window& window : evidence_.windows()) {
+            if (window.signal != Signal::hall) continue;
+            for (std::size_t k = 0; k < window.rows; k += every) {
+                const double value = quantity(row(window, window.first_row + k));
+                if (std::isfinite(value)) values.push_back(static_cast<float>(value));
+            }
+        }
+        return values;
+    }
+
+  private:
+    const Evidence& evidence_;
+    std::size_t size_ = 0;
+};
+
+/// What a wire that is warmer by a degree does to the errors: the tangent of the ambient temperature.
+Errors by_warmth(const Evidence& evidence) {
+    const plant::Effect* ambient = plant::find_effect("ambient_temperature");
+    const Wanted wanted = everything(evidence);
+    Errors cold = evidence.errors({}, wanted);
+    const Errors warm = evidence.errors({{ambient, {1.0}}}, wanted);
+    for (std::size_t k = 0; k < cold.size() && k < warm.size(); ++k) cold[k] = warm[k] - cold[k];
+    return cold;
+}
+
+}  // namespace
+
+Surrogate platform_surrogate(const Evidence& evidence, const Errors&) {
+    const Columns make(evidence);
+    Surrogate surrogate{Signal::hall, {}, {}};
+    std::vector<Column>& columns = surrogate.columns;
+    const Errors warmth = by_warmth(evidence);
+    const auto add_hats = [&](Dependence group, std::size_t count, bool of_temperature,
+                              const std::function<double(const Row&)>& quantity) {
+        const std::vector<double> knots = knots_by_share(make.all(quantity), count);
+        if (knots.size() < 2) return;
+        for (std::size_t j = 0; j < knots.size(); ++j)
+            columns.push_back(make.of(group, [&, j](const Window& window, std::size_t k, const Row& at) {
+                return hat(knots, j, quantity(at)) * (of_temperature ? warmth[window.begin + k] : 1.0);
+            }));
+    };
+    add_hats(Dependence::contraction, 10, false, [](const Row& at) { return at.contraction_mm; });
+    add_hats(Dependence::time, 6, false, [](const Row& at) { return at.time_s; });
+    add_hats(Dependence::temperature, 8, true, [](const Row& at) { return at.temperature_degC; });
+    add_hats(Dependence::command, 8, true, [](const Row& at) { return at.command_V; });
+    columns.push_back(make.of(Dependence::direction, [&](const Window& window, std::size_t k, const Row& at) {
+        return at.direction * warmth[window.begin + k];
+    }));
+    columns.push_back(make.of(Dependence::direction,
+                              [](const Window&, std::size_t, const Row& at) { return at.direction; }));
+    columns.push_back(make.of(Dependence::macro_command,
+                              [](const Window&, std::size_t, const Row& at) { return at.macro_command_V; }));
+    columns.push_back(make.of(Dependence::acceleration, [](const Window&, std::size_t, const Row& at) {
+        return 1e-3 * at.carriage_mm_per_s2;
+    }));
+    return surrogate;
+}
+
+}  // namespace fidservo::gap

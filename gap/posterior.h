@@ -1,0 +1,20 @@
+#pragma once
+// How probable explanations are, from what they leave on windows that they were not fitted to.
+//
+// A window's values are correlated, and the model's small faults are not noise: a window counts as
+// `values_per_window` independent values,
+//
+//     p_c ~ exp(-values_per_window sum_w l_w)      l_w: gap/score.h
+//
+// a number that is set so that the probabilities are true on rigs of another model (docs/diagnosis.md).
+#include <span>
+#include <vector>
+
+namespace fidservo::gap {
+
+inline constexpr double values_per_window = 1.0;
+
+/// @param losses  of the explanations, each the sum over the same windows
+std::vector<double> probabilities(std::span<const double> losses);
+
+}  // namespace fidservo::gap

@@ -1,0 +1,131 @@
+#include "gap/regression.h"
+
+#include "gap/score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <Eigen/Dense>
+
+namespace fidservo::gap {
+namespace {
+
+/// Of the columns' own weight: enough to hold columns that hardly differ from each other.
+constexpr double ridge = 1e-3;
+constexpr double least_gain = 0.5;
+
+Eigen::MatrixXd gram_of(const Window& window, const Errors& errors, std::span<const Column> columns,
+                        std::span<const Column> nuisances, double& count) {
+    std::vector<std::size_t> rows;
+    for (std::size_t row = window.begin; row < window.end; ++row)
+        if (!std::isnan(errors[row])) rows.push_back(row);
+    count = static_cast<double>(rows.size());
+    const auto height = static_cast<Eigen::Index>(rows.size());
+    const auto width = static_cast<Eigen::Index>(columns.size());
+    Eigen::MatrixXf all(height, width + 1), unknown(height, static_cast<Eigen::Index>(nuisances.size()));
+    for (Eigen::Index i = 0; i < height; ++i) {
+        const std::size_t row = rows[static_cast<std::size_t>(i)];
+        for (Eigen::Index k = 0; k < width; ++k) all(i, k) = columns[static_cast<std::size_t>(k)].values[row];
+        all(i, width) = errors[row];
+        for (Eigen::Index k = 0; k < unknown.cols(); ++k)
+            unknown(i, k) = nuisances[static_cast<std::size_t>(k)].values[row];
+    }
+    const Eigen::MatrixXd full = (all.transpose() * all).cast<double>();
+    if (unknown.cols() == 0 || height <= unknown.cols()) return full;
+    const Eigen::MatrixXd mixed = (unknown.transpose() * all).cast<double>();
+    const Eigen::MatrixXd own = (unknown.transpose() * unknown).cast<double>();
+    return full - mixed.transpose() * own.completeOrthogonalDecomposition().solve(mixed);
+}
+
+double square_of(const CondensedWindow& window, std::span<const Eigen::Index> columns,
+                 const Eigen::VectorXd& factors) {
+    const Eigen::Index last = window.gram.cols() - 1;
+    double square = window.gram(last, last);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const double factor = factors(static_cast<Eigen::Index>(i));
+        square -= 2.0 * factor * window.gram(columns[i], last);
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            square += factor * factors(static_cast<Eigen::Index>(k)) * window.gram(columns[i], columns[k]);
+    }
+    return std::max(0.0, square) / window.count;
+}
+
+}  // namespace
+
+Regression::Regression(std::span<const Window> windows, Signal signal, const Errors& errors,
+                       std::span<const Column> columns, std::span<const Column> nuisances,
+                       std::span<const std::uint8_t> half)
+    : windows_(windows) {
+    for (const Column& column : columns) group_of_.push_back(column.group);
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        if (windows[w].signal != signal) continue;
+        CondensedWindow condensed{w, half[w], 0.0, {}};
+        condensed.gram = gram_of(windows[w], errors, columns, nuisances, condensed.count);
+        if (condensed.count > 0.0) condensed_.push_back(std::move(condensed));
+    }
+}
+
+Eigen::VectorXd Regression::solve(std::span<const Eigen::Index> columns, std::uint8_t half) const {
+    const auto width = static_cast<Eigen::Index>(columns.size());
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(width, width);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(width);
+    for (const CondensedWindow& window : condensed_) {
+        if (window.half != half) continue;
+        const Eigen::Index last = window.gram.cols() - 1;
+        const double weight = 1.0 / (window.count + window.gram(last, last));
+        for (Eigen::Index i = 0; i < width; ++i) {
+            const Eigen::Index a = columns[static_cast<std::size_t>(i)];
+            right(i) += weight * window.gram(a, last);
+            for (Eigen::Index k = 0; k < width; ++k)
+                normal(i, k) += weight * window.gram(a, columns[static_cast<std::size_t>(k)]);
+        }
+    }
+    const double floor = 1e-12 * std::max(1e-300, normal.diagonal().maxCoeff());
+    normal.diagonal() += ridge * normal.diagonal() + Eigen::VectorXd::Constant(width, floor);
+    return normal.ldlt().solve(right);
+}
+
+std::vector<double> Regression::mean_squares(std::span<const int> groups) const {
+    std::vector<Eigen::Index> columns;
+    for (std::size_t k = 0; k < group_of_.size(); ++k)
+        if (std::ranges::find(groups, group_of_[k]) != groups.end())
+            columns.push_back(static_cast<Eigen::Index>(k));
+    const Eigen::VectorXd of_half[2] = {solve(columns, 0), solve(columns, 1)};
+    std::vector<double> squares(windows_.size(), std::numeric_limits<double>::quiet_NaN());
+    for (const CondensedWindow& window : condensed_)
+        squares[window.window] = square_of(window, columns, of_half[1 - window.half]);
+    return squares;
+}
+
+std::vector<int> Regression::significant_groups(double tail) const {
+    const std::set<int> all(group_of_.begin(), group_of_.end());
+    std::vector<int> taken;
+    std::vector<double> before = mean_squares(taken);
+    int trials = 0;
+    for (;;) {
+        int best = -1;
+        Comparison of_best;
+        std::vector<double> after_best;
+        for (const int group : all) {
+            if (std::ranges::find(taken, group) != taken.end()) continue;
+            std::vector<int> more = taken;
+            more.push_back(group);
+            std::vector<double> after = mean_squares(more);
+            const Comparison comparison = compare(windows_, before, after);
+            ++trials;
+            if (best >= 0 && comparison.gain <= of_best.gain) continue;
+            best = group;
+            of_best = comparison;
+            after_best = std::move(after);
+        }
+        const bool is_real = best >= 0 && of_best.gain > least_gain &&
+                             of_best.significance > significance_bound(of_best.blocks, trials, tail);
+        if (!is_real) return taken;
+        taken.push_back(best);
+        before = std::move(after_best);
+    }
+}
+
+}  // namespace fidservo::gap

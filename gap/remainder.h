@@ -1,0 +1,14 @@
+#pragma once
+// What an explanation leaves, and what that depends on.
+#include "gap/diagnosis.h"
+#include "gap/selection.h"
+
+#include <optional>
+
+namespace fidservo::gap {
+
+/// A flexible model of what is left of each signal (surrogate.h), fitted on one half of the windows and
+/// judged on the other. Empty where it predicts nothing beyond chance.
+std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail);
+
+}  // namespace fidservo::gap

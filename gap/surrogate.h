@@ -1,0 +1,50 @@
+#pragma once
+// Flexible models of what may be wrong with a stretch of the signal chain, without a name for it: any
+// function of velocity, any function of position, any periodic function of position, and so on, each a group
+// of columns for gap/regression.h. What acts as a force is passed through the nominal carriage first
+//
+//     tau dv/dt = K f - v,   dy/dt = v
+//
+// so that no recorded position is differentiated.
+#include "gap/evidence.h"
+#include "gap/regression.h"
+
+#include <string_view>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// What a remainder may depend on.
+enum class Dependence : std::uint8_t {
+    velocity,
+    direction,
+    position,
+    position_period,
+    acceleration,
+    command,
+    time,
+    temperature,
+    contraction,
+    macro_command,
+    image_place,
+};
+
+std::string_view name_of(Dependence dependence);
+
+struct Surrogate {
+    Signal signal;
+    std::vector<Column> columns;    ///< group: a Dependence
+    std::vector<Column> nuisances;  ///< of the state at a window's start
+    double period_mm = 0.0;         ///< of Dependence::position_period
+};
+
+/// Of the encoder's errors.
+Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors);
+
+/// Of the Hall reading's errors.
+Surrogate platform_surrogate(const Evidence& evidence, const Errors& errors);
+
+/// The block that errors of a signal accuse by what they depend on first.
+std::string_view block_of(Signal signal, Dependence dependence);
+
+}  // namespace fidservo::gap

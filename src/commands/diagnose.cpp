@@ -1,0 +1,89 @@
+// fidservo diagnose: where recordings of a rig and its simulator disagree, and by which effect.
+#include "gap/diagnose.h"
+
+#include "core/failure.h"
+#include "plant/effects/catalogue.h"
+#include "src/commands/commands.h"
+#include "src/config/rig_file.h"
+#include "src/diagnose/diagnosis_json.h"
+#include "src/recording/durable_file.h"
+#include "src/recording/reader.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+namespace fidservo {
+namespace {
+
+struct DiagnoseOptions {
+    std::vector<std::filesystem::path> recordings;
+    std::filesystem::path rig_file;
+    std::vector<std::string> only, without;
+    std::filesystem::path json, report, write_rig;
+};
+
+void demand_effects(const char* option, const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+        if (plant::find_effect(name) == nullptr)
+            throw InputError(fmt::format(
+                "{}: {}: there is no such effect; fidservo simulate --help lists them", option, name));
+}
+
+std::vector<Recording> read_recordings(const std::vector<std::filesystem::path>& paths) {
+    std::vector<Recording> recordings;
+    for (const std::filesystem::path& path : paths)
+        for (const std::filesystem::path& folder : find_recordings(path))
+            recordings.push_back(read_recording(folder));
+    return recordings;
+}
+
+int run_diagnose(const DiagnoseOptions& options) {
+    if (options.recordings.empty()) throw InputError("RECORDING: give one recording folder at least");
+    demand_effects("--effects", options.only);
+    demand_effects("--without", options.without);
+    demand_new_file("--json", options.json);
+    demand_new_file("--report", options.report);
+    demand_new_file("--write-rig", options.write_rig);
+    const gap::Evidence evidence(load_rig(options.rig_file), read_recordings(options.recordings));
+    const gap::Diagnosis diagnosis =
+        gap::diagnose(evidence, {.only = options.only, .without = options.without, .selection = {}});
+    fmt::print("{}", describe(diagnosis));
+    if (!options.json.empty()) write_or_throw(options.json, diagnosis_json(diagnosis));
+    if (!options.write_rig.empty()) {
+        write_diagnosed_rig(options.write_rig, options.rig_file, diagnosis);
+        fmt::print("rig file: {}\n", options.write_rig.string());
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<DiagnoseOptions>();
+    CLI::App* command = app.add_subcommand(
+        "diagnose", "Where recordings of a rig and its simulator disagree, and by which effect");
+    command->add_option("RECORDING", options->recordings, "Recording folders, or folders that hold some")
+        ->option_text("...");
+    add_rig_option(*command, options->rig_file);
+    command->add_option("--effects", options->only, "Try these effects only")
+        ->delimiter(',')
+        ->type_name("A,B,..");
+    command
+        ->add_option("--without", options->without,
+                     "Leave these effects out, and those no data tell from them")
+        ->delimiter(',')
+        ->type_name("A,B,..");
+    command->add_option("--json", options->json, "New file for the whole diagnosis")->type_name("FILE");
+    command->add_option("--report", options->report, "New file for the report")->type_name("FILE.html");
+    command->add_option("--write-rig", options->write_rig, "New rig file that states the effects found")
+        ->type_name("FILE.yaml");
+    add_example(*command, "fidservo diagnose --rig assets/rig.yaml recordings/ --json diagnosis.json");
+    command->callback([options, &exit_code] { exit_code = run_diagnose(*options); });
+}
+
+}  // namespace fidservo

@@ -1,0 +1,122 @@
+#include "src/diagnose/diagnosis_json.h"
+
+#include "src/config/rig_edit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace fidservo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Six digits: more would be noise.
+Json number(double value) {
+    if (!std::isfinite(value)) return nullptr;
+    return std::stod(fmt::format("{:.6g}", value));
+}
+
+Json json_of(const gap::FoundEffect& effect) {
+    Json parameters = Json::array();
+    for (const gap::FittedParameter& parameter : effect.parameters)
+        parameters.push_back({{"name", parameter.name},
+                              {"value", number(parameter.value)},
+                              {"unit", parameter.unit},
+                              {"std", number(parameter.std)}});
+    return {{"effect", effect.effect},
+            {"block", effect.block},
+            {"probability", number(effect.probability)},
+            {"parameters", parameters},
+            {"indistinguishable_from", effect.indistinguishable_from},
+            {"gap_removed", number(effect.gap_removed)},
+            {"gap_removed_interval", {number(effect.gap_removed_low), number(effect.gap_removed_high)}}};
+}
+
+Json json_of(const std::optional<gap::Remainder>& remainder) {
+    if (!remainder) return nullptr;
+    return {{"block", remainder->block}, {"depends_on", remainder->depends_on}, {"text", remainder->text}};
+}
+
+Json json_of(const std::optional<gap::ProposedExperiment>& proposed) {
+    if (!proposed) return nullptr;
+    return {
+        {"experiment", proposed->experiment}, {"separates", proposed->separates}, {"text", proposed->text}};
+}
+
+std::string described(const gap::FoundEffect& effect) {
+    std::string text =
+        fmt::format("  {} ({}), probability {:.2f}, gap removed so far {:.1f} %\n", effect.effect,
+                    effect.block, effect.probability, 100.0 * effect.gap_removed);
+    for (const gap::FittedParameter& parameter : effect.parameters)
+        text += fmt::format("    {} = {:.6g} +- {:.2g} {}\n", parameter.name, parameter.value, parameter.std,
+                            parameter.unit);
+    if (!effect.indistinguishable_from.empty())
+        text += fmt::format("    these data cannot tell it from: {}\n",
+                            fmt::join(effect.indistinguishable_from, ", "));
+    return text;
+}
+
+}  // namespace
+
+std::string diagnosis_json(const gap::Diagnosis& diagnosis) {
+    Json signals = Json::array(), where = Json::array(), effects = Json::array(), tried = Json::array();
+    for (const gap::SignalGap& signal : diagnosis.signals)
+        signals.push_back({{"signal", gap::name_of(signal.signal)},
+                           {"unit", gap::unit_of(signal.signal)},
+                           {"before", number(signal.before)},
+                           {"after", number(signal.after)},
+                           {"floor", number(signal.floor)}});
+    for (const gap::BlockProbability& block : diagnosis.where)
+        where.push_back({{"block", block.block}, {"probability", number(block.probability)}});
+    for (const gap::FoundEffect& effect : diagnosis.effects) effects.push_back(json_of(effect));
+    for (const gap::TriedEffect& effect : diagnosis.candidates)
+        tried.push_back({{"effect", effect.effect},
+                         {"probability", number(effect.probability)},
+                         {"gap_removed", number(effect.gap_removed)}});
+    const Json all{{"format", "fidservo-diagnosis/1"},
+                   {"verdict", gap::name_of(diagnosis.verdict)},
+                   {"signals", signals},
+                   {"where", where},
+                   {"effects", effects},
+                   {"candidates", tried},
+                   {"gap",
+                    {{"before", number(diagnosis.gap.before)},
+                     {"after", number(diagnosis.gap.after)},
+                     {"floor", 1.0},
+                     {"removed", number(diagnosis.gap.removed())}}},
+                   {"unexplained", json_of(diagnosis.unexplained)},
+                   {"next_experiment", json_of(diagnosis.next_experiment)}};
+    return all.dump(2) + "\n";
+}
+
+std::string describe(const gap::Diagnosis& diagnosis) {
+    std::string text = fmt::format("verdict: {}\n", gap::name_of(diagnosis.verdict));
+    text +=
+        fmt::format("gap: {:.3g} floors before, {:.4g} after\n", diagnosis.gap.before, diagnosis.gap.after);
+    for (const gap::SignalGap& signal : diagnosis.signals)
+        text += fmt::format("  {:<14} {:>9.4g} -> {:>8.4g} {} (floor {:.3g})\n", gap::name_of(signal.signal),
+                            signal.before, signal.after, gap::unit_of(signal.signal), signal.floor);
+    for (const gap::FoundEffect& effect : diagnosis.effects) text += described(effect);
+    if (diagnosis.unexplained) text += "unexplained: " + diagnosis.unexplained->text + "\n";
+    if (diagnosis.next_experiment) text += "next: " + diagnosis.next_experiment->text + "\n";
+    for (const std::string& note : diagnosis.notes) text += "note: " + note + "\n";
+    return text;
+}
+
+void write_diagnosed_rig(const std::filesystem::path& file, const std::filesystem::path& source,
+                         const gap::Diagnosis& diagnosis) {
+    RigEdit edit(source);
+    for (const plant::EffectSetting& setting : diagnosis.hypothesis) {
+        StatedEffect stated{std::string(setting.effect->name), {}};
+        for (std::size_t k = 0; k < setting.values.size(); ++k)
+            stated.parameters.push_back({std::string(setting.effect->parameters[k].name), setting.values[k]});
+        edit.state_effect(stated);
+    }
+    edit.save(file);
+}
+
+}  // namespace fidservo

@@ -1,0 +1,19 @@
+#pragma once
+#include "gap/diagnosis.h"
+
+#include <filesystem>
+#include <string>
+
+namespace fidservo {
+
+/// The file of `diagnose --json`: format fidservo-diagnosis/1.
+std::string diagnosis_json(const gap::Diagnosis& diagnosis);
+
+/// What a terminal shows of a diagnosis.
+std::string describe(const gap::Diagnosis& diagnosis);
+
+/// A copy of a rig file that states the diagnosed effects. Throws InputError if `file` exists.
+void write_diagnosed_rig(const std::filesystem::path& file, const std::filesystem::path& source,
+                         const gap::Diagnosis& diagnosis);
+
+}  // namespace fidservo
