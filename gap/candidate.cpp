@@ -31,7 +31,7 @@ std::vector<double> grid_of(const plant::EffectParameter& parameter, const Trave
         for (int k = 0; k < places; ++k)
             grid.push_back(within(range.low_mm + (range.high_mm - range.low_mm) * (k + 0.5) / places));
     } else if (parameter.low > 0.0 && parameter.high >= 20.0 * parameter.low) {
-        for (const double factor : {0.3, 1.0, 3.0}) grid.push_back(within(factor * parameter.typical));
+        for (const double factor : {0.4, 2.0}) grid.push_back(within(factor * parameter.typical));
     } else {
         grid.push_back(parameter.typical);
     }

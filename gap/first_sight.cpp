@@ -57,6 +57,15 @@ Eigen::VectorXd best_shares(std::span<const Window> windows, const std::vector<b
     return full.completeOrthogonalDecomposition().solve(right);
 }
 
+/// Errors if they changed in proportion to the sizes.
+Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen::VectorXd& shares) {
+    Errors sum = base;
+    for (std::size_t k = 0; k < changes.size(); ++k)
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += static_cast<float>(shares(static_cast<Eigen::Index>(k))) * changes[k][i];
+    return sum;
+}
+
 /// Loss saved in the windows that both predict.
 double gained(std::span<const Window> windows, const std::vector<bool>& counted, const Errors& base,
               const Errors& errors) {
@@ -76,7 +85,11 @@ Promise at_first_sight(const Predict& predict, std::span<const Window> windows,
                        const Candidate& candidate) {
     constexpr double probe = 0.25;  // of the typical size
     const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
-    Promise best{base, -std::numeric_limits<double>::infinity()};
+    struct Place {
+        const std::vector<double>* shape = nullptr;
+        Eigen::VectorXd shares;
+        double expected_gain = -std::numeric_limits<double>::infinity();
+    } best_place;
     for (const std::vector<double>& shape : candidate.shapes) {
         std::vector<Errors> changes;
         for (Eigen::Index k = 0; k < width; ++k) {
@@ -88,11 +101,15 @@ Promise at_first_sight(const Predict& predict, std::span<const Window> windows,
         }
         if (static_cast<Eigen::Index>(changes.size()) < width) continue;
         const Eigen::VectorXd shares = best_shares(windows, counted, base_errors, changes);
-        for (const double part : {1.0, 0.4}) {
-            const Hypothesis there = with(base, candidate, shape, part * shares);
-            const double gain = gained(windows, counted, base_errors, predict(there));
-            if (gain > best.gain) best = {there, gain};
-        }
+        const double expected = gained(windows, counted, base_errors, added(base_errors, changes, shares));
+        if (expected > best_place.expected_gain) best_place = {&shape, shares, expected};
+    }
+    Promise best{base, -std::numeric_limits<double>::infinity()};
+    if (best_place.shape == nullptr) return best;
+    for (const double part : {1.0, 0.4}) {
+        const Hypothesis there = with(base, candidate, *best_place.shape, part * best_place.shares);
+        const double gain = gained(windows, counted, base_errors, predict(there));
+        if (gain > best.gain) best = {there, gain};
     }
     return best;
 }

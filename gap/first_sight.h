@@ -11,8 +11,8 @@ struct Promise {
 };
 
 /// Along each shape of the grid the sizes that fit best if errors changed in proportion to them: weighted
-/// least squares of the base's errors against what each size changes. The best of these places, by the loss
-/// that it really has.
+/// least squares of the base's errors against what each size changes. The best shape by what that promises;
+/// `gain` is what it really saves.
 Promise at_first_sight(const Predict& predict, std::span<const Window> windows,
                        const std::vector<bool>& counted, const Hypothesis& base, const Errors& base_errors,
                        const Candidate& candidate);

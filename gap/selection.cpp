@@ -44,36 +44,29 @@ class Search {
         for (const Candidate& candidate : candidates_)
             if (std::ranges::find(added, &candidate) == added.end()) open.push_back(&candidate);
 
-        std::array<Errors, 2> base_errors;
-        parallel_for(2, [&](std::size_t side) { base_errors[side] = predict_all(base.of_half[side]); });
-        std::vector<std::array<Promise, 2>> promises(open.size());
+        const Errors base_errors = predict_all(base.of_half[0]);
+        std::vector<Promise> promises(open.size());
         parallel_for(open.size(), [&](std::size_t c) {
-            for (std::size_t side = 0; side < 2; ++side)
-                promises[c][side] =
-                    at_first_sight(predictor(side, base.of_half[side], *open[c]), evidence_.windows(),
-                                   in_half_[side], base.of_half[side], base_errors[side], *open[c]);
+            promises[c] = at_first_sight(predictor(0, base.of_half[0], *open[c]), evidence_.windows(),
+                                         in_half_[0], base.of_half[0], base_errors, *open[c]);
         });
-        std::vector<std::size_t> order(open.size());
-        std::iota(order.begin(), order.end(), 0);
-        const auto promised = [&](std::size_t c) { return promises[c][0].gain + promises[c][1].gain; };
-        std::ranges::sort(order, std::greater{}, promised);
-        order.resize(std::min(order.size(), static_cast<std::size_t>(options_.fits_per_step)));
-
+        trials_ += static_cast<int>(open.size());
+        const std::vector<std::size_t> order = worth_fitting(promises);
         std::vector<Trial> trials(order.size());
         parallel_for(order.size(), [&](std::size_t k) {
             const Candidate& candidate = *open[order[k]];
             Trial& trial = trials[k];
             trial.candidate = &candidate;
-            for (std::size_t side = 0; side < 2; ++side)
+            for (std::size_t side = 0; side < 2; ++side) {
+                Hypothesis start = base.of_half[side];
+                start.push_back(promises[order[k]].start.back());
                 trial.fitted.of_half[side] =
-                    fit(predictor(side, base.of_half[side], candidate), evidence_.windows(), in_half_[side],
-                        promises[order[k]][side].start)
-                        .hypothesis;
+                    fit(predictor(side, start), evidence_.windows(), in_half_[side], start).hypothesis;
+            }
             judge(trial.fitted);
             trial.against_base = compared(base, trial.fitted);
         });
         std::ranges::sort(trials, {}, [](const Trial& trial) { return trial.fitted.loss; });
-        trials_ += static_cast<int>(open.size());
         return trials;
     }
 
@@ -107,6 +100,20 @@ class Search {
   private:
     Errors predict_all(const Hypothesis& hypothesis) const {
         return evidence_.errors(hypothesis, everything(evidence_));
+    }
+
+    /// Those whose promise is not far behind the best one's, best first.
+    std::vector<std::size_t> worth_fitting(const std::vector<Promise>& promises) const {
+        constexpr double share_of_best = 0.25;
+        std::vector<std::size_t> order(promises.size());
+        std::iota(order.begin(), order.end(), 0);
+        const auto promised = [&](std::size_t c) { return promises[c].gain; };
+        std::ranges::sort(order, std::greater{}, promised);
+        order.resize(std::min(order.size(), static_cast<std::size_t>(options_.fits_per_step)));
+        const double least =
+            order.empty() ? 0.0 : std::max(least_gain, share_of_best * promised(order.front()));
+        std::erase_if(order, [&](std::size_t c) { return !(promised(c) > least); });
+        return order;
     }
 
     /// Of the windows of one half, in the signals that a hypothesis can change.
