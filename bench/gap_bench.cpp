@@ -32,8 +32,8 @@ void predict(benchmark::State& state, const std::string& effect, Signal signal) 
         return;
     }
     Wanted wanted = everything(campaign());
-    wanted.signals = {};
-    wanted.signals[static_cast<std::size_t>(signal)] = true;
+    for (std::size_t w = 0; w < wanted.size(); ++w)
+        wanted[w] = campaign().windows()[w].signal == signal ? 1 : 0;
     const Hypothesis hypothesis{plant::parse_effect(effect)};
     for (auto _ : state) benchmark::DoNotOptimize(campaign().errors(hypothesis, wanted));
 }

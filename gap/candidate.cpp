@@ -24,10 +24,13 @@ std::vector<double> grid_of(const plant::EffectParameter& parameter, const Trave
     std::vector<double> grid;
     if (parameter.unit == "rad") {
         for (const double share : {-1.0, 0.0, 1.0}) grid.push_back(share * 2.0 / 3.0 * std::numbers::pi);
+    } else if (parameter.unit == "Hz") {
+        constexpr double ratio = 1.15;  // of neighbours: half the width of a resonance of damping ratio 0.07
+        for (double value = parameter.low; value < parameter.high; value *= ratio) grid.push_back(value);
     } else if (parameter.unit == "deg") {
         for (const double angle_deg : {0.0, 90.0}) grid.push_back(within(angle_deg));
     } else if (parameter.unit == "mm" && parameter.low < 0.0) {
-        constexpr int places = 6;
+        constexpr int places = 12;
         for (int k = 0; k < places; ++k)
             grid.push_back(within(range.low_mm + (range.high_mm - range.low_mm) * (k + 0.5) / places));
     } else if (parameter.low > 0.0 && parameter.high >= 20.0 * parameter.low) {
@@ -39,12 +42,23 @@ std::vector<double> grid_of(const plant::EffectParameter& parameter, const Trave
     return grid;
 }
 
+/// Of an effect periodic in position: it has a phase, and its only shape in mm is the period.
+std::optional<std::size_t> period_of(const plant::Effect& effect) {
+    const auto& all = effect.parameters;
+    if (std::ranges::find(all, "rad", &plant::EffectParameter::unit) == all.end()) return {};
+    const auto period = std::ranges::find(all, "mm", &plant::EffectParameter::unit);
+    if (period == all.end()) return {};
+    return static_cast<std::size_t>(period - all.begin());
+}
+
 /// All combinations of the shapes' grids.
-std::vector<std::vector<double>> shapes_of(const plant::Effect& effect, const TravelledRange& range) {
+std::vector<std::vector<double>> shapes_of(const plant::Effect& effect, const TravelledRange& range,
+                                           std::optional<std::size_t> period) {
     std::vector<std::vector<double>> shapes{{}};
-    for (const plant::EffectParameter& parameter : effect.parameters) {
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+        const plant::EffectParameter& parameter = effect.parameters[k];
         const std::vector<double> grid =
-            says_how_large(parameter) ? std::vector{parameter.typical} : grid_of(parameter, range);
+            says_how_large(parameter) || k == period ? std::vector{parameter.typical} : grid_of(parameter, range);
         std::vector<std::vector<double>> longer;
         for (const std::vector<double>& shape : shapes)
             for (const double value : grid) {
@@ -94,7 +108,8 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
         if (std::ranges::none_of(reach, [&](Signal s) { return recorded[static_cast<std::size_t>(s)]; }))
             continue;
         Candidate candidate{
-            effect, {}, shapes_of(*effect, range), reach, std::string(class_of(effect->name))};
+            effect, {}, {}, period_of(*effect), reach, std::string(class_of(effect->name))};
+        candidate.shapes = shapes_of(*effect, range, candidate.period);
         for (std::size_t k = 0; k < effect->parameters.size(); ++k)
             if (says_how_large(effect->parameters[k])) candidate.sizes.push_back(k);
         found.push_back(std::move(candidate));

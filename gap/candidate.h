@@ -2,6 +2,7 @@
 // The effects that a diagnosis tries, and where their fits may begin.
 #include "gap/evidence.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@ struct Candidate {
     const plant::Effect* effect;
     std::vector<std::size_t> sizes;           ///< parameters that say how large; one at least
     std::vector<std::vector<double>> shapes;  ///< all values, sizes at typical ones, shapes over a grid
+    std::optional<std::size_t> period;        ///< parameter that the errors' own period begins with
     std::vector<Signal> reach;
     std::string class_name;  ///< effects that no data can tell apart share it, otherwise the effect's name
 };

@@ -114,7 +114,16 @@ class Lead {
     std::vector<double> errors_;
 };
 
-std::vector<double> simulate(const CarriageModel& model, const CarriageRun& run, CarriagePath* path) {
+/// Whether a window has to know what came before its 100 ms.
+bool carries_over(const plant::MacroAxis& axis) {
+    return axis.has_belt || axis.has_bristles || axis.parameters.play_mm != 0.0;
+}
+
+/// @param wanted  a flag for each window; empty: all
+std::vector<double> simulate(const CarriageModel& model, const CarriageRun& run,
+                             std::span<const std::uint8_t> wanted, CarriagePath* path) {
+    const bool may_skip = !wanted.empty() && !carries_over(model.axis);
+    std::size_t count = 0;
     const std::size_t rows = run.command_V.size();
     std::vector<double> predicted(rows, nan);
     CarriagePath motion = unknown_path(rows);
@@ -123,8 +132,15 @@ std::vector<double> simulate(const CarriageModel& model, const CarriageRun& run,
         const std::vector<WindowRows>& windows = run.windows[stretch];
         plant::MacroAxisState carried = first_state(model, run, windows.front().lead);
         plant::MacroAxisState state = carried;
+        bool skipped = false;
         for (std::size_t i = 0; i < windows.size(); ++i) {
             const WindowRows& window = windows[i];
+            if (may_skip && wanted[count++] == 0) {
+                skipped = true;
+                continue;
+            }
+            if (skipped) carried = first_state(model, run, window.lead);
+            skipped = false;
             state = lead.enter(window, carried);
             const std::size_t next_lead = i + 1 < windows.size() ? windows[i + 1].lead : window.end;
             run_rows(model, run, window.first, next_lead, state, motion);
@@ -155,12 +171,13 @@ CarriageModel carriage_model(const plant::PlantParameters& parameters) {
             plant::make_macro_axis(endless, parameters.tick_s), parameters.encoder};
 }
 
-std::vector<double> predicted_counts(const CarriageModel& model, const CarriageRun& run) {
-    return simulate(model, run, nullptr);
+std::vector<double> predicted_counts(const CarriageModel& model, const CarriageRun& run,
+                                     std::span<const std::uint8_t> wanted) {
+    return simulate(model, run, wanted, nullptr);
 }
 
 std::vector<double> predicted_counts(const CarriageModel& model, const CarriageRun& run, CarriagePath& path) {
-    return simulate(model, run, &path);
+    return simulate(model, run, {}, &path);
 }
 
 }  // namespace fidservo::gap

@@ -15,6 +15,8 @@
 #include "gap/carriage_run.h"
 #include "plant/stage_plant.h"
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace fidservo::gap {
@@ -29,10 +31,12 @@ struct CarriageModel {
 /// Throws InputError as make_macro_axis does.
 CarriageModel carriage_model(const plant::PlantParameters& parameters);
 
-/// Reading before rounding in counts for the rows of all windows; NaN elsewhere.
-std::vector<double> predicted_counts(const CarriageModel& model, const CarriageRun& run);
+/// Reading before rounding in counts for the rows of the windows wanted; NaN elsewhere, or there too.
+/// @param wanted  a flag for each of the run's windows, stretch after stretch
+std::vector<double> predicted_counts(const CarriageModel& model, const CarriageRun& run,
+                                     std::span<const std::uint8_t> wanted);
 
-/// The same, and the path.
+/// The same for all windows, and the path.
 std::vector<double> predicted_counts(const CarriageModel& model, const CarriageRun& run, CarriagePath& path);
 
 }  // namespace fidservo::gap

@@ -17,7 +17,7 @@ namespace {
 /// Probabilities of the alternatives of a choice, the one of no further effect at the end.
 std::vector<double> shares_of(const std::vector<Trial>& trials, double loss_without) {
     std::vector<double> losses;
-    for (const Trial& trial : trials) losses.push_back(trial.fitted.loss);
+    for (const Trial& trial : trials) losses.push_back(loss_without - trial.gain);
     losses.push_back(loss_without);
     return probabilities(losses);
 }
@@ -86,7 +86,10 @@ std::vector<TriedEffect> tried_effects(const Evidence& evidence, const Selection
         tried.push_back(
             {std::string(trial.candidate->effect->name), std::string(trial.candidate->effect->block),
              shares[k],
-             total_gap(signal_gaps(evidence, nothing.mean_squares, trial.fitted.mean_squares)).removed()});
+             trial.fitted.mean_squares.empty()
+                 ? 0.0
+                 : total_gap(signal_gaps(evidence, nothing.mean_squares, trial.fitted.mean_squares))
+                       .removed()});
     }
     return tried;
 }
@@ -124,7 +127,7 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
     diagnosis.effects = found_effects(evidence, selection, fitted);
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection);
-    diagnosis.unexplained = remainder_of(evidence, explained, options.selection.tail);
+    diagnosis.unexplained = remainder_of(evidence, explained, options.selection.search.tail);
     if (diagnosis.unexplained) {
         diagnosis.verdict = selection.choices.empty() ? Verdict::unexplained : Verdict::partly_explained;
         if (selection.choices.empty())

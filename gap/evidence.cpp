@@ -67,23 +67,30 @@ void write_detections(Errors& errors, const Window& window, const TagRun& run,
 /// Predicts those signals of a run that are asked for.
 class RunPredictor {
   public:
-    RunPredictor(const Evidence::Parts& parts, std::size_t run, const Models& models, bool other_carriage)
+    RunPredictor(const Evidence::Parts& parts, std::size_t run, const Wanted& wanted, const Models& models,
+                 bool other_carriage)
         : parts_(parts),
           links_(parts.links[run]),
           windows_(
               std::span(parts.windows)
                   .subspan(parts.first_window[run], parts.first_window[run + 1] - parts.first_window[run])),
+          wanted_(std::span(wanted).subspan(parts.first_window[run], windows_.size())),
           models_(models),
           other_carriage_(other_carriage) {}
 
-    void predict(const std::array<bool, signal_count>& signals, Errors& errors) {
+    void predict(const std::array<bool, signal_count>& touched, Errors& errors) {
+        std::array<bool, signal_count> signals{};
+        for (std::size_t w = 0; w < windows_.size(); ++w) {
+            const std::size_t signal = index_of(windows_[w].signal);
+            if (wanted_[w] != 0 && touched[signal]) signals[signal] = true;
+        }
         const bool hall = signals[index_of(Signal::hall)], tag = signals[index_of(Signal::tag)];
         const bool needs_path = other_carriage_ && (tag || (hall && models_.platform_feels_carriage));
         std::vector<double> counts;
         if (needs_path)
             counts = predicted_counts(models_.carriage, links_.carriage, path_);
         else if (signals[index_of(Signal::encoder)])
-            counts = predicted_counts(models_.carriage, links_.carriage);
+            counts = predicted_counts(models_.carriage, links_.carriage, wanted_of(Signal::encoder));
         if (signals[index_of(Signal::encoder)]) write_counts(counts, errors);
         if (hall && links_.platform) predict_hall(errors);
         if (tag && models_.tag) predict_tags(errors);
@@ -112,11 +119,13 @@ class RunPredictor {
 
     void predict_tags(Errors& errors) const {
         const SmoothedReading* reading = links_.smoothed ? &*links_.smoothed : nullptr;
+        const std::span<const std::uint8_t> wanted = wanted_of(Signal::tag);
         auto window = std::ranges::find(windows_, Signal::tag, &Window::signal);
-        for (const TagWindow& rows : links_.tags.windows)
-            write_detections(errors, *window++, links_.tags,
-                             tag_errors(*models_.tag, links_.tags, rows, path(), reading),
-                             parts_.floors[index_of(Signal::tag)]);
+        for (std::size_t i = 0; i < wanted.size(); ++i, ++window)
+            if (wanted[i] != 0)
+                write_detections(errors, *window, links_.tags,
+                                 tag_errors(*models_.tag, links_.tags, links_.tags.windows[i], path(), reading),
+                                 parts_.floors[index_of(Signal::tag)]);
     }
 
     void replay(Signal signal, Errors& errors) const {
@@ -129,14 +138,24 @@ class RunPredictor {
     /// @param error  of a row, in floors
     template <class RowError>
     void for_rows(Signal signal, Errors& errors, RowError error) const {
-        for (const Window& window : windows_)
-            for (std::size_t i = 0; window.signal == signal && i < window.rows; ++i)
+        for (std::size_t w = 0; w < windows_.size(); ++w) {
+            const Window& window = windows_[w];
+            if (window.signal != signal || wanted_[w] == 0) continue;
+            for (std::size_t i = 0; i < window.rows; ++i)
                 errors[window.begin + i] = static_cast<float>(error(window.first_row + i));
+        }
+    }
+
+    /// The flags of a signal's windows, which follow each other.
+    std::span<const std::uint8_t> wanted_of(Signal signal) const {
+        const auto own = std::ranges::equal_range(windows_, signal, {}, &Window::signal);
+        return wanted_.subspan(static_cast<std::size_t>(own.begin() - windows_.begin()), own.size());
     }
 
     const Evidence::Parts& parts_;
     const RunLinks& links_;
     std::span<const Window> windows_;
+    std::span<const std::uint8_t> wanted_;
     const Models& models_;
     bool other_carriage_;
     CarriagePath path_;
@@ -183,8 +202,10 @@ Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings) : parts_(s
     parts.nominal.assign(parts.values, std::numeric_limits<float>::quiet_NaN());
     const Models models = models_of(parts.rig, {});
     const Wanted all = everything(*this);
+    std::array<bool, signal_count> every_signal{};
+    every_signal.fill(true);
     for (std::size_t run = 0; run < parts.recordings.size(); ++run)
-        RunPredictor(parts, run, models, false).predict(all.signals, parts.nominal);
+        RunPredictor(parts, run, all, models, false).predict(every_signal, parts.nominal);
 }
 
 Evidence::~Evidence() = default;
@@ -211,23 +232,21 @@ const Course& Evidence::course(std::size_t run) const {
 
 Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted) const {
     const Parts& parts = *parts_;
-    FIDSERVO_DEMAND(wanted.runs.size() == parts.recordings.size());
+    FIDSERVO_DEMAND(wanted.size() == parts.windows.size());
     try {
         const Models models = models_of(parts.rig, hypothesis);
         const Touched touched = touched_by(hypothesis, models);
         Errors errors(parts.values, std::numeric_limits<float>::quiet_NaN());
-        for (const Window& window : parts.windows)
-            if (wanted.runs[window.run] != 0 && wanted.signals[index_of(window.signal)] &&
-                !touched.signals[index_of(window.signal)])
-                std::copy(parts.nominal.begin() + static_cast<std::ptrdiff_t>(window.begin),
-                          parts.nominal.begin() + static_cast<std::ptrdiff_t>(window.end),
-                          errors.begin() + static_cast<std::ptrdiff_t>(window.begin));
-        std::array<bool, signal_count> signals{};
-        for (std::size_t i = 0; i < signal_count; ++i) signals[i] = wanted.signals[i] && touched.signals[i];
-        if (std::ranges::none_of(signals, std::identity{})) return errors;
+        for (std::size_t w = 0; w < parts.windows.size(); ++w) {
+            const Window& window = parts.windows[w];
+            if (wanted[w] == 0 || touched.signals[index_of(window.signal)]) continue;
+            std::copy(parts.nominal.begin() + static_cast<std::ptrdiff_t>(window.begin),
+                      parts.nominal.begin() + static_cast<std::ptrdiff_t>(window.end),
+                      errors.begin() + static_cast<std::ptrdiff_t>(window.begin));
+        }
+        if (std::ranges::none_of(touched.signals, std::identity{})) return errors;
         for (std::size_t run = 0; run < parts.recordings.size(); ++run)
-            if (wanted.runs[run] != 0)
-                RunPredictor(parts, run, models, touched.carriage).predict(signals, errors);
+            RunPredictor(parts, run, wanted, models, touched.carriage).predict(touched.signals, errors);
         return errors;
     } catch (const InputError&) {
         return {};
@@ -235,9 +254,7 @@ Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted) cons
 }
 
 Wanted everything(const Evidence& evidence) {
-    Wanted wanted{std::vector<std::uint8_t>(evidence.recordings().size(), 1), {}};
-    wanted.signals.fill(true);
-    return wanted;
+    return Wanted(evidence.windows().size(), 1);
 }
 
 }  // namespace fidservo::gap

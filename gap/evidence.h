@@ -81,11 +81,8 @@ struct Omission {
     std::string text;  ///< one line for people
 };
 
-/// What is to be predicted.
-struct Wanted {
-    std::vector<std::uint8_t> runs;  ///< a flag for each recording
-    std::array<bool, signal_count> signals{};
-};
+/// What is to be predicted: a flag for each of Evidence::windows().
+using Wanted = std::vector<std::uint8_t>;
 
 class Evidence {
   public:
@@ -115,7 +112,7 @@ class Evidence {
     std::unique_ptr<Parts> parts_;
 };
 
-/// All runs and signals.
+/// All windows.
 Wanted everything(const Evidence& evidence);
 
 /// The signals whose prediction an effect can change, by its block.

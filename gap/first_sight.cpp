@@ -28,13 +28,13 @@ Hypothesis with(const Hypothesis& base, const Candidate& candidate, const std::v
 }
 
 /// Shares of the sizes that make the errors smallest, weighted by the loss at the base.
-Eigen::VectorXd best_shares(std::span<const Window> windows, const std::vector<bool>& counted,
+Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& counted,
                             const Errors& base, const std::vector<Errors>& changes) {
     const auto width = static_cast<Eigen::Index>(changes.size());
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(width, width);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(width), change(width);
     for (std::size_t w = 0; w < windows.size(); ++w) {
-        if (!counted[w]) continue;
+        if (counted[w] == 0) continue;
         Eigen::MatrixXd own = Eigen::MatrixXd::Zero(width, width);
         Eigen::VectorXd own_right = Eigen::VectorXd::Zero(width);
         double squares = 0.0, count = 0.0;
@@ -67,13 +67,13 @@ Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen
 }
 
 /// Loss saved in the windows that both predict.
-double gained(std::span<const Window> windows, const std::vector<bool>& counted, const Errors& base,
+double gained(std::span<const Window> windows, const Wanted& counted, const Errors& base,
               const Errors& errors) {
     if (errors.empty()) return -std::numeric_limits<double>::infinity();
     const std::vector<double> before = mean_squares(windows, base), after = mean_squares(windows, errors);
     double gain = 0.0;
     for (std::size_t w = 0; w < windows.size(); ++w)
-        if (counted[w] && !std::isnan(before[w]) && !std::isnan(after[w]))
+        if (counted[w] != 0 && !std::isnan(before[w]) && !std::isnan(after[w]))
             gain += window_loss(before[w]) - window_loss(after[w]);
     return gain;
 }
@@ -81,16 +81,18 @@ double gained(std::span<const Window> windows, const std::vector<bool>& counted,
 }  // namespace
 
 Promise at_first_sight(const Predict& predict, std::span<const Window> windows,
-                       const std::vector<bool>& counted, const Hypothesis& base, const Errors& base_errors,
-                       const Candidate& candidate) {
+                       const Wanted& counted, const Hypothesis& base, const Errors& base_errors,
+                       const Candidate& candidate, double period_mm) {
     constexpr double probe = 0.25;  // of the typical size
     const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
     struct Place {
-        const std::vector<double>* shape = nullptr;
+        std::vector<double> shape;
         Eigen::VectorXd shares;
         double expected_gain = -std::numeric_limits<double>::infinity();
     } best_place;
-    for (const std::vector<double>& shape : candidate.shapes) {
+    if (candidate.period && period_mm <= 0.0) return {base, -std::numeric_limits<double>::infinity()};
+    for (std::vector<double> shape : candidate.shapes) {
+        if (candidate.period) shape[*candidate.period] = period_mm;
         std::vector<Errors> changes;
         for (Eigen::Index k = 0; k < width; ++k) {
             Errors change = predict(with(base, candidate, shape, probe * Eigen::VectorXd::Unit(width, k)));
@@ -102,12 +104,12 @@ Promise at_first_sight(const Predict& predict, std::span<const Window> windows,
         if (static_cast<Eigen::Index>(changes.size()) < width) continue;
         const Eigen::VectorXd shares = best_shares(windows, counted, base_errors, changes);
         const double expected = gained(windows, counted, base_errors, added(base_errors, changes, shares));
-        if (expected > best_place.expected_gain) best_place = {&shape, shares, expected};
+        if (expected > best_place.expected_gain) best_place = {shape, shares, expected};
     }
     Promise best{base, -std::numeric_limits<double>::infinity()};
-    if (best_place.shape == nullptr) return best;
+    if (best_place.shape.empty()) return best;
     for (const double part : {1.0, 0.4}) {
-        const Hypothesis there = with(base, candidate, *best_place.shape, part * best_place.shares);
+        const Hypothesis there = with(base, candidate, best_place.shape, part * best_place.shares);
         const double gain = gained(windows, counted, base_errors, predict(there));
         if (gain > best.gain) best = {there, gain};
     }

@@ -13,8 +13,9 @@ struct Promise {
 /// Along each shape of the grid the sizes that fit best if errors changed in proportion to them: weighted
 /// least squares of the base's errors against what each size changes. The best shape by what that promises;
 /// `gain` is what it really saves.
+/// @param period_mm  of what is left of the encoder; the one that effects periodic in position begin with
 Promise at_first_sight(const Predict& predict, std::span<const Window> windows,
-                       const std::vector<bool>& counted, const Hypothesis& base, const Errors& base_errors,
-                       const Candidate& candidate);
+                       const Wanted& counted, const Hypothesis& base, const Errors& base_errors,
+                       const Candidate& candidate, double period_mm);
 
 }  // namespace fidservo::gap

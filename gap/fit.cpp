@@ -129,14 +129,14 @@ std::vector<std::size_t> counted_rows(const Window& window, const Errors& errors
 
 /// H^-1 (sum of g g') H^-1 over windows; parameters at their bounds count as known.
 Eigen::MatrixXd sandwich(const Linearised& at, std::span<const Window> windows,
-                         const std::vector<bool>& counted, const Parameters& parameters) {
+                         const Wanted& counted, const Parameters& parameters) {
     std::vector<std::size_t> free;
     for (std::size_t k = 0; k < parameters.size(); ++k)
         if (!parameters.at_bound(k)) free.push_back(k);
     const auto width = static_cast<Eigen::Index>(free.size());
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(width, width), scatter = normal;
     for (std::size_t w = 0; w < windows.size(); ++w) {
-        if (!counted[w]) continue;
+        if (counted[w] == 0) continue;
         const std::vector<std::size_t> rows = counted_rows(windows[w], at.errors);
         if (rows.empty()) continue;
         Eigen::VectorXd gradient = Eigen::VectorXd::Zero(width), slope(width);
@@ -177,7 +177,7 @@ double scale_of(const plant::EffectParameter& parameter) {
     return share_of_value * std::abs(parameter.typical);
 }
 
-Fit fit(const Predict& predict, std::span<const Window> windows, const std::vector<bool>& counted,
+Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
         const Hypothesis& start, const FitOptions& options) {
     Parameters parameters(start);
     Linearised linearised(predict, parameters);
@@ -191,7 +191,7 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const std::vect
     ceres::Problem problem(how);
     auto* const loss = new ceres::CauchyLoss(1.0);  // owned by the problem
     for (std::size_t w = 0; w < windows.size(); ++w) {
-        if (!counted[w]) continue;
+        if (counted[w] == 0) continue;
         std::vector<std::size_t> rows = counted_rows(windows[w], linearised.errors);
         if (rows.empty()) continue;
         problem.AddResidualBlock(

@@ -28,7 +28,7 @@ struct FitOptions {
 /// Minimises the windows' total loss over all parameters of the hypothesis within their bounds, from the
 /// values given: Levenberg-Marquardt on the windows' errors, reweighted by the loss (Ceres).
 /// @param counted  which windows to fit
-Fit fit(const Predict& predict, std::span<const Window> windows, const std::vector<bool>& counted,
+Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
         const Hypothesis& start, const FitOptions& options = {});
 
 /// Length over which a parameter matters: what separates its typical value from its vanishing one, or for a

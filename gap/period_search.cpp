@@ -85,11 +85,12 @@ void add(Normal& normal, const Stretch& stretch, double decay) {
 
 }  // namespace
 
-PositionPeriod strongest_period(const Evidence& evidence, const Errors& errors) {
+PositionPeriod strongest_period(const Evidence& evidence, const Errors& errors, const Wanted& wanted) {
     std::vector<Stretch> stretches;
     double squares = 0.0, low_mm = 1e9, high_mm = -1e9;
-    for (const Window& window : evidence.windows()) {
-        if (window.signal != Signal::encoder) continue;
+    for (std::size_t w = 0; w < evidence.windows().size(); ++w) {
+        const Window& window = evidence.windows()[w];
+        if (wanted[w] == 0 || window.signal != Signal::encoder) continue;
         Stretch stretch = stretch_of(evidence, window, errors);
         if (stretch.compared.empty()) continue;
         squares += stretch.weight * stretch.errors.squaredNorm();

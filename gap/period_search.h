@@ -13,6 +13,7 @@ struct PositionPeriod {
 
 /// Linear periodogram over 0.8 mm to 50 mm (Lomb, Scargle: least squares of sine and cosine), with the state
 /// at each window's start as nuisance, windows weighted as in gap/score.h.
-PositionPeriod strongest_period(const Evidence& evidence, const Errors& errors);
+/// @param wanted  windows looked at
+PositionPeriod strongest_period(const Evidence& evidence, const Errors& errors, const Wanted& wanted);
 
 }  // namespace fidservo::gap

@@ -1,5 +1,7 @@
 #include "gap/remainder.h"
 
+#include "gap/halves.h"
+
 #include "gap/gap_size.h"
 #include "gap/surrogate.h"
 

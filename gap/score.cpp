@@ -52,12 +52,12 @@ double total_loss(std::span<const double> mean_squares) {
     return loss;
 }
 
-double total_loss(std::span<const Window> windows, const std::vector<bool>& counted, const Errors& errors) {
+double total_loss(std::span<const Window> windows, const Wanted& counted, const Errors& errors) {
     if (errors.empty()) return std::numeric_limits<double>::infinity();
     const std::vector<double> squares = mean_squares(windows, errors);
     double loss = 0.0;
     for (std::size_t w = 0; w < windows.size(); ++w)
-        if (counted[w] && !std::isnan(squares[w])) loss += window_loss(squares[w]);
+        if (counted[w] != 0 && !std::isnan(squares[w])) loss += window_loss(squares[w]);
     return loss;
 }
 

@@ -25,7 +25,7 @@ double window_loss(double mean_square);
 double total_loss(std::span<const double> mean_squares);
 
 /// Of the windows counted. Infinite for errors of a hypothesis that the plant refused.
-double total_loss(std::span<const Window> windows, const std::vector<bool>& counted, const Errors& errors);
+double total_loss(std::span<const Window> windows, const Wanted& counted, const Errors& errors);
 
 /// Of two hypotheses on the same windows.
 struct Comparison {

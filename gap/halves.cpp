@@ -1,0 +1,53 @@
+#include "gap/halves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace fidservo::gap {
+
+std::vector<std::uint8_t> halves(const Evidence& evidence) {
+    constexpr std::size_t windows_in_stretch = 4;
+    std::map<std::string, std::vector<std::size_t>> runs_of;
+    for (std::size_t run = 0; run < evidence.recordings().size(); ++run)
+        runs_of[evidence.recordings()[run].experiment].push_back(run);
+    std::vector<int> half_of_run(evidence.recordings().size(), -1);
+    for (const auto& [experiment, runs] : runs_of)
+        if (runs.size() > 1)
+            for (std::size_t k = 0; k < runs.size(); ++k) half_of_run[runs[k]] = static_cast<int>(k % 2);
+    const std::vector<Window>& windows = evidence.windows();
+    std::vector<std::uint8_t> half(windows.size());
+    std::size_t in_run = 0;
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        const bool begins =
+            w == 0 || windows[w].run != windows[w - 1].run || windows[w].signal != windows[w - 1].signal;
+        in_run = begins ? 0 : in_run + 1;
+        const int of_run = half_of_run[windows[w].run];
+        half[w] = static_cast<std::uint8_t>(of_run >= 0 ? static_cast<std::size_t>(of_run)
+                                                        : in_run / windows_in_stretch % 2);
+    }
+    return half;
+}
+
+Wanted instructive(std::span<const Window> windows, const Wanted& eligible,
+                   std::span<const double> mean_squares, std::size_t most) {
+    Wanted chosen(windows.size(), 0);
+    for (std::size_t signal = 0; signal < signal_count; ++signal) {
+        std::vector<std::size_t> open;
+        for (std::size_t w = 0; w < windows.size(); ++w)
+            if (eligible[w] != 0 && windows[w].signal == static_cast<Signal>(signal) &&
+                !std::isnan(mean_squares[w]))
+                open.push_back(w);
+        const std::size_t by_error = std::min(open.size(), most / 2);
+        std::ranges::stable_sort(open, std::greater{}, [&](std::size_t w) { return mean_squares[w]; });
+        for (std::size_t k = 0; k < by_error; ++k) chosen[open[k]] = 1;
+        open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(by_error));
+        std::ranges::sort(open);
+        const std::size_t spread = std::min(open.size(), most - most / 2);
+        for (std::size_t k = 0; k < spread; ++k) chosen[open[k * open.size() / spread]] = 1;
+    }
+    return chosen;
+}
+
+}  // namespace fidservo::gap

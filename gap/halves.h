@@ -1,0 +1,22 @@
+#pragma once
+// What is fitted and what is judged.
+#include "gap/evidence.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// Which half of the windows a window belongs to. Hypotheses are fitted on one half and judged on the other,
+/// both ways. Runs of one experiment go to different halves; where an experiment was run once, stretches of
+/// four windows do.
+std::vector<std::uint8_t> halves(const Evidence& evidence);
+
+/// Windows from which a fit learns most, of those eligible: of each signal at most `most`, half of them those
+/// with the largest errors, the others evenly spread.
+/// @param mean_squares  of all windows under what is known already; NaN: has no values
+Wanted instructive(std::span<const Window> windows, const Wanted& eligible,
+                   std::span<const double> mean_squares, std::size_t most);
+
+}  // namespace fidservo::gap

@@ -1,0 +1,167 @@
+#include "gap/search.h"
+
+#include "gap/first_sight.h"
+#include "gap/halves.h"
+#include "gap/parallel.h"
+#include "gap/period_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace fidservo::gap {
+namespace {
+
+/// A tie: what is behind the best by fewer standard deviations than this is not told from it.
+constexpr double tie_significance = 2.0;
+
+/// Signals from which the parameters of an effect are learnt: those whose prediction it changes at first
+/// hand. What moves the carriage shows in the tags as well, but says there what the encoder has said.
+bool teaches(const plant::Effect& effect, Signal signal) {
+    if (effect.block.starts_with("macro.") && effect.block != "macro.encoder")
+        return signal == Signal::encoder;
+    const std::vector<Signal> reach = reach_of(effect);
+    return std::ranges::find(reach, signal) != reach.end();
+}
+
+}  // namespace
+
+Search::Search(const Evidence& evidence, const std::vector<Candidate>& candidates,
+               const SearchOptions& options)
+    : evidence_(evidence), candidates_(candidates), options_(options), half_(halves(evidence)) {}
+
+CrossFit Search::nothing() const {
+    CrossFit cross;
+    judge(cross);
+    return cross;
+}
+
+std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candidate* const> added) {
+    std::vector<const Candidate*> open;
+    for (const Candidate& candidate : candidates_)
+        if (std::ranges::find(added, &candidate) == added.end()) open.push_back(&candidate);
+    trials_ += static_cast<int>(open.size());
+
+    const Wanted looked_at =
+        instructive(evidence_.windows(), half(0), base.mean_squares, options_.windows);
+    const Errors base_errors = evidence_.errors(base.of_half[0], looked_at);
+    const PositionPeriod period = strongest_period(evidence_, base_errors, looked_at);
+    std::vector<Trial> trials(open.size());
+    std::vector<Promise> promises(open.size());
+    parallel_for(open.size(), [&](std::size_t c) {
+        Wanted wanted = looked_at;
+        for (std::size_t w = 0; w < wanted.size(); ++w)
+            if (!teaches(*open[c]->effect, evidence_.windows()[w].signal)) wanted[w] = 0;
+        promises[c] = at_first_sight(predictor(wanted), evidence_.windows(), wanted, base.of_half[0],
+                                     base_errors, *open[c], period.period_mm);
+        trials[c].candidate = open[c];
+    });
+
+    std::vector<std::size_t> order(open.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, std::greater{}, [&](std::size_t c) { return promises[c].gain; });
+    constexpr double share_of_best = 0.2;
+    const double least = std::max(least_gain, share_of_best * promises[order.front()].gain);
+    std::erase_if(order, [&](std::size_t c) { return !(promises[c].gain > least); });
+    if (order.size() > options_.fits) order.resize(options_.fits);
+
+    parallel_for(order.size(), [&](std::size_t k) {
+        Trial& trial = trials[order[k]];
+        Hypothesis start = base.of_half[0];
+        start.push_back(promises[order[k]].start.back());
+        trial.fitted.of_half[0] = fit_half(0, start, base).hypothesis;
+        judge_first_half(base, trial);
+    });
+
+    std::ranges::sort(order, std::greater{}, [&](std::size_t c) { return trials[c].gain; });
+    constexpr double near_best = 0.5;
+    const double best_gain = order.empty() ? 0.0 : trials[order.front()].gain;
+    std::erase_if(order, [&](std::size_t c) { return !(trials[c].gain > near_best * best_gain); });
+    if (order.size() > options_.leaders) order.resize(options_.leaders);
+    parallel_for(order.size(), [&](std::size_t k) {
+        Trial& trial = trials[order[k]];
+        Hypothesis start = base.of_half[1];
+        start.push_back(trial.fitted.of_half[0].back());
+        trial.fitted.of_half[1] = fit_half(1, start, base).hypothesis;
+        judge(trial.fitted);
+        trial.against_base = compared(base, trial.fitted);
+        trial.gain = trial.against_base.gain;
+        trial.is_leader = true;
+    });
+    std::ranges::stable_sort(trials, std::greater{},
+                             [](const Trial& trial) { return std::pair(trial.is_leader, trial.gain); });
+    return trials;
+}
+
+void Search::fit_again(CrossFit& cross) const {
+    if (cross.of_half[0].empty()) return judge(cross);
+    parallel_for(2, [&](std::size_t side) {
+        cross.of_half[side] = fit_half(side, cross.of_half[side], cross).hypothesis;
+    });
+    judge(cross);
+}
+
+bool Search::is_real(const Comparison& comparison) const {
+    return comparison.gain > least_gain &&
+           comparison.significance >
+               significance_bound(comparison.blocks, std::max(trials_, 1), options_.tail);
+}
+
+bool Search::ties(const CrossFit& best, const CrossFit& other) const {
+    const Comparison lead = compared(other, best);
+    return lead.gain < least_gain || lead.significance < tie_significance;
+}
+
+Comparison Search::compared(const CrossFit& base, const CrossFit& fitted) const {
+    return compare(evidence_.windows(), base.mean_squares, fitted.mean_squares);
+}
+
+Wanted Search::half(std::size_t side) const {
+    Wanted wanted(half_.size());
+    for (std::size_t w = 0; w < half_.size(); ++w) wanted[w] = half_[w] == side ? 1 : 0;
+    return wanted;
+}
+
+Predict Search::predictor(const Wanted& wanted) const {
+    return [this, wanted](const Hypothesis& hypothesis) { return evidence_.errors(hypothesis, wanted); };
+}
+
+Wanted Search::fitted_windows(std::size_t side, const Hypothesis& hypothesis,
+                              std::span<const double> mean_squares) const {
+    Wanted wanted = half(side);
+    for (std::size_t w = 0; w < wanted.size(); ++w)
+        if (std::ranges::none_of(hypothesis, [&](const plant::EffectSetting& setting) {
+                return teaches(*setting.effect, evidence_.windows()[w].signal);
+            }))
+            wanted[w] = 0;
+    return instructive(evidence_.windows(), wanted, mean_squares, options_.windows);
+}
+
+Fit Search::fit_half(std::size_t side, const Hypothesis& start, const CrossFit& base) const {
+    const Wanted wanted = fitted_windows(side, start, base.mean_squares);
+    return fit(predictor(wanted), evidence_.windows(), wanted, start);
+}
+
+void Search::judge_first_half(const CrossFit& base, Trial& trial) const {
+    const Wanted wanted = fitted_windows(1, trial.fitted.of_half[0], base.mean_squares);
+    std::vector<double>& squares = trial.fitted.mean_squares;
+    squares = mean_squares(evidence_.windows(), evidence_.errors(trial.fitted.of_half[0], wanted));
+    for (std::size_t w = 0; w < wanted.size(); ++w)
+        if (!std::isnan(squares[w]))
+            trial.gain += window_loss(base.mean_squares[w]) - window_loss(squares[w]);
+}
+
+void Search::judge(CrossFit& cross) const {
+    cross.mean_squares.assign(evidence_.windows().size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t side = 0; side < 2; ++side) {
+        const Wanted others = half(1 - side);
+        const std::vector<double> squares =
+            mean_squares(evidence_.windows(), evidence_.errors(cross.of_half[side], others));
+        for (std::size_t w = 0; w < squares.size(); ++w)
+            if (others[w] != 0) cross.mean_squares[w] = squares[w];
+    }
+    cross.loss = total_loss(cross.mean_squares);
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,76 @@
+#pragma once
+// One step of a search: which effect, added to what is known, predicts best what was not fitted.
+#include "gap/candidate.h"
+#include "gap/fit.h"
+#include "gap/score.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// A hypothesis fitted on each half of the windows (gap/halves.h).
+struct CrossFit {
+    std::array<Hypothesis, 2> of_half;
+    std::vector<double> mean_squares;  ///< S_w of every window, predicted by what was fitted without its half
+    double loss = 0.0;                 ///< of them all
+};
+
+/// A candidate that was added to a hypothesis. What promised little was not fitted: no gain, no squares.
+struct Trial {
+    const Candidate* candidate = nullptr;
+    double gain = 0.0;       ///< loss saved in the held-out windows
+    bool is_leader = false;  ///< fitted on both halves; otherwise on the first, judged on some of the second
+    CrossFit fitted;
+    Comparison against_base;  ///< of a leader, with the hypothesis that it was added to
+};
+
+struct SearchOptions {
+    std::size_t fits = 8;      ///< candidates that are fitted, of those that promise most
+    std::size_t leaders = 4;   ///< of these, how many are fitted on both halves
+    std::size_t windows = 48;  ///< of a signal and a half, that are fitted
+    double tail = 0.01;        ///< of taking in anything where there is nothing, over the whole search
+};
+
+/// A search over one set of recordings. Counts what it tries.
+class Search {
+  public:
+    Search(const Evidence& evidence, const std::vector<Candidate>& candidates, const SearchOptions& options);
+
+    CrossFit nothing() const;
+
+    /// Candidates added to a base, all of them but those `added` in it; leaders first, then by gain.
+    std::vector<Trial> try_all(const CrossFit& base, std::span<const Candidate* const> added);
+
+    /// Fits all parameters of a cross fit from where they are.
+    void fit_again(CrossFit& cross) const;
+
+    /// Whether a gain is more than chance, over all that was tried, and large enough to matter.
+    bool is_real(const Comparison& comparison) const;
+
+    /// Whether what the other lacks to the best is no more than chance.
+    bool ties(const CrossFit& best, const CrossFit& other) const;
+
+    Comparison compared(const CrossFit& base, const CrossFit& fitted) const;
+
+  private:
+    Wanted half(std::size_t side) const;
+    Predict predictor(const Wanted& wanted) const;
+    Fit fit_half(std::size_t side, const Hypothesis& start, const CrossFit& base) const;
+    Wanted fitted_windows(std::size_t side, const Hypothesis& hypothesis,
+                          std::span<const double> mean_squares) const;
+    void judge_first_half(const CrossFit& base, Trial& trial) const;
+    void judge(CrossFit& cross) const;
+
+    const Evidence& evidence_;
+    const std::vector<Candidate>& candidates_;
+    SearchOptions options_;
+    std::vector<std::uint8_t> half_;
+    int trials_ = 0;
+};
+
+/// Least held-out loss that an effect has to save: what halves the error of one and a half windows.
+inline constexpr double least_gain = 0.5;
+
+}  // namespace fidservo::gap
