@@ -22,6 +22,9 @@ bool stays(const plant::MacroAxis& axis) {
     return !axis.has_belt && axis.parameters.delay_s == 0.0 && axis.parameters.play_mm == 0.0;
 }
 
+/// Slower than this is at rest: bristles swing on for ever, by less than a thousandth of a count.
+constexpr double rest_mm_per_s = 1e-4;
+
 /// Runs the plant over rows; what it shows at row k goes to element k - origin.
 void run_rows(const CarriageModel& model, const CarriageRun& run, std::size_t first, std::size_t end,
               plant::MacroAxisState& state, CarriagePath& motion, std::size_t origin = 0) {
@@ -33,8 +36,8 @@ void run_rows(const CarriageModel& model, const CarriageRun& run, std::size_t fi
         motion.position_mm[k - origin] = before_mm;
         motion.velocity_mm_per_s[k - origin] = before_mm_per_s;
         if (!rests || run.command_V[k] != run.command_V[k - 1]) plant::advance(axis, state, run.command_V[k]);
-        rests = may_rest && state.position_mm == before_mm && state.velocity_mm_per_s == 0.0 &&
-                before_mm_per_s == 0.0;
+        rests = may_rest && std::abs(state.velocity_mm_per_s) <= rest_mm_per_s &&
+                std::abs(before_mm_per_s) <= rest_mm_per_s;
         motion.acceleration_mm_per_s2[k - origin] = (state.velocity_mm_per_s - before_mm_per_s) / run.tick_s;
     }
 }

@@ -1,5 +1,6 @@
 #include "gap/fit.h"
 
+#include "gap/parallel.h"
 #include "gap/score.h"
 
 #include <algorithm>
@@ -54,8 +55,8 @@ class Parameters {
 /// Errors and their derivatives at one point, computed once for all windows.
 class Linearised : public ceres::EvaluationCallback {
   public:
-    Linearised(const Predict& predict, const Parameters& parameters)
-        : predict_(predict), parameters_(parameters) {}
+    Linearised(const Predict& predict, const Parameters& parameters, Threads threads)
+        : predict_(predict), parameters_(parameters), threads_(threads) {}
 
     void PrepareForEvaluation(bool with_derivatives, bool at_new_point) override {
         if (at_new_point) {
@@ -64,7 +65,10 @@ class Linearised : public ceres::EvaluationCallback {
         }
         if (!with_derivatives || has_derivatives_ || errors.empty()) return;
         by_parameter.assign(parameters_.size(), {});
-        for (std::size_t k = 0; k < parameters_.size(); ++k) differentiate(k);
+        if (threads_ == Threads::one)
+            for (std::size_t k = 0; k < parameters_.size(); ++k) differentiate(k);
+        else
+            parallel_for(parameters_.size(), [this](std::size_t k) { differentiate(k); });
         has_derivatives_ = true;
     }
 
@@ -86,6 +90,7 @@ class Linearised : public ceres::EvaluationCallback {
 
     const Predict& predict_;
     const Parameters& parameters_;
+    Threads threads_;
     bool has_derivatives_ = false;
 };
 
@@ -180,7 +185,8 @@ double scale_of(const plant::EffectParameter& parameter) {
 Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
         const Hypothesis& start, const FitOptions& options) {
     Parameters parameters(start);
-    Linearised linearised(predict, parameters);
+    const std::vector<double> values_at_start = parameters.values;
+    Linearised linearised(predict, parameters, options.threads);
     linearised.PrepareForEvaluation(false, true);
     const auto size = static_cast<Eigen::Index>(parameters.size());
     Fit result{start, total_loss(windows, counted, linearised.errors), Eigen::MatrixXd::Zero(size, size)};
@@ -214,9 +220,13 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
 
     linearised.PrepareForEvaluation(true, true);
     const double loss_there = total_loss(windows, counted, linearised.errors);
-    if (!(loss_there < result.loss)) return result;
-    result.hypothesis = parameters.at(parameters.values);
-    result.loss = loss_there;
+    if (!(loss_there < result.loss)) {
+        parameters.values = values_at_start;
+        linearised.PrepareForEvaluation(true, true);
+    } else {
+        result.hypothesis = parameters.at(parameters.values);
+        result.loss = loss_there;
+    }
     result.covariance = sandwich(linearised, windows, counted, parameters);
     return result;
 }

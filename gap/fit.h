@@ -21,8 +21,11 @@ struct Fit {
     Eigen::MatrixXd covariance;
 };
 
+enum class Threads { one, all };
+
 struct FitOptions {
     int most_iterations = 15;
+    Threads threads = Threads::one;  ///< that predict at the same time
 };
 
 /// Minimises the windows' total loss over all parameters of the hypothesis within their bounds, from the

@@ -26,8 +26,8 @@ struct Sums {
         double sum_before = 0.0, sum_after = 0.0, signals = 0.0;
         for (std::size_t s = 0; s < signal_count; ++s) {
             if (values[s] == 0.0) continue;
-            sum_before += before[s] / values[s];
-            sum_after += after[s] / values[s];
+            sum_before += std::max(1.0, before[s] / values[s]);
+            sum_after += std::max(1.0, after[s] / values[s]);
             signals += 1.0;
         }
         if (signals == 0.0) return {1.0, 1.0};
@@ -56,8 +56,8 @@ TotalGap total_gap(std::span<const SignalGap> signals) {
     if (signals.empty()) return {1.0, 1.0};
     double before = 0.0, after = 0.0;
     for (const SignalGap& signal : signals) {
-        before += std::pow(signal.before / signal.floor, 2);
-        after += std::pow(signal.after / signal.floor, 2);
+        before += std::max(1.0, std::pow(signal.before / signal.floor, 2));
+        after += std::max(1.0, std::pow(signal.after / signal.floor, 2));
     }
     const auto count = static_cast<double>(signals.size());
     return {std::sqrt(before / count), std::sqrt(after / count)};

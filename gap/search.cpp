@@ -10,8 +10,14 @@
 #include <limits>
 #include <numeric>
 
+#include <ctime>
+#include <cstdio>
 namespace fidservo::gap {
 namespace {
+thread_local int dbg_evals = 0;
+thread_local double dbg_last = 0;
+double dbg_now() { timespec t; clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t); return double(t.tv_sec) + 1e-9*double(t.tv_nsec); }
+#define DBG(...) do { if (std::getenv("GAPDBG")) { char b[200]; std::snprintf(b, 200, __VA_ARGS__); std::fprintf(stderr, "DBG %s evals %d cpu %.2f\n", b, dbg_evals, dbg_now()-dbg_last); dbg_evals=0; dbg_last=dbg_now(); } } while(0)
 
 /// A tie: what is behind the best by fewer standard deviations than this is not told from it.
 constexpr double tie_significance = 2.0;
@@ -23,6 +29,12 @@ bool teaches(const plant::Effect& effect, Signal signal) {
         return signal == Signal::encoder;
     const std::vector<Signal> reach = reach_of(effect);
     return std::ranges::find(reach, signal) != reach.end();
+}
+
+/// Effects of few parameters are tried first: where one of them leaves nothing, a richer one that does as well
+/// is no better explanation.
+bool is_simple(const Candidate& candidate) {
+    return candidate.effect->parameters.size() <= 2;
 }
 
 }  // namespace
@@ -41,6 +53,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     std::vector<const Candidate*> open;
     for (const Candidate& candidate : candidates_)
         if (std::ranges::find(added, &candidate) == added.end()) open.push_back(&candidate);
+    if (open.empty()) return {};
     trials_ += static_cast<int>(open.size());
 
     const Wanted looked_at =
@@ -56,6 +69,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         promises[c] = at_first_sight(predictor(wanted), evidence_.windows(), wanted, base.of_half[0],
                                      base_errors, *open[c], period.period_mm);
         trials[c].candidate = open[c];
+        DBG("sight %s gain %.3f", open[c]->effect->name.data(), promises[c].gain);
     });
 
     std::vector<std::size_t> order(open.size());
@@ -66,13 +80,21 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     std::erase_if(order, [&](std::size_t c) { return !(promises[c].gain > least); });
     if (order.size() > options_.fits) order.resize(options_.fits);
 
-    parallel_for(order.size(), [&](std::size_t k) {
-        Trial& trial = trials[order[k]];
+    const auto fit_first_half = [&](std::size_t c) {
+        Trial& trial = trials[c];
         Hypothesis start = base.of_half[0];
-        start.push_back(promises[order[k]].start.back());
+        start.push_back(promises[c].start.back());
         trial.fitted.of_half[0] = fit_half(0, start, base).hypothesis;
         judge_first_half(base, trial);
-    });
+        DBG("fit0 %s gain %.3f", trial.candidate->effect->name.data(), trial.gain);
+    };
+    const auto richer = std::ranges::stable_partition(order, [&](std::size_t c) { return is_simple(*open[c]); });
+    const std::span simple(order.begin(), richer.begin());
+    parallel_for(simple.size(), [&](std::size_t k) { fit_first_half(simple[k]); });
+    if (std::ranges::any_of(simple, [&](std::size_t c) { return leaves_floor_only(trials[c]); }))
+        order.erase(richer.begin(), richer.end());
+    else
+        parallel_for(richer.size(), [&](std::size_t k) { fit_first_half(richer[k]); });
 
     std::ranges::sort(order, std::greater{}, [&](std::size_t c) { return trials[c].gain; });
     constexpr double near_best = 0.5;
@@ -88,6 +110,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         trial.against_base = compared(base, trial.fitted);
         trial.gain = trial.against_base.gain;
         trial.is_leader = true;
+        DBG("cross %s gain %.3f sig %.2f blocks %d", trial.candidate->effect->name.data(), trial.gain, trial.against_base.significance, trial.against_base.blocks);
     });
     std::ranges::stable_sort(trials, std::greater{},
                              [](const Trial& trial) { return std::pair(trial.is_leader, trial.gain); });
@@ -124,7 +147,7 @@ Wanted Search::half(std::size_t side) const {
 }
 
 Predict Search::predictor(const Wanted& wanted) const {
-    return [this, wanted](const Hypothesis& hypothesis) { return evidence_.errors(hypothesis, wanted); };
+    return [this, wanted](const Hypothesis& hypothesis) { ++dbg_evals; return evidence_.errors(hypothesis, wanted); };
 }
 
 Wanted Search::fitted_windows(std::size_t side, const Hypothesis& hypothesis,
@@ -150,6 +173,21 @@ void Search::judge_first_half(const CrossFit& base, Trial& trial) const {
     for (std::size_t w = 0; w < wanted.size(); ++w)
         if (!std::isnan(squares[w]))
             trial.gain += window_loss(base.mean_squares[w]) - window_loss(squares[w]);
+}
+
+bool Search::leaves_floor_only(const Trial& trial) const {
+    constexpr double floor_square = 1.1;  // at most 5 % above the floor
+    std::array<double, signal_count> sums{}, counts{};
+    for (std::size_t w = 0; w < trial.fitted.mean_squares.size(); ++w) {
+        const double square = trial.fitted.mean_squares[w];
+        if (std::isnan(square)) continue;
+        const auto signal = static_cast<std::size_t>(evidence_.windows()[w].signal);
+        sums[signal] += square;
+        counts[signal] += 1.0;
+    }
+    for (std::size_t s = 0; s < signal_count; ++s)
+        if (sums[s] > floor_square * counts[s]) return false;
+    return true;
 }
 
 void Search::judge(CrossFit& cross) const {

@@ -61,6 +61,7 @@ class Search {
     Wanted fitted_windows(std::size_t side, const Hypothesis& hypothesis,
                           std::span<const double> mean_squares) const;
     void judge_first_half(const CrossFit& base, Trial& trial) const;
+    bool leaves_floor_only(const Trial& trial) const;
     void judge(CrossFit& cross) const;
 
     const Evidence& evidence_;

@@ -57,13 +57,16 @@ Chain without(const Search& search, const Chain& chain, std::size_t left_out) {
 
 /// An effect that was taken in first may have been a compromise of two others: each is given up where the
 /// rest does as well without it, and otherwise exchanged for what is best beside the rest.
-void exchange(Search& search, Chain& chain) {
+/// @return whether anything changed
+bool exchange(Search& search, Chain& chain) {
+    bool changed = false;
     constexpr int most_exchanges = 4;
     int exchanges = 0;
     for (std::size_t k = 0; chain.choices.size() > 1 && k < chain.choices.size();) {
         Chain rest = without(search, chain, k);
         if (!search.is_real(search.compared(rest.fitted, chain.fitted))) {
             chain = std::move(rest);
+            changed = true;
             k = 0;
             continue;
         }
@@ -79,11 +82,13 @@ void exchange(Search& search, Chain& chain) {
             rest.choices.push_back(choice_of(search, rest.fitted, std::move(trials)));
             rest.fitted = std::move(fitted);
             chain = std::move(rest);
+            changed = true;
             k = 0;
         } else {
             ++k;
         }
     }
+    return changed;
 }
 
 /// The first `count` effects of a chain alone.
@@ -99,7 +104,7 @@ CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
 Fit fit_to_all(const Evidence& evidence, const CrossFit& cross) {
     const Wanted wanted = everything(evidence);
     const Predict predict = [&](const Hypothesis& hypothesis) { return evidence.errors(hypothesis, wanted); };
-    return fit(predict, evidence.windows(), wanted, cross.of_half[0]);
+    return fit(predict, evidence.windows(), wanted, cross.of_half[0], {.threads = Threads::all});
 }
 
 Selection select(const Evidence& evidence, const std::vector<Candidate>& candidates,
@@ -109,8 +114,7 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     Chain chain{{}, search.nothing()};
     selection.steps.push_back(chain.fitted);
     grow(search, chain, options.most_effects, &selection.alone);
-    exchange(search, chain);
-    grow(search, chain, options.most_effects, nullptr);
+    if (exchange(search, chain)) grow(search, chain, options.most_effects, nullptr);
     for (std::size_t k = 1; k < chain.choices.size(); ++k)
         selection.steps.push_back(first_of(search, chain, k));
     if (!chain.choices.empty()) selection.steps.push_back(chain.fitted);

@@ -3,6 +3,12 @@
 //
 //     V = sgn(w) (a0 + d (|w| - w0))  for |w| >= w0, else 0
 //
+// Of this a share s may be dry friction on the motion instead (plant/friction.h), of level s (d w0 - a0), with
+//
+//     V = (1 - s) V + s d w
+//
+// so that a driven carriage moves as before, and a coasting one is braked.
+//
 // Branch by branch, for a motion along which w changes.
 #include "core/rig.h"
 
@@ -26,10 +32,13 @@ inline DeadZoneBranch dead_zone_branch(const DeadZone& zone, double drive_V) {
 }
 
 /// V of a branch, also a little beyond its edge.
-inline double dead_zone_V(const DeadZone& zone, DeadZoneBranch branch, double drive_V) {
-    if (branch == DeadZoneBranch::inside) return 0.0;
+/// @param on_motion  the share s
+inline double dead_zone_V(const DeadZone& zone, DeadZoneBranch branch, double drive_V, double on_motion = 0.0) {
+    const double passed_V = on_motion * zone.slope * drive_V;
+    if (branch == DeadZoneBranch::inside) return passed_V;
     const double side = branch == DeadZoneBranch::left ? -1.0 : 1.0;
-    return side * (zone.offset_V + zone.slope * (side * drive_V - zone.threshold_V));
+    return passed_V +
+           (1.0 - on_motion) * side * (zone.offset_V + zone.slope * (side * drive_V - zone.threshold_V));
 }
 
 /// How far w is from the nearest edge of a branch, in V; negative beyond it. Infinite on a straight line.

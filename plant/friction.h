@@ -5,7 +5,7 @@
 //     g(|v|, y) = Fc + Fs exp(-|v| / vs) + Fp exp(-((y - yp) / wp)^2 / 2)     Coulomb, Stribeck, rail patch
 //     F = sgn(v) g + c v                                                     c by direction
 //
-// At v = 0 dry friction holds whatever is not above g(0, y). Friction that creeps does not hold: with a creep
+// At v = 0 dry friction holds whatever is not above g(0, y), or a little more: hold_V. Friction that creeps does not hold: with a creep
 // speed vc, tanh(v / vc) stands for sgn(v) (Andersson et al., Tribology International 40, 2007).
 //
 // Bristles bend over a length d before they slide (Dahl 1968; in the path that is covered, as Bliman and
@@ -32,6 +32,7 @@ struct RailPatch {
 
 struct Friction {
     double coulomb_V = 0.0;
+    double hold_V = 0.0;      ///< what is held at rest beyond g
     double stribeck_V = 0.0;  ///< beyond Coulomb friction, at rest
     double stribeck_mm_per_s = 1.0;
     RailPatch patch{};
@@ -70,7 +71,7 @@ inline double dry_friction_V(const Friction& friction, double speed_mm_per_s, do
 
 /// What dry friction holds at rest, in V: without bristles, which always give way a little.
 inline double breakaway_V(const Friction& friction, double position_mm) {
-    return friction.creep_mm_per_s > 0.0 ? 0.0 : dry_friction_V(friction, 0.0, position_mm);
+    return friction.creep_mm_per_s > 0.0 ? 0.0 : friction.hold_V + dry_friction_V(friction, 0.0, position_mm);
 }
 
 /// F without bristles, in V, of a motion in a direction (+1 right, -1 left). A velocity against the

@@ -26,6 +26,7 @@ struct MacroAxisParameters {
     double drive_gain = 1.0;    ///< of the amplifier
     double drive_bias_V = 0.0;  ///< a force that also acts on the carriage at rest, held by the dead zone
     DeadZone dead_zone;
+    double dead_zone_on_motion = 0.0;  ///< share of it that is dry friction on the motion
     double velocity_gain_mm_per_s_per_V = 0.0;
     double time_constant_s = 0.0;
 

@@ -41,7 +41,7 @@ class Motion {
     bool begin() {
         const double w_V = drive_V_ + (axis_.has_standing_force ? standing_V(x_) : 0.0);
         branch_ = dead_zone_branch(p_.dead_zone, w_V);
-        voltage_V_ = dead_zone_V(p_.dead_zone, branch_, w_V);
+        voltage_V_ = dead_zone_V(p_.dead_zone, branch_, w_V, p_.dead_zone_on_motion);
         if (std::abs(x_[speed]) <= rest_mm_per_s) x_[speed] = 0.0;
         held_ = false;
         direction_ = x_[speed] < 0.0 ? -1.0 : 1.0;
@@ -81,7 +81,8 @@ class Motion {
     double standing_V(const State& x) const { return standing_force_V(p_.standing, x[place]); }
 
     double effective_V(const State& x) const {
-        return axis_.has_standing_force ? dead_zone_V(p_.dead_zone, branch_, drive_V_ + standing_V(x))
+        return axis_.has_standing_force ? dead_zone_V(p_.dead_zone, branch_, drive_V_ + standing_V(x),
+                                                     p_.dead_zone_on_motion)
                                         : voltage_V_;
     }
 

@@ -6,10 +6,16 @@ namespace {
 
 constexpr EffectParameter parameters[] = {
     {"level_V", "V", 0.0, 3.0, 0.0, 0.1, "friction while the carriage moves"},
+    {"dead_zone_share", "", 0.0, 1.0, 0.0, 0.5,
+     "of the dead zone, that acts on the motion instead: it brakes a coasting carriage"},
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
-    plant.axis.friction.coulomb_V += values[0];
+    const DeadZone& zone = plant.axis.dead_zone;
+    Friction& friction = plant.axis.friction;
+    friction.coulomb_V += values[0] + values[1] * (zone.slope * zone.threshold_V - zone.offset_V);
+    friction.hold_V += values[1] * zone.offset_V;
+    plant.axis.dead_zone_on_motion = values[1];
 }
 
 }  // namespace
@@ -20,7 +26,8 @@ extern constexpr Effect coulomb_friction{
     .text =
         "Dry friction on the motion: F = Fc sgn(v), tau dv/dt = K (V - F) - v. It brakes a coasting carriage "
         "to a "
-        "stop, and holds one at rest while |V| is not above Fc.",
+        "stop, and holds one at rest while |V| is not above Fc. A share of the dead zone may act so too, instead of at "
+        "the input.",
     .source = "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994",
     .parameters = parameters,
     .apply = apply,

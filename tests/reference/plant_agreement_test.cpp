@@ -1,6 +1,7 @@
 // Two models of one machine, written apart: in closed form (plant/) and integrated (reference/). Under the
 // same commands they must go the same way. Each checks the other.
 #include "core/random.h"
+#include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 #include "reference/reference_rig.h"
 #include "src/config/rig_file.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -63,6 +65,33 @@ TEST(PlantAgreement, RandomCommands_MoveBothModelsAlike) {
     EXPECT_LE(worst_carriage_mm, 1e-6);
     EXPECT_LE(worst_degC, 1e-6);
     EXPECT_LE(worst_platform_mm, 1e-6);
+}
+
+TEST(PlantAgreement, DeadZoneThatActsOnTheMotion_BrakesBothCarriagesAlike) {
+    const Rig rig = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
+    for (const double share : {0.3, 1.0}) {
+        Departures departures;
+        departures.friction.dead_zone_on_motion = share;
+        const RigModel model = make_rig_model(rig, departures);
+        const auto effect = plant::parse_effect("coulomb_friction:level_V=0,dead_zone_share=" + std::to_string(share));
+        plant::PlantParameters parameters = plant::plant_parameters(rig);
+        plant::apply_effects(parameters, {&effect, 1});
+        const plant::StagePlant stage = plant::make_stage_plant(parameters);
+        RandomCommand motor(7, "motor", -5.0, 5.0);
+        State state = start(model, 90.0, 1);
+        plant::StageState other = plant::start(stage, 90.0, 1);
+        double worst_mm = 0.0, way_mm = 0.0;
+        for (int k = 0; k < 20'000; ++k) {
+            const double macro_V = motor.next();
+            const double before_mm = other.axis.position_mm;
+            advance(model, state, macro_V, 0.0);
+            plant::advance(stage, other, macro_V, 0.0);
+            way_mm += std::abs(other.axis.position_mm - before_mm);
+            worst_mm = std::max(worst_mm, std::abs(state.carriage.position_mm - other.axis.position_mm));
+        }
+        EXPECT_GT(way_mm, 200.0);
+        EXPECT_LE(worst_mm, 1e-4) << "share " << share;
+    }
 }
 
 }  // namespace

@@ -1,0 +1,99 @@
+// Linear models of what is left: found where there is something, and only there.
+#include "gap/regression.h"
+
+#include "core/random.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+namespace {
+
+using namespace gap;
+
+constexpr std::size_t values = 200, count = 24;
+constexpr int wave = 3, ramp = 5;  // groups
+
+struct Setting {
+    std::vector<Window> windows;
+    std::vector<std::uint8_t> half;
+    std::vector<Column> columns, nuisances;
+    Errors noise;
+};
+
+/// Windows of noise of one floor; a wave and a ramp that begins anew in each as columns.
+Setting make_setting(std::uint64_t seed) {
+    Setting setting;
+    NoiseStream random(seed, "noise");
+    Column sine{wave, {}}, rise{ramp, {}}, constant{0, {}};
+    for (std::size_t w = 0; w < count; ++w) {
+        Window window;
+        window.run = w / 4;
+        window.begin = w * values;
+        window.end = window.begin + values;
+        setting.windows.push_back(window);
+        setting.half.push_back(static_cast<std::uint8_t>(w / 4 % 2));
+        for (std::size_t k = 0; k < values; ++k) {
+            const double share = static_cast<double>(k) / values;
+            sine.values.push_back(static_cast<float>(std::sin(2.0 * std::numbers::pi * 3.0 * share)));
+            rise.values.push_back(static_cast<float>(share));
+            constant.values.push_back(1.0F);
+            setting.noise.push_back(static_cast<float>(random.normal()));
+        }
+    }
+    setting.columns = {sine, rise};
+    setting.nuisances = {constant};
+    return setting;
+}
+
+Errors sum(const Errors& noise, const Column& column, float factor) {
+    Errors errors = noise;
+    for (std::size_t k = 0; k < errors.size(); ++k) errors[k] += factor * column.values[k];
+    return errors;
+}
+
+Regression regression(const Setting& setting, const Errors& errors) {
+    return {setting.windows, Signal::encoder, errors, setting.columns, setting.nuisances, setting.half};
+}
+
+TEST(Regression, GroupThatIsThere_IsFoundAlone_AndLeavesTheNoise) {
+    constexpr std::uint64_t seed = 3;
+    SCOPED_TRACE(seed);
+    const Setting setting = make_setting(seed);
+    const Regression found = regression(setting, sum(setting.noise, setting.columns[0], 4.0F));
+    EXPECT_EQ(found.significant_groups(0.01), std::vector{wave});
+    const int groups[] = {wave};
+    for (const double square : found.mean_squares(groups)) EXPECT_NEAR(square, 1.0, 0.6);
+    for (const double square : found.mean_squares({})) EXPECT_NEAR(square, 9.0, 2.5);  // 1 + 4^2 / 2
+}
+
+TEST(Regression, BothGroups_AreFoundInTheOrderOfWhatTheyAdd) {
+    const Setting setting = make_setting(4);
+    const Errors errors = sum(sum(setting.noise, setting.columns[1], 30.0F), setting.columns[0], 3.0F);
+    EXPECT_EQ(regression(setting, errors).significant_groups(0.01), (std::vector{ramp, wave}));
+}
+
+TEST(Regression, WhatTheStateAtAWindowsStartExplains_IsNoFinding) {
+    Setting setting = make_setting(5);
+    Errors errors = setting.noise;
+    for (std::size_t k = 0; k < errors.size(); ++k) errors[k] += static_cast<float>(k / values % 7) * 50.0F;
+    EXPECT_TRUE(regression(setting, errors).significant_groups(0.01).empty());
+}
+
+TEST(Regression, Noise_IsNoFinding) {
+    constexpr int draws = 200;
+    int findings = 0;
+    for (int seed = 1; seed <= draws; ++seed) {
+        const Setting setting = make_setting(static_cast<std::uint64_t>(seed));
+        findings += regression(setting, setting.noise).significant_groups(0.01).empty() ? 0 : 1;
+    }
+    EXPECT_LE(findings, 6);  // 1 % expected; 7 or more of 200 have a chance of 0.5 %
+}
+
+}  // namespace
+
+}  // namespace fidservo
