@@ -1,0 +1,45 @@
+#pragma once
+// What the parts of a diagnosis are called in sentences for people.
+#include "core/rig.h"
+#include "gap/diagnosis.h"
+
+#include <string>
+#include <string_view>
+
+namespace fidservo::diagnose {
+
+/// A block in a sentence: "the motor's drive" for macro.drive. The block itself where it has no other name.
+std::string block_words(std::string_view block);
+
+/// A signal in a sentence: "encoder reading".
+std::string_view signal_words(gap::Signal signal);
+
+/// A name without its underscores.
+std::string readable(std::string_view name);
+
+/// "a", "a and b", "a, b and c".
+std::string enumerated(const std::vector<std::string>& parts);
+
+/// With a capital first letter.
+std::string capitalised(std::string text);
+
+/// Three significant digits, a true minus sign, thousands set apart: "0.0312", "1.05", "30.3", "12 400".
+std::string three_digits(double value);
+
+/// In which unit people read a signal: its own one times `per_own_unit`.
+struct DisplayUnit {
+    std::string_view unit;
+    double per_own_unit;
+};
+
+/// Counts of the carriage as um, commands as mV; Hall readings and corners as they are.
+DisplayUnit display_unit(const Rig& rig, gap::Signal signal);
+
+/// A size in the display unit: "12.5 um". Of a Hall reading with the motion that it stands for in the middle
+/// of the range.
+std::string shown_size(const Rig& rig, gap::Signal signal, double own_unit);
+
+/// How large a gap in floors is, 0 (at the floor) .. 4: a class of the style sheet, "size-0".
+int size_class(double floors);
+
+}  // namespace fidservo::diagnose
