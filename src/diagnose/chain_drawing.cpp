@@ -17,7 +17,7 @@ using gap::Signal;
 using report::escaped;
 
 constexpr double width = 1180.0, margin = 6.0;
-constexpr double block_width = 130.0, boundary_width = 178.0, part_height = 82.0;
+constexpr double block_width = 124.0, boundary_width = 190.0, part_height = 82.0;
 constexpr double step = 20.0;         ///< between two parts
 constexpr double row_height = 146.0;  ///< from one row of parts to the next
 constexpr double first_row = 46.0;
@@ -55,7 +55,7 @@ class Drawing {
         const std::vector<std::string> effects = effects_in(block.name);
         for (std::size_t k = 0; k < std::min<std::size_t>(effects.size(), 2); ++k)
             text(centre, y + 42 + 15 * static_cast<double>(k), "effect", readable(effects[k]));
-        if (!state.empty()) text(centre, y + part_height - 8, "share", percent(probability));
+        if (!state.empty()) text(centre, y + part_height - 8, "share", probability_words(probability));
         svg_ += "</g>";
     }
 
@@ -116,22 +116,16 @@ class Drawing {
         return names;
     }
 
-    static std::string percent(double probability) {
-        constexpr double nearly_sure = 0.995;
-        return probability >= nearly_sure ? "> 99 %" : fmt::format("{:.0f} %", 100.0 * probability);
-    }
-
     /// A bar in the colour of a gap's size, and the gap in floors and in the unit that people read.
     void line_of_gap(double x, double y, int size, std::string_view when, double own_unit, double floor,
                      Signal signal) {
-        const DisplayUnit display = display_unit(rig_, signal);
         svg_ += fmt::format(
             "<rect class=\"gap size-{}\" x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"21\" rx=\"4\"/>",
             size, x + 6, y, boundary_width - 12);
         text(x + 12, y + 15, "when", when, "start");
         text(x + boundary_width - 12, y + 15, "value",
-             fmt::format("{} fl \u00b7 {} {}", three_digits(own_unit / floor),
-                         three_digits(own_unit * display.per_own_unit), display.unit),
+             fmt::format("{} fl \u00b7 {}", floors_words(own_unit / floor),
+                         shown_size(rig_, signal, own_unit)),
              "end");
     }
 

@@ -96,6 +96,18 @@ BinnedMean binned_mean(const std::vector<Sample>& samples, const std::vector<std
     return result;
 }
 
+/// The range of x without the outermost 0.2 % at each end; all of it where these are everything.
+std::pair<float, float> usual_range(const std::vector<Sample>& samples) {
+    constexpr double left_out = 0.002;
+    if (samples.empty()) return {0.0f, 0.0f};
+    std::vector<float> x(samples.size());
+    std::ranges::transform(samples, x.begin(), &Sample::x);
+    std::ranges::sort(x);
+    const auto skipped = static_cast<std::size_t>(left_out * static_cast<double>(x.size()));
+    const float low = x[skipped], high = x[x.size() - 1 - skipped];
+    return high > low ? std::pair(low, high) : std::pair(x.front(), x.back());
+}
+
 }  // namespace
 
 std::vector<Quantity> quantities(const gap::Evidence& evidence, const Predictions& predictions,
@@ -169,16 +181,20 @@ std::vector<Quantity> quantities(const gap::Evidence& evidence, const Prediction
     return found;
 }
 
-BinnedErrors binned(const std::vector<Sample>& samples, std::size_t bins) {
-    const auto [low, high] = std::ranges::minmax_element(samples, {}, &Sample::x);
+BinnedErrors binned(const std::vector<Sample>& all, std::size_t bins) {
     BinnedErrors result;
-    if (samples.empty() || !(high->x > low->x)) return result;
-    const auto from = static_cast<double>(low->x),
-               width = (static_cast<double>(high->x) - from) / static_cast<double>(bins);
-    std::vector<std::size_t> bin_of(samples.size());
-    std::ranges::transform(samples, bin_of.begin(), [&](const Sample& sample) {
-        return std::min(bins - 1, static_cast<std::size_t>((static_cast<double>(sample.x) - from) / width));
-    });
+    const auto [low, high] = usual_range(all);
+    if (!(high > low)) return result;
+    const auto from = static_cast<double>(low),
+               width = (static_cast<double>(high) - from) / static_cast<double>(bins);
+    std::vector<Sample> samples;
+    std::vector<std::size_t> bin_of;
+    for (const Sample& sample : all) {
+        if (sample.x < low || sample.x > high) continue;
+        samples.push_back(sample);
+        bin_of.push_back(
+            std::min(bins - 1, static_cast<std::size_t>((static_cast<double>(sample.x) - from) / width)));
+    }
     for (std::size_t bin = 0; bin < bins; ++bin)
         result.x.push_back(from + (static_cast<double>(bin) + 0.5) * width);
     result.before = binned_mean(samples, bin_of, bins, &Sample::before);

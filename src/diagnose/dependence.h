@@ -36,8 +36,8 @@ struct BinnedErrors {
     BinnedMean before, after;
 };
 
-/// Bins of equal width over the range of x. Errors of one window hang together: the standard error comes from
-/// the scatter of the windows' means in a bin, weighted by their values.
+/// Bins of equal width over the range of x, but for 0.2 % at each end. Errors of one window hang together:
+/// the standard error comes from the scatter of the windows' means in a bin, weighted by their values.
 BinnedErrors binned(const std::vector<Sample>& samples, std::size_t bins);
 
 }  // namespace fidservo::diagnose

@@ -35,20 +35,24 @@ ErrorUnit error_unit(const gap::Evidence& evidence, Signal signal) {
     return {display.unit, display.per_own_unit * evidence.floor(signal)};
 }
 
-/// Largest distance from 0 that a chart has to show, in floors.
+/// Largest distance from 0 that a chart has to show, in floors. A band that is much wider than all means is
+/// cut off.
 double reach_of(const BinnedMean& mean) {
-    double reach = 0.0;
+    constexpr double most_per_mean = 1.6;
+    double reach = 0.0, largest_mean = 0.0;
     for (std::size_t bin = 0; bin < mean.mean.size(); ++bin) {
         if (std::isnan(mean.mean[bin])) continue;
         const double band = std::isnan(mean.std_error[bin]) ? 0.0 : band_errors * mean.std_error[bin];
+        largest_mean = std::max(largest_mean, std::abs(mean.mean[bin]));
         reach = std::max(reach, std::abs(mean.mean[bin]) + band);
     }
-    return reach;
+    return std::min(reach, most_per_mean * largest_mean);
 }
 
 /// A line with its band; gaps where there is no mean.
 std::string curve_svg(const std::vector<double>& middles, const BinnedMean& mean, double per_floor,
                       const Scale& x, const Scale& y, int part) {
+    const auto within = [&](double value) { return y(std::clamp(value, y.from, y.to)); };
     std::string line, dots, bands;
     std::string upper, lower;
     bool pen_down = false;
@@ -64,16 +68,16 @@ std::string curve_svg(const std::vector<double>& middles, const BinnedMean& mean
             continue;
         }
         const double at = x(middles[bin]), value = per_floor * mean.mean[bin];
-        line += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", at, y(value));
-        dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\"/>", at, y(value));
+        line += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", at, within(value));
+        dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\"/>", at, within(value));
         pen_down = true;
         if (std::isnan(mean.std_error[bin])) {
             close_band();
             continue;
         }
         const double half = per_floor * band_errors * mean.std_error[bin];
-        upper += fmt::format("{}{:.1f} {:.1f}", upper.empty() ? "" : "L", at, y(value + half));
-        lower = fmt::format("{:.1f} {:.1f}{}{}", at, y(value - half), lower.empty() ? "" : "L", lower);
+        upper += fmt::format("{}{:.1f} {:.1f}", upper.empty() ? "" : "L", at, within(value + half));
+        lower = fmt::format("{:.1f} {:.1f}{}{}", at, within(value - half), lower.empty() ? "" : "L", lower);
     }
     close_band();
     return fmt::format("<g class=\"curve part-{}\">{}<path d=\"{}\"/>{}</g>", part, bands, line, dots);
@@ -107,11 +111,6 @@ bool is_named(const gap::Diagnosis& diagnosis, Signal signal, const Quantity& qu
                (name.starts_with("position, periodic") && quantity.name == "position") ||
                (name == "direction" && quantity.name == "velocity");
     });
-}
-
-std::string share_words(double share) {
-    constexpr double nothing = 0.0005;
-    return share < nothing ? "nothing" : fmt::format("{:.1f} %", 100.0 * share);
 }
 
 std::string figure_html(const gap::Diagnosis& diagnosis, Signal signal, const Quantity& quantity,

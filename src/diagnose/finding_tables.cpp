@@ -23,17 +23,10 @@ std::string value_and_std(double value, double std) {
     return fmt::format("{} \u00b1 {}", report::number(value, digits), report::number(std, digits));
 }
 
-std::string percent(double share) {
-    constexpr double nothing = 0.0005, nearly_all = 0.9995;
-    if (share > 0.0 && share < nothing) return "< 0.1 %";
-    if (share < 1.0 && share > nearly_all) return "> 99.9 %";
-    return fmt::format("{:.1f} %", 100.0 * share);
-}
-
-std::string bar_cell(double share, std::string_view kind) {
+std::string bar_cell(double share, const std::string& words, std::string_view kind) {
     return fmt::format(
         "<td class=\"n\">{}</td><td class=\"bar\"><span class=\"{}\" style=\"width:{:.1f}%\"></span></td>",
-        percent(share), kind, 100.0 * std::clamp(share, 0.0, 1.0));
+        words, kind, 100.0 * std::clamp(share, 0.0, 1.0));
 }
 
 std::string parameters_html(const gap::FoundEffect& found, const plant::Effect* effect) {
@@ -82,8 +75,8 @@ std::string found_effect_html(const gap::FoundEffect& found) {
         "\u00b7 gap "
         "removed with it and those before it: {} (95 %: {} to {})</p>\n",
         escaped(capitalised(readable(found.effect))), block_words(found.block), escaped(found.block),
-        percent(found.probability), percent(found.gap_removed), percent(found.gap_removed_low),
-        percent(found.gap_removed_high));
+        probability_words(found.probability), share_words(found.gap_removed),
+        share_words(found.gap_removed_low), share_words(found.gap_removed_high));
     if (advice != nullptr)
         html += fmt::format("<p>{}.</p>\n", escaped(capitalised(std::string(advice->what))));
     html += advice_html(advice) + parameters_html(found, effect) + alternatives_html(found);
@@ -99,10 +92,11 @@ std::string candidate_rows(std::span<const gap::TriedEffect> tried, const gap::D
     for (const gap::TriedEffect& candidate : tried) {
         const bool is_found = std::ranges::find(diagnosis.effects, candidate.effect,
                                                 &gap::FoundEffect::effect) != diagnosis.effects.end();
-        html += fmt::format("<tr{}><td>{}</td><td>{}</td>{}{}</tr>\n", is_found ? " class=\"found\"" : "",
-                            escaped(readable(candidate.effect)), escaped(candidate.block),
-                            bar_cell(candidate.probability, "probability"),
-                            bar_cell(candidate.gap_removed, "removal"));
+        html += fmt::format(
+            "<tr{}><td>{}</td><td>{}</td>{}{}</tr>\n", is_found ? " class=\"found\"" : "",
+            escaped(readable(candidate.effect)), escaped(candidate.block),
+            bar_cell(candidate.probability, probability_words(candidate.probability), "probability"),
+            bar_cell(candidate.gap_removed, share_words(candidate.gap_removed), "removal"));
     }
     return html;
 }

@@ -14,7 +14,7 @@ using report::escaped;
 
 std::string cell(double floors) {
     if (std::isnan(floors)) return "<td class=\"n\">\u2013</td>";
-    return fmt::format("<td class=\"n heat size-{}\">{}</td>", size_class(floors), three_digits(floors));
+    return fmt::format("<td class=\"n heat size-{}\">{}</td>", size_class(floors), floors_words(floors));
 }
 
 }  // namespace
@@ -28,8 +28,8 @@ std::string recording_gaps_html(const gap::Evidence& evidence, const Predictions
     std::string titles = "<th></th><th></th><th></th>",
                 parts = "<th>Recording</th><th>Experiment</th><th class=\"n\">Length</th>";
     for (const gap::Signal signal : signals) {
-        titles +=
-            fmt::format("<th colspan=\"{}\">{}</th>", predictions.is_explained ? 2 : 1, signal_words(signal));
+        titles += fmt::format("<th colspan=\"{}\">{}</th>", predictions.is_explained ? 2 : 1,
+                              capitalised(std::string(signal_words(signal))));
         parts += predictions.is_explained ? "<th class=\"n\">before</th><th class=\"n\">after</th>"
                                           : "<th class=\"n\">floors</th>";
     }

@@ -46,11 +46,11 @@ std::vector<report::KeyFigure> figures_of(const gap::Diagnosis& diagnosis) {
     if (!diagnosis.effects.empty()) {
         figures.push_back(
             {three_digits(diagnosis.gap.after), "gap after, floors", mood_of_gap(diagnosis.gap.after)});
-        figures.push_back({fmt::format("{:.1f} %", 100.0 * diagnosis.gap.removed()), "of the gap removed"});
+        figures.push_back({share_words(diagnosis.gap.removed()), "of the gap removed"});
     }
     if (!diagnosis.where.empty()) {
         const gap::BlockProbability& first = diagnosis.where.front();
-        figures.push_back({first.block, fmt::format("where, {:.0f} % probable", 100.0 * first.probability)});
+        figures.push_back({first.block, "where, probability " + probability_words(first.probability)});
     }
     return figures;
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -160,19 +161,24 @@ std::vector<float> picked(const std::vector<float>& values, const std::vector<st
     return kept;
 }
 
-/// The traces of before and after; of before alone without an explanation.
-std::vector<report::Trace> both(const Predictions& predictions, const std::vector<float>& before,
-                                const std::vector<float>& after, int digits) {
+bool are_equal(const std::vector<float>& a, const std::vector<float>& b) {
+    return std::ranges::equal(a, b, [](float left, float right) {
+        return left == right || (std::isnan(left) && std::isnan(right));
+    });
+}
+
+/// The traces of before and after; of before alone where the explanation changes nothing.
+std::vector<report::Trace> both(const std::vector<float>& before, const std::vector<float>& after,
+                                int digits) {
     std::vector<report::Trace> traces{{"rig file as it is", before, false, digits, false}};
-    if (predictions.is_explained) traces.push_back({"with the explanation", after, false, digits, false});
+    if (!are_equal(before, after)) traces.push_back({"with the explanation", after, false, digits, false});
     return traces;
 }
 
 std::vector<report::TimePlot> plots_of(const Course& course, const std::vector<std::size_t>& rows,
-                                       Signal signal, const DisplayUnit& display,
-                                       const Predictions& predictions) {
+                                       Signal signal, const DisplayUnit& display) {
     const std::string id = fmt::format("traces-{}", gap::name_of(signal));
-    constexpr int value_height_px = 220, error_height_px = 170;
+    constexpr int value_height_px = 260, error_height_px = 220;
     std::vector<report::TimePlot> plots;
     const auto add = [&](std::string_view part, const std::string& title, std::string_view unit,
                          int height_px, std::vector<report::Trace> traces) {
@@ -183,31 +189,42 @@ std::vector<report::TimePlot> plots_of(const Course& course, const std::vector<s
                              after = picked(course.explained_error, rows);
     if (signal == Signal::tag) {
         add("along", "Error along the motion, mean of a frame's tags", "floors", error_height_px,
-            both(predictions, before, after, 2));
+            both(before, after, 2));
         add("across", "Error across the motion, r.m.s. of a frame's corners", "floors", error_height_px,
-            both(predictions, picked(course.nominal_across, rows), picked(course.explained_across, rows), 2));
+            both(picked(course.nominal_across, rows), picked(course.explained_across, rows), 2));
         return plots;
     }
     const std::vector<float> recorded = picked(course.recorded, rows);
     const ValueUnit drawn = value_unit(signal, display);
-    std::vector<report::Trace> values = both(predictions, sum_of(recorded, before, drawn.per_error_unit),
+    std::vector<report::Trace> values = both(sum_of(recorded, before, drawn.per_error_unit),
                                              sum_of(recorded, after, drawn.per_error_unit), drawn.digits);
     values.insert(values.begin(), report::Trace{"recorded", recorded, false, drawn.digits, true});
     const std::string name = capitalised(std::string(signal_words(signal)));
     add("values", name, drawn.unit, value_height_px, std::move(values));
-    add("errors", "Error: predicted minus recorded", display.unit, error_height_px,
-        both(predictions, before, after, 2));
+    add("errors", "Error: predicted minus recorded", display.unit, error_height_px, both(before, after, 2));
     return plots;
 }
 
-/// The recording in which the rig file alone does worst at a signal; empty if none was judged.
-std::optional<std::size_t> worst_run(const std::vector<RunGaps>& gaps, Signal signal) {
-    std::optional<std::size_t> worst;
-    for (std::size_t run = 0; run < gaps.size(); ++run) {
-        const double before = gaps[run][gap::index_of(signal)].before;
-        if (!std::isnan(before) && (!worst || before > gaps[*worst][gap::index_of(signal)].before))
-            worst = run;
+/// A signal's recording in which the rig file alone does worst.
+struct WorstRun {
+    Signal signal;
+    std::size_t run;
+    RunGap size;
+};
+
+/// Of all signals that were judged, the largest gap first.
+std::vector<WorstRun> worst_runs(const std::vector<RunGaps>& gaps) {
+    std::vector<WorstRun> worst;
+    for (std::size_t s = 0; s < gap::signal_count; ++s) {
+        std::optional<WorstRun> of_signal;
+        for (std::size_t run = 0; run < gaps.size(); ++run) {
+            const RunGap& size = gaps[run][s];
+            if (!std::isnan(size.before) && (!of_signal || size.before > of_signal->size.before))
+                of_signal = {static_cast<Signal>(s), run, size};
+        }
+        if (of_signal) worst.push_back(*of_signal);
     }
+    std::ranges::stable_sort(worst, std::greater{}, [](const WorstRun& one) { return one.size.before; });
     return worst;
 }
 
@@ -223,15 +240,16 @@ std::string signal_html(const gap::Evidence& evidence, const Predictions& predic
     report::TimeAxis axis;
     for (const std::size_t row : rows) axis.time_s.push_back(course.time_s[row]);
     axis.spans.push_back({from_s, to_s, "worst second", "bad"});
+    const std::string after = !predictions.is_explained ? ""
+                              : are_equal(course.nominal_error, course.explained_error)
+                                  ? "; the explanation changes nothing here"
+                                  : fmt::format(", {} with the explanation", floors_words(size.after));
     std::string html = fmt::format(
-        "<h3>{} in {}</h3>\n<p class=\"hint\">{} floors r.m.s. in this recording with the rig file as it "
-        "is{}."
-        "</p>\n",
+        "<h3>{} \u2013 {}</h3>\n<p class=\"hint\">{} floors r.m.s. in this recording with the rig file as it "
+        "is{}.</p>\n",
         report::escaped(capitalised(std::string(signal_words(signal)))), report::escaped(recording.name),
-        three_digits(size.before),
-        predictions.is_explained ? fmt::format(", {} with the explanation", three_digits(size.after)) : "");
-    html += report::time_plots(
-        axis, plots_of(course, rows, signal, display_unit(evidence.rig(), signal), predictions));
+        floors_words(size.before), after);
+    html += report::time_plots(axis, plots_of(course, rows, signal, display_unit(evidence.rig(), signal)));
     if (rows.size() < course.time_s.size())
         html += fmt::format(
             "<p class=\"hint\">{} of {} samples are drawn: all of the marked second, and elsewhere the "
@@ -243,20 +261,16 @@ std::string signal_html(const gap::Evidence& evidence, const Predictions& predic
 }  // namespace
 
 std::string traces_html(const gap::Evidence& evidence, const Predictions& predictions) {
-    const std::vector<RunGaps> gaps = gaps_by_run(evidence, predictions);
     std::string html, agreeing;
-    for (std::size_t s = 0; s < gap::signal_count; ++s) {
-        const auto signal = static_cast<Signal>(s);
-        const std::optional<std::size_t> run = worst_run(gaps, signal);
-        if (!run) continue;
+    for (const auto& [signal, run, size] : worst_runs(gaps_by_run(evidence, predictions))) {
         const bool is_command = signal == Signal::macro_command || signal == Signal::micro_command;
-        if (is_command && size_class(gaps[*run][s].before) == 0)
+        if (is_command && size_class(size.before) == 0)
             agreeing += fmt::format(
                 "<p>The {} follows from the rig file's controller to {} floors at worst; it is not "
                 "drawn.</p>\n",
-                signal_words(signal), three_digits(gaps[*run][s].before));
+                signal_words(signal), floors_words(size.before));
         else
-            html += signal_html(evidence, predictions, *run, signal, gaps[*run][s]);
+            html += signal_html(evidence, predictions, run, signal, size);
     }
     return html + agreeing;
 }

@@ -80,10 +80,10 @@ std::string verdict_detail(const gap::Diagnosis& diagnosis) {
         case gap::Verdict::explained:
         case gap::Verdict::partly_explained: {
             std::string text = fmt::format(
-                "{}; with {} they are off by {}: {:.1f} % of the excess is gone, counted on recordings "
+                "{}; with {} they are off by {}: {} of the excess is gone, counted on recordings "
                 "that were held out.",
                 sizes(diagnosis), diagnosis.effects.size() == 1 ? "this effect" : "these effects",
-                three_digits(diagnosis.gap.after), 100.0 * diagnosis.gap.removed());
+                three_digits(diagnosis.gap.after), share_words(diagnosis.gap.removed()));
             if (diagnosis.unexplained)
                 text += " What is left arises " + remainder_words(*diagnosis.unexplained) + ".";
             return text + ties(diagnosis);

@@ -13,7 +13,7 @@ namespace {
 
 using report::escaped;
 
-constexpr double width = 1100.0, left = 250.0, right = 800.0, row_height = 40.0, bar_height = 22.0,
+constexpr double width = 1100.0, left = 200.0, right = 700.0, row_height = 40.0, bar_height = 22.0,
                  top = 30.0;
 
 /// Logarithmic, from a little below the floor to a little above the largest gap.
@@ -27,7 +27,7 @@ class LogAxis {
     }
 
     std::vector<double> ticks() const {
-        constexpr double widest_with_all = 1.7;
+        constexpr double widest_with_all = 2.3;
         std::vector<double> values;
         for (int decade = static_cast<int>(std::floor(low_)); decade <= static_cast<int>(high_); ++decade)
             for (const double factor : {1.0, 2.0, 5.0}) {
@@ -55,9 +55,9 @@ std::string bar(const LogAxis& x, double y, std::string_view kind, double from, 
                        bar_height);
 }
 
-std::string percent_removed(const gap::FoundEffect& effect) {
-    return fmt::format("{:.1f} % removed (95 %: {:.1f} to {:.1f})", 100.0 * effect.gap_removed,
-                       100.0 * effect.gap_removed_low, 100.0 * effect.gap_removed_high);
+std::string removed_words(const gap::FoundEffect& effect) {
+    return fmt::format("{} removed (95 %: {} to {})", share_words(effect.gap_removed),
+                       share_words(effect.gap_removed_low), share_words(effect.gap_removed_high));
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ std::string waterfall_svg(const gap::Diagnosis& diagnosis) {
         const gap::FoundEffect& effect = diagnosis.effects[k];
         row("+ " + readable(effect.effect),
             bar(x, y, "removed", std::min(last, steps[k]), std::max(last, steps[k])), three_digits(steps[k]),
-            percent_removed(effect));
+            removed_words(effect));
         last = steps[k];
     }
     row("What is left", from_floor("whole", diagnosis.gap.after), three_digits(diagnosis.gap.after),

@@ -110,12 +110,33 @@ DisplayUnit display_unit(const Rig& rig, gap::Signal signal) {
 }
 
 std::string shown_size(const Rig& rig, gap::Signal signal, double own_unit) {
+    constexpr double thousand = 1000.0, least_shown = 0.001;
     const DisplayUnit display = display_unit(rig, signal);
-    std::string text = fmt::format("{} {}", three_digits(own_unit * display.per_own_unit), display.unit);
-    if (signal == gap::Signal::hall && rig.micro)
-        text +=
-            fmt::format(" (\u2248 {} \u00b5m)", three_digits(own_unit * hall_um_per_lsb(rig.micro->hall)));
-    return text;
+    const double size = own_unit * display.per_own_unit;
+    if (size < least_shown) return fmt::format("< {} {}", least_shown, display.unit);
+    if (size >= thousand && signal == gap::Signal::encoder) return three_digits(size / thousand) + " mm";
+    return fmt::format("{} {}", three_digits(size), display.unit);
+}
+
+std::string platform_motion(const Rig& rig, double hall_lsb) {
+    return three_digits(hall_lsb * hall_um_per_lsb(rig.micro->hall)) + " \u00b5m";
+}
+
+std::string floors_words(double floors) {
+    constexpr double least_shown = 0.01;
+    return floors < least_shown ? "< 0.01" : three_digits(floors);
+}
+
+std::string probability_words(double probability) {
+    constexpr double nothing = 0.0005;
+    if (probability < nothing) return "< 0.1 %";
+    if (probability > 1.0 - nothing) return "> 99.9 %";
+    return fmt::format("{:.1f} %", 100.0 * probability);
+}
+
+std::string share_words(double share) {
+    if (share == 0.0) return "0 %";
+    return share == 1.0 ? "100 %" : probability_words(share);
 }
 
 int size_class(double floors) {

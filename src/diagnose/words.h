@@ -26,6 +26,15 @@ std::string capitalised(std::string text);
 /// Three significant digits, a true minus sign, thousands set apart: "0.0312", "1.05", "30.3", "12 400".
 std::string three_digits(double value);
 
+/// A gap in floors: three digits, or "< 0.01".
+std::string floors_words(double floors);
+
+/// A probability in percent, never quite 0 or 1: "93.1 %", "> 99.9 %".
+std::string probability_words(double probability);
+
+/// A share in percent: "45.6 %", "> 99.9 %", "100 %".
+std::string share_words(double share);
+
 /// In which unit people read a signal: its own one times `per_own_unit`.
 struct DisplayUnit {
     std::string_view unit;
@@ -35,9 +44,12 @@ struct DisplayUnit {
 /// Counts of the carriage as um, commands as mV; Hall readings and corners as they are.
 DisplayUnit display_unit(const Rig& rig, gap::Signal signal);
 
-/// A size in the display unit: "12.5 um". Of a Hall reading with the motion that it stands for in the middle
-/// of the range.
+/// A size in the display unit: "12.5 um", "1.25 mm".
 std::string shown_size(const Rig& rig, gap::Signal signal, double own_unit);
+
+/// The motion of the platform that a size of the Hall reading stands for in the middle of the range, "25 um".
+/// Demands a micro stage.
+std::string platform_motion(const Rig& rig, double hall_lsb);
 
 /// How large a gap in floors is, 0 (at the floor) .. 4: a class of the style sheet, "size-0".
 int size_class(double floors);
