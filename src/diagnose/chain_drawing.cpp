@@ -72,8 +72,10 @@ class Drawing {
         const double centre = x + boundary_width / 2;
         text(centre, y + 20, "title", title);
         if (is_judged) {
-            line_of_gap(x, y + 30, size, "before", found->before, found->floor, signal);
-            line_of_gap(x, y + 54, left, "after", found->after, found->floor, signal);
+            const bool is_explained = !diagnosis_.effects.empty();
+            line_of_gap(x, y + (is_explained ? 30 : 42), size, is_explained ? "before" : "gap", found->before,
+                        found->floor, signal);
+            if (is_explained) line_of_gap(x, y + 54, left, "after", found->after, found->floor, signal);
         } else {
             text(centre, y + 44, "note", "fed in as recorded,");
             text(centre, y + 61, "note", "not judged");
@@ -81,10 +83,11 @@ class Drawing {
         svg_ += "</g>";
     }
 
-    void arrow(const std::string& path, bool is_feedback = false) {
-        svg_ += fmt::format("<path class=\"{}\" d=\"{}\" marker-end=\"url(#chain-tip)\"/>",
-                            is_feedback ? "feedback" : "wire", path);
+    void arrow(const std::string& path, std::string_view kind = "wire") {
+        svg_ += fmt::format("<path class=\"{}\" d=\"{}\" marker-end=\"url(#chain-tip)\"/>", kind, path);
     }
+
+    void line(const std::string& path) { svg_ += fmt::format("<path class=\"wire\" d=\"{}\"/>", path); }
 
     void text(double x, double y, std::string_view kind, std::string_view words,
               std::string_view anchor = "middle") {
@@ -158,11 +161,12 @@ double draw_stage(Drawing& drawing, const StageRow& row, double y) {
     }
     const double sensor = width - margin - boundary_width - step;
     drawing.arrow(straight(x, middle, sensor));
-    drawing.boundary(sensor, y, row.sensor, row.sensor == Signal::encoder ? "Encoder" : "Hall reading");
+    drawing.boundary(sensor, y, row.sensor,
+                     row.sensor == Signal::encoder ? "Encoder reading" : "Hall reading");
     if (row.is_controlled)
         drawing.arrow(fmt::format("M{:.0f} {:.0f}V{:.0f}H{:.0f}V{:.0f}", sensor + boundary_width / 2, y,
                                   y - 16, controller, y),
-                      true);
+                      "feedback");
     return sensor + boundary_width;
 }
 
@@ -172,7 +176,7 @@ void draw_camera(Drawing& drawing, double y) {
                                 {"camera.timing", "Frame times"},
                                 {"camera.image", "Image quality"}};
     const double middle = y + part_height / 2;
-    drawing.text(width - margin, y - 12, "row", "Camera over the plate", "end");
+    drawing.text(width - margin - step, y - 12, "row", "Camera over the plate", "end");
     double x = width - margin - step;
     drawing.arrow(fmt::format("M{:.0f} {:.0f}H{:.0f}", width - margin, middle, x));
     for (const Block& block : blocks) {
@@ -214,10 +218,8 @@ std::string chain_drawing_svg(const Rig& rig, const gap::Diagnosis& diagnosis) {
              rig.micro->pi.has_value()});
     if (has_camera) {
         const double bus = width - margin;
-        for (const auto& [x, middle] : ends)
-            drawing.arrow(fmt::format("M{:.0f} {:.0f}H{:.0f}", x, middle, bus), true);
-        drawing.arrow(fmt::format("M{0:.0f} {1:.0f}V{2:.0f}", bus, ends.front().second, y + part_height / 2),
-                      true);
+        for (const auto& [x, middle] : ends) drawing.line(straight(x, middle, bus));
+        drawing.line(fmt::format("M{0:.0f} {1:.0f}V{2:.0f}", bus, ends.front().second, y + part_height / 2));
         draw_camera(drawing, y);
         y += row_height;
     }

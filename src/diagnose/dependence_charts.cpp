@@ -29,10 +29,10 @@ struct ErrorUnit {
     double per_floor;
 };
 
-ErrorUnit error_unit(const gap::Evidence& evidence, Signal signal) {
-    if (signal == Signal::tag) return {"floors", 1.0};
-    const DisplayUnit display = display_unit(evidence.rig(), signal);
-    return {display.unit, display.per_own_unit * evidence.floor(signal)};
+ErrorUnit error_unit(const gap::Evidence& evidence, const gap::SignalGap& signal) {
+    if (signal.signal == Signal::tag) return {"floors", 1.0};
+    const DisplayUnit display = display_unit(evidence.rig(), signal.signal, signal.before);
+    return {display.unit, display.per_own_unit * evidence.floor(signal.signal)};
 }
 
 /// Largest distance from 0 that a chart has to show, in floors. A band that is much wider than all means is
@@ -142,7 +142,7 @@ std::string dependence_html(const gap::Evidence& evidence, const gap::Diagnosis&
                             signal.signal == Signal::tag ? " along the motion" : "");
         for (const Quantity& quantity : all)
             html += figure_html(diagnosis, signal.signal, quantity, binned(quantity.samples, bins),
-                                error_unit(evidence, signal.signal), predictions.is_explained);
+                                error_unit(evidence, signal), predictions.is_explained);
         html += "</div>\n";
     }
     if (!html.empty()) {

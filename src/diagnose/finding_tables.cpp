@@ -48,10 +48,10 @@ std::string parameters_html(const gap::FoundEffect& found, const plant::Effect* 
 }
 
 /// How to check that it is one of the effects that the recordings cannot tell apart.
-std::string alternatives_html(const gap::FoundEffect& found) {
-    if (found.indistinguishable_from.empty()) return "";
+std::string alternatives_html(const std::vector<std::string>& names) {
+    if (names.empty()) return "";
     std::string html = "<p>These recordings cannot tell it from:</p><ul>";
-    for (const std::string& name : found.indistinguishable_from) {
+    for (const std::string& name : names) {
         const Advice* advice = advice_on(name);
         html += fmt::format("<li><strong>{}</strong>", escaped(readable(name)));
         if (advice != nullptr) html += fmt::format(": {}. {}", escaped(advice->what), escaped(advice->check));
@@ -67,7 +67,7 @@ std::string advice_html(const Advice* advice) {
         escaped(advice->check), escaped(advice->cure));
 }
 
-std::string found_effect_html(const gap::FoundEffect& found) {
+std::string found_effect_html(const gap::FoundEffect& found, const gap::Diagnosis& diagnosis) {
     const plant::Effect* effect = plant::find_effect(found.effect);
     const Advice* advice = advice_on(found.effect);
     std::string html = fmt::format(
@@ -79,7 +79,8 @@ std::string found_effect_html(const gap::FoundEffect& found) {
         share_words(found.gap_removed_low), share_words(found.gap_removed_high));
     if (advice != nullptr)
         html += fmt::format("<p>{}.</p>\n", escaped(capitalised(std::string(advice->what))));
-    html += advice_html(advice) + parameters_html(found, effect) + alternatives_html(found);
+    html +=
+        advice_html(advice) + parameters_html(found, effect) + alternatives_html(ties_of(found, diagnosis));
     if (effect != nullptr)
         html +=
             fmt::format("<details><summary>The model</summary><p>{}</p><p class=\"hint\">{}</p></details>\n",
@@ -105,7 +106,7 @@ std::string candidate_rows(std::span<const gap::TriedEffect> tried, const gap::D
 
 std::string found_effects_html(const gap::Diagnosis& diagnosis) {
     std::string html;
-    for (const gap::FoundEffect& effect : diagnosis.effects) html += found_effect_html(effect);
+    for (const gap::FoundEffect& effect : diagnosis.effects) html += found_effect_html(effect, diagnosis);
     return html;
 }
 

@@ -42,7 +42,8 @@ Mood mood_of_gap(double floors) {
 std::vector<report::KeyFigure> figures_of(const gap::Diagnosis& diagnosis) {
     std::vector<report::KeyFigure> figures{
         {readable(gap::name_of(diagnosis.verdict)), "verdict", mood_of(diagnosis.verdict)},
-        {three_digits(diagnosis.gap.before), "gap before, floors", mood_of_gap(diagnosis.gap.before)}};
+        {three_digits(diagnosis.gap.before), diagnosis.effects.empty() ? "gap, floors" : "gap before, floors",
+         mood_of_gap(diagnosis.gap.before)}};
     if (!diagnosis.effects.empty()) {
         figures.push_back(
             {three_digits(diagnosis.gap.after), "gap after, floors", mood_of_gap(diagnosis.gap.after)});
@@ -56,17 +57,21 @@ std::vector<report::KeyFigure> figures_of(const gap::Diagnosis& diagnosis) {
 }
 
 std::string chain_html(const gap::Evidence& evidence, const gap::Diagnosis& diagnosis) {
+    std::string hint =
+        "Rounded boxes are what was measured: between two of them the simulator is fed with what was "
+        "recorded at "
+        "the first and predicts what was recorded at the second. fl: noise floors, the error that sensor "
+        "noise and "
+        "rounding make by themselves. Framed blocks are where the gap arises, with the probability.";
+    if (evidence.rig().micro)
+        hint += fmt::format(" 1 LSB of the Hall reading is {} of the platform in the middle of its range.",
+                            platform_motion(evidence.rig(), 1.0));
     return chain_drawing_svg(evidence.rig(), diagnosis) +
            "<p class=\"legend sizes\"><span class=\"size-0\">at the noise floor</span><span "
-           "class=\"size-1\">up to 2 "
-           "floors</span><span class=\"size-2\">up to 5</span><span class=\"size-3\">up to 20</span><span "
-           "class=\"size-4\">more</span></p>\n"
-           "<p class=\"hint\">Rounded boxes are what was measured: between two of them the simulator is fed "
-           "with what "
-           "was recorded at the first and predicts what was recorded at the second. fl: noise floors, the "
-           "error that "
-           "sensor noise and rounding make by themselves. Framed blocks are where the gap arises, with the "
-           "probability.</p>\n";
+           "class=\"size-1\">up to "
+           "2 floors</span><span class=\"size-2\">up to 5</span><span class=\"size-3\">up to 20</span><span "
+           "class=\"size-4\">more</span></p>\n<p class=\"hint\">" +
+           hint + "</p>\n";
 }
 
 std::string subline_of(const gap::Evidence& evidence, const gap::Diagnosis& diagnosis) {

@@ -54,15 +54,14 @@ struct ValueUnit {
 
 ValueUnit value_unit(Signal signal, const DisplayUnit& errors) {
     constexpr float thousandth = 1e-3f;
-    if (signal == Signal::encoder) return {"mm", thousandth, 3};
+    if (signal == Signal::encoder) return {"mm", errors.unit == "mm" ? 1.0f : thousandth, 3};
     if (signal == Signal::hall) return {errors.unit, 1.0f, 1};
     return {"V", thousandth, 4};
 }
 
 Course course_of_rows(const gap::Evidence& evidence, const Predictions& predictions, std::size_t run,
-                      Signal signal) {
+                      Signal signal, const DisplayUnit& display) {
     const Recording& recording = evidence.recordings()[run];
-    const DisplayUnit display = display_unit(evidence.rig(), signal);
     const double unit = display.per_own_unit,
                  value = unit * static_cast<double>(value_unit(signal, display).per_error_unit);
     Course course;
@@ -234,12 +233,13 @@ std::string signal_html(const gap::Evidence& evidence, const Predictions& predic
     const gap::Window* worst = worst_window(evidence, predictions.nominal, run, signal);
     const double from_s = seconds(worst->start_ns - recording.rows.front().time_ns),
                  to_s = from_s + static_cast<double>(worst->rows) * recording.tick_s;
+    const DisplayUnit display = display_unit(evidence.rig(), signal, size.before * evidence.floor(signal));
     const Course course = signal == Signal::tag ? course_of_frames(evidence, predictions, run)
-                                                : course_of_rows(evidence, predictions, run, signal);
+                                                : course_of_rows(evidence, predictions, run, signal, display);
     const std::vector<std::size_t> rows = drawn_rows(course, from_s, to_s);
     report::TimeAxis axis;
     for (const std::size_t row : rows) axis.time_s.push_back(course.time_s[row]);
-    axis.spans.push_back({from_s, to_s, "worst second", "bad"});
+    axis.spans.push_back({from_s, to_s, "worst second", size_class(size.before) > 0 ? "bad" : "neutral"});
     const std::string after = !predictions.is_explained ? ""
                               : are_equal(course.nominal_error, course.explained_error)
                                   ? "; the explanation changes nothing here"
@@ -249,7 +249,7 @@ std::string signal_html(const gap::Evidence& evidence, const Predictions& predic
         "is{}.</p>\n",
         report::escaped(capitalised(std::string(signal_words(signal)))), report::escaped(recording.name),
         floors_words(size.before), after);
-    html += report::time_plots(axis, plots_of(course, rows, signal, display_unit(evidence.rig(), signal)));
+    html += report::time_plots(axis, plots_of(course, rows, signal, display));
     if (rows.size() < course.time_s.size())
         html += fmt::format(
             "<p class=\"hint\">{} of {} samples are drawn: all of the marked second, and elsewhere the "
@@ -272,7 +272,10 @@ std::string traces_html(const gap::Evidence& evidence, const Predictions& predic
         else
             html += signal_html(evidence, predictions, run, signal, size);
     }
-    return html + agreeing;
+    return "<p class=\"hint\">Predictions begin anew every second, from the recording: hence the steps where "
+           "the "
+           "simulator is wrong.</p>\n" +
+           html + agreeing;
 }
 
 }  // namespace fidservo::diagnose

@@ -34,9 +34,9 @@ std::string sizes(const gap::Diagnosis& diagnosis) {
 std::string ties(const gap::Diagnosis& diagnosis) {
     std::string text;
     for (const gap::FoundEffect& effect : diagnosis.effects) {
-        if (effect.indistinguishable_from.empty()) continue;
         std::vector<std::string> others;
-        for (const std::string& name : effect.indistinguishable_from) others.push_back(readable(name));
+        for (const std::string& name : ties_of(effect, diagnosis)) others.push_back(readable(name));
+        if (others.empty()) continue;
         text += fmt::format(" These recordings cannot tell {} from {}.", readable(effect.effect),
                             enumerated(others));
     }
@@ -86,6 +86,8 @@ std::string verdict_detail(const gap::Diagnosis& diagnosis) {
                 three_digits(diagnosis.gap.after), share_words(diagnosis.gap.removed()));
             if (diagnosis.unexplained)
                 text += " What is left arises " + remainder_words(*diagnosis.unexplained) + ".";
+            else if (size_class(diagnosis.gap.after) > 0)
+                text += " What is left is above the noise floor, but without a pattern that could be found.";
             return text + ties(diagnosis);
         }
         case gap::Verdict::unexplained:

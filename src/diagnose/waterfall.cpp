@@ -47,6 +47,11 @@ std::string text(double x, double y, std::string_view anchor, std::string_view k
                        y, anchor, escaped(words));
 }
 
+std::string tick_words(double tick) {
+    constexpr double plain_below = 1e5;
+    return tick < plain_below ? fmt::format("{:g}", tick) : three_digits(tick);
+}
+
 /// A bar between two gaps, the smaller one first.
 std::string bar(const LogAxis& x, double y, std::string_view kind, double from, double to) {
     constexpr double thinnest = 1.5;
@@ -88,7 +93,7 @@ std::string waterfall_svg(const gap::Diagnosis& diagnosis) {
     for (const double tick : x.ticks())
         svg += fmt::format("<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2:.1f}\"/>",
                            x(tick), top, bottom) +
-               text(x(tick), bottom + 18, "middle", "tick-label", fmt::format("{:g}", tick));
+               text(x(tick), bottom + 18, "middle", "tick-label", tick_words(tick));
     svg += text((left + right) / 2, bottom + 38, "middle", "label", "gap in noise floors, logarithmic");
 
     double y = top;
@@ -97,7 +102,7 @@ std::string waterfall_svg(const gap::Diagnosis& diagnosis) {
         const double line = y + row_height / 2 + 4;
         svg += text(left - 12, line, "end", "name", name) + bars +
                text(right + 14, line, "start", "value", size) +
-               text(right + 76, line, "start", "remark", remark);
+               text(right + 84, line, "start", "remark", remark);
         y += row_height;
     };
     const auto from_floor = [&](std::string_view kind, double gap) {

@@ -6,6 +6,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,12 +35,14 @@ double hall_um_per_lsb(const HallParameters& hall) {
     return 1000.0 * hall_lsb_V(hall) / hall_slope_V_per_mm(hall, hall.centre_mm);
 }
 
-/// Digits in threes, with thin spaces.
-std::string grouped(long long value) {
-    std::string digits = fmt::format("{}", value);
-    for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
-        digits.insert(static_cast<std::size_t>(at), "\u202f");
-    return digits;
+/// "10" and its exponent as superscript digits.
+std::string power_of_ten(int exponent) {
+    constexpr std::array<std::string_view, 10> digits{"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                                      "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+    std::string text = exponent < 0 ? "10\u207b" : "10";
+    for (const char digit : fmt::format("{}", std::abs(exponent)))
+        text += digits[static_cast<std::size_t>(digit - '0')];
+    return text;
 }
 
 }  // namespace
@@ -77,27 +81,29 @@ std::string capitalised(std::string text) {
 }
 
 std::string three_digits(double value) {
-    constexpr double exponential_below = 1e-4, exponential_from = 1e7;
+    constexpr int least_exponent = -4, first_large_exponent = 5;
     if (!std::isfinite(value)) return "\u2013";
-    const double size = std::abs(value);
+    if (value == 0.0) return "0";
+    const std::string scientific = fmt::format("{:.2e}", std::abs(value));
+    const int exponent = std::stoi(scientific.substr(scientific.find('e') + 1));
+    const double rounded = std::stod(scientific);
     std::string text;
-    if (size == 0.0)
-        text = "0";
-    else if (size < exponential_below || size >= exponential_from)
-        text = fmt::format("{:.2e}", size);
-    else if (size >= 999.5)
-        text = grouped(std::llround(size));
-    else {
-        const int digits = std::max(0, 2 - static_cast<int>(std::floor(std::log10(size * 1.0005))));
-        text = fmt::format("{:.{}f}", size, digits);
+    if (exponent < least_exponent || exponent >= first_large_exponent) {
+        text = scientific.substr(0, scientific.find('e')) + "\u00d7" + power_of_ten(exponent);
+    } else {
+        text = fmt::format("{:.{}f}", rounded, std::max(0, 2 - exponent));
+        if (exponent > 2) text.insert(text.size() - 3, "\u202f");
     }
     return value < 0.0 ? "\u2212" + text : text;
 }
 
-DisplayUnit display_unit(const Rig& rig, gap::Signal signal) {
+DisplayUnit display_unit(const Rig& rig, gap::Signal signal, double largest) {
+    constexpr double largest_in_um_mm = 5.0;
+    const double resolution_mm = rig.macro.encoder_resolution_mm;
     switch (signal) {
         case gap::Signal::encoder:
-            return {"\u00b5m", 1000.0 * rig.macro.encoder_resolution_mm};
+            if (largest * resolution_mm > largest_in_um_mm) return {"mm", resolution_mm};
+            return {"\u00b5m", 1000.0 * resolution_mm};
         case gap::Signal::hall:
             return {"LSB", 1.0};
         case gap::Signal::tag:
@@ -110,11 +116,10 @@ DisplayUnit display_unit(const Rig& rig, gap::Signal signal) {
 }
 
 std::string shown_size(const Rig& rig, gap::Signal signal, double own_unit) {
-    constexpr double thousand = 1000.0, least_shown = 0.001;
-    const DisplayUnit display = display_unit(rig, signal);
+    constexpr double least_shown = 0.01;
+    const DisplayUnit display = display_unit(rig, signal, own_unit);
     const double size = own_unit * display.per_own_unit;
     if (size < least_shown) return fmt::format("< {} {}", least_shown, display.unit);
-    if (size >= thousand && signal == gap::Signal::encoder) return three_digits(size / thousand) + " mm";
     return fmt::format("{} {}", three_digits(size), display.unit);
 }
 
@@ -123,8 +128,8 @@ std::string platform_motion(const Rig& rig, double hall_lsb) {
 }
 
 std::string floors_words(double floors) {
-    constexpr double least_shown = 0.01;
-    return floors < least_shown ? "< 0.01" : three_digits(floors);
+    constexpr double least_shown = 0.1;
+    return floors < least_shown ? "< 0.1" : three_digits(floors);
 }
 
 std::string probability_words(double probability) {
@@ -137,6 +142,14 @@ std::string probability_words(double probability) {
 std::string share_words(double share) {
     if (share == 0.0) return "0 %";
     return share == 1.0 ? "100 %" : probability_words(share);
+}
+
+std::vector<std::string> ties_of(const gap::FoundEffect& effect, const gap::Diagnosis& diagnosis) {
+    std::vector<std::string> names;
+    for (const std::string& name : effect.indistinguishable_from)
+        if (std::ranges::find(diagnosis.effects, name, &gap::FoundEffect::effect) == diagnosis.effects.end())
+            names.push_back(name);
+    return names;
 }
 
 int size_class(double floors) {

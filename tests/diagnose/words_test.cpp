@@ -25,8 +25,10 @@ TEST(Words, ThreeDigits_KeepTheirMeaning) {
     EXPECT_EQ(three_digits(9.999), "10.0");
     EXPECT_EQ(three_digits(30.34), "30.3");
     EXPECT_EQ(three_digits(-999.4), "\u2212999");
-    EXPECT_EQ(three_digits(12403.0), "12\u202f403");
-    EXPECT_EQ(three_digits(1234567.0), "1\u202f234\u202f567");
+    EXPECT_EQ(three_digits(999.6), "1\u202f000");
+    EXPECT_EQ(three_digits(12403.0), "12\u202f400");
+    EXPECT_EQ(three_digits(2081316.0), "2.08\u00d710\u2076");
+    EXPECT_EQ(three_digits(1.5e-12), "1.50\u00d710\u207b\u00b9\u00b2");
     EXPECT_EQ(three_digits(std::numeric_limits<double>::quiet_NaN()), "\u2013");
 }
 
