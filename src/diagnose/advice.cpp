@@ -94,8 +94,8 @@ constexpr Advice table[] = {
      "Read the sensor with the platform at rest and the wire cold, and compare with the rig file.",
      "Set the magnet's place; run fidservo calibrate hall."},
     {"hall_nonlinearity", "the Hall sensor's curve is bent in another way than the rig file says",
-     "Compare the reading with an indicator or the tags at five places over the stroke: the ends agree, "
-     "the quarters do not.",
+     "Compare the reading with an indicator or the tags at five places over the stroke: the ends agree, the "
+     "quarters do not.",
      "Run fidservo calibrate hall; look for a tilted magnet or iron near the sensor."},
     {"hall_drift", "the Hall sensor's zero moves with time",
      "Record ten minutes at rest and look for a slope in the reading.",

@@ -98,10 +98,9 @@ class Drawing {
     std::string finished(double height) const {
         return fmt::format(
                    "<div class=\"scroll\"><svg class=\"chain\" viewBox=\"0 0 {} {:.0f}\" role=\"img\" "
-                   "aria-label=\"The signal chain with the gap at each measured boundary\">"
-                   "<defs><marker id=\"chain-tip\" viewBox=\"0 0 8 8\" refX=\"7\" refY=\"4\" "
-                   "markerWidth=\"8\" markerHeight=\"8\" orient=\"auto\"><path d=\"M0 0L8 4L0 8z\"/>"
-                   "</marker></defs>",
+                   "aria-label=\"The signal chain with the gap at each measured boundary\"><defs><marker "
+                   "id=\"chain-tip\" viewBox=\"0 0 8 8\" refX=\"7\" refY=\"4\" markerWidth=\"8\" "
+                   "markerHeight=\"8\" orient=\"auto\"><path d=\"M0 0L8 4L0 8z\"/></marker></defs>",
                    width, height) +
                svg_ + "</svg></div>\n";
     }

@@ -32,8 +32,7 @@ std::string bar_cell(double share, const std::string& words, std::string_view ki
 std::string parameters_html(const gap::FoundEffect& found, const plant::Effect* effect) {
     std::string html =
         "<table class=\"data\"><thead><tr><th>Parameter</th><th class=\"n\">Value \u00b1 "
-        "std</th><th>Unit</th>"
-        "<th>Meaning</th></tr></thead><tbody>";
+        "std</th><th>Unit</th><th>Meaning</th></tr></thead><tbody>";
     for (const gap::FittedParameter& parameter : found.parameters) {
         std::string_view meaning;
         if (effect != nullptr)
@@ -72,8 +71,7 @@ std::string found_effect_html(const gap::FoundEffect& found, const gap::Diagnosi
     const Advice* advice = advice_on(found.effect);
     std::string html = fmt::format(
         "<article class=\"card finding\"><h3>{}</h3>\n<p class=\"hint\">in {} ({}) \u00b7 probability {} "
-        "\u00b7 gap "
-        "removed with it and those before it: {} (95 %: {} to {})</p>\n",
+        "\u00b7 gap removed with it and those before it: {} (95 %: {} to {})</p>\n",
         escaped(capitalised(readable(found.effect))), block_words(found.block), escaped(found.block),
         probability_words(found.probability), share_words(found.gap_removed),
         share_words(found.gap_removed_low), share_words(found.gap_removed_high));
@@ -116,8 +114,8 @@ std::string candidates_html(const gap::Diagnosis& diagnosis) {
     constexpr std::size_t shown = 12;
     constexpr const char* head =
         "<table class=\"candidates\"><thead><tr><th>Effect</th><th>Block</th><th "
-        "class=\"n\">Probability</th><th></th>"
-        "<th class=\"n\">Gap removed</th><th></th></tr></thead><tbody>\n";
+        "class=\"n\">Probability</th><th></th><th class=\"n\">Gap "
+        "removed</th><th></th></tr></thead><tbody>\n";
     const std::span<const gap::TriedEffect> all(diagnosis.candidates);
     const std::size_t first = std::min(shown, all.size());
     std::string html = fmt::format("<div class=\"scroll\">{}{}</tbody></table></div>\n", head,
@@ -129,11 +127,9 @@ std::string candidates_html(const gap::Diagnosis& diagnosis) {
             all.size() - first, head, candidate_rows(all.subspan(first), diagnosis));
     return html +
            "<p class=\"hint\">Each alone, before any other effect was taken in: its probability against all "
-           "others and "
-           "against no effect, and the share of the gap that it removes on held-out recordings. Effects that "
-           "were "
-           "taken into the explanation are printed bold; one that acts beside a larger one can look small "
-           "here.</p>\n";
+           "others and against no effect, and the share of the gap that it removes on held-out recordings. "
+           "Effects that were taken into the explanation are printed bold; one that acts beside a larger one "
+           "can look small here.</p>\n";
 }
 
 }  // namespace fidservo::diagnose

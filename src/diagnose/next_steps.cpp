@@ -57,13 +57,27 @@ std::string experiment_html(const gap::ProposedExperiment& proposed, const Reque
     return html;
 }
 
+/// How wrong the simulator stays at the signals that are off their floor.
+std::string trust_html(const gap::Diagnosis& diagnosis, const Rig& rig) {
+    std::vector<std::string> sizes;
+    for (const gap::SignalGap& signal : diagnosis.signals)
+        if (size_class(signal.after / signal.floor) > 0)
+            sizes.push_back(fmt::format("{} in the {}", shown_size(rig, signal.signal, signal.after),
+                                        signal_words(signal.signal)));
+    if (sizes.empty()) return "";
+    return fmt::format(
+        "<p>Until the cause is found, expect the simulator to be wrong by {} (r.m.s. within a second).</p>\n",
+        escaped(enumerated(sizes)));
+}
+
 std::string remainder_html(const gap::Remainder& remainder) {
     std::string html = fmt::format("<p>{}.</p>\n", escaped(capitalised(remainder.text)));
     std::string hints;
     for (const std::string& dependence : remainder.depends_on) {
         const std::string_view advice = advice_on_dependence(dependence);
         if (!advice.empty())
-            hints += fmt::format("<li><strong>{}</strong>: {}</li>\n", escaped(dependence), escaped(advice));
+            hints += fmt::format("<li><strong>{}</strong>: {}</li>\n",
+                                 escaped(capitalised(dependence_words(dependence))), escaped(advice));
     }
     if (!hints.empty())
         html += fmt::format("<p>Look first at {}:</p>\n<ul>{}</ul>\n", block_words(remainder.block), hints);
@@ -77,14 +91,13 @@ std::string closing_html(const gap::Diagnosis& diagnosis, const Request& request
     if (request.written_rig.empty()) {
         html +=
             "<p>Where the cause stays, let the simulator have it: this writes a copy of the rig file with "
-            "the effects "
-            "and their values.</p>\n" +
+            "the effects and their values.</p>\n" +
             command_html(diagnose_command(request, "", " --write-rig " + rig));
     } else {
         rig = shell_word(request.written_rig.string());
         html += fmt::format(
-            "<p>Where the cause stays, let the simulator have it: <code>{}</code> is the rig file with "
-            "the effects and their values.</p>\n",
+            "<p>Where the cause stays, let the simulator have it: <code>{}</code> is the rig file with the "
+            "effects and their values.</p>\n",
             escaped(request.written_rig.string()));
     }
     return html + "<p>Every command that takes a rig file then simulates with them, for example:</p>\n" +
@@ -101,28 +114,30 @@ std::string notes_html(const std::vector<std::string>& notes) {
                        notes.size(), html);
 }
 
-std::string no_gap_html() {
+std::string no_gap_html(const gap::Diagnosis& diagnosis) {
+    if (size_class(diagnosis.gap.before) > 0)
+        return "<p>The predictions are off by more than the sensors' noise, but too few windows say so to "
+               "decide on a cause. Record the experiments again, longer and several times each, and repeat "
+               "the diagnosis.</p>\n";
     return "<p>Nothing needs to be done: use the simulator as it is. This holds for what the recordings "
-           "exercise; "
-           "an effect that they do not excite (a place on the rail, a speed, a temperature) does not show. "
-           "When "
-           "the rig was changed or has aged, record again and repeat the diagnosis.</p>\n";
+           "exercise; an effect that they do not excite (a place on the rail, a speed, a temperature) does "
+           "not show. When the rig was changed or has aged, record again and repeat the diagnosis.</p>\n";
 }
 
 }  // namespace
 
-std::string next_steps_html(const gap::Diagnosis& diagnosis, const Request& request) {
+std::string next_steps_html(const gap::Diagnosis& diagnosis, const Rig& rig, const Request& request) {
     std::string html;
-    if (diagnosis.verdict == gap::Verdict::no_gap) html += no_gap_html();
+    if (diagnosis.verdict == gap::Verdict::no_gap) html += no_gap_html(diagnosis);
     if (!diagnosis.effects.empty())
         html += fmt::format(
             "<p>Check on the rig what was found, as the cards above say, before you change anything: a model "
-            "that "
-            "predicts well is a strong hint, and an inspection is the proof.</p>\n");
+            "that predicts well is a strong hint, and an inspection is the proof.</p>\n");
     if (diagnosis.next_experiment)
         html += step("An experiment that decides", experiment_html(*diagnosis.next_experiment, request));
     if (diagnosis.unexplained)
-        html += step("What no known effect explains", remainder_html(*diagnosis.unexplained));
+        html += step("What no known effect explains",
+                     remainder_html(*diagnosis.unexplained) + trust_html(diagnosis, rig));
     if (!diagnosis.effects.empty()) html += step("How to close the gap", closing_html(diagnosis, request));
     if (!diagnosis.notes.empty()) html += step("What could not be judged", notes_html(diagnosis.notes));
     return html;

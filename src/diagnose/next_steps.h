@@ -1,5 +1,6 @@
 #pragma once
 // What to do after a diagnosis, with the commands to run.
+#include "core/rig.h"
 #include "gap/diagnosis.h"
 
 #include <filesystem>
@@ -18,6 +19,6 @@ struct Request {
 
 /// An experiment that decides, what to do about a remainder, how to close the gap, and what could not be
 /// judged.
-std::string next_steps_html(const gap::Diagnosis& diagnosis, const Request& request);
+std::string next_steps_html(const gap::Diagnosis& diagnosis, const Rig& rig, const Request& request);
 
 }  // namespace fidservo::diagnose

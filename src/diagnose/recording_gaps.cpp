@@ -48,10 +48,9 @@ std::string recording_gaps_html(const gap::Evidence& evidence, const Predictions
     }
     return fmt::format(
         "<div class=\"scroll\"><table class=\"data "
-        "heat\"><thead><tr>{}</tr><tr>{}</tr></thead><tbody>\n{}</tbody></table>"
-        "</div>\n<p class=\"hint\">R.m.s. error in noise floors on windows of 1 s{}; a dash: not recorded or "
-        "not judged. "
-        "An encoder at rest and a replayed controller can lie well below 1.</p>\n",
+        "heat\"><thead><tr>{}</tr><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n<p "
+        "class=\"hint\">R.m.s. error in noise floors on windows of 1 s{}; a dash: not recorded or not "
+        "judged. An encoder at rest and a replayed controller can lie well below 1.</p>\n",
         titles, parts, rows,
         predictions.is_explained ? ", after: with the parameters fitted to all recordings" : "");
 }

@@ -59,18 +59,16 @@ std::vector<report::KeyFigure> figures_of(const gap::Diagnosis& diagnosis) {
 std::string chain_html(const gap::Evidence& evidence, const gap::Diagnosis& diagnosis) {
     std::string hint =
         "Rounded boxes are what was measured: between two of them the simulator is fed with what was "
-        "recorded at "
-        "the first and predicts what was recorded at the second. fl: noise floors, the error that sensor "
-        "noise and "
-        "rounding make by themselves. Framed blocks are where the gap arises, with the probability.";
+        "recorded at the first and predicts what was recorded at the second. fl: noise floors, the error "
+        "that sensor noise and rounding make by themselves. Framed blocks are where the gap arises, with the "
+        "probability.";
     if (evidence.rig().micro)
         hint += fmt::format(" 1 LSB of the Hall reading is {} of the platform in the middle of its range.",
                             platform_motion(evidence.rig(), 1.0));
     return chain_drawing_svg(evidence.rig(), diagnosis) +
            "<p class=\"legend sizes\"><span class=\"size-0\">at the noise floor</span><span "
-           "class=\"size-1\">up to "
-           "2 floors</span><span class=\"size-2\">up to 5</span><span class=\"size-3\">up to 20</span><span "
-           "class=\"size-4\">more</span></p>\n<p class=\"hint\">" +
+           "class=\"size-1\">up to 2 floors</span><span class=\"size-2\">up to 5</span><span "
+           "class=\"size-3\">up to 20</span><span class=\"size-4\">more</span></p>\n<p class=\"hint\">" +
            hint + "</p>\n";
 }
 
@@ -94,18 +92,14 @@ std::string method_html(const gap::Evidence& evidence, const gap::Diagnosis& dia
             escaped(shown_size(evidence.rig(), signal.signal, signal.floor)));
     return fmt::format(
                "<div class=\"scroll\"><table class=\"data\"><thead><tr><th>Signal</th><th "
-               "class=\"n\">Before</th><th "
-               "class=\"n\">After</th><th "
+               "class=\"n\">Before</th><th class=\"n\">After</th><th "
                "class=\"n\">Floor</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
                rows) +
            "<p class=\"caption\">R.m.s. of prediction minus recording on windows of 1 s, each begun from the "
-           "100 ms "
-           "before it, on recordings that the parameters were not fitted to. The floor of a signal is its "
-           "noise at "
-           "rest and its rounding step, root of the sum of squares; that of a controller's command is set to "
-           "0.1 mV "
-           "or the file's digits. The total gap is the r.m.s. of the signals' errors in floors; removed = 1 "
-           "\u2212 (after\u00b2 \u2212 1) / (before\u00b2 \u2212 1).</p>\n";
+           "100 ms before it, on recordings that the parameters were not fitted to. The floor of a signal is "
+           "its noise at rest and its rounding step, root of the sum of squares; that of a controller's "
+           "command is set to 0.1 mV or the file's digits. The total gap is the r.m.s. of the signals' "
+           "errors in floors; removed = 1 \u2212 (after\u00b2 \u2212 1) / (before\u00b2 \u2212 1).</p>\n";
 }
 
 std::string footer_html(const gap::Evidence& evidence, const gap::Diagnosis& diagnosis,
@@ -142,7 +136,8 @@ std::string diagnosis_report(const gap::Evidence& evidence, const gap::Diagnosis
         page.body += report::section("waterfall", "How the gap closes", waterfall_svg(diagnosis));
         page.body += report::section("found", "What was found", found_effects_html(diagnosis));
     }
-    page.body += report::section("next", "What to do next", next_steps_html(diagnosis, request));
+    page.body +=
+        report::section("next", "What to do next", next_steps_html(diagnosis, evidence.rig(), request));
     page.body += report::section("traces", "Recorded and predicted", traces_html(evidence, predictions));
     page.body += report::section("dependence", "What the error depends on",
                                  dependence_html(evidence, diagnosis, predictions));

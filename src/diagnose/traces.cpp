@@ -273,8 +273,7 @@ std::string traces_html(const gap::Evidence& evidence, const Predictions& predic
             html += signal_html(evidence, predictions, run, signal, size);
     }
     return "<p class=\"hint\">Predictions begin anew every second, from the recording: hence the steps where "
-           "the "
-           "simulator is wrong.</p>\n" +
+           "the simulator is wrong.</p>\n" +
            html + agreeing;
 }
 

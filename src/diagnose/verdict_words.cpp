@@ -22,7 +22,9 @@ std::string causes(const gap::Diagnosis& diagnosis) {
 
 std::string remainder_words(const gap::Remainder& remainder) {
     std::string text = "in " + block_words(remainder.block);
-    if (!remainder.depends_on.empty()) text += ", dependent on " + enumerated(remainder.depends_on);
+    std::vector<std::string> names;
+    for (const std::string& name : remainder.depends_on) names.push_back(dependence_words(name));
+    if (!names.empty()) text += ", dependent on " + enumerated(names);
     return text;
 }
 
@@ -74,14 +76,14 @@ std::string verdict_detail(const gap::Diagnosis& diagnosis) {
                     "them, and nothing that was tried predicts better.",
                     three_digits(diagnosis.gap.before));
             return sizes(diagnosis) +
-                   ", but nothing that was tried predicts these recordings significantly "
-                   "better; more or longer recordings may decide.";
+                   ", but nothing that was tried predicts these recordings significantly better; more or "
+                   "longer recordings may decide.";
         }
         case gap::Verdict::explained:
         case gap::Verdict::partly_explained: {
             std::string text = fmt::format(
-                "{}; with {} they are off by {}: {} of the excess is gone, counted on recordings "
-                "that were held out.",
+                "{}; with {} they are off by {}: {} of the excess is gone, counted on recordings that were "
+                "held out.",
                 sizes(diagnosis), diagnosis.effects.size() == 1 ? "this effect" : "these effects",
                 three_digits(diagnosis.gap.after), share_words(diagnosis.gap.removed()));
             if (diagnosis.unexplained)
@@ -92,8 +94,8 @@ std::string verdict_detail(const gap::Diagnosis& diagnosis) {
         }
         case gap::Verdict::unexplained:
             return sizes(diagnosis) +
-                   ". A model without a name, fitted to what the errors depend on, predicts the "
-                   "recordings better; none of the catalogue's effects does.";
+                   ". A model without a name, fitted to what the errors depend on, predicts the recordings "
+                   "better; none of the catalogue's effects does.";
     }
     return "";
 }

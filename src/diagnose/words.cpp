@@ -59,6 +59,13 @@ std::string_view signal_words(gap::Signal signal) {
     return names[gap::index_of(signal)];
 }
 
+std::string dependence_words(const std::string& dependence) {
+    constexpr std::string_view periodic = "position, periodic (";
+    if (!dependence.starts_with(periodic) || !dependence.ends_with(')')) return dependence;
+    return "position with a period of " +
+           dependence.substr(periodic.size(), dependence.size() - periodic.size() - 1);
+}
+
 std::string readable(std::string_view name) {
     std::string text(name);
     std::ranges::replace(text, '_', ' ');

@@ -14,6 +14,10 @@ std::string block_words(std::string_view block);
 /// A signal in a sentence: "encoder reading".
 std::string_view signal_words(gap::Signal signal);
 
+/// What a remainder depends on, in a sentence: "position with a period of 2.5 mm" for "position, periodic
+/// (2.5 mm)".
+std::string dependence_words(const std::string& dependence);
+
 /// A name without its underscores.
 std::string readable(std::string_view name);
 

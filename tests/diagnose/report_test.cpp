@@ -105,9 +105,8 @@ TEST(DiagnosisReport, File_IsWellFormedSmallAndLoadsNothing) {
 
 TEST(DiagnosisReport, Commands_CanBePastedIntoAShell) {
     const std::string html = diagnosis_report(evidence(), hall_gain_found(), request);
-    EXPECT_THAT(html,
-                HasSubstr("fidservo diagnose --rig &#39;my rig.yaml&#39; --effects hall_gain,hall_offset "
-                          "campaign --write-rig RIG-AS-FOUND.yaml"));
+    EXPECT_THAT(html, HasSubstr("fidservo diagnose --rig &#39;my rig.yaml&#39; --effects "
+                                "hall_gain,hall_offset campaign --write-rig RIG-AS-FOUND.yaml"));
     Request written = request;
     written.written_rig = "found.yaml";
     EXPECT_THAT(diagnosis_report(evidence(), hall_gain_found(), written),
@@ -136,11 +135,13 @@ TEST(DiagnosisReport, Unexplained_SaysWhereAndWhatItDependsOn) {
     diagnosis.effects.clear();
     diagnosis.hypothesis.clear();
     diagnosis.unexplained = gap::Remainder{"micro.hall", {"contraction"}, "hall: 23.4 adc r.m.s. remain"};
+    diagnosis.signals[1].after = diagnosis.signals[1].before;
     const std::string html = diagnosis_report(evidence(), diagnosis, request);
     EXPECT_EQ(nesting_fault(html), "");
     EXPECT_THAT(html, HasSubstr("the Hall sensor, dependent on contraction; no known effect explains it"));
     EXPECT_THAT(html, HasSubstr("Hall: 23.4 adc r.m.s. remain."));
     EXPECT_THAT(html, HasSubstr("<figure class=\"dependence named\">"));
+    EXPECT_THAT(html, HasSubstr("expect the simulator to be wrong by 23.4 LSB in the Hall reading"));
 }
 
 TEST(DiagnosisReport, RigWithCarriageAlone_SpeaksOfNothingElse) {

@@ -39,6 +39,11 @@ TEST(Words, Enumeration_ReadsAsASentence) {
     EXPECT_EQ(enumerated({"a", "b", "c"}), "a, b and c");
 }
 
+TEST(Words, Dependence_PeriodIsPartOfTheSentence) {
+    EXPECT_EQ(dependence_words("position, periodic (2.5 mm)"), "position with a period of 2.5 mm");
+    EXPECT_EQ(dependence_words("velocity"), "velocity");
+}
+
 TEST(Words, SizeClasses_BeginAboveTheFloor) {
     EXPECT_EQ(size_class(0.2), 0);
     EXPECT_EQ(size_class(1.1), 0);
