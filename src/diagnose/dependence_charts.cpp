@@ -120,7 +120,8 @@ std::string figure_html(const gap::Diagnosis& diagnosis, Signal signal, const Qu
     if (is_explained) caption += fmt::format(", for {} after", share_words(errors.after.share));
     const bool named = is_named(diagnosis, signal, quantity);
     return fmt::format("<figure class=\"dependence{}\">{}<figcaption>{}.{}</figcaption></figure>\n",
-                       named ? " named" : "", chart_svg(quantity, errors, unit, is_explained), caption,
+                       named ? " named" : "", chart_svg(quantity, errors, unit, is_explained),
+                       escaped(caption),
                        named ? " <strong>The unexplained remainder depends on this.</strong>" : "");
 }
 
@@ -149,7 +150,7 @@ std::string dependence_html(const gap::Evidence& evidence, const gap::Diagnosis&
         std::vector<std::string> names{"rig file as it is"};
         if (predictions.is_explained) names.emplace_back("with the explanation");
         html = report::chart_legend(names) +
-               "<p class=\"hint\">Mean of predicted minus recorded in 30 bins; the coloured bands are two "
+               "<p class=\"remark\">Mean of predicted minus recorded in 30 bins; the coloured bands are two "
                "standard errors wide to each side, from how the 1 s windows scatter; the grey band is the "
                "noise floor of a single reading.</p>\n" +
                html;

@@ -26,7 +26,7 @@ std::string value_and_std(double value, double std) {
 std::string bar_cell(double share, const std::string& words, std::string_view kind) {
     return fmt::format(
         "<td class=\"n\">{}</td><td class=\"bar\"><span class=\"{}\" style=\"width:{:.1f}%\"></span></td>",
-        words, kind, 100.0 * std::clamp(share, 0.0, 1.0));
+        escaped(words), kind, 100.0 * std::clamp(share, 0.0, 1.0));
 }
 
 std::string parameters_html(const gap::FoundEffect& found, const plant::Effect* effect) {
@@ -70,19 +70,19 @@ std::string found_effect_html(const gap::FoundEffect& found, const gap::Diagnosi
     const plant::Effect* effect = plant::find_effect(found.effect);
     const Advice* advice = advice_on(found.effect);
     std::string html = fmt::format(
-        "<article class=\"card finding\"><h3>{}</h3>\n<p class=\"hint\">in {} ({}) \u00b7 probability {} "
+        "<article class=\"card finding\"><h3>{}</h3>\n<p class=\"remark\">in {} ({}) \u00b7 probability {} "
         "\u00b7 gap removed with it and those before it: {} (95 %: {} to {})</p>\n",
         escaped(capitalised(readable(found.effect))), block_words(found.block), escaped(found.block),
-        probability_words(found.probability), share_words(found.gap_removed),
-        share_words(found.gap_removed_low), share_words(found.gap_removed_high));
+        escaped(probability_words(found.probability)), escaped(share_words(found.gap_removed)),
+        escaped(share_words(found.gap_removed_low)), escaped(share_words(found.gap_removed_high)));
     if (advice != nullptr)
         html += fmt::format("<p>{}.</p>\n", escaped(capitalised(std::string(advice->what))));
     html +=
         advice_html(advice) + parameters_html(found, effect) + alternatives_html(ties_of(found, diagnosis));
     if (effect != nullptr)
-        html +=
-            fmt::format("<details><summary>The model</summary><p>{}</p><p class=\"hint\">{}</p></details>\n",
-                        escaped(effect->text), escaped(effect->source));
+        html += fmt::format(
+            "<details><summary>The model</summary><p>{}</p><p class=\"remark\">{}</p></details>\n",
+            escaped(effect->text), escaped(effect->source));
     return html + "</article>\n";
 }
 
@@ -126,7 +126,8 @@ std::string candidates_html(const gap::Diagnosis& diagnosis) {
             "class=\"scroll\">{}{}</tbody></table></div></details>\n",
             all.size() - first, head, candidate_rows(all.subspan(first), diagnosis));
     return html +
-           "<p class=\"hint\">Each alone, before any other effect was taken in: its probability against all "
+           "<p class=\"remark\">Each alone, before any other effect was taken in: its probability against "
+           "all "
            "others and against no effect, and the share of the gap that it removes on held-out recordings. "
            "Effects that were taken into the explanation are printed bold; one that acts beside a larger one "
            "can look small here.</p>\n";

@@ -14,7 +14,8 @@ using report::escaped;
 
 std::string cell(double floors) {
     if (std::isnan(floors)) return "<td class=\"n\">\u2013</td>";
-    return fmt::format("<td class=\"n heat size-{}\">{}</td>", size_class(floors), floors_words(floors));
+    return fmt::format("<td class=\"n heat size-{}\">{}</td>", size_class(floors),
+                       escaped(floors_words(floors)));
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ std::string recording_gaps_html(const gap::Evidence& evidence, const Predictions
     return fmt::format(
         "<div class=\"scroll\"><table class=\"data "
         "heat\"><thead><tr>{}</tr><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n<p "
-        "class=\"hint\">R.m.s. error in noise floors on windows of 1 s{}; a dash: not recorded or not "
+        "class=\"remark\">R.m.s. error in noise floors on windows of 1 s{}; a dash: not recorded or not "
         "judged. An encoder at rest and a replayed controller can lie well below 1.</p>\n",
         titles, parts, rows,
         predictions.is_explained ? ", after: with the parameters fitted to all recordings" : "");

@@ -68,7 +68,7 @@ std::string chain_html(const gap::Evidence& evidence, const gap::Diagnosis& diag
     return chain_drawing_svg(evidence.rig(), diagnosis) +
            "<p class=\"legend sizes\"><span class=\"size-0\">at the noise floor</span><span "
            "class=\"size-1\">up to 2 floors</span><span class=\"size-2\">up to 5</span><span "
-           "class=\"size-3\">up to 20</span><span class=\"size-4\">more</span></p>\n<p class=\"hint\">" +
+           "class=\"size-3\">up to 20</span><span class=\"size-4\">more</span></p>\n<p class=\"remark\">" +
            hint + "</p>\n";
 }
 

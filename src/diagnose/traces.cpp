@@ -240,19 +240,21 @@ std::string signal_html(const gap::Evidence& evidence, const Predictions& predic
     report::TimeAxis axis;
     for (const std::size_t row : rows) axis.time_s.push_back(course.time_s[row]);
     axis.spans.push_back({from_s, to_s, "worst second", size_class(size.before) > 0 ? "bad" : "neutral"});
-    const std::string after = !predictions.is_explained ? ""
-                              : are_equal(course.nominal_error, course.explained_error)
-                                  ? "; the explanation changes nothing here"
-                                  : fmt::format(", {} with the explanation", floors_words(size.after));
+    const std::string after =
+        !predictions.is_explained ? ""
+        : are_equal(course.nominal_error, course.explained_error)
+            ? "; the explanation changes nothing here"
+            : fmt::format(", {} with the explanation", report::escaped(floors_words(size.after)));
     std::string html = fmt::format(
-        "<h3>{} \u2013 {}</h3>\n<p class=\"hint\">{} floors r.m.s. in this recording with the rig file as it "
+        "<h3>{} \u2013 {}</h3>\n<p class=\"remark\">{} floors r.m.s. in this recording with the rig file as "
+        "it "
         "is{}.</p>\n",
         report::escaped(capitalised(std::string(signal_words(signal)))), report::escaped(recording.name),
-        floors_words(size.before), after);
+        report::escaped(floors_words(size.before)), after);
     html += report::time_plots(axis, plots_of(course, rows, signal, display));
     if (rows.size() < course.time_s.size())
         html += fmt::format(
-            "<p class=\"hint\">{} of {} samples are drawn: all of the marked second, and elsewhere the "
+            "<p class=\"remark\">{} of {} samples are drawn: all of the marked second, and elsewhere the "
             "extremes.</p>\n",
             rows.size(), course.time_s.size());
     return html;
@@ -268,11 +270,12 @@ std::string traces_html(const gap::Evidence& evidence, const Predictions& predic
             agreeing += fmt::format(
                 "<p>The {} follows from the rig file's controller to {} floors at worst; it is not "
                 "drawn.</p>\n",
-                signal_words(signal), floors_words(size.before));
+                signal_words(signal), report::escaped(floors_words(size.before)));
         else
             html += signal_html(evidence, predictions, run, signal, size);
     }
-    return "<p class=\"hint\">Predictions begin anew every second, from the recording: hence the steps where "
+    return "<p class=\"remark\">Predictions begin anew every second, from the recording: hence the steps "
+           "where "
            "the simulator is wrong.</p>\n" +
            html + agreeing;
 }

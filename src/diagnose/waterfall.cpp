@@ -20,10 +20,12 @@ constexpr double width = 1100.0, left = 200.0, right = 700.0, row_height = 40.0,
 class LogAxis {
   public:
     LogAxis(double smallest, double largest)
-        : low_(std::log10(std::min(0.8, 0.9 * smallest))), high_(std::log10(std::max(2.0, 1.15 * largest))) {}
+        : low_(std::log10(std::clamp(0.9 * smallest, 0.1, 0.8))),
+          high_(std::log10(std::max(2.0, 1.15 * largest))) {}
 
     double operator()(double floors) const {
-        return left + (std::log10(floors) - low_) / (high_ - low_) * (right - left);
+        const double place = (std::log10(floors) - low_) / (high_ - low_);
+        return left + std::max(0.0, place) * (right - left);
     }
 
     std::vector<double> ticks() const {

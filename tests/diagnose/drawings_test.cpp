@@ -43,7 +43,7 @@ TEST(Chain, AccusedBlock_IsMarkedAndNoOther) {
     EXPECT_THAT(svg, HasSubstr("class=\"block accused\" data-block=\"macro.friction\""));
     EXPECT_THAT(svg, HasSubstr("class=\"block suspect\" data-block=\"macro.drive\""));
     EXPECT_THAT(svg, HasSubstr("class=\"block\" data-block=\"micro.hall\""));
-    EXPECT_THAT(svg, HasSubstr("97 %"));
+    EXPECT_THAT(svg, HasSubstr("97.0 %"));
     EXPECT_THAT(svg, HasSubstr("stribeck friction"));
 }
 
@@ -84,8 +84,11 @@ TEST(Waterfall, Drawing_NamesStepsAndFloor) {
 
 TEST(Waterfall, GapBelowTheFloor_StaysInTheDrawing) {
     gap::Diagnosis diagnosis = two_effects();
-    diagnosis.gap = {0.4, 0.39};
-    EXPECT_THAT(waterfall_svg(diagnosis), Not(HasSubstr("x=\"-")));
+    for (const double after : {0.39, 0.0}) {
+        diagnosis.gap = {0.4, after};
+        for (const char* outside : {"x=\"-", "inf", "nan"})
+            EXPECT_THAT(waterfall_svg(diagnosis), Not(HasSubstr(outside))) << after;
+    }
 }
 
 }  // namespace

@@ -68,7 +68,8 @@ gap::Diagnosis hall_gain_found() {
                           .gap_removed_low = 0.951,
                           .gap_removed_high = 0.992}};
     diagnosis.candidates = {{"hall_gain", "micro.hall", 0.913, 0.987},
-                            {"hall_offset", "micro.hall", 0.0123, 0.456}};
+                            {"hall_offset", "micro.hall", 0.0123, 0.456},
+                            {"hall_drift", "micro.hall", 1e-9, 0.0}};
     diagnosis.next_experiment =
         gap::ProposedExperiment{"micro-triangle", {"hall_gain", "stroke_change"}, "Sweep <slowly>."};
     diagnosis.notes = {"rest-1: encoder: <i>not judged</i>"};
@@ -81,8 +82,8 @@ const Request request{"my rig.yaml", {"campaign"}, {"hall_gain", "hall_offset"},
 TEST(DiagnosisReport, Numbers_AreTheDiagnosiss) {
     const std::string html = diagnosis_report(evidence(), hall_gain_found(), request);
     for (const char* expected :
-         {"25.6", "1.02", "93 %", "91.3 %", "98.7 %", "95.1 %", "99.2 %", "1.04987 \u00b1 0.00021", "45.6 %",
-          "1.2 %", "23.4 LSB", "--effect hall_gain:factor=1.05", "micro-triangle"})
+         {"25.6", "1.02", "93.0 %", "91.3 %", "98.7 %", "95.1 %", "99.2 %", "1.04987 \u00b1 0.00021",
+          "45.6 %", "1.2 %", "23.4 LSB", "--effect hall_gain:factor=1.05", "micro-triangle"})
         EXPECT_THAT(html, HasSubstr(expected)) << expected;
 }
 
