@@ -95,6 +95,12 @@ TEST(DiagnosisReport, Texts_CannotBecomeMarkup) {
     EXPECT_THAT(html, HasSubstr("Sweep &lt;slowly&gt;."));
 }
 
+TEST(NestingFault, WrongNesting_IsSeen) {
+    EXPECT_EQ(nesting_fault("<p>a<br>b <b>c</b><i/></p>"), "");
+    for (const char* wrong : {"<p><b></p></b>", "<p>", "</p>", "<td>< 0.1 %</td>"})
+        EXPECT_NE(nesting_fault(wrong), "") << wrong;
+}
+
 TEST(DiagnosisReport, File_IsWellFormedSmallAndLoadsNothing) {
     constexpr std::size_t largest = 3'000'000;
     const std::string html = diagnosis_report(evidence(), hall_gain_found(), request);
