@@ -82,11 +82,13 @@ void add_diagnose(CLI::App& app, int& exit_code) {
     add_rig_option(*command, options->rig_file);
     command->add_option("--effects", options->only, "Try these effects only")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->type_name("A,B,..");
     command
         ->add_option("--without", options->without,
                      "Leave these effects out, and those no data tell from them")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->type_name("A,B,..");
     command->add_option("--json", options->json, "New file for the whole diagnosis")->type_name("FILE");
     command->add_option("--report", options->report, "New file for the report")->type_name("FILE.html");
