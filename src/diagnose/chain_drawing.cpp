@@ -17,7 +17,7 @@ using gap::Signal;
 using report::escaped;
 
 constexpr double width = 1180.0, margin = 6.0;
-constexpr double block_width = 124.0, boundary_width = 190.0, part_height = 82.0;
+constexpr double block_width = 121.0, boundary_width = 206.0, part_height = 82.0;
 constexpr double step = 20.0;         ///< between two parts
 constexpr double row_height = 146.0;  ///< from one row of parts to the next
 constexpr double first_row = 46.0;

@@ -65,14 +65,13 @@ BinnedMean binned_mean(const std::vector<Sample>& samples, const std::vector<std
     const std::size_t windows =
         samples.empty() ? 0 : std::size_t{std::ranges::max(samples, {}, &Sample::window).window} + 1;
     std::vector<Sums> by_window(bins * windows), by_bin(bins);
-    double sum = 0.0, squares = 0.0;
+    double squares = 0.0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const auto value = static_cast<double>(samples[i].*error);
         for (Sums* sums : {&by_window[bin_of[i] * windows + samples[i].window], &by_bin[bin_of[i]]}) {
             sums->errors += value;
             sums->count += 1.0;
         }
-        sum += value;
         squares += value * value;
     }
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();

@@ -35,19 +35,27 @@ ErrorUnit error_unit(const gap::Evidence& evidence, const gap::SignalGap& signal
     return {display.unit, display.per_own_unit * evidence.floor(signal.signal)};
 }
 
-/// Largest distance from 0 that a chart has to show, in floors. A band that is much wider than all means is
-/// cut off.
-double reach_of(const BinnedMean& mean) {
-    constexpr double most_per_mean = 1.6;
-    double reach = 0.0, largest_mean = 0.0;
-    for (std::size_t bin = 0; bin < mean.mean.size(); ++bin) {
-        if (std::isnan(mean.mean[bin])) continue;
-        const double band = std::isnan(mean.std_error[bin]) ? 0.0 : band_errors * mean.std_error[bin];
-        largest_mean = std::max(largest_mean, std::abs(mean.mean[bin]));
-        reach = std::max(reach, std::abs(mean.mean[bin]) + band);
+/// What a chart has to show, in floors: the floor and all means with their bands. A band that is much wider
+/// than all means is cut off.
+struct Reach {
+    double low = -1.25, high = 1.25;
+
+    void include(const BinnedMean& mean) {
+        constexpr double most_per_mean = 1.6;
+        double largest = 0.0;
+        for (const double value : mean.mean)
+            if (!std::isnan(value)) largest = std::max(largest, std::abs(value));
+        const auto limited = [&](double value) {
+            return std::clamp(value, -most_per_mean * largest, most_per_mean * largest);
+        };
+        for (std::size_t bin = 0; bin < mean.mean.size(); ++bin) {
+            if (std::isnan(mean.mean[bin])) continue;
+            const double band = std::isnan(mean.std_error[bin]) ? 0.0 : band_errors * mean.std_error[bin];
+            low = std::min(low, limited(mean.mean[bin] - band));
+            high = std::max(high, limited(mean.mean[bin] + band));
+        }
     }
-    return std::min(reach, most_per_mean * largest_mean);
-}
+};
 
 /// A line with its band; gaps where there is no mean.
 std::string curve_svg(const std::vector<double>& middles, const BinnedMean& mean, double per_floor,
@@ -85,13 +93,14 @@ std::string curve_svg(const std::vector<double>& middles, const BinnedMean& mean
 
 std::string chart_svg(const Quantity& quantity, const BinnedErrors& errors, const ErrorUnit& unit,
                       bool is_explained) {
-    constexpr double headroom = 1.08, least_floors = 1.25;
-    const double reach =
-        headroom * unit.per_floor *
-        std::max({least_floors, reach_of(errors.before), is_explained ? reach_of(errors.after) : 0.0});
+    constexpr double margin = 0.04;
+    Reach reach;
+    reach.include(errors.before);
+    if (is_explained) reach.include(errors.after);
+    const double spare = margin * (reach.high - reach.low);
     const double half_bin = 0.5 * (errors.x[1] - errors.x[0]);
     const Scale x{errors.x.front() - half_bin, errors.x.back() + half_bin, area.left, area.right},
-        y{-reach, reach, area.bottom, area.top};
+        y{unit.per_floor * (reach.low - spare), unit.per_floor * (reach.high + spare), area.bottom, area.top};
     std::string svg = report::svg_opening(area, "Mean error over " + quantity.axis_label);
     svg += fmt::format("<rect class=\"floor-band\" x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\"/>",
                        area.left, y(unit.per_floor), area.right - area.left,

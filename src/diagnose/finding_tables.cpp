@@ -18,7 +18,7 @@ using report::escaped;
 /// A value to the digit that its standard deviation makes meaningful.
 std::string value_and_std(double value, double std) {
     constexpr int most_digits = 7;
-    if (!std::isfinite(std) || std <= 0.0) return three_digits(value);
+    if (!std::isfinite(std) || std <= 0.0) return three_digits(value) + " \u00b1 \u2013";
     const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(std))), 0, most_digits);
     return fmt::format("{} \u00b1 {}", report::number(value, digits), report::number(std, digits));
 }
@@ -127,10 +127,10 @@ std::string candidates_html(const gap::Diagnosis& diagnosis) {
             all.size() - first, head, candidate_rows(all.subspan(first), diagnosis));
     return html +
            "<p class=\"remark\">Each alone, before any other effect was taken in: its probability against "
-           "all "
-           "others and against no effect, and the share of the gap that it removes on held-out recordings. "
-           "Effects that were taken into the explanation are printed bold; one that acts beside a larger one "
-           "can look small here.</p>\n";
+           "all others and against no effect, and the share of the gap that it removes on held-out "
+           "recordings; 0 % also stands for an effect that a first look dismissed. Effects that were taken "
+           "into the explanation are printed bold; one that acts beside a larger one can look small "
+           "here.</p>\n";
 }
 
 }  // namespace fidservo::diagnose

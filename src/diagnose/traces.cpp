@@ -149,8 +149,7 @@ std::vector<std::size_t> drawn_rows(const Course& course, double from_s, double 
     for (std::size_t k = 0; k < course.time_s.size(); ++k)
         if (course.time_s[k] >= from_s && course.time_s[k] <= to_s) rows.push_back(k);
     std::ranges::sort(rows);
-    const auto repeated = std::ranges::unique(rows);
-    rows.erase(repeated.begin(), repeated.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     return rows;
 }
 

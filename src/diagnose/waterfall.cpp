@@ -51,7 +51,10 @@ std::string text(double x, double y, std::string_view anchor, std::string_view k
 
 std::string tick_words(double tick) {
     constexpr double plain_below = 1e5;
-    return tick < plain_below ? fmt::format("{:g}", tick) : three_digits(tick);
+    constexpr std::string_view factor = "1.00\u00d7";
+    if (tick < plain_below) return fmt::format("{:g}", tick);
+    const std::string text = three_digits(tick);
+    return text.starts_with(factor) ? text.substr(factor.size()) : text;
 }
 
 /// A bar between two gaps, the smaller one first.

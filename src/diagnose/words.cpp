@@ -105,7 +105,7 @@ std::string three_digits(double value) {
 }
 
 DisplayUnit display_unit(const Rig& rig, gap::Signal signal, double largest) {
-    constexpr double largest_in_um_mm = 5.0;
+    constexpr double largest_in_um_mm = 1.0;
     const double resolution_mm = rig.macro.encoder_resolution_mm;
     switch (signal) {
         case gap::Signal::encoder:
