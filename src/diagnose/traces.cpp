@@ -1,6 +1,7 @@
 #include "src/diagnose/traces.h"
 
 #include "core/time.h"
+#include "src/diagnose/trace_course.h"
 #include "src/diagnose/words.h"
 #include "src/report/html.h"
 #include "src/report/plot.h"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -18,111 +18,7 @@ namespace {
 
 using gap::Signal;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t most_points = 1500;  ///< of each guide, beside those of the worst window
-
-/// A signal along a recording, errors in the unit that people read. Of tags there is no recorded trace.
-struct Course {
-    std::vector<double> time_s;
-    std::vector<float> recorded, nominal_error, explained_error;
-    std::vector<float> nominal_across, explained_across;  ///< of tags, in floors
-};
-
-double recorded_value(const StageRow& row, Signal signal, const MacroParameters& macro) {
-    switch (signal) {
-        case Signal::encoder:
-            return std::isfinite(row.encoder_count) ? row.encoder_count
-                                                    : row.position_mm / macro.encoder_resolution_mm;
-        case Signal::hall:
-            return row.hall_adc;
-        case Signal::macro_command:
-            return row.macro_command_V;
-        case Signal::micro_command:
-            return row.micro_command_V;
-        case Signal::tag:
-            break;
-    }
-    return not_in_force;
-}
-
-/// In which unit values are drawn: errors of um are those of mm.
-struct ValueUnit {
-    std::string_view unit;
-    float per_error_unit;
-    int digits;
-};
-
-ValueUnit value_unit(Signal signal, const DisplayUnit& errors) {
-    constexpr float thousandth = 1e-3f;
-    if (signal == Signal::encoder) return {"mm", errors.unit == "mm" ? 1.0f : thousandth, 3};
-    if (signal == Signal::hall) return {errors.unit, 1.0f, 1};
-    return {"V", thousandth, 4};
-}
-
-Course course_of_rows(const gap::Evidence& evidence, const Predictions& predictions, std::size_t run,
-                      Signal signal, const DisplayUnit& display) {
-    const Recording& recording = evidence.recordings()[run];
-    const double unit = display.per_own_unit,
-                 value = unit * static_cast<double>(value_unit(signal, display).per_error_unit);
-    Course course;
-    for (const StageRow& row : recording.rows) {
-        course.time_s.push_back(seconds(row.time_ns - recording.rows.front().time_ns));
-        course.recorded.push_back(
-            static_cast<float>(recorded_value(row, signal, evidence.rig().macro) * value));
-    }
-    course.nominal_error.assign(course.time_s.size(), nan);
-    course.explained_error = course.nominal_error;
-    const auto scale = static_cast<float>(evidence.floor(signal) * unit);
-    for (const gap::Window& window : evidence.windows()) {
-        if (window.run != run || window.signal != signal) continue;
-        for (std::size_t k = 0; k < window.rows; ++k) {
-            course.nominal_error[window.first_row + k] = scale * predictions.nominal[window.begin + k];
-            course.explained_error[window.first_row + k] = scale * predictions.explained[window.begin + k];
-        }
-    }
-    return course;
-}
-
-/// Mean along the motion and r.m.s. across it, of a frame's detections from index `first` up to `end`.
-void add_frame(Course& course, const gap::Window& window, const Predictions& predictions, std::size_t first,
-               std::size_t end) {
-    constexpr std::size_t values = 8;
-    const auto of = [&](const gap::Errors& errors, std::vector<float>& along, std::vector<float>& across) {
-        double sum = 0.0, squares = 0.0, known = 0.0;
-        for (std::size_t i = first; i < end; ++i) {
-            const std::size_t at = window.begin + values * i;
-            if (std::isnan(errors[at])) continue;
-            sum += static_cast<double>(errors[at]);
-            for (std::size_t k = 1; k < values; ++k)
-                squares += static_cast<double>(errors[at + k]) * static_cast<double>(errors[at + k]);
-            known += 1.0;
-        }
-        along.push_back(known > 0.0 ? static_cast<float>(sum / known) : nan);
-        across.push_back(known > 0.0 ? static_cast<float>(std::sqrt(squares / (known * (values - 1)))) : nan);
-    };
-    of(predictions.nominal, course.nominal_error, course.nominal_across);
-    of(predictions.explained, course.explained_error, course.explained_across);
-}
-
-Course course_of_frames(const gap::Evidence& evidence, const Predictions& predictions, std::size_t run) {
-    const Recording& recording = evidence.recordings()[run];
-    Course course;
-    for (const gap::Window& window : evidence.windows()) {
-        if (window.run != run || window.signal != Signal::tag) continue;
-        const std::size_t detections = (window.end - window.begin) / 8;
-        const auto time_ns = [&](std::size_t i) {
-            return recording.detections[window.first_detection + i].time_ns;
-        };
-        for (std::size_t first = 0; first < detections;) {
-            std::size_t end = first + 1;
-            while (end < detections && time_ns(end) == time_ns(first)) ++end;
-            course.time_s.push_back(seconds(time_ns(first) - recording.rows.front().time_ns));
-            add_frame(course, window, predictions, first, end);
-            first = end;
-        }
-    }
-    return course;
-}
+constexpr std::size_t most_points = 4000;  ///< of each guide, beside those of the worst windows
 
 /// Recorded values plus errors, in the unit of the values.
 std::vector<float> sum_of(const std::vector<float>& recorded, const std::vector<float>& error, float unit) {
@@ -132,8 +28,8 @@ std::vector<float> sum_of(const std::vector<float>& recorded, const std::vector<
     return sum;
 }
 
-/// Rows to draw: the envelopes of all traces, and every row of the worst window.
-std::vector<std::size_t> drawn_rows(const Course& course, double from_s, double to_s) {
+/// Rows to draw: the envelopes of all traces, and every row of the marked stretches.
+std::vector<std::size_t> drawn_rows(const TraceCourse& course, const std::vector<report::Span>& marked) {
     std::vector<std::size_t> rows;
     const auto add = [&](const std::vector<float>& guide) {
         if (guide.empty()) return;
@@ -147,7 +43,10 @@ std::vector<std::size_t> drawn_rows(const Course& course, double from_s, double 
     add(course.nominal_error);
     add(course.explained_error);
     for (std::size_t k = 0; k < course.time_s.size(); ++k)
-        if (course.time_s[k] >= from_s && course.time_s[k] <= to_s) rows.push_back(k);
+        if (std::ranges::any_of(marked, [&](const report::Span& span) {
+                return course.time_s[k] >= span.from_s && course.time_s[k] <= span.to_s;
+            }))
+            rows.push_back(k);
     std::ranges::sort(rows);
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     return rows;
@@ -173,7 +72,7 @@ std::vector<report::Trace> both(const std::vector<float>& before, const std::vec
     return traces;
 }
 
-std::vector<report::TimePlot> plots_of(const Course& course, const std::vector<std::size_t>& rows,
+std::vector<report::TimePlot> plots_of(const TraceCourse& course, const std::vector<std::size_t>& rows,
                                        Signal signal, const DisplayUnit& display) {
     const std::string id = fmt::format("traces-{}", gap::name_of(signal));
     constexpr int value_height_px = 260, error_height_px = 220;
@@ -226,19 +125,35 @@ std::vector<WorstRun> worst_runs(const std::vector<RunGaps>& gaps) {
     return worst;
 }
 
+/// The seconds in which the rig file alone and the explanation do worst.
+std::vector<report::Span> worst_spans(const gap::Evidence& evidence, const Predictions& predictions,
+                                      std::size_t run, Signal signal) {
+    const Recording& recording = evidence.recordings()[run];
+    std::vector<report::Span> spans;
+    const auto add = [&](const gap::Window& window, const gap::Errors& errors, const char* label) {
+        RootMeanSquare size;
+        size.add(errors, window);
+        const double from_s = seconds(window.start_ns - recording.rows.front().time_ns);
+        spans.push_back({from_s, from_s + static_cast<double>(window.rows) * recording.tick_s, label,
+                         size_class(size.value()) > 0 ? "bad" : "neutral"});
+    };
+    const gap::Window* before = worst_window(evidence, predictions.nominal, run, signal);
+    const gap::Window* after = worst_window(evidence, predictions.explained, run, signal);
+    add(*before, predictions.nominal, after == before ? "worst" : "worst before");
+    if (after != nullptr && after != before) add(*after, predictions.explained, "worst after");
+    return spans;
+}
+
 std::string signal_html(const gap::Evidence& evidence, const Predictions& predictions, std::size_t run,
                         Signal signal, const RunGap& size) {
     const Recording& recording = evidence.recordings()[run];
-    const gap::Window* worst = worst_window(evidence, predictions.nominal, run, signal);
-    const double from_s = seconds(worst->start_ns - recording.rows.front().time_ns),
-                 to_s = from_s + static_cast<double>(worst->rows) * recording.tick_s;
     const DisplayUnit display = display_unit(evidence.rig(), signal, size.before * evidence.floor(signal));
-    const Course course = signal == Signal::tag ? course_of_frames(evidence, predictions, run)
-                                                : course_of_rows(evidence, predictions, run, signal, display);
-    const std::vector<std::size_t> rows = drawn_rows(course, from_s, to_s);
-    report::TimeAxis axis;
+    const TraceCourse course = signal == Signal::tag
+                                   ? course_of_frames(evidence, predictions, run)
+                                   : course_of_rows(evidence, predictions, run, signal, display);
+    report::TimeAxis axis{{}, worst_spans(evidence, predictions, run, signal)};
+    const std::vector<std::size_t> rows = drawn_rows(course, axis.spans);
     for (const std::size_t row : rows) axis.time_s.push_back(course.time_s[row]);
-    axis.spans.push_back({from_s, to_s, "worst second", size_class(size.before) > 0 ? "bad" : "neutral"});
     const std::string after =
         !predictions.is_explained ? ""
         : are_equal(course.nominal_error, course.explained_error)
@@ -246,14 +161,13 @@ std::string signal_html(const gap::Evidence& evidence, const Predictions& predic
             : fmt::format(", {} with the explanation", report::escaped(floors_words(size.after)));
     std::string html = fmt::format(
         "<h3>{} \u2013 {}</h3>\n<p class=\"remark\">{} floors r.m.s. in this recording with the rig file as "
-        "it "
-        "is{}.</p>\n",
+        "it is{}.</p>\n",
         report::escaped(capitalised(std::string(signal_words(signal)))), report::escaped(recording.name),
         report::escaped(floors_words(size.before)), after);
     html += report::time_plots(axis, plots_of(course, rows, signal, display));
     if (rows.size() < course.time_s.size())
         html += fmt::format(
-            "<p class=\"remark\">{} of {} samples are drawn: all of the marked second, and elsewhere the "
+            "<p class=\"remark\">{} of {} samples are drawn: all in the marked stretches, elsewhere the "
             "extremes.</p>\n",
             rows.size(), course.time_s.size());
     return html;
@@ -274,8 +188,7 @@ std::string traces_html(const gap::Evidence& evidence, const Predictions& predic
             html += signal_html(evidence, predictions, run, signal, size);
     }
     return "<p class=\"remark\">Predictions begin anew every second, from the recording: hence the steps "
-           "where "
-           "the simulator is wrong.</p>\n" +
+           "where the simulator is wrong.</p>\n" +
            html + agreeing;
 }
 
