@@ -68,6 +68,7 @@ Regression::Regression(std::span<const Window> windows, Signal signal, const Err
 }
 
 Eigen::VectorXd Regression::solve(std::span<const Eigen::Index> columns, std::uint8_t half) const {
+    if (columns.empty()) return {};
     const auto width = static_cast<Eigen::Index>(columns.size());
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(width, width);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(width);

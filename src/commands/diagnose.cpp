@@ -6,6 +6,7 @@
 #include "src/commands/commands.h"
 #include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
+#include "src/diagnose/report.h"
 #include "src/recording/durable_file.h"
 #include "src/recording/reader.h"
 
@@ -57,6 +58,15 @@ int run_diagnose(const DiagnoseOptions& options) {
     if (!options.write_rig.empty()) {
         write_diagnosed_rig(options.write_rig, options.rig_file, diagnosis);
         fmt::print("rig file: {}\n", options.write_rig.string());
+    }
+    if (!options.report.empty()) {
+        write_or_throw(options.report, diagnose::diagnosis_report(evidence, diagnosis,
+                                                                  {.rig_file = options.rig_file,
+                                                                   .recordings = options.recordings,
+                                                                   .only = options.only,
+                                                                   .without = options.without,
+                                                                   .written_rig = options.write_rig}));
+        fmt::print("report: {}\n", options.report.string());
     }
     return exit_done;
 }

@@ -40,6 +40,7 @@ function drawPlots() {
   for (const script of document.querySelectorAll("script[data-traces]")) {
     const spec = JSON.parse(script.textContent);
     const axis = axes[spec.group];
+    const coloured = spec.traces.filter((t) => !t.faint);
     const figure = document.querySelector(`figure[data-plot="${script.dataset.traces}"]`);
     const follow = (u, key) => {
       if (key !== "x" || axis.busy) return;
@@ -53,8 +54,8 @@ function drawPlots() {
       scales: { x: { time: false } },
       axes: [{ stroke: ink, grid: { stroke: rule }, ticks: { stroke: rule }, values: (u, v) => v.map((s) => s + " s") },
         { stroke: ink, grid: { stroke: rule }, ticks: { stroke: rule }, size: 64 }],
-      series: [{ label: "time", value: (u, v) => (v === null ? "–" : v.toFixed(3) + " s") }].concat(spec.traces.map((t, k) => ({
-        label: t.label, stroke: t.faint ? "#9aa6ae" : colours[k % colours.length], width: 1.4, points: { show: false },
+      series: [{ label: "time", value: (u, v) => (v === null ? "–" : v.toFixed(3) + " s") }].concat(spec.traces.map((t) => ({
+        label: t.label, stroke: t.faint ? "#9aa6ae" : colours[coloured.indexOf(t) % colours.length], width: 1.4, points: { show: false },
         paths: t.stepped ? uPlot.paths.stepped({ align: 1 }) : undefined,
         value: (u, v) => (v === null ? "–" : v.toFixed(t.digits) + " " + spec.unit) }))),
       hooks: { drawClear: [shade(axis.spans)], setScale: [follow] },

@@ -1,0 +1,24 @@
+#pragma once
+// What to do after a diagnosis, with the commands to run.
+#include "core/rig.h"
+#include "gap/diagnosis.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fidservo::diagnose {
+
+/// What a diagnosis was asked for, to be repeated in commands.
+struct Request {
+    std::filesystem::path rig_file;
+    std::vector<std::filesystem::path> recordings;
+    std::vector<std::string> only, without;  ///< effects
+    std::filesystem::path written_rig;       ///< empty if none was asked for
+};
+
+/// An experiment that decides, what to do about a remainder, how to close the gap, and what could not be
+/// judged.
+std::string next_steps_html(const gap::Diagnosis& diagnosis, const Rig& rig, const Request& request);
+
+}  // namespace fidservo::diagnose
