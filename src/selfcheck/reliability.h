@@ -1,0 +1,31 @@
+#pragma once
+// Whether probabilities mean what they say.
+#include <cstddef>
+#include <vector>
+
+namespace fidservo::selfcheck {
+
+/// What was claimed with which probability, and whether it was so.
+struct Claim {
+    double probability;
+    bool came_true;
+};
+
+struct ReliabilityBin {
+    double mean_probability;
+    double share_true;
+    std::size_t claims;
+};
+
+struct Reliability {
+    std::vector<ReliabilityBin> bins;  ///< by probability, ascending
+    double expected_error = 0.0;       ///< mean over claims of |mean probability - share true| of their bin
+    double brier = 0.0;                ///< mean of (probability - 1 or 0)^2
+};
+
+/// @param bins  of equal count, as far as that goes; fewer where there are fewer claims
+/// Source: Naeini, Cooper, Hauskrecht, AAAI 2015 (expected calibration error); Brier, Mon. Weather Rev. 78
+/// (1950).
+Reliability reliability_of(std::vector<Claim> claims, std::size_t bins = 10);
+
+}  // namespace fidservo::selfcheck
