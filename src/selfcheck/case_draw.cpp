@@ -18,8 +18,8 @@ namespace {
 using enum CaseKind;
 constexpr std::array cycle{none, none, one, one, one, one, two, two, withheld, unlisted};
 
-/// In floors, by size.
-constexpr double smallest_floors = 0.7, largest_floors = 100.0;
+/// Sizes reach down to this many floors, but not below this share of the largest.
+constexpr double smallest_floors = 0.7, smallest_share = 1.0 / 300.0;
 
 std::size_t index_below(NoiseStream& draw, std::size_t count) {
     return std::min(count - 1, static_cast<std::size_t>(draw.uniform() * static_cast<double>(count)));
@@ -57,8 +57,8 @@ Item met(std::span<const Item> items, std::uint64_t seed, CaseKind kind, std::si
 TrueEffect put_listed(Case& drawn, std::string_view class_name, NoiseStream& draw) {
     const std::vector<const EffectDraw*> ways = draws_of(class_name);
     const EffectDraw& way = *ways[index_below(draw, ways.size())];
-    const double size = way.floor_size * log_uniform(draw, smallest_floors,
-                                                     std::min(largest_floors, way.largest / way.floor_size));
+    const double smallest = std::max(smallest_floors * way.floor_size, smallest_share * way.largest);
+    const double size = log_uniform(draw, smallest, way.largest);
     way.put(drawn.true_rig.departures, size, draw);
     return {.effect = std::string(way.effect),
             .class_name = std::string(class_name),

@@ -23,7 +23,8 @@ CaseKind kind_of_case(std::uint64_t seed, std::size_t number);
 
 /// A case is a pure function of seed and number. All classes of effects are met once, in an order drawn,
 /// before one is met again; so among cases with one effect, among those with two, and among those withheld.
-/// Sizes are drawn evenly in the logarithm, from below the floor to far above it.
+/// Sizes are drawn evenly in the logarithm, from below the floor, or a 300th of the largest where that is
+/// more, to the largest.
 /// @param nominal  the rig as its file describes it; with a micro stage, a camera and controllers
 Case draw_case(const Rig& nominal, std::uint64_t seed, std::size_t number);
 

@@ -87,21 +87,25 @@ TEST(CaseDraw, EffectsOfTheCatalogue_AreAllThatShowWithoutFramesButTwo) {
         EXPECT_EQ(plant::find_effect(effect.name), nullptr) << effect.name;
 }
 
-TEST(CaseDraw, Sizes_ReachFromBelowTheFloorToTheLargest) {
-    double smallest = 1.0, largest = 0.0;
+TEST(CaseDraw, Sizes_ReachFromBelowTheFloorOrA300thToTheLargest) {
+    double smallest_floors = 100.0, smallest_share = 1.0, largest_share = 0.0;
     for (const Case& drawn : cases_of(CaseKind::one, 3, 400)) {
         const TrueEffect& truth = drawn.label.effects.front();
         const auto way = std::ranges::find_if(listed_effects(), [&](const EffectDraw& other) {
             return other.effect == truth.effect && other.formula == truth.formula;
         });
-        EXPECT_LE(truth.size, way->largest);
+        ASSERT_NE(way, listed_effects().end());
         EXPECT_DOUBLE_EQ(truth.expected_floors, truth.size / way->floor_size);
-        smallest = std::min(smallest, truth.expected_floors);
-        largest = std::max(largest, truth.expected_floors);
+        smallest_floors = std::min(smallest_floors, truth.expected_floors);
+        smallest_share = std::min(smallest_share, truth.size / way->largest);
+        largest_share = std::max(largest_share, truth.size / way->largest);
     }
-    EXPECT_GE(smallest, 0.7);
-    EXPECT_LE(smallest, 0.8);
-    EXPECT_GE(largest, 80.0);
+    EXPECT_GE(smallest_floors, 0.7);
+    EXPECT_LE(smallest_floors, 0.9);
+    EXPECT_GE(smallest_share, 1.0 / 300.0);
+    EXPECT_LE(smallest_share, 1.0 / 250.0);
+    EXPECT_GE(largest_share, 0.95);
+    EXPECT_LE(largest_share, 1.0);
 }
 
 TEST(CaseDraw, Pairs_AreOfTwoClassesInOneBlockOrTwo) {
