@@ -39,6 +39,10 @@ void drive_offset(Departures& rig, double size_V, NoiseStream& draw) {
 void coulomb_friction(Departures& rig, double size_V, NoiseStream& /*draw*/) {
     rig.friction.coulomb_V += size_V;
 }
+/// What the file's dead zone holds acts on the motion instead: the same while driven, a brake while coasting.
+void coulomb_dead_zone(Departures& rig, double size, NoiseStream& /*draw*/) {
+    rig.friction.dead_zone_on_motion = size;
+}
 void stribeck_friction(Departures& rig, double size_V, NoiseStream& draw) {
     rig.friction.stribeck_V = size_V;
     rig.friction.stribeck_speed_mm_per_s = log_uniform(draw, 6.0, 40.0);
@@ -85,6 +89,14 @@ void cable_force(Departures& rig, double size_V_per_mm, NoiseStream& draw) {
 }
 void payload(Departures& rig, double size, NoiseStream& draw) {
     rig.mechanics.payload = factor(draw, size);
+}
+void belt_compliance(Departures& rig, double size_mm_per_V, NoiseStream& draw) {
+    rig.mechanics.stretch = reference::Stretch{.compliance_mm_per_V = size_mm_per_V,
+                                               .damping_ratio = log_uniform(draw, 0.02, 0.2),
+                                               .motor_share = between(draw, 0.3, 0.7)};
+}
+void backlash(Departures& rig, double size_mm, NoiseStream& /*draw*/) {
+    rig.mechanics.play_mm = size_mm;
 }
 
 void encoder_scale(Departures& rig, double size, NoiseStream& draw) {
@@ -172,6 +184,7 @@ constexpr std::array draws{
     EffectDraw{"drive_delay", "", 1.9e-4, 0.03, drive_delay},
     EffectDraw{"drive_offset", "", 1.1e-5, 0.6, drive_offset},
     EffectDraw{"coulomb_friction", "", 6.2e-4, 0.3, coulomb_friction},
+    EffectDraw{"coulomb_friction", "dead zone", 4e-3, 1.0, coulomb_dead_zone},
     EffectDraw{"stribeck_friction", "", 5.3e-3, 0.4, stribeck_friction},
     EffectDraw{"stribeck_friction", "bell", 6.9e-3, 0.4, stribeck_bell},
     EffectDraw{"stribeck_friction", "LuGre", 6.2e-3, 0.4, stribeck_bristles},
@@ -182,6 +195,8 @@ constexpr std::array draws{
     EffectDraw{"cogging", "", 5.5e-5, 0.5, cogging},
     EffectDraw{"cable_force", "", 6e-7, 0.01, cable_force},
     EffectDraw{"payload", "", 5.8e-3, 1.0, payload},
+    EffectDraw{"belt_compliance", "", 2.6e-1, 2.0, belt_compliance},
+    EffectDraw{"backlash", "", 4.4e-2, 1.0, backlash},
     EffectDraw{"encoder_scale", "", 5.3e-6, 0.05, encoder_scale},
     EffectDraw{"encoder_ripple", "", 4.3e-3, 0.3, encoder_ripple},
     EffectDraw{"ambient_temperature", "", 6.4e-3, 12.0, ambient_temperature},
@@ -235,7 +250,7 @@ bool can_be_together(std::string_view class_name, std::string_view other) {
     using Pair = std::pair<std::string_view, std::string_view>;
     constexpr std::array parts{Pair{"viscous_friction", "friction_asymmetry"},
                                Pair{"coulomb_friction", "presliding"},
-                               Pair{"stribeck_friction", "presliding"}};
+                               Pair{"stribeck_friction", "presliding"}, Pair{"backlash", "macro_coupling"}};
     return class_name != other && std::ranges::none_of(parts, [&](const Pair& pair) {
                return pair == Pair{class_name, other} || pair == Pair{other, class_name};
            });

@@ -17,6 +17,35 @@ void heater_onset(TrueRig& rig, double size_V, NoiseStream& draw) {
     rig.rig.micro->heater.onset_V += random_sign(draw) * size_V;
 }
 
+/// The heating power is not proportional to the voltage above onset.
+void heater_curvature(TrueRig& rig, double size, NoiseStream& draw) {
+    rig.departures.heater.curvature = random_sign(draw) * size;
+}
+
+/// The motor weakens as it warms.
+void drive_fading(TrueRig& rig, double size_per_s, NoiseStream& /*draw*/) {
+    rig.departures.drive.fading_per_s = size_per_s;
+}
+
+void quadratic_drag(TrueRig& rig, double size_V_s2_per_mm2, NoiseStream& /*draw*/) {
+    rig.departures.friction.drag_V_s2_per_mm2 = size_V_s2_per_mm2;
+}
+
+/// The encoder's scale is bent: it reads too much, or too little, towards both ends.
+void encoder_bow(TrueRig& rig, double size_per_mm, NoiseStream& draw) {
+    rig.departures.encoder.bow_per_mm = random_sign(draw) * size_per_mm;
+}
+
+/// The Hall sensor's zero follows the temperature of the wire beside it.
+void hall_warmth(TrueRig& rig, double size_V_per_degC, NoiseStream& draw) {
+    rig.departures.hall.warm_V_per_degC = random_sign(draw) * size_V_per_degC;
+}
+
+/// Pixels are not square.
+void pixel_aspect(TrueRig& rig, double size, NoiseStream& draw) {
+    rig.departures.camera.aspect = 1.0 + random_sign(draw) * size;
+}
+
 /// The sensor chip sits off the optical axis, across the stage's motion.
 void sensor_shift(TrueRig& rig, double size_px, NoiseStream& draw) {
     rig.rig.camera->geometry.principal_point_px.y() += random_sign(draw) * size_px;
@@ -45,6 +74,12 @@ void micro_controller_gain(TrueRig& rig, double size, NoiseStream& draw) {
 constexpr std::array effects{
     UnlistedEffect{"duhem_hysteresis", "micro.hysteresis", 1.0, 1.0, duhem_hysteresis},
     UnlistedEffect{"heater_onset", "micro.heater", 0.0005, 0.05, heater_onset},
+    UnlistedEffect{"heater_curvature", "micro.heater", 5e-4, 0.1, heater_curvature},
+    UnlistedEffect{"drive_fading", "macro.drive", 1e-4, 1e-2, drive_fading},
+    UnlistedEffect{"quadratic_drag", "macro.friction", 3e-8, 1e-5, quadratic_drag},
+    UnlistedEffect{"encoder_bow", "macro.encoder", 3e-6, 1e-4, encoder_bow},
+    UnlistedEffect{"hall_warmth", "micro.hall", 1e-5, 1e-3, hall_warmth},
+    UnlistedEffect{"pixel_aspect", "camera.geometry", 1e-4, 2e-2, pixel_aspect},
     UnlistedEffect{"sensor_shift", "camera.geometry", 0.05, 10.0, sensor_shift},
     UnlistedEffect{"tag_pitch", "plate", 5e-4, 1e-2, tag_pitch},
     UnlistedEffect{"tag_side", "plate", 5e-4, 2e-2, tag_side},

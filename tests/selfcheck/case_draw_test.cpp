@@ -74,7 +74,7 @@ TEST(CaseDraw, OneRound_MeetsEveryClassOnce) {
     EXPECT_EQ(unlisted.size(), unlisted_effects().size());
 }
 
-TEST(CaseDraw, EffectsOfTheCatalogue_AreAllThatShowWithoutFramesButTwo) {
+TEST(CaseDraw, EffectsOfTheCatalogue_AreAllThatShowWithoutFrames) {
     std::set<std::string_view> missing;
     for (const plant::Effect* effect : plant::effect_catalogue())
         if (effect->block != "camera.image") missing.insert(effect->name);
@@ -82,7 +82,7 @@ TEST(CaseDraw, EffectsOfTheCatalogue_AreAllThatShowWithoutFramesButTwo) {
         EXPECT_NE(plant::find_effect(draw.effect), nullptr) << draw.effect;
         missing.erase(draw.effect);
     }
-    EXPECT_EQ(missing, (std::set<std::string_view>{"backlash", "belt_compliance"}));
+    EXPECT_TRUE(missing.empty()) << *missing.begin();
     for (const UnlistedEffect& effect : unlisted_effects())
         EXPECT_EQ(plant::find_effect(effect.name), nullptr) << effect.name;
 }
@@ -124,7 +124,7 @@ TEST(CaseDraw, Pairs_AreOfTwoClassesInOneBlockOrTwo) {
 }
 
 TEST(CaseDraw, Withheld_LeavesTheWholeClassOut) {
-    for (const Case& drawn : cases_of(CaseKind::withheld, 4, 34)) {
+    for (const Case& drawn : cases_of(CaseKind::withheld, 4, listed_classes().size())) {
         ASSERT_EQ(drawn.without.size(), 1u);
         EXPECT_EQ(gap::class_of(drawn.without.front()), drawn.label.effects.front().class_name);
     }

@@ -92,7 +92,9 @@ TEST(Tally, TextAndJson_SayTheSame) {
     const Tally got = tally(outcomes);
     EXPECT_THAT(text_of(got), HasSubstr("one effect: right effect first"));
     EXPECT_THAT(text_of(got), HasSubstr("1 of 1"));
-    const auto json = nlohmann::json::parse(self_check_json({.seed = 3}, {outcomes, {}, false}, got));
+    SelfCheckOptions options;
+    options.seed = 3;
+    const auto json = nlohmann::json::parse(self_check_json(options, {outcomes, {}, false}, got));
     EXPECT_EQ(json["format"], "fidservo-self-check/1");
     EXPECT_EQ(json["options"]["seed"], 3);
     EXPECT_EQ(json["figures"]["right_effect"]["hits"], 1);
