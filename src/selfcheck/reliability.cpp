@@ -5,13 +5,14 @@
 
 namespace fidservo::selfcheck {
 
-Reliability reliability_of(std::vector<Claim> claims, std::size_t bins) {
+Reliability reliability_of(std::vector<Claim> claims, std::size_t most_bins, std::size_t least_claims) {
     Reliability result;
     std::ranges::stable_sort(claims, {}, &Claim::probability);
     const std::size_t count = claims.size();
+    if (count == 0) return result;
+    const std::size_t bins = std::clamp<std::size_t>(count / least_claims, 1, most_bins);
     for (std::size_t bin = 0; bin < bins; ++bin) {
         const std::size_t begin = bin * count / bins, end = (bin + 1) * count / bins;
-        if (begin == end) continue;
         const auto size = static_cast<double>(end - begin);
         ReliabilityBin sums{0.0, 0.0, end - begin};
         for (std::size_t k = begin; k < end; ++k) {

@@ -23,9 +23,10 @@ struct Reliability {
     double brier = 0.0;                ///< mean of (probability - 1 or 0)^2
 };
 
-/// @param bins  of equal count, as far as that goes; fewer where there are fewer claims
+/// @param most_bins  of equal count; fewer where a bin would have less than least_claims
 /// Source: Naeini, Cooper, Hauskrecht, AAAI 2015 (expected calibration error); Brier, Mon. Weather Rev. 78
 /// (1950).
-Reliability reliability_of(std::vector<Claim> claims, std::size_t bins = 10);
+Reliability reliability_of(std::vector<Claim> claims, std::size_t most_bins = 10,
+                           std::size_t least_claims = 20);
 
 }  // namespace fidservo::selfcheck

@@ -1,5 +1,7 @@
 #include "src/selfcheck/tally_json.h"
 
+#include "src/commit.h"
+
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -101,7 +103,7 @@ std::string self_check_json(const SelfCheckOptions& options, const SelfCheck& ch
     for (const Failure& failure : check.failures)
         failures.push_back({{"number", failure.number}, {"text", failure.text}});
     const Json all{{"format", "fidservo-self-check/1"},
-                   {"version", FIDSERVO_VERSION},
+                   {"commit", built_from_commit()},
                    {"options", options_of(options)},
                    {"interrupted", check.was_interrupted},
                    {"figures", figures_of(tally)},

@@ -9,7 +9,7 @@ namespace {
 
 /// "97.5 % (88.0 .. 99.6)   39 of 40".
 std::string text_of(const Share& share) {
-    if (share.of == 0) return fmt::format("{:>30}", "no cases");
+    if (share.of == 0) return fmt::format("{:<37}", "no cases");
     const Interval interval = wilson_interval(share);
     return fmt::format("{:>5.1f} % ({:>5.1f} .. {:>5.1f}) {:>4} of {:<4}", 100.0 * share.value(),
                        100.0 * interval.low, 100.0 * interval.high, share.hits, share.of);

@@ -81,7 +81,7 @@ constexpr std::array effects{
     UnlistedEffect{"hall_warmth", "micro.hall", 1e-5, 1e-3, hall_warmth},
     UnlistedEffect{"pixel_aspect", "camera.geometry", 1e-4, 2e-2, pixel_aspect},
     UnlistedEffect{"sensor_shift", "camera.geometry", 0.05, 10.0, sensor_shift},
-    UnlistedEffect{"tag_pitch", "plate", 5e-4, 1e-2, tag_pitch},
+    UnlistedEffect{"tag_pitch", "plate", 3e-4, 5e-3, tag_pitch},
     UnlistedEffect{"tag_side", "plate", 5e-4, 2e-2, tag_side},
     UnlistedEffect{"macro_controller_gain", "controller", 0.01, 0.3, macro_controller_gain},
     UnlistedEffect{"micro_controller_gain", "controller", 0.02, 0.3, micro_controller_gain},

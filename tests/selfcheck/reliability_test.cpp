@@ -8,7 +8,7 @@ namespace fidservo::selfcheck {
 namespace {
 
 TEST(Reliability, OneBinByHand_IsTheDifferenceOfMeans) {
-    const Reliability found = reliability_of({{0.9, true}, {0.7, false}, {0.8, true}, {0.6, true}}, 1);
+    const Reliability found = reliability_of({{0.9, true}, {0.7, false}, {0.8, true}, {0.6, true}});
     ASSERT_EQ(found.bins.size(), 1u);
     EXPECT_DOUBLE_EQ(found.bins.front().mean_probability, 0.75);
     EXPECT_DOUBLE_EQ(found.bins.front().share_true, 0.75);
@@ -17,18 +17,18 @@ TEST(Reliability, OneBinByHand_IsTheDifferenceOfMeans) {
 }
 
 TEST(Reliability, TwoBinsByHand_AreWeighedByTheirCases) {
-    const Reliability found = reliability_of({{0.9, false}, {0.1, false}, {0.2, true}, {0.8, true}}, 2);
+    const Reliability found = reliability_of({{0.9, false}, {0.1, false}, {0.2, true}, {0.8, true}}, 2, 1);
     ASSERT_EQ(found.bins.size(), 2u);
     EXPECT_DOUBLE_EQ(found.bins[0].mean_probability, 0.15);
     EXPECT_DOUBLE_EQ(found.bins[1].share_true, 0.5);
     EXPECT_NEAR(found.expected_error, 0.5 * 0.35 + 0.5 * 0.35, 1e-15);
 }
 
-TEST(Reliability, FewerClaimsThanBins_LeavesNoneOut) {
-    std::size_t claims = 0;
-    for (const ReliabilityBin& bin : reliability_of({{0.5, true}, {0.6, true}, {0.7, false}}).bins)
-        claims += bin.claims;
-    EXPECT_EQ(claims, 3u);
+TEST(Reliability, FewClaims_AreInFewBinsAndNoneIsLeftOut) {
+    EXPECT_EQ(reliability_of({{0.5, true}, {0.6, true}, {0.7, false}}).bins.size(), 1u);
+    const Reliability found = reliability_of(std::vector<Claim>(67, {0.5, true}));
+    ASSERT_EQ(found.bins.size(), 3u);
+    EXPECT_EQ(found.bins[0].claims + found.bins[1].claims + found.bins[2].claims, 67u);
     EXPECT_TRUE(reliability_of({}).bins.empty());
 }
 
