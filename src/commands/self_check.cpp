@@ -50,7 +50,10 @@ void add_self_check_options(CLI::App& diagnose, SelfCheckRequest& request) {
     add("--first-case", request.first, "Number of the first case")->type_name("N")->capture_default_str();
     std::vector<std::string> names;
     for (const auto& [name, kind] : kinds_by_name()) names.push_back(name);
-    add("--kinds", request.kinds, "Cases of these kinds only")->delimiter(',')->check(CLI::IsMember(names));
+    add("--kinds", request.kinds, "Cases of these kinds only: none, one, two, withheld, unlisted")
+        ->type_name("A,B,..")
+        ->delimiter(',')
+        ->check(CLI::IsMember(names));
 }
 
 int run_self_check(const SelfCheckRequest& request, const std::filesystem::path& rig_file,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fidservo::selfcheck {
 
@@ -9,7 +10,10 @@ Reliability reliability_of(std::vector<Claim> claims, std::size_t most_bins, std
     Reliability result;
     std::ranges::stable_sort(claims, {}, &Claim::probability);
     const std::size_t count = claims.size();
-    if (count == 0) return result;
+    if (count == 0) {
+        result.expected_error = result.brier = std::numeric_limits<double>::quiet_NaN();
+        return result;
+    }
     const std::size_t bins = std::clamp<std::size_t>(count / least_claims, 1, most_bins);
     for (std::size_t bin = 0; bin < bins; ++bin) {
         const std::size_t begin = bin * count / bins, end = (bin + 1) * count / bins;

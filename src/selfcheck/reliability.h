@@ -17,6 +17,7 @@ struct ReliabilityBin {
     std::size_t claims;
 };
 
+/// NaN of no claims.
 struct Reliability {
     std::vector<ReliabilityBin> bins;  ///< by probability, ascending
     double expected_error = 0.0;       ///< mean over claims of |mean probability - share true| of their bin

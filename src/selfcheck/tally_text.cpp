@@ -9,7 +9,6 @@ namespace {
 
 /// "97.5 % (88.0 .. 99.6)   39 of 40".
 std::string text_of(const Share& share) {
-    if (share.of == 0) return fmt::format("{:<37}", "no cases");
     const Interval interval = wilson_interval(share);
     return fmt::format("{:>5.1f} % ({:>5.1f} .. {:>5.1f}) {:>4} of {:<4}", 100.0 * share.value(),
                        100.0 * interval.low, 100.0 * interval.high, share.hits, share.of);
@@ -17,14 +16,13 @@ std::string text_of(const Share& share) {
 
 std::string line_of(const ShareFigure& figure) {
     std::string limit;
-    if (figure.at_least && figure.share.of > 0)
+    if (figure.at_least)
         limit = fmt::format("at least {:g} %{}", 100.0 * *figure.at_least,
                             figure.share.value() < *figure.at_least ? ", MISSED" : "");
     return fmt::format("  {:<70} {}  {}\n", figure.text, text_of(figure.share), limit);
 }
 
 std::string line_of(const LimitFigure& figure) {
-    if (std::isnan(figure.value)) return fmt::format("  {:<70} no cases\n", figure.text);
     std::string limit;
     if (figure.at_most)
         limit =
@@ -52,10 +50,13 @@ std::string text_of(const Tally& tally) {
     std::string text = fmt::format(
         "\n{} cases; shares with their 95 % intervals; of cases with effects those at {:g} floors or more\n",
         tally.cases, judged_floors);
-    for (const ShareFigure& figure : tally.shares) text += line_of(figure);
-    for (const LimitFigure& figure : tally.limits) text += line_of(figure);
-    text +=
-        fmt::format("\none effect, by size\n  {:<16} {:<37} {}\n", "floors", "found", "right effect first");
+    for (const ShareFigure& figure : tally.shares)
+        if (figure.share.of > 0) text += line_of(figure);
+    for (const LimitFigure& figure : tally.limits)
+        if (!std::isnan(figure.value)) text += line_of(figure);
+    if (!tally.classes.empty())
+        text += fmt::format("\none effect, by size\n  {:<16} {:<37} {}\n", "floors", "found",
+                            "right effect first");
     for (const PowerRow& row : tally.power)
         if (row.found.of > 0) text += line_of(row);
     if (!tally.reliability.bins.empty()) text += "\nfirst probability: mean, share that was right, cases\n";
