@@ -29,7 +29,8 @@ Eigen::Vector2d image_of(const CameraModel& model, const Eigen::Vector2d& plate_
     const double c = std::cos(askew.rotation_rad), s = std::sin(askew.rotation_rad);
     const Eigen::Vector2d turned(c * straight.x() - s * straight.y(), s * straight.x() + c * straight.y());
     const double bulge = 1.0 + askew.distortion * straight.squaredNorm();
-    return geometry.principal_point_px + askew.scale * geometry.focal_px * bulge * turned;
+    const Eigen::Vector2d pixels(turned.x(), askew.aspect * turned.y());
+    return geometry.principal_point_px + askew.scale * geometry.focal_px * bulge * pixels;
 }
 
 std::optional<TagDetection> see(const CameraModel& model, double s_mm, double speed_mm_per_s,

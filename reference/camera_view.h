@@ -20,7 +20,7 @@ struct CameraModel {
 /// axis, its image turned by rho:
 ///
 ///     x = cos theta (X - s) / (Z + sin theta (X - s)),   y = Y / (Z + sin theta (X - s))
-///     (u, v) = (u0, v0) + scale f R(rho) (x, y) (1 + k1 (x^2 + y^2))
+///     (u, v) = (u0, v0) + scale f diag(1, aspect) R(rho) (x, y) (1 + k1 (x^2 + y^2))
 Eigen::Vector2d image_of(const CameraModel& model, const Eigen::Vector2d& plate_mm, double s_mm);
 
 /// The tag nearest to the image centre, if all of it is in the image and the camera is not too fast.

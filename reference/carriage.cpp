@@ -7,20 +7,29 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace fidservo::reference {
 
 namespace {
 
-/// position, speed, bristle, q, w
-using Motion = std::array<double, 5>;
+/// position, speed, bristle, q, w, stretch of a belt, speed of the motor on it
+using Motion = std::array<double, 7>;
 
 Motion motion_of(const CarriageState& state) {
-    return {state.position_mm, state.speed_mm_per_s, state.bristle_mm, state.swing_mm, state.swing_mm_per_s};
+    return {state.position_mm + state.ahead_mm,
+            state.speed_mm_per_s,
+            state.bristle_mm,
+            state.swing_mm,
+            state.swing_mm_per_s,
+            state.stretch_mm,
+            state.motor_mm_per_s};
 }
 
-CarriageState state_of(const Motion& x) {
-    return {x[0], x[1], x[2], x[3], x[4]};
+/// @param carriage_mm  where it was
+CarriageState state_of(const Motion& x, double carriage_mm, double play_mm) {
+    const double now_mm = std::clamp(carriage_mm, x[0] - 0.5 * play_mm, x[0] + 0.5 * play_mm);
+    return {now_mm, x[1], x[2], x[3], x[4], x[5], x[6], x[0] - now_mm};
 }
 
 double sign_of(double x) {
@@ -43,24 +52,56 @@ class Forces {
     double viscous_V(double speed_mm_per_s, double direction) const {
         const FrictionDepartures& friction = model_.friction;
         return model_.damping_V_s_per_mm * speed_mm_per_s *
-               (direction < 0.0 ? friction.viscous_backward : friction.viscous_forward);
+                   (direction < 0.0 ? friction.viscous_backward : friction.viscous_forward) +
+               friction.drag_V_s2_per_mm2 * speed_mm_per_s * std::abs(speed_mm_per_s);
+    }
+
+    /// What pulls at the carriage: the motor, or the belt between them.
+    double pull_V(const Motion& x) const {
+        const std::optional<Stretch>& belt = model_.mechanics.stretch;
+        if (!belt) return driving_V(x[0]);
+        const double share = belt->motor_share * (1.0 - belt->motor_share);
+        const double damping = 2.0 * belt->damping_ratio *
+                               std::sqrt(share * model_.inertia_V_s2_per_mm / belt->compliance_mm_per_V);
+        return x[5] / belt->compliance_mm_per_V + damping * (x[6] - x[1]);
+    }
+
+    /// Adds what a belt's motor does to the rate of a carriage without one.
+    void add_motor(const Motion& x, Motion& rate) const {
+        const std::optional<Stretch>& belt = model_.mechanics.stretch;
+        if (!belt) return;
+        const double damping_V = model_.damping_V_s_per_mm * x[6];
+        rate[5] = x[6] - x[1];
+        rate[6] =
+            (driving_V(x[0]) - damping_V - pull_V(x)) / (belt->motor_share * model_.inertia_V_s2_per_mm);
+    }
+
+    double carriage_inertia() const {
+        const std::optional<Stretch>& belt = model_.mechanics.stretch;
+        return model_.inertia_V_s2_per_mm * (belt ? 1.0 - belt->motor_share : 1.0);
     }
 
     Motion rate(const Motion& x, double direction, Contact contact) const {
         const double omega = 2.0 * std::numbers::pi * model_.flexure.frequency_hz;
         const double swing = x[4] - model_.flexure.coupling * x[1];
         const double swing_rate = -2.0 * model_.flexure.damping_ratio * omega * swing - omega * omega * x[3];
-        if (direction == 0.0) return {0.0, 0.0, 0.0, swing, swing_rate};
+        Motion rate{0.0, 0.0, 0.0, swing, swing_rate, 0.0, 0.0};
+        add_motor(x, rate);
+        if (direction == 0.0) return rate;
         const DryFriction dry = dry_friction(model_, x[0], x[1], x[2], direction, contact);
-        const double net_V = driving_V(x[0]) - dry.force_V - viscous_V(x[1], x[1] == 0.0 ? direction : x[1]);
-        return {x[1], net_V / model_.inertia_V_s2_per_mm, dry.bristle_mm_per_s, swing, swing_rate};
+        double net_V = pull_V(x) - dry.force_V - viscous_V(x[1], x[1] == 0.0 ? direction : x[1]);
+        if (model_.mechanics.stretch) net_V += model_.damping_V_s_per_mm * x[1];  // that is the motor's
+        rate[0] = x[1];
+        rate[1] = net_V / carriage_inertia();
+        rate[2] = dry.bristle_mm_per_s;
+        return rate;
     }
 
     /// Which way the carriage moves next: +1, -1, or 0 for held by friction or by an end stop.
     double direction(const Motion& x) const {
         double way = sign_of(x[1]);
         if (way == 0.0) {
-            const double force_V = driving_V(x[0]) - bristle_force_V(model_, x[2]);
+            const double force_V = pull_V(x) - bristle_force_V(model_, x[2]);
             way = std::abs(force_V) > breakaway_V(model_, x[0]) ? sign_of(force_V) : 0.0;
         }
         const bool blocked = (way > 0.0 && x[0] >= model_.high_mm) || (way < 0.0 && x[0] <= model_.low_mm);
@@ -107,8 +148,8 @@ double step_phase(const CarriageModel& model, const Forces& forces, Motion& x, d
 CarriageModel make_carriage(const Rig& rig, const Departures& departures) {
     CarriageModel model;
     const double tau_s = -rig.tick_s / std::log(rig.macro.velocity_pole);
-    model.low_mm = rig.macro.low_mm;
-    model.high_mm = rig.macro.high_mm;
+    model.low_mm = rig.macro.low_mm - 0.5 * departures.mechanics.play_mm;
+    model.high_mm = rig.macro.high_mm + 0.5 * departures.mechanics.play_mm;
     model.damping_V_s_per_mm = 1.0 / rig.macro.velocity_gain_mm_per_s_per_V;
     model.inertia_V_s2_per_mm = departures.mechanics.payload * tau_s * model.damping_V_s_per_mm;
     model.command_limit_V = rig.macro.command_limit_V;
@@ -145,7 +186,7 @@ void advance(const CarriageModel& model, CarriageState& state, double command_V,
         if (contact.kind == Contact::bristles_in_equilibrium)
             x[2] = sign_of(x[1]) * equilibrium_bristle_mm(model, x[0], x[1]);
     }
-    state = state_of(x);
+    state = state_of(x, state.position_mm, model.mechanics.play_mm);
 }
 
 }  // namespace fidservo::reference

@@ -6,7 +6,14 @@
 // m = tau / K and b = 1 / K make the unit of force the volt; V is the dead zone of the rig file on the sum of
 // the driving voltage u and the forces by place g; F is dry friction. The carriage sticks when its speed
 // comes to zero and the forces do not exceed the friction at rest; the time of that is located within the
-// step. At either end of travel it stops dead.
+// step. At either end of travel it stops dead. Drag k v |v| adds to the friction.
+//
+// A belt divides the mass: share s is the motor's, with the driving voltage and its damping b; the rest is
+// the carriage's, with its friction. They pull at each other with z / C + d dz/dt, z = motor - carriage,
+// d = 2 D sqrt(s (1 - s) m / C).
+//
+// Play: what is integrated is what drives the carriage; the carriage rests until it is pushed on from either
+// side of the play.
 //
 // The flexure: q = platform's swing against the wire's end, w = dq/dt + coupling v, so that no acceleration
 // is needed and an impact of the carriage passes on:
@@ -18,7 +25,7 @@
 namespace fidservo::reference {
 
 struct CarriageModel {
-    double low_mm = 0.0, high_mm = 0.0;
+    double low_mm = 0.0, high_mm = 0.0;  ///< of what drives the carriage
     double inertia_V_s2_per_mm = 0.0;
     double damping_V_s_per_mm = 0.0;
     double command_limit_V = 0.0;
@@ -31,10 +38,13 @@ struct CarriageModel {
 
 struct CarriageState {
     double position_mm = 0.0;
-    double speed_mm_per_s = 0.0;
+    double speed_mm_per_s = 0.0;  ///< of what drives it, where there is play
     double bristle_mm = 0.0;      ///< deflection
     double swing_mm = 0.0;        ///< q
     double swing_mm_per_s = 0.0;  ///< w
+    double stretch_mm = 0.0;      ///< z of a belt
+    double motor_mm_per_s = 0.0;  ///< with a belt
+    double ahead_mm = 0.0;        ///< what drives the carriage, of the middle of its play
 };
 
 CarriageModel make_carriage(const Rig& rig, const Departures& departures);

@@ -10,6 +10,7 @@ struct DriveDepartures {
     double gain = 1.0;
     double offset_V = 0.0;  ///< a constant force, held by the dead zone while the carriage stands
     double delay_s = 0.0;
+    double fading_per_s = 0.0;  ///< share of the gain that is lost a second, as a motor warms
 };
 
 /// The elastic contact of the LuGre model (Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE TAC 40, 1995).
@@ -30,12 +31,20 @@ struct FrictionDepartures {
     std::optional<Bristles> bristles = {};  ///< an elastic contact; a rigid one without
     double viscous_forward = 1.0;           ///< factor on the file's damping while moving right
     double viscous_backward = 1.0;          ///< likewise while moving left
+    double drag_V_s2_per_mm2 = 0.0;         ///< of the square of speed, as in air
     double patch_V = 0.0;                   ///< dry friction in excess at the centre of a patch of the rail
     double patch_centre_mm = 100.0;
     double patch_width_mm = 5.0;  ///< standard deviation of its bell shape
 };
 
-/// Forces by place, which act on a carriage at rest too, and the moving mass.
+/// A belt between motor and carriage, as a damped spring.
+struct Stretch {
+    double compliance_mm_per_V = 0.05;
+    double damping_ratio = 0.05;  ///< of motor and carriage swinging against each other
+    double motor_share = 0.5;     ///< of the moving mass
+};
+
+/// Forces by place, which act on a carriage at rest too, the moving mass, and what moves it.
 struct MechanicsDepartures {
     double payload = 1.0;  ///< factor on the moving mass
     double cogging_V = 0.0;
@@ -43,6 +52,8 @@ struct MechanicsDepartures {
     double cogging_phase_rad = 0.0;
     double cable_V_per_mm = 0.0;  ///< a spring towards cable_centre_mm
     double cable_centre_mm = 100.0;
+    double play_mm = 0.0;  ///< between what drives the carriage and the carriage, from side to side
+    std::optional<Stretch> stretch = {};
 };
 
 struct EncoderDepartures {
@@ -50,6 +61,8 @@ struct EncoderDepartures {
     double ripple_mm = 0.0;
     double ripple_period_mm = 2.0;
     double ripple_phase_rad = 0.0;
+    double bow_per_mm = 0.0;  ///< it reads y + bow (y - bow_centre)^2
+    double bow_centre_mm = 100.0;
 };
 
 /// A rod that the wire ends in: it takes up heat, conducts it along, and gives it to the room.
@@ -66,6 +79,7 @@ struct HeaterDepartures {
     double heating_tau = 1.0;   ///< factor
     double cooling_tau = 1.0;   ///< factor: air flow below 1
     double delay_s = 0.0;
+    double curvature = 0.0;  ///< heating power times 1 + curvature (2 a - 1), a = 0 at onset, 1 at the limit
     Mount mount = {};
 };
 
@@ -90,10 +104,12 @@ struct HallDepartures {
     double cubic = 0.0;  ///< added to the file's coefficient
     double drift_V_per_s = 0.0;
     double crosstalk_V_per_V = 0.0;  ///< of the held motor command
+    double warm_V_per_degC = 0.0;    ///< of the wire's temperature above the nominal room
 };
 
 struct CameraDepartures {
     double scale = 1.0;         ///< pixels a pixel of the rig file
+    double aspect = 1.0;        ///< a pixel's width over its height
     double rotation_rad = 0.0;  ///< of the image about the optical axis, from u towards v
     double tilt_rad = 0.0;      ///< of the camera about its v axis; the axis still meets the plate at s
     double distortion = 0.0;    ///< radial, k1 of x (1 + k1 r^2) in normalised coordinates

@@ -29,8 +29,10 @@ void run(const RigModel& model, const std::array<HeldCommand, 2>& commands, doub
 /// The part of a tick from its beginning on.
 void move(const RigModel& model, State& state, double macro_V, double micro_V, double way_s) {
     const auto motor = command(state.macro_commands, model.departures.drive.delay_s, model.tick_s, macro_V);
+    const double time_s = static_cast<double>(state.tick) * model.tick_s;
+    const double left = 1.0 - model.departures.drive.fading_per_s * time_s;
     run(model, motor, way_s,
-        [&](double volts, double h_s) { advance(model.carriage, state.carriage, volts, h_s); });
+        [&](double volts, double h_s) { advance(model.carriage, state.carriage, left * volts, h_s); });
     state.macro_V = macro_V;
     if (!model.platform) return;
     const PlatformModel& platform = *model.platform;
@@ -58,9 +60,9 @@ RigModel make_rig_model(const Rig& rig, const Departures& departures, int subste
     model.departures = departures;
     model.carriage = make_carriage(rig, departures);
     if (rig.micro)
-        model.platform =
-            PlatformModel{make_wire(rig.micro->heater, departures.heater),
-                          make_hysteresis(*rig.micro->fod, departures.hysteresis), rig.micro->hall};
+        model.platform = PlatformModel{make_wire(rig.micro->heater, departures.heater),
+                                       make_hysteresis(*rig.micro->fod, departures.hysteresis),
+                                       rig.micro->hall, rig.micro->heater.ambient_degC};
     if (rig.camera && rig.fiducials)
         model.camera = CameraModel{*rig.camera, *rig.fiducials, departures.camera};
     return model;
@@ -86,7 +88,8 @@ Reading sample(const RigModel& model, State& state) {
         encoder_count(model.encoder_resolution_mm, model.departures.encoder, state.carriage.position_mm);
     if (model.platform) {
         const HallInput input{truth(model, state).platform_mm, state.macro_V,
-                              static_cast<double>(state.tick) * model.tick_s};
+                              static_cast<double>(state.tick) * model.tick_s,
+                              state.platform->wire_degC[0] - model.platform->nominal_room_degC};
         const HallParameters& hall = model.platform->hall;
         reading.hall_adc =
             hall_reading(hall, hall_volts(hall, model.departures.hall, input), state.platform->noise);

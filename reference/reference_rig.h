@@ -32,6 +32,7 @@ struct PlatformModel {
     WireModel wire;
     HysteresisModel hysteresis;
     HallParameters hall;
+    double nominal_room_degC = 0.0;
 };
 
 /// The rig ready to tick. Parts that it does not have are empty. Immutable.

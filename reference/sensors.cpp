@@ -12,6 +12,8 @@ std::int64_t encoder_count(double resolution_mm, const EncoderDepartures& depart
         const double angle = 2.0 * std::numbers::pi * position_mm / departures.ripple_period_mm;
         seen_mm += departures.ripple_mm * std::sin(angle + departures.ripple_phase_rad);
     }
+    const double along_mm = position_mm - departures.bow_centre_mm;
+    seen_mm += departures.bow_per_mm * along_mm * along_mm;
     return static_cast<std::int64_t>(std::floor(seen_mm / resolution_mm + 0.5));
 }
 
@@ -20,7 +22,8 @@ double hall_volts(const HallParameters& hall, const HallDepartures& departures, 
     const double cubic = hall.cubic + departures.cubic;
     const double curve_V = hall.span_V * s * ((1.0 + cubic) - cubic * s * s);
     return hall.mid_V + departures.gain * curve_V + departures.offset_V +
-           departures.drift_V_per_s * input.time_s + departures.crosstalk_V_per_V * input.macro_V;
+           departures.drift_V_per_s * input.time_s + departures.crosstalk_V_per_V * input.macro_V +
+           departures.warm_V_per_degC * input.warmer_degC;
 }
 
 int hall_reading(const HallParameters& hall, double volts, NoiseStream& noise) {

@@ -14,12 +14,14 @@ std::int64_t encoder_count(double resolution_mm, const EncoderDepartures& depart
 /// What the Hall sensor's voltage depends on.
 struct HallInput {
     double platform_mm;
-    double macro_V;  ///< the motor command in force
-    double time_s;   ///< since the start
+    double macro_V;            ///< the motor command in force
+    double time_s;             ///< since the start
+    double warmer_degC = 0.0;  ///< the wire, than the nominal room
 };
 
 /// Voltage before noise and rounding:
-/// V = mid + gain span ((1 + c) s - c s^3) + offset + drift t + crosstalk u,  s = (x - centre) / half range.
+/// V = mid + gain span ((1 + c) s - c s^3) + offset + drift t + crosstalk u + warm (T - Ta),  s = (x -
+/// centre) / half range.
 double hall_volts(const HallParameters& hall, const HallDepartures& departures, const HallInput& input);
 
 /// The ADC's reading, 0 .. 2^bits - 1, of a voltage with noise.

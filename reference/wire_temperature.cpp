@@ -39,6 +39,7 @@ WireModel make_wire(const HeaterParameters& heater, const HeaterDepartures& depa
             .heating_tau_s = heater.heating_tau_s * departures.heating_tau,
             .cooling_tau_s = heater.cooling_tau_s * departures.cooling_tau,
             .ambient_degC = heater.ambient_degC + departures.ambient_degC,
+            .curvature = departures.curvature,
             .mount = departures.mount};
 }
 
@@ -50,7 +51,9 @@ WireState cold_wire(const WireModel& model) {
 
 void advance(const WireModel& model, WireState& state, double command_V, double h_s) {
     const double above_V = std::min(command_V, model.limit_V) - model.onset_V;
-    const double rise_degC = model.rise_degC_per_V * std::max(above_V, 0.0);
+    const double share = above_V / (model.limit_V - model.onset_V);
+    const double rise_degC =
+        model.rise_degC_per_V * std::max(above_V, 0.0) * (1.0 + model.curvature * (2.0 * share - 1.0));
     if (model.mount.conductance_per_s == 0.0) {
         const auto rate = [&](const std::array<double, 1>& temp) {
             return std::array{wire_rate(model, rise_degC, temp[0])};

@@ -22,6 +22,7 @@ struct WireModel {
     double rise_degC_per_V;
     double heating_tau_s, cooling_tau_s;
     double ambient_degC;
+    double curvature = 0.0;
     Mount mount;
 };
 

@@ -4,6 +4,7 @@
 #include "core/failure.h"
 #include "plant/effects/catalogue.h"
 #include "src/commands/commands.h"
+#include "src/commands/self_check.h"
 #include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
 #include "src/diagnose/report.h"
@@ -26,6 +27,7 @@ struct DiagnoseOptions {
     std::filesystem::path rig_file;
     std::vector<std::string> only, without;
     std::filesystem::path json, report, write_rig;
+    SelfCheckRequest self_check;
 };
 
 void demand_effects(const char* option, const std::vector<std::string>& names) {
@@ -43,11 +45,20 @@ std::vector<Recording> read_recordings(const std::vector<std::filesystem::path>&
     return recordings;
 }
 
+int check_itself(const DiagnoseOptions& options) {
+    if (!options.recordings.empty()) throw InputError("--self-check: it makes its own recordings; give none");
+    if (!options.without.empty()) throw InputError("--self-check: it withholds effects itself; no --without");
+    if (!options.report.empty() || !options.write_rig.empty())
+        throw InputError("--self-check: writes --json only, no --report and no --write-rig");
+    return run_self_check(options.self_check, options.rig_file, options.only, options.json);
+}
+
 int run_diagnose(const DiagnoseOptions& options) {
-    if (options.recordings.empty()) throw InputError("RECORDING: give one recording folder at least");
     demand_effects("--effects", options.only);
     demand_effects("--without", options.without);
     demand_new_file("--json", options.json);
+    if (options.self_check.wanted) return check_itself(options);
+    if (options.recordings.empty()) throw InputError("RECORDING: give one recording folder at least");
     demand_new_file("--report", options.report);
     demand_new_file("--write-rig", options.write_rig);
     const gap::Evidence evidence(load_rig(options.rig_file), read_recordings(options.recordings));
@@ -94,6 +105,7 @@ void add_diagnose(CLI::App& app, int& exit_code) {
     command->add_option("--report", options->report, "New file for the report")->type_name("FILE.html");
     command->add_option("--write-rig", options->write_rig, "New rig file that states the effects found")
         ->type_name("FILE.yaml");
+    add_self_check_options(*command, options->self_check);
     add_example(*command, "fidservo diagnose --rig assets/rig.yaml recordings/ --json diagnosis.json");
     command->callback([options, &exit_code] { exit_code = run_diagnose(*options); });
 }

@@ -186,6 +186,73 @@ TEST(Cogging, DrivingForce_IsPeriodicInPlace) {
     EXPECT_NEAR(driving_force_V(model, 4.0, 12.5), driving_force_V(model, 4.0, 10.5), 1e-12);
 }
 
+TEST(Fading, SteadySpeed_IsThatOfTheLowerVoltage) {
+    Departures departures;
+    departures.drive.fading_per_s = 0.1;
+    const RigModel model = make_rig_model(rig(), departures);
+    State state = start(model, 30.0, 1);
+    state.tick = 500;  // 5 % are gone; 1 % more a tenth of a second later
+    const double speed = gain() * (0.364 + 0.636 * (0.95 * 4.0 - 3.0));
+    const double later = gain() * (0.364 + 0.636 * (0.94 * 4.0 - 3.0));
+    const double v = after(model, state, 100, 4.0).carriage.speed_mm_per_s;
+    EXPECT_GT(v, later * (1.0 - std::exp(-0.1 / tau_s())));
+    EXPECT_LT(v, speed);
+}
+
+TEST(Drag, SteadySpeed_BalancesTheSquare) {
+    Departures departures;
+    departures.friction.drag_V_s2_per_mm2 = 1e-5;
+    const double v = from_rest(departures, 500, 4.0).carriage.speed_mm_per_s;
+    EXPECT_NEAR(v / gain() + 1e-5 * v * v, 1.0, 1e-9);
+    EXPECT_NEAR(from_rest(departures, 100, -4.0).carriage.speed_mm_per_s,
+                -from_rest(departures, 100, 4.0).carriage.speed_mm_per_s, 1e-9);
+}
+
+TEST(Play, Reversal_LeavesTheCarriageUntilThePlayIsCrossed) {
+    Departures departures;
+    departures.mechanics.play_mm = 0.4;
+    const RigModel model = make_rig_model(rig(), departures), stiff = make_rig_model(rig());
+    const State right = after(model, start(model, 30.0, 1), 60, 4.0);
+    const State driven = after(stiff, start(stiff, 30.0, 1), 60, 4.0);
+    EXPECT_NEAR(right.carriage.position_mm, driven.carriage.position_mm - 0.2, 1e-12);
+    State back = after(model, after(model, right, 300, 0.0), 1, -4.0);
+    const double rest_mm = back.carriage.position_mm;
+    while (back.carriage.ahead_mm > -0.2 + 1e-12) {
+        ASSERT_EQ(back.carriage.position_mm, rest_mm);
+        advance(model, back, -4.0, 0.0);
+    }
+    EXPECT_LE(back.carriage.position_mm, rest_mm);
+}
+
+TEST(Stretch, FreeMasses_SwingAtTheirNaturalFrequencyWithTheirDamping) {
+    Departures departures;
+    departures.mechanics.stretch = {.compliance_mm_per_V = 0.1, .damping_ratio = 0.02, .motor_share = 0.3};
+    Rig undamped = rig();
+    const double inertia = tau_s() / gain();
+    undamped.macro.velocity_gain_mm_per_s_per_V *= 1e6;  // no damping by the motor; the same inertia
+    undamped.macro.velocity_pole = std::exp(-undamped.tick_s / (tau_s() * 1e6));
+    const RigModel model = make_rig_model(undamped, departures);
+    State state = start(model, 100.0, 1);
+    state.carriage.stretch_mm = 1.0;
+    const double omega = std::sqrt(1.0 / (0.1 * 0.3 * 0.7 * inertia));
+    const double damped = omega * std::sqrt(1.0 - 0.02 * 0.02);
+    for (int k = 1; k <= 100; ++k) {
+        advance(model, state, 0.0, 0.0);
+        const double t_s = k * 1e-3;
+        const double z_mm = std::exp(-0.02 * omega * t_s) *
+                            (std::cos(damped * t_s) + 0.02 * omega / damped * std::sin(damped * t_s));
+        ASSERT_NEAR(state.carriage.stretch_mm, z_mm, 1e-3) << k;
+    }
+    // the carriage has 0.7 of the mass: the masses' centre stays
+    EXPECT_NEAR(0.3 * state.carriage.motor_mm_per_s + 0.7 * state.carriage.speed_mm_per_s, 0.0, 1e-3);
+}
+
+TEST(Stretch, SteadySpeed_IsThatOfTheStiffAxis) {
+    Departures departures;
+    departures.mechanics.stretch = Stretch{};
+    EXPECT_NEAR(from_rest(departures, 500, 4.0).carriage.speed_mm_per_s, gain(), 1e-6);
+}
+
 TEST(Flexure, SuddenSpeedOfTheCarriage_RingsAtItsResonance) {
     Departures departures;
     departures.flexure = {.coupling = 0.5, .frequency_hz = 20.0, .damping_ratio = 0.02};
@@ -222,6 +289,18 @@ TEST(Heater, Departures_EnterTheFirstOrderStepAsTheyShould) {
     EXPECT_NEAR(truth(model, late).wire_degC, last_degC, 1e-9);
     EXPECT_NEAR(truth(model, after(model, late, 700, 0.0, 0.0)).wire_degC,
                 25.0 + (last_degC - 25.0) * std::exp(-1.0), 1e-9);
+}
+
+TEST(Heater, Curvature_KeepsThePowerInTheMiddleAndTiltsTheRest) {
+    WireModel wire = make_wire(rig().micro->heater, {.curvature = 0.1});
+    const auto settled = [&](double volts) {
+        WireState state = cold_wire(wire);
+        for (int k = 0; k < 20'000; ++k) advance(wire, state, volts, 1e-3);
+        return state[0];
+    };
+    EXPECT_NEAR(settled(1.6), 22.0 + 272.0 * 0.3, 1e-6);
+    EXPECT_NEAR(settled(1.9), 22.0 + 272.0 * 0.6 * 1.1, 1e-6);
+    EXPECT_NEAR(settled(1.45), 22.0 + 272.0 * 0.15 * 0.95, 1e-6);
 }
 
 TEST(Mount, IsolatedRod_TakesUpTheWiresHeatAndSlowsTheCoolingLater) {
@@ -283,6 +362,7 @@ TEST(Encoder, ScaleAndRipple_EnterTheCount) {
     EXPECT_EQ(encoder_count(0.05, {}, 10.024), 200);
     EXPECT_EQ(encoder_count(0.05, {}, 10.025), 201);
     EXPECT_EQ(encoder_count(0.05, {.scale = 1.01}, 100.0), 2020);
+    EXPECT_EQ(encoder_count(0.05, {.bow_per_mm = 1e-4, .bow_centre_mm = 50.0}, 100.0), 2005);
     EXPECT_EQ(encoder_count(0.05, {.ripple_mm = 0.1, .ripple_period_mm = 2.0}, 10.5), 212);
 }
 
@@ -294,6 +374,7 @@ TEST(Hall, Departures_AddUpInTheVoltage) {
     EXPECT_NEAR(hall_volts(hall, departures, {3.0, 4.0, 10.0}), 2.5 + 1.1 * 0.71875 + 0.01 + 0.01 + 0.008,
                 1e-12);
     EXPECT_NEAR(hall_volts(hall, {}, {4.0, 5.0, 9.0}), 3.75, 1e-12);
+    EXPECT_NEAR(hall_volts(hall, {.warm_V_per_degC = 1e-4}, {4.0, 5.0, 9.0, 50.0}), 3.755, 1e-12);
 }
 
 TEST(Camera, Departures_MoveImagePointsAsAPinholeDoes) {
@@ -305,6 +386,8 @@ TEST(Camera, Departures_MoveImagePointsAsAPinholeDoes) {
     const double depth = 20.0 + 0.4 * std::sin(0.1);
     EXPECT_NEAR(image_of(model, {1.0, 0.5}, 0.6).x(), 639.5 + 5000.0 * 0.4 * std::cos(0.1) / depth, 1e-9);
     EXPECT_NEAR(image_of(model, {1.0, 0.5}, 0.6).y(), 479.5 + 5000.0 * 0.5 / depth, 1e-9);
+    model.departures = {.aspect = 1.01};
+    EXPECT_TRUE(image_of(model, {1.0, 0.5}, 0.6).isApprox(Eigen::Vector2d(739.5, 605.75), 1e-12));
     model.departures = {.distortion = 2.0};
     EXPECT_NEAR(image_of(model, {2.0, 0.0}, 0.0).x(), 639.5 + 500.0 * 1.02, 1e-9);
 }

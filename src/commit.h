@@ -1,0 +1,9 @@
+#pragma once
+
+namespace fidservo {
+
+/// What git calls the commit that the program was built from, "-dirty" behind it if files were changed;
+/// "unknown" without git.
+const char* built_from_commit();
+
+}  // namespace fidservo

@@ -1,0 +1,26 @@
+#pragma once
+#include <cstddef>
+
+namespace fidservo::selfcheck {
+
+/// How many of how many.
+struct Share {
+    std::size_t hits = 0, of = 0;
+
+    void add(bool hit) {
+        hits += hit ? 1 : 0;
+        ++of;
+    }
+    /// NaN of none.
+    double value() const;
+};
+
+struct Interval {
+    double low, high;
+};
+
+/// Wilson's 95 % interval of a binomial share: the p with |hits - of p| <= z sqrt(of p (1 - p)). [0, 1] of
+/// none. Source: Wilson, J. Am. Stat. Assoc. 22 (1927); Newcombe, Statistics in Medicine 17 (1998), method 3.
+Interval wilson_interval(const Share& share);
+
+}  // namespace fidservo::selfcheck

@@ -1,0 +1,122 @@
+#include "src/selfcheck/case_draw.h"
+
+#include "gap/candidate.h"
+#include "plant/effects/catalogue.h"
+#include "src/selfcheck/listed_effects.h"
+#include "src/selfcheck/unlisted_effects.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace fidservo::selfcheck {
+namespace {
+
+using enum CaseKind;
+constexpr std::array cycle{none, none, one, one, one, one, two, two, withheld, unlisted};
+
+/// Sizes reach down to this many floors, but not below this share of the largest.
+constexpr double smallest_floors = 0.7, smallest_share = 1.0 / 300.0;
+
+std::size_t index_below(NoiseStream& draw, std::size_t count) {
+    return std::min(count - 1, static_cast<std::size_t>(draw.uniform() * static_cast<double>(count)));
+}
+
+template <class Item>
+void shuffle(std::vector<Item>& items, NoiseStream draw) {
+    for (std::size_t k = items.size(); k > 1; --k) std::swap(items[k - 1], items[index_below(draw, k)]);
+}
+
+std::vector<CaseKind> kinds_of_cycle(std::uint64_t seed, std::size_t which) {
+    std::vector<CaseKind> kinds(cycle.begin(), cycle.end());
+    shuffle(kinds, NoiseStream(seed, fmt::format("self-check/cycle/{}", which)));
+    return kinds;
+}
+
+/// How many cases of the same kind come before a case.
+std::size_t ordinal_of(std::uint64_t seed, std::size_t number) {
+    const std::size_t which = number / cycle.size();
+    const std::vector<CaseKind> kinds = kinds_of_cycle(seed, which);
+    const auto here = kinds.begin() + static_cast<std::ptrdiff_t>(number % cycle.size());
+    const auto before = std::count(kinds.begin(), here, *here);
+    return which * static_cast<std::size_t>(std::ranges::count(cycle, *here)) +
+           static_cast<std::size_t>(before);
+}
+
+/// Round robin: item k of a list that is shuffled anew whenever all of it was met.
+template <class Item>
+Item met(std::span<const Item> items, std::uint64_t seed, CaseKind kind, std::size_t k) {
+    std::vector<Item> round(items.begin(), items.end());
+    shuffle(round, NoiseStream(seed, fmt::format("self-check/round/{}/{}", name_of(kind), k / items.size())));
+    return round[k % items.size()];
+}
+
+TrueEffect put_listed(Case& drawn, std::string_view class_name, NoiseStream& draw) {
+    const std::vector<const EffectDraw*> ways = draws_of(class_name);
+    const EffectDraw& way = *ways[index_below(draw, ways.size())];
+    const double smallest = std::max(smallest_floors * way.floor_size, smallest_share * way.largest);
+    const double size = log_uniform(draw, smallest, way.largest);
+    way.put(drawn.true_rig.departures, size, draw);
+    return {.effect = std::string(way.effect),
+            .class_name = std::string(class_name),
+            .block = std::string(plant::find_effect(way.effect)->block),
+            .formula = std::string(way.formula),
+            .size = size,
+            .expected_floors = size / way.floor_size};
+}
+
+TrueEffect put_unlisted(Case& drawn, const UnlistedEffect& effect, NoiseStream& draw) {
+    const double size = log_uniform(draw, effect.smallest, effect.largest);
+    effect.put(drawn.true_rig, size, draw);
+    return {.effect = std::string(effect.name),
+            .class_name = std::string(effect.name),
+            .block = std::string(effect.block),
+            .formula = "",
+            .size = size,
+            .expected_floors = 0.0};
+}
+
+/// A class that can be together with another one; every other time, where there is one, of the same block.
+std::string_view partner_of(std::string_view class_name, bool same_block, NoiseStream& draw) {
+    const auto block_of = [](std::string_view name) { return plant::find_effect(name)->block; };
+    std::vector<std::string_view> partners;
+    for (const bool wanted : {same_block, !same_block}) {
+        for (const std::string_view other : listed_classes())
+            if (can_be_together(class_name, other) && (block_of(other) == block_of(class_name)) == wanted)
+                partners.push_back(other);
+        if (!partners.empty()) break;
+    }
+    return partners[index_below(draw, partners.size())];
+}
+
+}  // namespace
+
+CaseKind kind_of_case(std::uint64_t seed, std::size_t number) {
+    return kinds_of_cycle(seed, number / cycle.size())[number % cycle.size()];
+}
+
+Case draw_case(const Rig& nominal, std::uint64_t seed, std::size_t number) {
+    NoiseStream draw(seed, fmt::format("self-check/case/{}", number));
+    Case drawn{.number = number,
+               .label = {kind_of_case(seed, number), {}},
+               .true_rig = {nominal, {}},
+               .without = {},
+               .campaign_seed = draw.bits()};
+    const std::size_t k = ordinal_of(seed, number);
+    const CaseKind kind = drawn.label.kind;
+    std::vector<TrueEffect>& effects = drawn.label.effects;
+    if (kind == unlisted) {
+        effects.push_back(put_unlisted(drawn, met(unlisted_effects(), seed, kind, k), draw));
+    } else if (kind != none) {
+        const std::string_view first = met(std::span(listed_classes()), seed, kind, k);
+        effects.push_back(put_listed(drawn, first, draw));
+        if (kind == two) effects.push_back(put_listed(drawn, partner_of(first, k % 2 == 0, draw), draw));
+        if (kind == withheld) drawn.without.push_back(effects.front().effect);
+    }
+    return drawn;
+}
+
+}  // namespace fidservo::selfcheck

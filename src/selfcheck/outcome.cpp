@@ -1,0 +1,47 @@
+#include "src/selfcheck/outcome.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fidservo::selfcheck {
+namespace {
+
+std::string truth_of(const Label& label) {
+    std::vector<std::string> effects;
+    for (const TrueEffect& effect : label.effects)
+        effects.push_back(fmt::format("{}{} {:.3g} ({})", effect.effect,
+                                      effect.formula.empty() ? "" : "/" + effect.formula, effect.size,
+                                      effect.block));
+    return effects.empty() ? "" : fmt::format(": {}", fmt::join(effects, " + "));
+}
+
+bool is_right(const Label& label, const Score& score) {
+    switch (label.kind) {
+        case CaseKind::none:
+            return score.verdict == gap::Verdict::no_gap;
+        case CaseKind::one:
+            return score.right_effect_first && score.right_block_first;
+        case CaseKind::two:
+            return score.all_right;
+        case CaseKind::withheld:
+        case CaseKind::unlisted:
+            break;
+    }
+    return score.right_block_first && !score.is_confident_wrong;
+}
+
+}  // namespace
+
+std::string line_of(const Outcome& outcome) {
+    const Score& score = outcome.score;
+    return fmt::format(
+        "case {:>4} {}{}; {:.3g} floors -> {}{}{}; {}; {:.3g} floors left, {:.3g} s + {:.3g} s, {}",
+        outcome.number, name_of(outcome.label.kind), truth_of(outcome.label), score.floors,
+        gap::name_of(score.verdict), score.named.empty() ? "" : ": ", fmt::join(score.named, " + "),
+        score.named.empty() ? score.first_block
+                            : fmt::format("{} {:.2f}", score.first_block, score.first_probability),
+        score.after, outcome.recording_s, outcome.diagnosis_s,
+        is_right(outcome.label, score) ? "right" : "WRONG");
+}
+
+}  // namespace fidservo::selfcheck

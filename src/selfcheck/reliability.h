@@ -1,0 +1,33 @@
+#pragma once
+// Whether probabilities mean what they say.
+#include <cstddef>
+#include <vector>
+
+namespace fidservo::selfcheck {
+
+/// What was claimed with which probability, and whether it was so.
+struct Claim {
+    double probability;
+    bool came_true;
+};
+
+struct ReliabilityBin {
+    double mean_probability;
+    double share_true;
+    std::size_t claims;
+};
+
+/// NaN of no claims.
+struct Reliability {
+    std::vector<ReliabilityBin> bins;  ///< by probability, ascending
+    double expected_error = 0.0;       ///< mean over claims of |mean probability - share true| of their bin
+    double brier = 0.0;                ///< mean of (probability - 1 or 0)^2
+};
+
+/// @param most_bins  of equal count; fewer where a bin would have less than least_claims
+/// Source: Naeini, Cooper, Hauskrecht, AAAI 2015 (expected calibration error); Brier, Mon. Weather Rev. 78
+/// (1950).
+Reliability reliability_of(std::vector<Claim> claims, std::size_t most_bins = 10,
+                           std::size_t least_claims = 20);
+
+}  // namespace fidservo::selfcheck

@@ -1,0 +1,83 @@
+#include "src/selfcheck/self_check.h"
+
+#include "core/failure.h"
+#include "gap/diagnose.h"
+#include "src/interrupt.h"
+#include "src/progress.h"
+#include "src/selfcheck/campaign.h"
+#include "src/selfcheck/case_draw.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace fidservo::selfcheck {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void demand_whole_rig(const Rig& rig) {
+    const auto demand = [&](bool has, const char* part) {
+        if (!has)
+            throw InputError(
+                fmt::format("--self-check: the rig {} has no {}, which its cases need", rig.name, part));
+    };
+    demand(rig.micro.has_value(), "micro");
+    demand(rig.camera.has_value(), "camera");
+    demand(rig.fiducials.has_value(), "fiducials");
+    demand(rig.macro.pd.has_value(), "macro.pd");
+    demand(rig.micro->pi.has_value(), "micro.pi");
+}
+
+/// Sees recordings, the nominal rig, and what the diagnosis is not to try; no label.
+gap::Diagnosis diagnose_blindly(const Rig& nominal, std::vector<Recording> recordings,
+                                const std::vector<std::string>& only,
+                                const std::vector<std::string>& without) {
+    const gap::Evidence evidence(nominal, std::move(recordings));
+    return gap::diagnose(evidence, {.only = only, .without = without, .selection = {}});
+}
+
+Outcome run_case(const Rig& nominal, const Case& drawn, const std::vector<std::string>& only) {
+    const Clock::time_point start = Clock::now();
+    std::vector<Recording> recordings = record_campaign(nominal, drawn.true_rig, drawn.campaign_seed);
+    const double recording_s = seconds_since(start);
+    const Clock::time_point recorded = Clock::now();
+    const gap::Diagnosis diagnosis = diagnose_blindly(nominal, std::move(recordings), only, drawn.without);
+    const double diagnosis_s = seconds_since(recorded);
+    return {drawn.number, drawn.label, score(drawn.label, diagnosis), recording_s, diagnosis_s};
+}
+
+}  // namespace
+
+SelfCheck run_self_check(const Rig& nominal, const SelfCheckOptions& options,
+                         const std::function<void(const Outcome&)>& done) {
+    demand_whole_rig(nominal);
+    SelfCheck check;
+    Progress progress("cases", options.cases);
+    const auto finished = [&] { return check.outcomes.size() + check.failures.size(); };
+    for (std::size_t number = options.first; finished() < options.cases; ++number) {
+        check.was_interrupted = interrupt_requested();
+        if (check.was_interrupted) break;
+        const CaseKind kind = kind_of_case(options.seed, number);
+        if (!options.kinds.empty() && std::ranges::find(options.kinds, kind) == options.kinds.end()) continue;
+        try {
+            check.outcomes.push_back(
+                run_case(nominal, draw_case(nominal, options.seed, number), options.only));
+            done(check.outcomes.back());
+        } catch (const std::exception& error) {
+            check.failures.push_back({number, error.what()});
+        }
+        progress.advance();
+    }
+    progress.finish();
+    return check;
+}
+
+}  // namespace fidservo::selfcheck

@@ -1,0 +1,41 @@
+#pragma once
+// The diagnosis judged on rigs whose effects are known: drawn, recorded on the independent model, diagnosed
+// without their labels, scored.
+#include "core/rig.h"
+#include "gap/selection.h"
+#include "src/selfcheck/outcome.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace fidservo::selfcheck {
+
+struct SelfCheckOptions {
+    std::size_t cases = 300;
+    std::size_t first = 0;        ///< number of the first case
+    std::vector<CaseKind> kinds;  ///< others are passed over; empty: all
+    std::uint64_t seed = 1;
+    std::vector<std::string> only;  ///< effects that the diagnosis tries; empty: all
+};
+
+/// A case that could not be diagnosed.
+struct Failure {
+    std::size_t number;
+    std::string text;
+};
+
+struct SelfCheck {
+    std::vector<Outcome> outcomes;
+    std::vector<Failure> failures;
+    bool was_interrupted = false;  ///< after a whole number of cases
+};
+
+/// Case after case; Ctrl-C (src/interrupt.h) ends it after the present one.
+/// @param done  called after every case
+/// Throws InputError if the rig lacks what the cases need: micro stage, camera, fiducials, controllers.
+SelfCheck run_self_check(const Rig& nominal, const SelfCheckOptions& options,
+                         const std::function<void(const Outcome&)>& done);
+
+}  // namespace fidservo::selfcheck

@@ -1,0 +1,118 @@
+#include "src/selfcheck/tally_json.h"
+
+#include "src/commit.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace fidservo::selfcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+    if (!std::isfinite(value)) return nullptr;
+    return value;
+}
+
+Json json_of(const Share& share) {
+    const Interval interval = wilson_interval(share);
+    return {{"hits", share.hits},
+            {"of", share.of},
+            {"share", number(share.value())},
+            {"interval", {interval.low, interval.high}}};
+}
+
+Json json_of(const TrueEffect& effect) {
+    return {{"effect", effect.effect},     {"class", effect.class_name},
+            {"block", effect.block},       {"formula", effect.formula},
+            {"size", number(effect.size)}, {"expected_floors", number(effect.expected_floors)}};
+}
+
+Json json_of(const Outcome& outcome) {
+    Json effects = Json::array();
+    for (const TrueEffect& effect : outcome.label.effects) effects.push_back(json_of(effect));
+    const Score& score = outcome.score;
+    return {{"number", outcome.number},
+            {"kind", name_of(outcome.label.kind)},
+            {"effects", effects},
+            {"verdict", gap::name_of(score.verdict)},
+            {"floors", number(score.floors)},
+            {"gap", {{"before", number(score.before)}, {"after", number(score.after)}}},
+            {"removed", number(score.removed)},
+            {"named", score.named},
+            {"first_block", score.first_block},
+            {"first_probability", number(score.first_probability)},
+            {"set_size", score.set_size},
+            {"right_block_first", score.right_block_first},
+            {"right_effect_first", score.right_effect_first},
+            {"any_right", score.any_right},
+            {"all_right", score.all_right},
+            {"confident_wrong", score.is_confident_wrong},
+            {"recording_s", number(outcome.recording_s)},
+            {"diagnosis_s", number(outcome.diagnosis_s)}};
+}
+
+Json figures_of(const Tally& tally) {
+    Json figures = Json::object();
+    for (const ShareFigure& figure : tally.shares) {
+        Json json = json_of(figure.share);
+        json["text"] = figure.text;
+        if (figure.at_least) json["at_least"] = *figure.at_least;
+        figures[figure.name] = std::move(json);
+    }
+    for (const LimitFigure& figure : tally.limits) {
+        Json json{{"value", number(figure.value)}, {"text", figure.text}};
+        if (figure.at_most) json["at_most"] = *figure.at_most;
+        figures[figure.name] = std::move(json);
+    }
+    return figures;
+}
+
+Json options_of(const SelfCheckOptions& options) {
+    Json kinds = Json::array();
+    for (const CaseKind kind : options.kinds) kinds.push_back(name_of(kind));
+    return {{"cases", options.cases},
+            {"first", options.first},
+            {"seed", options.seed},
+            {"kinds", kinds},
+            {"only", options.only}};
+}
+
+}  // namespace
+
+std::string self_check_json(const SelfCheckOptions& options, const SelfCheck& check, const Tally& tally) {
+    Json classes = Json::array(), power = Json::array(), bins = Json::array(), cases = Json::array(),
+         failures = Json::array();
+    for (const ClassRow& row : tally.classes)
+        classes.push_back({{"class", row.class_name},
+                           {"right", json_of(row.right)},
+                           {"right_at_any_size", json_of(row.right_at_any_size)},
+                           {"named", row.named}});
+    for (const PowerRow& row : tally.power)
+        power.push_back({{"from_floors", row.from_floors},
+                         {"to_floors", number(row.to_floors)},
+                         {"found", json_of(row.found)},
+                         {"right", json_of(row.right)}});
+    for (const ReliabilityBin& bin : tally.reliability.bins)
+        bins.push_back({{"mean_probability", bin.mean_probability},
+                        {"share_true", bin.share_true},
+                        {"cases", bin.claims}});
+    for (const Outcome& outcome : check.outcomes) cases.push_back(json_of(outcome));
+    for (const Failure& failure : check.failures)
+        failures.push_back({{"number", failure.number}, {"text", failure.text}});
+    const Json all{{"format", "fidservo-self-check/1"},
+                   {"commit", built_from_commit()},
+                   {"options", options_of(options)},
+                   {"interrupted", check.was_interrupted},
+                   {"figures", figures_of(tally)},
+                   {"classes", classes},
+                   {"power", power},
+                   {"reliability", bins},
+                   {"failures", failures},
+                   {"cases", cases}};
+    return all.dump(2) + "\n";
+}
+
+}  // namespace fidservo::selfcheck

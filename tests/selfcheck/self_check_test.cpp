@@ -1,0 +1,60 @@
+#include "src/selfcheck/self_check.h"
+
+#include "core/failure.h"
+#include "src/config/rig_file.h"
+#include "tests/src/run_program.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace fidservo::selfcheck {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(SelfCheckCommand, OptionsThatDoNotGoTogether_AreRefused) {
+    const fidservo::testing::TemporaryFolder here;
+    const auto refused = [&](const std::vector<std::string>& arguments, const char* what) {
+        std::vector<std::string> all{"diagnose", "--rig", FIDSERVO_ASSETS_DIR "/rig.yaml"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const auto run = fidservo::testing::run_program(all, here.path());
+        EXPECT_EQ(run.exit_code, 2) << what;
+        EXPECT_THAT(run.err, HasSubstr(what));
+    };
+    refused({"--self-check", "somewhere"}, "--self-check: it makes its own recordings");
+    refused({"--self-check", "--without", "cogging"}, "--self-check: it withholds effects itself");
+    refused({"--self-check", "--kinds", "three"}, "three");
+    refused({"--cases", "3"}, "--self-check");
+}
+
+TEST(SelfCheck, RigWithoutMicroStage_IsRefusedBeforeAnyCase) {
+    Rig rig = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
+    rig.micro.reset();
+    EXPECT_THROW(run_self_check(rig, {}, [](const Outcome&) { FAIL(); }), InputError);
+}
+
+/// The first case of a kind, diagnosed with two effects to choose from.
+Outcome first_case(CaseKind kind) {
+    SelfCheckOptions options;
+    options.cases = 1;
+    options.kinds = {kind};
+    options.seed = 3;
+    options.only = {"hall_gain", "drive_gain"};
+    SelfCheck check =
+        run_self_check(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), options, [](const Outcome&) {});
+    EXPECT_TRUE(check.failures.empty());
+    return check.outcomes.at(0);
+}
+
+TEST(SlowSelfCheck, OneEffectAndNone_AreRecordedDiagnosedAndScored) {
+    const Outcome none = first_case(CaseKind::none);
+    EXPECT_EQ(none.score.verdict, gap::Verdict::no_gap) << line_of(none);
+    EXPECT_NEAR(none.score.floors, 1.0, 0.05);
+    const Outcome one = first_case(CaseKind::one);
+    ASSERT_EQ(one.label.effects.front().effect, "drive_gain");
+    EXPECT_TRUE(one.score.right_effect_first && one.score.right_block_first) << line_of(one);
+    EXPECT_GT(one.score.floors, 3.0);
+}
+
+}  // namespace
+}  // namespace fidservo::selfcheck

@@ -1,0 +1,115 @@
+// What outcomes come to, by hand.
+#include "src/selfcheck/tally.h"
+
+#include "src/selfcheck/tally_json.h"
+#include "src/selfcheck/tally_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace fidservo::selfcheck {
+namespace {
+
+using ::testing::HasSubstr;
+
+Outcome outcome(CaseKind kind, double floors, bool right) {
+    Outcome result;
+    result.label.kind = kind;
+    if (kind != CaseKind::none)
+        result.label.effects = {{.effect = "cogging",
+                                 .class_name = "cogging",
+                                 .block = "macro.mechanics",
+                                 .formula = "",
+                                 .size = 0.1,
+                                 .expected_floors = floors}};
+    result.score.floors = floors;
+    result.score.verdict = right ? gap::Verdict::explained : gap::Verdict::no_gap;
+    if (right) result.score.named = {"cogging"};
+    result.score.right_block_first = result.score.right_effect_first = right;
+    result.score.any_right = result.score.all_right = right;
+    result.score.first_probability = right ? 0.9 : 0.0;
+    result.score.set_size = right ? 1 : 0;
+    result.score.removed = right ? 0.99 : 0.0;
+    result.score.after = right ? 1.0 : floors;
+    result.diagnosis_s = floors;
+    return result;
+}
+
+const ShareFigure& share(const Tally& tally, std::string_view name) {
+    return *std::ranges::find(tally.shares, name, &ShareFigure::name);
+}
+
+double value(const Tally& tally, std::string_view name) {
+    return std::ranges::find(tally.limits, name, &LimitFigure::name)->value;
+}
+
+TEST(Tally, SmallEffects_AreCountedInPowerOnly) {
+    const std::vector<Outcome> outcomes{outcome(CaseKind::one, 1.2, false), outcome(CaseKind::one, 4.0, true),
+                                        outcome(CaseKind::one, 4.0, true),
+                                        outcome(CaseKind::one, 40.0, false)};
+    const Tally got = tally(outcomes);
+    EXPECT_EQ(share(got, "right_effect").share.hits, 2u);
+    EXPECT_EQ(share(got, "right_effect").share.of, 3u);
+    ASSERT_EQ(got.classes.size(), 1u);
+    EXPECT_EQ(got.classes.front().right.of, 3u);
+    EXPECT_EQ(got.classes.front().right_at_any_size.of, 4u);
+    EXPECT_EQ(got.classes.front().named.at("cogging"), 2u);
+    EXPECT_EQ(got.classes.front().named.at("nothing"), 2u);
+    EXPECT_NEAR(value(got, "worst_class_wrong"), 1.0 / 3.0, 1e-12);
+    const auto row = std::ranges::find(got.power, 3.0, &PowerRow::from_floors);
+    EXPECT_EQ(row->found.hits, 2u);
+    EXPECT_EQ(row->right.of, 2u);
+    EXPECT_EQ(value(got, "diagnosis_s_worst"), 40.0);
+    EXPECT_FALSE(keeps_all_limits(got));
+}
+
+TEST(Tally, RemovedAndCalibration_AreOfTheRightCases) {
+    std::vector<Outcome> outcomes(19, outcome(CaseKind::one, 5.0, true));
+    outcomes.push_back(outcome(CaseKind::two, 5.0, false));
+    outcomes.push_back(outcome(CaseKind::withheld, 5.0, false));
+    const Tally got = tally(outcomes);
+    EXPECT_EQ(share(got, "removed").share.hits, 19u);
+    EXPECT_EQ(share(got, "removed").share.of, 20u);
+    EXPECT_NEAR(value(got, "not_removed_median"), 0.01, 1e-12);
+    EXPECT_NEAR(value(got, "calibration_error"), 0.1, 1e-12);  // 0.9 claimed, always right
+    EXPECT_NEAR(value(got, "brier"), 0.01, 1e-12);
+}
+
+TEST(Tally, FalseAlarm_MissesItsLimitAndSilenceKeepsAll) {
+    Outcome alarm = outcome(CaseKind::none, 1.0, true);
+    EXPECT_FALSE(keeps_all_limits(tally(std::vector{alarm})));
+    EXPECT_TRUE(keeps_all_limits(tally(std::vector{outcome(CaseKind::none, 1.0, false)})));
+    EXPECT_TRUE(keeps_all_limits(tally({})));
+}
+
+TEST(Tally, TextAndJson_SayTheSame) {
+    const std::vector<Outcome> outcomes{outcome(CaseKind::one, 4.0, true),
+                                        outcome(CaseKind::none, 1.0, false)};
+    const Tally got = tally(outcomes);
+    EXPECT_THAT(text_of(got), HasSubstr("one effect: right effect first"));
+    EXPECT_THAT(text_of(got), HasSubstr("1 of 1"));
+    SelfCheckOptions options;
+    options.seed = 3;
+    const auto json = nlohmann::json::parse(self_check_json(options, {outcomes, {}, false}, got));
+    EXPECT_EQ(json["format"], "fidservo-self-check/1");
+    EXPECT_EQ(json["options"]["seed"], 3);
+    EXPECT_EQ(json["figures"]["right_effect"]["hits"], 1);
+    EXPECT_EQ(json["figures"]["no_gap"]["share"], 1.0);
+    EXPECT_EQ(json["cases"].size(), 2u);
+    EXPECT_EQ(json["cases"][0]["effects"][0]["effect"], "cogging");
+    EXPECT_TRUE(json["figures"]["two_both"]["share"].is_null());
+}
+
+TEST(Quantile, SmallList_IsTheValueByRank) {
+    EXPECT_EQ(quantile({3.0, 1.0, 2.0, 4.0}, 0.5), 2.0);
+    EXPECT_EQ(quantile({3.0, 1.0, 2.0, 4.0}, 1.0), 4.0);
+    EXPECT_EQ(quantile({3.0, 1.0, 2.0, 4.0}, 0.05), 1.0);
+    EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
+}
+
+}  // namespace
+}  // namespace fidservo::selfcheck
