@@ -115,6 +115,9 @@ std::string notes_html(const std::vector<std::string>& notes) {
 }
 
 std::string no_gap_html(const gap::Diagnosis& diagnosis) {
+    if (diagnosis.signals.empty())
+        return "<p>Record the experiments again: ten seconds and more each, a command and a reading in every "
+               "row.</p>\n";
     if (size_class(diagnosis.gap.before) > 0)
         return "<p>The predictions are off by more than the sensors' noise, but too few windows say so to "
                "decide on a cause. Record the experiments again, longer and several times each, and repeat "

@@ -129,8 +129,8 @@ std::string diagnosis_report(const gap::Evidence& evidence, const gap::Diagnosis
     page.kind = "Diagnosis of the gap between rig and simulator \u00b7 " + evidence.rig().name;
     page.headline = verdict_sentence(diagnosis);
     page.subline = subline_of(evidence, diagnosis);
-    page.mood = mood_of(diagnosis.verdict);
-    page.figures = figures_of(diagnosis);
+    page.mood = diagnosis.signals.empty() ? Mood::unsure : mood_of(diagnosis.verdict);
+    if (!diagnosis.signals.empty()) page.figures = figures_of(diagnosis);
     page.body = report::section("chain", "Where the gap is", chain_html(evidence, diagnosis));
     if (!diagnosis.effects.empty()) {
         page.body += report::section("waterfall", "How the gap closes", waterfall_svg(diagnosis));
@@ -138,12 +138,15 @@ std::string diagnosis_report(const gap::Evidence& evidence, const gap::Diagnosis
     }
     page.body +=
         report::section("next", "What to do next", next_steps_html(diagnosis, evidence.rig(), request));
-    page.body += report::section("traces", "Recorded and predicted", traces_html(evidence, predictions));
-    page.body += report::section("dependence", "What the error depends on",
-                                 dependence_html(evidence, diagnosis, predictions));
+    if (!diagnosis.signals.empty())
+        page.body += report::section("traces", "Recorded and predicted", traces_html(evidence, predictions));
+    const std::string dependence = dependence_html(evidence, diagnosis, predictions);
+    if (!dependence.empty())
+        page.body += report::section("dependence", "What the error depends on", dependence);
     page.body += report::section("candidates", "What was tried", candidates_html(diagnosis));
     page.body += report::section("recordings", "The recordings", recording_gaps_html(evidence, predictions));
-    page.body += report::section("method", "How the gap is counted", method_html(evidence, diagnosis));
+    if (!diagnosis.signals.empty())
+        page.body += report::section("method", "How the gap is counted", method_html(evidence, diagnosis));
     page.footer = footer_html(evidence, diagnosis, request);
     return report::render(page);
 }

@@ -98,7 +98,8 @@ std::vector<report::TimePlot> plots_of(const TraceCourse& course, const std::vec
     values.insert(values.begin(), report::Trace{"recorded", recorded, false, drawn.digits, true});
     const std::string name = capitalised(std::string(signal_words(signal)));
     add("values", name, drawn.unit, value_height_px, std::move(values));
-    add("errors", "Error: predicted minus recorded", display.unit, error_height_px, both(before, after, 2));
+    add("errors", "Error: predicted minus recorded", display.unit, error_height_px,
+        both(before, after, display.unit == "mm" ? 3 : 2));
     return plots;
 }
 

@@ -48,6 +48,7 @@ std::string ties(const gap::Diagnosis& diagnosis) {
 }  // namespace
 
 std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
+    if (diagnosis.signals.empty()) return "Nothing in these recordings could be judged.";
     switch (diagnosis.verdict) {
         case gap::Verdict::no_gap:
             return "No gap was found between the rig and its simulator.";
@@ -68,6 +69,8 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
 }
 
 std::string verdict_detail(const gap::Diagnosis& diagnosis) {
+    if (diagnosis.signals.empty())
+        return "They are too short or too incomplete for a comparison with the simulator.";
     switch (diagnosis.verdict) {
         case gap::Verdict::no_gap: {
             if (size_class(diagnosis.gap.before) == 0)

@@ -136,6 +136,18 @@ TEST(DiagnosisReport, NoGap_SaysSoAndProposesNoCure) {
         EXPECT_THAT(html, Not(HasSubstr(absent))) << absent;
 }
 
+TEST(DiagnosisReport, RecordingTooShortToBeJudged_IsNotCalledFreeOfGaps) {
+    std::vector<Recording> recordings = simulated(reference_rig(), {}, {"rest"});
+    recordings.front().rows.resize(50);
+    recordings.front().detections.clear();
+    const gap::Evidence nothing(reference_rig(), std::move(recordings));
+    ASSERT_TRUE(nothing.windows().empty());
+    const std::string html = diagnosis_report(nothing, {}, request);
+    EXPECT_EQ(nesting_fault(html), "");
+    EXPECT_THAT(html, HasSubstr("<h1>Nothing in these recordings could be judged"));
+    EXPECT_THAT(html, Not(HasSubstr("No gap")));
+}
+
 TEST(DiagnosisReport, Unexplained_SaysWhereAndWhatItDependsOn) {
     gap::Diagnosis diagnosis = hall_gain_found();
     diagnosis.verdict = gap::Verdict::unexplained;

@@ -85,6 +85,9 @@ TEST(Advice, EverythingThatARemainderCanDependOn_HasOne) {
 
 TEST(Verdict, EachKind_SaysWhatItMeans) {
     gap::Diagnosis diagnosis;
+    EXPECT_THAT(verdict_sentence(diagnosis), HasSubstr("Nothing in these recordings could be judged"));
+
+    diagnosis.signals = {{gap::Signal::hall, 0.66, 0.66, 0.65}};
     diagnosis.gap = {1.01, 1.01};
     EXPECT_THAT(verdict_sentence(diagnosis), HasSubstr("No gap"));
     EXPECT_THAT(verdict_detail(diagnosis), HasSubstr("1.01 noise floors"));
