@@ -165,7 +165,8 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors) {
                                       [](const Row& at) { return 1e-5 * at.acceleration_mm_per_s2; }));
     add_hats(columns, make, Dependence::command, 8, [](const Row& at) { return at.command_V; });
     add_hats(columns, make, Dependence::time, 6, [](const Row& at) { return at.time_s; });
-    surrogate.period_mm = strongest_period(evidence, errors, everything(evidence)).period_mm;
+    const auto periods = strongest_periods(evidence, errors, everything(evidence));
+    if (!periods.empty()) surrogate.period_mm = periods.front().period_mm;
     if (surrogate.period_mm > 0.0)
         for (Column& wave : waves(make, surrogate.period_mm)) columns.push_back(std::move(wave));
     return surrogate;

@@ -78,25 +78,40 @@ double gained(std::span<const Window> windows, const Wanted& counted, const Erro
     return gain;
 }
 
+/// The candidate's shapes; of an effect periodic in position, once with each period.
+std::vector<std::vector<double>> shapes_of(const Candidate& candidate, std::span<const double> periods_mm) {
+    if (!candidate.period) return candidate.shapes;
+    std::vector<std::vector<double>> shapes;
+    for (std::vector<double> shape : candidate.shapes)
+        for (const double period_mm : periods_mm) {
+            shape[*candidate.period] = period_mm;
+            shapes.push_back(shape);
+        }
+    return shapes;
+}
+
 }  // namespace
 
-Promise at_first_sight(const Predict& predict, std::span<const Window> windows,
+std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
                        const Wanted& counted, const Hypothesis& base, const Errors& base_errors,
-                       const Candidate& candidate, double period_mm) {
+                       const Candidate& candidate, std::span<const double> periods_mm) {
     constexpr double probe = 0.25;  // of the typical size
+    constexpr std::size_t most_places = 8, most_starts = 4;
     const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
     struct Place {
         std::vector<double> shape;
         Eigen::VectorXd shares;
-        double expected_gain = -std::numeric_limits<double>::infinity();
-    } best_place;
-    if (candidate.period && period_mm <= 0.0) return {base, -std::numeric_limits<double>::infinity()};
-    for (std::vector<double> shape : candidate.shapes) {
-        if (candidate.period) shape[*candidate.period] = period_mm;
+        double expected_gain;  ///< if errors changed in proportion to the sizes
+        double probe_gain;     ///< of a small size, really
+    };
+    std::vector<Place> places;
+    for (const std::vector<double>& shape : shapes_of(candidate, periods_mm)) {
         std::vector<Errors> changes;
+        double probe_gain = -std::numeric_limits<double>::infinity();
         for (Eigen::Index k = 0; k < width; ++k) {
             Errors change = predict(with(base, candidate, shape, probe * Eigen::VectorXd::Unit(width, k)));
             if (change.empty()) break;
+            probe_gain = std::max(probe_gain, gained(windows, counted, base_errors, change));
             for (std::size_t i = 0; i < change.size(); ++i)
                 change[i] = (change[i] - base_errors[i]) / static_cast<float>(probe);
             changes.push_back(std::move(change));
@@ -104,16 +119,24 @@ Promise at_first_sight(const Predict& predict, std::span<const Window> windows,
         if (static_cast<Eigen::Index>(changes.size()) < width) continue;
         const Eigen::VectorXd shares = best_shares(windows, counted, base_errors, changes);
         const double expected = gained(windows, counted, base_errors, added(base_errors, changes, shares));
-        if (expected > best_place.expected_gain) best_place = {shape, shares, expected};
+        places.push_back({shape, shares, expected, probe_gain});
     }
-    Promise best{base, -std::numeric_limits<double>::infinity()};
-    if (best_place.shape.empty()) return best;
-    for (const double part : {1.0, 0.4}) {
-        const Hypothesis there = with(base, candidate, best_place.shape, part * best_place.shares);
-        const double gain = gained(windows, counted, base_errors, predict(there));
-        if (gain > best.gain) best = {there, gain};
+    std::ranges::sort(places, std::greater{}, &Place::expected_gain);
+    if (places.size() > most_places / 2)  // the others by what is not extrapolated
+        std::ranges::sort(places.begin() + most_places / 2, places.end(), std::greater{}, &Place::probe_gain);
+    std::vector<Promise> starts;
+    for (std::size_t p = 0; p < std::min(places.size(), most_places); ++p) {
+        Promise best{base, -std::numeric_limits<double>::infinity()};
+        for (const double part : {1.0, 0.4, 2.5}) {
+            const Hypothesis there = with(base, candidate, places[p].shape, part * places[p].shares);
+            const double gain = gained(windows, counted, base_errors, predict(there));
+            if (gain > best.gain) best = {there, gain};
+        }
+        starts.push_back(best);
     }
-    return best;
+    std::ranges::sort(starts, std::greater{}, &Promise::gain);
+    if (starts.size() > most_starts) starts.resize(most_starts);
+    return starts;
 }
 
 }  // namespace fidservo::gap

@@ -11,11 +11,12 @@ struct Promise {
 };
 
 /// Along each shape of the grid the sizes that fit best if errors changed in proportion to them: weighted
-/// least squares of the base's errors against what each size changes. The best shape by what that promises;
+/// least squares of the base's errors against what each size changes. Of the shapes that promise most by
+/// that at most four, best first;
 /// `gain` is what it really saves.
-/// @param period_mm  of what is left of the encoder; the one that effects periodic in position begin with
-Promise at_first_sight(const Predict& predict, std::span<const Window> windows,
+/// @param periods_mm  of what is left of the encoder: what effects periodic in position begin with
+std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
                        const Wanted& counted, const Hypothesis& base, const Errors& base_errors,
-                       const Candidate& candidate, double period_mm);
+                       const Candidate& candidate, std::span<const double> periods_mm);
 
 }  // namespace fidservo::gap

@@ -205,15 +205,11 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
             parameters.values.data());
     }
     if (problem.NumResidualBlocks() == 0) return result;
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-        problem.SetParameterLowerBound(parameters.values.data(), static_cast<int>(k), parameters.low(k));
-        problem.SetParameterUpperBound(parameters.values.data(), static_cast<int>(k), parameters.high(k));
-    }
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     solver.max_num_iterations = options.most_iterations;
-    solver.function_tolerance = 1e-5;
-    solver.parameter_tolerance = 1e-5;
+    solver.function_tolerance = 1e-4;
+    solver.parameter_tolerance = 1e-4;
     solver.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);

@@ -24,12 +24,12 @@ struct Fit {
 enum class Threads { one, all };
 
 struct FitOptions {
-    int most_iterations = 15;
+    int most_iterations = 12;
     Threads threads = Threads::one;  ///< that predict at the same time
 };
 
-/// Minimises the windows' total loss over all parameters of the hypothesis within their bounds, from the
-/// values given: Levenberg-Marquardt on the windows' errors, reweighted by the loss (Ceres).
+/// Minimises the windows' total loss over all parameters of the hypothesis, from the values given; a value
+/// beyond a bound counts as at it: Levenberg-Marquardt on the windows' errors, reweighted by the loss (Ceres).
 /// @param counted  which windows to fit
 Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
         const Hypothesis& start, const FitOptions& options = {});

@@ -39,13 +39,15 @@ Wanted instructive(std::span<const Window> windows, const Wanted& eligible,
             if (eligible[w] != 0 && windows[w].signal == static_cast<Signal>(signal) &&
                 !std::isnan(mean_squares[w]))
                 open.push_back(w);
-        const std::size_t by_error = std::min(open.size(), most / 2);
+        const auto choose_evenly = [&](std::size_t among, std::size_t number) {
+            number = std::min(among, number);
+            for (std::size_t k = 0; k < number; ++k) chosen[open[k * among / number]] = 1;
+            std::erase_if(open, [&](std::size_t w) { return chosen[w] != 0; });
+        };
         std::ranges::stable_sort(open, std::greater{}, [&](std::size_t w) { return mean_squares[w]; });
-        for (std::size_t k = 0; k < by_error; ++k) chosen[open[k]] = 1;
-        open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(by_error));
+        choose_evenly(std::max(open.size() / 2, std::min(open.size(), most / 2)), most / 2);
         std::ranges::sort(open);
-        const std::size_t spread = std::min(open.size(), most - most / 2);
-        for (std::size_t k = 0; k < spread; ++k) chosen[open[k * open.size() / spread]] = 1;
+        choose_evenly(open.size(), most - most / 2);
     }
     return chosen;
 }

@@ -13,8 +13,9 @@ namespace fidservo::gap {
 /// four windows do.
 std::vector<std::uint8_t> halves(const Evidence& evidence);
 
-/// Windows from which a fit learns most, of those eligible: of each signal at most `most`, half of them those
-/// with the largest errors, the others evenly spread.
+/// Windows from which a fit learns most, of those eligible: of each signal at most `most`, half of them
+/// of all sizes of error above the median (the largest ones are beyond what a fit can follow at first), the
+/// others evenly spread in time.
 /// @param mean_squares  of all windows under what is known already; NaN: has no values
 Wanted instructive(std::span<const Window> windows, const Wanted& eligible,
                    std::span<const double> mean_squares, std::size_t most);

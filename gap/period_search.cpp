@@ -4,6 +4,8 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <numeric>
+#include <span>
 
 #include <Eigen/Dense>
 
@@ -83,9 +85,26 @@ void add(Normal& normal, const Stretch& stretch, double decay) {
     normal.right += stretch.weight * columns.transpose() * stretch.errors;
 }
 
+/// The highest of a periodogram, none beside a higher one.
+std::vector<PositionPeriod> peaks(std::span<const PositionPeriod> all) {
+    constexpr std::size_t most = 6, apart = 3;
+    std::vector<std::size_t> order(all.size()), chosen;
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, std::greater{}, [&](std::size_t k) { return all[k].share; });
+    for (const std::size_t k : order) {
+        const bool is_beside =
+            std::ranges::any_of(chosen, [&](std::size_t other) { return k < other + apart && other < k + apart; });
+        if (!is_beside && chosen.size() < most) chosen.push_back(k);
+    }
+    std::vector<PositionPeriod> found;
+    for (const std::size_t k : chosen) found.push_back(all[k]);
+    return found;
+}
+
 }  // namespace
 
-PositionPeriod strongest_period(const Evidence& evidence, const Errors& errors, const Wanted& wanted) {
+std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Errors& errors,
+                                              const Wanted& wanted) {
     std::vector<Stretch> stretches;
     double squares = 0.0, low_mm = 1e9, high_mm = -1e9;
     for (std::size_t w = 0; w < evidence.windows().size(); ++w) {
@@ -108,7 +127,7 @@ PositionPeriod strongest_period(const Evidence& evidence, const Errors& errors, 
             stretch.turn.emplace_back(std::polar(1.0, angle * step));
         }
     const double decay = evidence.rig().macro.velocity_pole;
-    PositionPeriod best;
+    std::vector<PositionPeriod> all;
     for (double per_mm = first; per_mm <= 1.0 / shortest_mm; per_mm += step) {
         Normal normal;
         for (Stretch& stretch : stretches) {
@@ -117,9 +136,9 @@ PositionPeriod strongest_period(const Evidence& evidence, const Errors& errors, 
         }
         const double taken =
             normal.right.dot(normal.matrix.completeOrthogonalDecomposition().solve(normal.right));
-        if (taken > best.share * squares) best = {1.0 / per_mm, taken / squares};
+        all.push_back({1.0 / per_mm, step, taken / squares});
     }
-    return best;
+    return peaks(all);
 }
 
 }  // namespace fidservo::gap

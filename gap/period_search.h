@@ -1,19 +1,24 @@
 #pragma once
-// The period in position that errors of the encoder show, if any.
+// The periods in position that errors of the encoder show, if any.
 #include "gap/evidence.h"
+
+#include <vector>
 
 namespace fidservo::gap {
 
 /// A period and how much of the errors waves of it take: of a force along the rail, passed through the
 /// nominal carriage, and of the reading itself.
 struct PositionPeriod {
-    double period_mm = 0.0;  ///< 0: nothing moved
+    double period_mm = 0.0;
+    double step_per_mm = 0.0;  ///< of the search, in 1 / period
     double share = 0.0;      ///< of the weighted squares, 0 .. 1
 };
 
 /// Linear periodogram over 0.8 mm to 50 mm (Lomb, Scargle: least squares of sine and cosine), with the state
 /// at each window's start as nuisance, windows weighted as in gap/score.h.
 /// @param wanted  windows looked at
-PositionPeriod strongest_period(const Evidence& evidence, const Errors& errors, const Wanted& wanted);
+/// @return the strongest first, at most six, none within two steps of the search from a stronger one
+std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Errors& errors,
+                                              const Wanted& wanted);
 
 }  // namespace fidservo::gap

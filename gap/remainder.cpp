@@ -16,6 +16,8 @@ namespace {
 
 /// A remainder below this is not worth a finding, whatever its significance.
 constexpr double least_floors = 1.1;
+/// What is above this is a gap, whether or not anything is found that it depends on.
+constexpr double clear_floors = 1.25;
 
 /// Errors of what was fitted on the other half.
 Errors held_out_errors(const Evidence& evidence, const CrossFit& explained,
@@ -42,33 +44,51 @@ double rms(const Evidence& evidence, Signal signal, std::span<const double> squa
     return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
-struct SignalRemainder {
-    Remainder remainder;
-    double floors = 0.0;
+/// A block for what is left of a signal and depends on nothing that was looked at.
+std::string_view likely_block(Signal signal) {
+    switch (signal) {
+        case Signal::encoder: return "macro.mechanics";
+        case Signal::hall: return "micro.heater";
+        case Signal::tag: return "camera.geometry";
+        case Signal::macro_command:
+        case Signal::micro_command: break;
+    }
+    return "controller";
+}
+
+/// Groups of the signal's surrogate that predict what was not fitted, and the surrogate's period.
+struct Dependences {
+    std::vector<int> groups;
+    double period_mm = 0.0;
 };
 
-std::optional<SignalRemainder> of_signal(const Evidence& evidence, const CrossFit& explained,
-                                         const Errors& errors, const Surrogate& surrogate,
-                                         std::span<const std::uint8_t> half, double tail) {
-    const double floors = rms(evidence, surrogate.signal, explained.mean_squares);
-    const Regression regression(evidence.windows(), surrogate.signal, errors, surrogate.columns,
-                                surrogate.nuisances, half);
-    const std::vector<int> groups = regression.significant_groups(tail);
-    if (groups.empty()) return {};
-    SignalRemainder found{{}, floors};
-    for (const int group : groups) {
+Dependences dependences(const Evidence& evidence, Signal signal, const Errors& errors,
+                        std::span<const std::uint8_t> half, double tail) {
+    if (signal != Signal::encoder && signal != Signal::hall) return {};
+    const Surrogate surrogate = signal == Signal::encoder ? carriage_surrogate(evidence, errors)
+                                                          : platform_surrogate(evidence, errors);
+    const Regression regression(evidence.windows(), signal, errors, surrogate.columns, surrogate.nuisances,
+                                half);
+    return {regression.significant_groups(tail), surrogate.period_mm};
+}
+
+Remainder remainder_of_signal(const Evidence& evidence, Signal signal, double floors,
+                              const Dependences& found) {
+    Remainder remainder{std::string(likely_block(signal)), {}, {}};
+    for (const int group : found.groups) {
         const auto dependence = static_cast<Dependence>(group);
         std::string name(name_of(dependence));
-        if (dependence == Dependence::position_period)
-            name += fmt::format(" ({:.3g} mm)", surrogate.period_mm);
-        found.remainder.depends_on.push_back(std::move(name));
+        if (dependence == Dependence::position_period) name += fmt::format(" ({:.3g} mm)", found.period_mm);
+        remainder.depends_on.push_back(std::move(name));
     }
-    found.remainder.block = block_of(surrogate.signal, static_cast<Dependence>(groups.front()));
-    found.remainder.text =
-        fmt::format("{}: {:.3g} {} r.m.s. ({:.3g} floors) remain that no effect explains; they depend on {}",
-                    name_of(surrogate.signal), floors * evidence.floor(surrogate.signal),
-                    unit_of(surrogate.signal), floors, fmt::join(found.remainder.depends_on, ", "));
-    return found;
+    if (!found.groups.empty())
+        remainder.block = block_of(signal, static_cast<Dependence>(found.groups.front()));
+    remainder.text = fmt::format("{}: {:.3g} {} r.m.s. ({:.3g} floors) remain that no effect explains; {}",
+                                 name_of(signal), floors * evidence.floor(signal), unit_of(signal), floors,
+                                 remainder.depends_on.empty()
+                                     ? std::string("nothing was found that they depend on")
+                                     : fmt::format("they depend on {}", fmt::join(remainder.depends_on, ", ")));
+    return remainder;
 }
 
 }  // namespace
@@ -76,17 +96,18 @@ std::optional<SignalRemainder> of_signal(const Evidence& evidence, const CrossFi
 std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail) {
     const std::vector<std::uint8_t> half = halves(evidence);
     const Errors errors = held_out_errors(evidence, explained, half);
-    std::optional<SignalRemainder> largest;
-    using Make = Surrogate (*)(const Evidence&, const Errors&);
-    constexpr std::array<std::pair<Signal, Make>, 2> makers{
-        {{Signal::encoder, carriage_surrogate}, {Signal::hall, platform_surrogate}}};
-    for (const auto& [signal, surrogate_of] : makers) {
-        if (rms(evidence, signal, explained.mean_squares) < least_floors) continue;
-        const auto found = of_signal(evidence, explained, errors, surrogate_of(evidence, errors), half, tail);
-        if (found && (!largest || found->floors > largest->floors)) largest = found;
+    std::optional<Remainder> largest;
+    double largest_floors = 0.0;
+    for (std::size_t s = 0; s < signal_count; ++s) {
+        const auto signal = static_cast<Signal>(s);
+        const double floors = rms(evidence, signal, explained.mean_squares);
+        if (floors < least_floors || floors < largest_floors) continue;
+        const Dependences found = dependences(evidence, signal, errors, half, tail);
+        if (found.groups.empty() && floors < clear_floors) continue;
+        largest = remainder_of_signal(evidence, signal, floors, found);
+        largest_floors = floors;
     }
-    if (!largest) return {};
-    return largest->remainder;
+    return largest;
 }
 
 }  // namespace fidservo::gap

@@ -26,6 +26,7 @@ double student_bound(double freedom, double tail) {
 }  // namespace
 
 std::vector<double> mean_squares(std::span<const Window> windows, const Errors& errors) {
+    if (errors.empty()) return std::vector(windows.size(), std::numeric_limits<double>::quiet_NaN());
     std::vector<double> means;
     means.reserve(windows.size());
     for (const Window& window : windows) {

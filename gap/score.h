@@ -15,7 +15,7 @@
 
 namespace fidservo::gap {
 
-/// S_w; NaN where no value counts.
+/// S_w; NaN where no value counts, and everywhere for errors of a hypothesis that the plant refused.
 std::vector<double> mean_squares(std::span<const Window> windows, const Errors& errors);
 
 /// l_w of S_w.

@@ -10,14 +10,8 @@
 #include <limits>
 #include <numeric>
 
-#include <ctime>
-#include <cstdio>
 namespace fidservo::gap {
 namespace {
-thread_local int dbg_evals = 0;
-thread_local double dbg_last = 0;
-double dbg_now() { timespec t; clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t); return double(t.tv_sec) + 1e-9*double(t.tv_nsec); }
-#define DBG(...) do { if (std::getenv("GAPDBG")) { char b[200]; std::snprintf(b, 200, __VA_ARGS__); std::fprintf(stderr, "DBG %s evals %d cpu %.2f\n", b, dbg_evals, dbg_now()-dbg_last); dbg_evals=0; dbg_last=dbg_now(); } } while(0)
 
 /// A tie: what is behind the best by fewer standard deviations than this is not told from it.
 constexpr double tie_significance = 2.0;
@@ -59,34 +53,46 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     const Wanted looked_at =
         instructive(evidence_.windows(), half(0), base.mean_squares, options_.windows);
     const Errors base_errors = evidence_.errors(base.of_half[0], looked_at);
-    const PositionPeriod period = strongest_period(evidence_, base_errors, looked_at);
+    std::vector<double> periods_mm;
+    const Wanted first_half = half(0);
+    for (const PositionPeriod& period :
+         strongest_periods(evidence_, evidence_.errors(base.of_half[0], first_half), first_half)) {
+        for (const double steps : {-1.2, -0.6, 0.0, 0.6, 1.2})  // a wave keeps in step over the rail
+            periods_mm.push_back(1.0 / (1.0 / period.period_mm + steps * period.step_per_mm));
+    }
     std::vector<Trial> trials(open.size());
-    std::vector<Promise> promises(open.size());
+    std::vector<std::vector<Promise>> promises(open.size());
+    const auto promised = [&](std::size_t c) {
+        return promises[c].empty() ? 0.0 : promises[c].front().gain;
+    };
     parallel_for(open.size(), [&](std::size_t c) {
         Wanted wanted = looked_at;
         for (std::size_t w = 0; w < wanted.size(); ++w)
             if (!teaches(*open[c]->effect, evidence_.windows()[w].signal)) wanted[w] = 0;
         promises[c] = at_first_sight(predictor(wanted), evidence_.windows(), wanted, base.of_half[0],
-                                     base_errors, *open[c], period.period_mm);
+                                     base_errors, *open[c], periods_mm);
         trials[c].candidate = open[c];
-        DBG("sight %s gain %.3f", open[c]->effect->name.data(), promises[c].gain);
     });
 
     std::vector<std::size_t> order(open.size());
     std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, std::greater{}, [&](std::size_t c) { return promises[c].gain; });
+    std::ranges::sort(order, std::greater{}, promised);
     constexpr double share_of_best = 0.2;
-    const double least = std::max(least_gain, share_of_best * promises[order.front()].gain);
-    std::erase_if(order, [&](std::size_t c) { return !(promises[c].gain > least); });
+    const double least = std::max(least_gain, share_of_best * promised(order.front()));
+    std::erase_if(order, [&](std::size_t c) { return !(promised(c) > least); });
     if (order.size() > options_.fits) order.resize(options_.fits);
 
     const auto fit_first_half = [&](std::size_t c) {
         Trial& trial = trials[c];
-        Hypothesis start = base.of_half[0];
-        start.push_back(promises[c].start.back());
-        trial.fitted.of_half[0] = fit_half(0, start, base).hypothesis;
+        double least_loss = std::numeric_limits<double>::infinity();
+        for (const Promise& promise : promises[c]) {
+            if (promise.gain < 0.5 * promised(c)) continue;
+            const Fit fitted = fit_half(0, promise.start, base);
+            if (fitted.loss >= least_loss) continue;
+            least_loss = fitted.loss;
+            trial.fitted.of_half[0] = fitted.hypothesis;
+        }
         judge_first_half(base, trial);
-        DBG("fit0 %s gain %.3f", trial.candidate->effect->name.data(), trial.gain);
     };
     const auto richer = std::ranges::stable_partition(order, [&](std::size_t c) { return is_simple(*open[c]); });
     const std::span simple(order.begin(), richer.begin());
@@ -110,7 +116,6 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         trial.against_base = compared(base, trial.fitted);
         trial.gain = trial.against_base.gain;
         trial.is_leader = true;
-        DBG("cross %s gain %.3f sig %.2f blocks %d", trial.candidate->effect->name.data(), trial.gain, trial.against_base.significance, trial.against_base.blocks);
     });
     std::ranges::stable_sort(trials, std::greater{},
                              [](const Trial& trial) { return std::pair(trial.is_leader, trial.gain); });
@@ -147,7 +152,9 @@ Wanted Search::half(std::size_t side) const {
 }
 
 Predict Search::predictor(const Wanted& wanted) const {
-    return [this, wanted](const Hypothesis& hypothesis) { ++dbg_evals; return evidence_.errors(hypothesis, wanted); };
+    return [this, wanted](const Hypothesis& hypothesis) {
+        return options_.stop && options_.stop() ? Errors{} : evidence_.errors(hypothesis, wanted);
+    };
 }
 
 Wanted Search::fitted_windows(std::size_t side, const Hypothesis& hypothesis,

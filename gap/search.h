@@ -5,6 +5,7 @@
 #include "gap/score.h"
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct SearchOptions {
     std::size_t fits = 8;      ///< candidates that are fitted, of those that promise most
     std::size_t leaders = 4;   ///< of these, how many are fitted on both halves
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
+    std::function<bool()> stop = {};  ///< asked at every prediction; once true, what is returned is worth nothing
     double tail = 0.01;        ///< of taking in anything where there is nothing, over the whole search
 };
 

@@ -7,6 +7,7 @@
 #include "src/commands/self_check.h"
 #include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
+#include "src/interrupt.h"
 #include "src/diagnose/report.h"
 #include "src/recording/durable_file.h"
 #include "src/recording/reader.h"
@@ -62,8 +63,13 @@ int run_diagnose(const DiagnoseOptions& options) {
     demand_new_file("--report", options.report);
     demand_new_file("--write-rig", options.write_rig);
     const gap::Evidence evidence(load_rig(options.rig_file), read_recordings(options.recordings));
-    const gap::Diagnosis diagnosis =
-        gap::diagnose(evidence, {.only = options.only, .without = options.without, .selection = {}});
+    gap::DiagnosisOptions how{.only = options.only, .without = options.without, .selection = {}};
+    how.selection.search.stop = interrupt_requested;
+    const gap::Diagnosis diagnosis = gap::diagnose(evidence, how);
+    if (interrupt_requested()) {
+        fmt::print("interrupted ({}): no diagnosis, nothing was written\n", interrupt_name());
+        return exit_answer_is_no;
+    }
     fmt::print("{}", describe(diagnosis));
     if (!options.json.empty()) write_or_throw(options.json, diagnosis_json(diagnosis));
     if (!options.write_rig.empty()) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,7 +18,7 @@ using Json = nlohmann::ordered_json;
 /// Six digits: more would be noise.
 Json number(double value) {
     if (!std::isfinite(value)) return nullptr;
-    return std::stod(fmt::format("{:.6g}", value));
+    return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);  // unlike stod, takes what is nearly 0
 }
 
 Json json_of(const gap::FoundEffect& effect) {
