@@ -112,6 +112,7 @@ std::vector<ClassRow> classes_of(std::span<const Outcome> outcomes) {
         ++row.named[score.named.empty() ? "nothing" : score.named.front()];
     }
     std::vector<ClassRow> result;
+    result.reserve(rows.size());
     for (auto& [name, row] : rows) result.push_back(std::move(row));
     return result;
 }

@@ -46,11 +46,6 @@ void pixel_aspect(TrueRig& rig, double size, NoiseStream& draw) {
     rig.departures.camera.aspect = 1.0 + random_sign(draw) * size;
 }
 
-/// The sensor chip sits off the optical axis, across the stage's motion.
-void sensor_shift(TrueRig& rig, double size_px, NoiseStream& draw) {
-    rig.rig.camera->geometry.principal_point_px.y() += random_sign(draw) * size_px;
-}
-
 /// The tags are printed at another distance from each other, at their nominal size.
 void tag_pitch(TrueRig& rig, double size, NoiseStream& draw) {
     rig.rig.fiducials->pitch_x_mm *= 1.0 + random_sign(draw) * size;
@@ -80,7 +75,6 @@ constexpr std::array effects{
     UnlistedEffect{"encoder_bow", "macro.encoder", 3e-6, 1e-4, encoder_bow},
     UnlistedEffect{"hall_warmth", "micro.hall", 1e-5, 1e-3, hall_warmth},
     UnlistedEffect{"pixel_aspect", "camera.geometry", 1e-4, 2e-2, pixel_aspect},
-    UnlistedEffect{"sensor_shift", "camera.geometry", 0.05, 10.0, sensor_shift},
     UnlistedEffect{"tag_pitch", "plate", 3e-4, 5e-3, tag_pitch},
     UnlistedEffect{"tag_side", "plate", 5e-4, 2e-2, tag_side},
     UnlistedEffect{"macro_controller_gain", "controller", 0.01, 0.3, macro_controller_gain},
