@@ -57,8 +57,9 @@ std::vector<std::vector<double>> shapes_of(const plant::Effect& effect, const Tr
     std::vector<std::vector<double>> shapes{{}};
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
         const plant::EffectParameter& parameter = effect.parameters[k];
-        const std::vector<double> grid =
-            says_how_large(parameter) || k == period ? std::vector{parameter.typical} : grid_of(parameter, range);
+        const std::vector<double> grid = says_how_large(parameter) || k == period
+                                             ? std::vector{parameter.typical}
+                                             : grid_of(parameter, range);
         std::vector<std::vector<double>> longer;
         for (const std::vector<double>& shape : shapes)
             for (const double value : grid) {
@@ -107,8 +108,7 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
         const std::vector<Signal> reach = reach_of(*effect);
         if (std::ranges::none_of(reach, [&](Signal s) { return recorded[static_cast<std::size_t>(s)]; }))
             continue;
-        Candidate candidate{
-            effect, {}, {}, period_of(*effect), reach, std::string(class_of(effect->name))};
+        Candidate candidate{effect, {}, {}, period_of(*effect), reach, std::string(class_of(effect->name))};
         candidate.shapes = shapes_of(*effect, range, candidate.period);
         for (std::size_t k = 0; k < effect->parameters.size(); ++k)
             if (says_how_large(effect->parameters[k])) candidate.sizes.push_back(k);

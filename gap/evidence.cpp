@@ -123,9 +123,10 @@ class RunPredictor {
         auto window = std::ranges::find(windows_, Signal::tag, &Window::signal);
         for (std::size_t i = 0; i < wanted.size(); ++i, ++window)
             if (wanted[i] != 0)
-                write_detections(errors, *window, links_.tags,
-                                 tag_errors(*models_.tag, links_.tags, links_.tags.windows[i], path(), reading),
-                                 parts_.floors[index_of(Signal::tag)]);
+                write_detections(
+                    errors, *window, links_.tags,
+                    tag_errors(*models_.tag, links_.tags, links_.tags.windows[i], path(), reading),
+                    parts_.floors[index_of(Signal::tag)]);
     }
 
     void replay(Signal signal, Errors& errors) const {

@@ -28,8 +28,8 @@ Hypothesis with(const Hypothesis& base, const Candidate& candidate, const std::v
 }
 
 /// Shares of the sizes that make the errors smallest, weighted by the loss at the base.
-Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& counted,
-                            const Errors& base, const std::vector<Errors>& changes) {
+Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& counted, const Errors& base,
+                            const std::vector<Errors>& changes) {
     const auto width = static_cast<Eigen::Index>(changes.size());
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(width, width);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(width), change(width);
@@ -93,8 +93,8 @@ std::vector<std::vector<double>> shapes_of(const Candidate& candidate, std::span
 }  // namespace
 
 std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
-                       const Wanted& counted, const Hypothesis& base, const Errors& base_errors,
-                       const Candidate& candidate, std::span<const double> periods_mm) {
+                                    const Wanted& counted, const Hypothesis& base, const Errors& base_errors,
+                                    const Candidate& candidate, std::span<const double> periods_mm) {
     constexpr double probe = 0.25;  // of the typical size
     constexpr std::size_t most_places = 8, most_starts = 4;
     const auto width = static_cast<Eigen::Index>(candidate.sizes.size());

@@ -16,7 +16,7 @@ struct Promise {
 /// `gain` is what it really saves.
 /// @param periods_mm  of what is left of the encoder: what effects periodic in position begin with
 std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
-                       const Wanted& counted, const Hypothesis& base, const Errors& base_errors,
-                       const Candidate& candidate, std::span<const double> periods_mm);
+                                    const Wanted& counted, const Hypothesis& base, const Errors& base_errors,
+                                    const Candidate& candidate, std::span<const double> periods_mm);
 
 }  // namespace fidservo::gap

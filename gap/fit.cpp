@@ -133,8 +133,8 @@ std::vector<std::size_t> counted_rows(const Window& window, const Errors& errors
 }
 
 /// H^-1 (sum of g g') H^-1 over windows; parameters at their bounds count as known.
-Eigen::MatrixXd sandwich(const Linearised& at, std::span<const Window> windows,
-                         const Wanted& counted, const Parameters& parameters) {
+Eigen::MatrixXd sandwich(const Linearised& at, std::span<const Window> windows, const Wanted& counted,
+                         const Parameters& parameters) {
     std::vector<std::size_t> free;
     for (std::size_t k = 0; k < parameters.size(); ++k)
         if (!parameters.at_bound(k)) free.push_back(k);

@@ -2,7 +2,8 @@
 // How large a gap is, and how much of it an explanation removes.
 //
 // Of a signal: r.m.s. error over all values of held-out windows, against its floor. Of a rig: r.m.s. of these
-// ratios over the signals, where a signal below its floor (a carriage at rest within its count) counts as at it. What is removed is counted in what exceeds the floor:
+// ratios over the signals, where a signal below its floor (a carriage at rest within its count) counts as at
+// it. What is removed is counted in what exceeds the floor:
 //
 //     removed = 1 - (after^2 - 1) / (before^2 - 1),  clipped to 0 .. 1
 #include "gap/diagnosis.h"

@@ -92,8 +92,8 @@ std::vector<PositionPeriod> peaks(std::span<const PositionPeriod> all) {
     std::iota(order.begin(), order.end(), 0);
     std::ranges::sort(order, std::greater{}, [&](std::size_t k) { return all[k].share; });
     for (const std::size_t k : order) {
-        const bool is_beside =
-            std::ranges::any_of(chosen, [&](std::size_t other) { return k < other + apart && other < k + apart; });
+        const bool is_beside = std::ranges::any_of(
+            chosen, [&](std::size_t other) { return k < other + apart && other < k + apart; });
         if (!is_beside && chosen.size() < most) chosen.push_back(k);
     }
     std::vector<PositionPeriod> found;

@@ -11,7 +11,7 @@ namespace fidservo::gap {
 struct PositionPeriod {
     double period_mm = 0.0;
     double step_per_mm = 0.0;  ///< of the search, in 1 / period
-    double share = 0.0;      ///< of the weighted squares, 0 .. 1
+    double share = 0.0;        ///< of the weighted squares, 0 .. 1
 };
 
 /// Linear periodogram over 0.8 mm to 50 mm (Lomb, Scargle: least squares of sine and cosine), with the state

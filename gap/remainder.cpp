@@ -1,8 +1,7 @@
 #include "gap/remainder.h"
 
-#include "gap/halves.h"
-
 #include "gap/gap_size.h"
+#include "gap/halves.h"
 #include "gap/surrogate.h"
 
 #include <array>
@@ -47,11 +46,15 @@ double rms(const Evidence& evidence, Signal signal, std::span<const double> squa
 /// A block for what is left of a signal and depends on nothing that was looked at.
 std::string_view likely_block(Signal signal) {
     switch (signal) {
-        case Signal::encoder: return "macro.mechanics";
-        case Signal::hall: return "micro.heater";
-        case Signal::tag: return "camera.geometry";
+        case Signal::encoder:
+            return "macro.mechanics";
+        case Signal::hall:
+            return "micro.heater";
+        case Signal::tag:
+            return "camera.geometry";
         case Signal::macro_command:
-        case Signal::micro_command: break;
+        case Signal::micro_command:
+            break;
     }
     return "controller";
 }
@@ -83,11 +86,12 @@ Remainder remainder_of_signal(const Evidence& evidence, Signal signal, double fl
     }
     if (!found.groups.empty())
         remainder.block = block_of(signal, static_cast<Dependence>(found.groups.front()));
-    remainder.text = fmt::format("{}: {:.3g} {} r.m.s. ({:.3g} floors) remain that no effect explains; {}",
-                                 name_of(signal), floors * evidence.floor(signal), unit_of(signal), floors,
-                                 remainder.depends_on.empty()
-                                     ? std::string("nothing was found that they depend on")
-                                     : fmt::format("they depend on {}", fmt::join(remainder.depends_on, ", ")));
+    remainder.text =
+        fmt::format("{}: {:.3g} {} r.m.s. ({:.3g} floors) remain that no effect explains; {}",
+                    name_of(signal), floors * evidence.floor(signal), unit_of(signal), floors,
+                    remainder.depends_on.empty()
+                        ? std::string("nothing was found that they depend on")
+                        : fmt::format("they depend on {}", fmt::join(remainder.depends_on, ", ")));
     return remainder;
 }
 

@@ -9,7 +9,8 @@ namespace fidservo::gap {
 
 /// A flexible model of what is left of each signal (surrogate.h), fitted on one half of the windows and
 /// judged on the other. Empty where it predicts
-/// nothing beyond chance, unless what is left is more than 1.25 floors: a gap whose cause depends on something else.
+/// nothing beyond chance, unless what is left is more than 1.25 floors: a gap whose cause depends on
+/// something else.
 std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail);
 
 }  // namespace fidservo::gap

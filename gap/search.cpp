@@ -25,8 +25,8 @@ bool teaches(const plant::Effect& effect, Signal signal) {
     return std::ranges::find(reach, signal) != reach.end();
 }
 
-/// Effects of few parameters are tried first: where one of them leaves nothing, a richer one that does as well
-/// is no better explanation.
+/// Effects of few parameters are tried first: where one of them leaves nothing, a richer one that does as
+/// well is no better explanation.
 bool is_simple(const Candidate& candidate) {
     return candidate.effect->parameters.size() <= 2;
 }
@@ -50,8 +50,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     if (open.empty()) return {};
     trials_ += static_cast<int>(open.size());
 
-    const Wanted looked_at =
-        instructive(evidence_.windows(), half(0), base.mean_squares, options_.windows);
+    const Wanted looked_at = instructive(evidence_.windows(), half(0), base.mean_squares, options_.windows);
     const Errors base_errors = evidence_.errors(base.of_half[0], looked_at);
     std::vector<double> periods_mm;
     const Wanted first_half = half(0);
@@ -62,9 +61,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     }
     std::vector<Trial> trials(open.size());
     std::vector<std::vector<Promise>> promises(open.size());
-    const auto promised = [&](std::size_t c) {
-        return promises[c].empty() ? 0.0 : promises[c].front().gain;
-    };
+    const auto promised = [&](std::size_t c) { return promises[c].empty() ? 0.0 : promises[c].front().gain; };
     parallel_for(open.size(), [&](std::size_t c) {
         Wanted wanted = looked_at;
         for (std::size_t w = 0; w < wanted.size(); ++w)
@@ -94,7 +91,8 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         }
         judge_first_half(base, trial);
     };
-    const auto richer = std::ranges::stable_partition(order, [&](std::size_t c) { return is_simple(*open[c]); });
+    const auto richer =
+        std::ranges::stable_partition(order, [&](std::size_t c) { return is_simple(*open[c]); });
     const std::span simple(order.begin(), richer.begin());
     parallel_for(simple.size(), [&](std::size_t k) { fit_first_half(simple[k]); });
     if (std::ranges::any_of(simple, [&](std::size_t c) { return leaves_floor_only(trials[c]); }))

@@ -31,8 +31,9 @@ struct SearchOptions {
     std::size_t fits = 8;      ///< candidates that are fitted, of those that promise most
     std::size_t leaders = 4;   ///< of these, how many are fitted on both halves
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
-    std::function<bool()> stop = {};  ///< asked at every prediction; once true, what is returned is worth nothing
-    double tail = 0.01;        ///< of taking in anything where there is nothing, over the whole search
+    std::function<bool()> stop =
+        {};              ///< asked at every prediction; once true, what is returned is worth nothing
+    double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search
 };
 
 /// A search over one set of recordings. Counts what it tries.

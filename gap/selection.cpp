@@ -22,7 +22,8 @@ struct Chain {
 Choice choice_of(const Search& search, const CrossFit& beside, std::vector<Trial> trials) {
     Choice choice{trials.front().candidate, beside.loss, {}, {}};
     for (std::size_t k = 1; k < trials.size(); ++k)
-        if (trials[k].is_leader && trials[k].gain > least_gain && search.ties(trials[0].fitted, trials[k].fitted))
+        if (trials[k].is_leader && trials[k].gain > least_gain &&
+            search.ties(trials[0].fitted, trials[k].fitted))
             choice.ties.push_back(trials[k].candidate);
     choice.alternatives = std::move(trials);
     return choice;

@@ -3,7 +3,8 @@
 //
 //     V = sgn(w) (a0 + d (|w| - w0))  for |w| >= w0, else 0
 //
-// Of this a share s may be dry friction on the motion instead (plant/friction.h), of level s (d w0 - a0), with
+// Of this a share s may be dry friction on the motion instead (plant/friction.h), of level s (d w0 - a0),
+// with
 //
 //     V = (1 - s) V + s d w
 //
@@ -33,7 +34,8 @@ inline DeadZoneBranch dead_zone_branch(const DeadZone& zone, double drive_V) {
 
 /// V of a branch, also a little beyond its edge.
 /// @param on_motion  the share s
-inline double dead_zone_V(const DeadZone& zone, DeadZoneBranch branch, double drive_V, double on_motion = 0.0) {
+inline double dead_zone_V(const DeadZone& zone, DeadZoneBranch branch, double drive_V,
+                          double on_motion = 0.0) {
     const double passed_V = on_motion * zone.slope * drive_V;
     if (branch == DeadZoneBranch::inside) return passed_V;
     const double side = branch == DeadZoneBranch::left ? -1.0 : 1.0;

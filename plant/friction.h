@@ -5,8 +5,9 @@
 //     g(|v|, y) = Fc + Fs exp(-|v| / vs) + Fp exp(-((y - yp) / wp)^2 / 2)     Coulomb, Stribeck, rail patch
 //     F = sgn(v) g + c v                                                     c by direction
 //
-// At v = 0 dry friction holds whatever is not above g(0, y), or a little more: hold_V. Friction that creeps does not hold: with a creep
-// speed vc, tanh(v / vc) stands for sgn(v) (Andersson et al., Tribology International 40, 2007).
+// At v = 0 dry friction holds whatever is not above g(0, y), or a little more: hold_V. Friction that creeps
+// does not hold: with a creep speed vc, tanh(v / vc) stands for sgn(v) (Andersson et al., Tribology
+// International 40, 2007).
 //
 // Bristles bend over a length d before they slide (Dahl 1968; in the path that is covered, as Bliman and
 // Sorine 1995 write it):

@@ -81,9 +81,9 @@ class Motion {
     double standing_V(const State& x) const { return standing_force_V(p_.standing, x[place]); }
 
     double effective_V(const State& x) const {
-        return axis_.has_standing_force ? dead_zone_V(p_.dead_zone, branch_, drive_V_ + standing_V(x),
-                                                     p_.dead_zone_on_motion)
-                                        : voltage_V_;
+        return axis_.has_standing_force
+                   ? dead_zone_V(p_.dead_zone, branch_, drive_V_ + standing_V(x), p_.dead_zone_on_motion)
+                   : voltage_V_;
     }
 
     /// What acts on the carriage besides its friction, as the velocity that it would sustain.

@@ -26,7 +26,8 @@ extern constexpr Effect coulomb_friction{
     .text =
         "Dry friction on the motion: F = Fc sgn(v), tau dv/dt = K (V - F) - v. It brakes a coasting carriage "
         "to a "
-        "stop, and holds one at rest while |V| is not above Fc. A share of the dead zone may act so too, instead of at "
+        "stop, and holds one at rest while |V| is not above Fc. A share of the dead zone may act so too, "
+        "instead of at "
         "the input.",
     .source = "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994",
     .parameters = parameters,

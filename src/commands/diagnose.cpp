@@ -7,8 +7,8 @@
 #include "src/commands/self_check.h"
 #include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
-#include "src/interrupt.h"
 #include "src/diagnose/report.h"
+#include "src/interrupt.h"
 #include "src/recording/durable_file.h"
 #include "src/recording/reader.h"
 

@@ -73,7 +73,8 @@ TEST(PlantAgreement, DeadZoneThatActsOnTheMotion_BrakesBothCarriagesAlike) {
         Departures departures;
         departures.friction.dead_zone_on_motion = share;
         const RigModel model = make_rig_model(rig, departures);
-        const auto effect = plant::parse_effect("coulomb_friction:level_V=0,dead_zone_share=" + std::to_string(share));
+        const auto effect =
+            plant::parse_effect("coulomb_friction:level_V=0,dead_zone_share=" + std::to_string(share));
         plant::PlantParameters parameters = plant::plant_parameters(rig);
         plant::apply_effects(parameters, {&effect, 1});
         const plant::StagePlant stage = plant::make_stage_plant(parameters);

@@ -1,0 +1,109 @@
+// From recordings of the simulated rig to the effect that it has.
+#include "gap/diagnose.h"
+
+#include "plant/effects/catalogue.h"
+#include "src/config/rig_file.h"
+#include "src/simulation/experiments.h"
+#include "src/simulation/simulate.h"
+#include "tests/gap/root_mean_square.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+namespace {
+
+using namespace gap;
+using testing::effects;
+
+const Rig& reference_rig() {
+    static const Rig rig = load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
+    return rig;
+}
+
+/// Two runs of each kind.
+Evidence campaign(const Hypothesis& truth, std::initializer_list<std::string_view> kinds) {
+    std::vector<Recording> recordings;
+    for (const std::string_view kind : kinds)
+        for (const std::uint64_t seed : {21, 22}) {
+            const std::string name = std::string(kind) + "-" + std::to_string(seed);
+            recordings.push_back(simulate(reference_rig(), truth,
+                                          make_experiment(kind, reference_rig(), seed, name), name, seed));
+        }
+    return {reference_rig(), std::move(recordings)};
+}
+
+std::vector<std::string> names(const Diagnosis& diagnosis) {
+    std::vector<std::string> found;
+    for (const FoundEffect& effect : diagnosis.effects) found.push_back(effect.effect);
+    std::ranges::sort(found);
+    return found;
+}
+
+TEST(Diagnosis, RigAsItsFileSays_HasNoGap) {
+    const Diagnosis diagnosis = diagnose(
+        campaign({}, {"macro-sweep", "macro-square"}),
+        {.only = {"drive_gain", "viscous_friction", "coulomb_friction"}, .without = {}, .selection = {}});
+    EXPECT_EQ(diagnosis.verdict, Verdict::no_gap);
+    EXPECT_TRUE(diagnosis.effects.empty());
+    EXPECT_EQ(diagnosis.gap.before, 1.0);
+    EXPECT_EQ(diagnosis.candidates.size(), 3U);
+}
+
+TEST(Diagnosis, EffectIsNamedAmongItsLikes_WithItsValueWithinItsError) {
+    const Diagnosis diagnosis =
+        diagnose(campaign(effects({"viscous_friction:damping_V_s_per_mm=0.0004"}),
+                          {"macro-sweep", "macro-pulses", "macro-square"}),
+                 {.only = {"drive_gain", "viscous_friction", "coulomb_friction", "payload"},
+                  .without = {},
+                  .selection = {}});
+    ASSERT_EQ(names(diagnosis), std::vector<std::string>{"viscous_friction"});
+    EXPECT_EQ(diagnosis.verdict, Verdict::explained);
+    EXPECT_EQ(diagnosis.where.front().block, "macro.friction");
+    EXPECT_GT(diagnosis.effects.front().probability, 0.95);
+    const FittedParameter& damping = diagnosis.effects.front().parameters.front();
+    EXPECT_NEAR(damping.value, 0.0004, 5.0 * damping.std + 1e-6);
+    EXPECT_GT(damping.std, 0.0);
+    EXPECT_GT(diagnosis.gap.removed(), 0.99);
+    EXPECT_LT(diagnosis.gap.after, 1.1);
+}
+
+TEST(Diagnosis, EffectThatIsWithheld_LeavesWhatNothingExplains) {
+    const Diagnosis diagnosis = diagnose(
+        campaign(effects({"hall_nonlinearity:cubic_shift=-0.1"}), {"micro-steps", "micro-triangle"}),
+        {.only = {"hall_nonlinearity", "hall_crosstalk"}, .without = {"hall_nonlinearity"}, .selection = {}});
+    EXPECT_EQ(diagnosis.verdict, Verdict::unexplained);
+    ASSERT_TRUE(diagnosis.unexplained.has_value());
+    EXPECT_TRUE(diagnosis.unexplained->block.starts_with("micro.")) << diagnosis.unexplained->block;
+    EXPECT_GT(diagnosis.gap.before, 2.0);
+}
+
+TEST(Diagnosis, TwoEffectsInTwoBlocks_AreBothNamed) {
+    const Diagnosis diagnosis =
+        diagnose(campaign(effects({"drive_gain:factor=0.97", "airflow:factor=0.9"}),
+                          {"macro-sweep", "macro-square", "micro-steps"}),
+                 {.only = {"drive_gain", "payload", "airflow", "heater_gain", "hall_offset"},
+                  .without = {},
+                  .selection = {}});
+    EXPECT_EQ(names(diagnosis), (std::vector<std::string>{"airflow", "drive_gain"}));
+    EXPECT_EQ(diagnosis.verdict, Verdict::explained);
+}
+
+TEST(Diagnosis, SearchThatIsStopped_Ends) {
+    DiagnosisOptions options;
+    int asked = 0;
+    options.selection.search.stop = [&] { return ++asked > 0; };
+    const Diagnosis diagnosis =
+        diagnose(campaign(effects({"drive_gain:factor=0.97"}), {"macro-sweep"}), options);
+    EXPECT_GT(asked, 0);
+    EXPECT_TRUE(diagnosis.effects.empty());
+}
+
+}  // namespace
+
+}  // namespace fidservo
