@@ -62,6 +62,7 @@ std::vector<ShareFigure> shares_of(std::span<const Outcome> outcomes) {
 
     add("right_block", "one effect: right block first", judged(one), right_block, 0.98);
     add("right_effect", "one effect: right effect first", judged(one), right_effect, 0.95);
+    add("one_alone", "one effect: named and no other", judged(one), all_right, {});
     add("two_both", "two effects: both named and no third", two_judged, all_right, 0.85);
     add("two_any", "two effects: at least one right", two_judged, any_right, 0.98);
     add("two_both_any_size", "two effects of any size: both named and no third", is_two, all_right, {});

@@ -54,6 +54,7 @@ TEST(Tally, SmallEffects_AreCountedInPowerOnly) {
     const Tally got = tally(outcomes);
     EXPECT_EQ(share(got, "right_effect").share.hits, 2u);
     EXPECT_EQ(share(got, "right_effect").share.of, 3u);
+    EXPECT_EQ(share(got, "one_alone").share.hits, 2u);
     ASSERT_EQ(got.classes.size(), 1u);
     EXPECT_EQ(got.classes.front().right.of, 3u);
     EXPECT_EQ(got.classes.front().right_at_any_size.of, 4u);
