@@ -13,6 +13,11 @@ endif()
 if(FIDSERVO_SANITIZE)
   target_compile_options(fidservo_compile_options INTERFACE
     -fsanitize=${FIDSERVO_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  if(FIDSERVO_SANITIZE MATCHES address)
+    # Eigen would put a header before each block here, as the packages' libraries, which share its templates, do not:
+    # one would free what the other allocated.
+    target_compile_definitions(fidservo_compile_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
+  endif()
   if(FIDSERVO_SANITIZE MATCHES undefined)
     # A null dereference stops the address sanitizer's run anyway; these checks of every pointer double the build.
     target_compile_options(fidservo_compile_options INTERFACE -fno-sanitize=null,alignment,object-size)

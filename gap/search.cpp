@@ -128,8 +128,12 @@ void Search::fit_again(CrossFit& cross) const {
     judge(cross);
 }
 
-bool Search::is_real(const Comparison& comparison) const {
-    return comparison.gain > least_gain &&
+bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
+    constexpr double least_share = 0.3;  // of the excess
+    const Comparison comparison = compared(without, with);
+    const double excess_without = excess(without.mean_squares);
+    return excess_without > 0.0 && excess(with.mean_squares) < (1.0 - least_share) * excess_without &&
+           comparison.gain > least_gain &&
            comparison.significance >
                significance_bound(comparison.blocks, std::max(trials_, 1), options_.tail);
 }
@@ -180,19 +184,23 @@ void Search::judge_first_half(const CrossFit& base, Trial& trial) const {
             trial.gain += window_loss(base.mean_squares[w]) - window_loss(squares[w]);
 }
 
-bool Search::leaves_floor_only(const Trial& trial) const {
-    constexpr double floor_square = 1.1;  // at most 5 % above the floor
+double Search::excess(std::span<const double> mean_squares) const {
+    constexpr double floor_square = 1.1;  // what is at most 5 % above the floor is at it
     std::array<double, signal_count> sums{}, counts{};
-    for (std::size_t w = 0; w < trial.fitted.mean_squares.size(); ++w) {
-        const double square = trial.fitted.mean_squares[w];
-        if (std::isnan(square)) continue;
+    for (std::size_t w = 0; w < mean_squares.size(); ++w) {
+        if (std::isnan(mean_squares[w])) continue;
         const auto signal = static_cast<std::size_t>(evidence_.windows()[w].signal);
-        sums[signal] += square;
+        sums[signal] += mean_squares[w];
         counts[signal] += 1.0;
     }
+    double excess = 0.0;
     for (std::size_t s = 0; s < signal_count; ++s)
-        if (sums[s] > floor_square * counts[s]) return false;
-    return true;
+        if (sums[s] > floor_square * counts[s]) excess += sums[s] / counts[s] - 1.0;
+    return excess;
+}
+
+bool Search::leaves_floor_only(const Trial& trial) const {
+    return excess(trial.fitted.mean_squares) == 0.0;
 }
 
 void Search::judge(CrossFit& cross) const {

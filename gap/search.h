@@ -49,8 +49,10 @@ class Search {
     /// Fits all parameters of a cross fit from where they are.
     void fit_again(CrossFit& cross) const;
 
-    /// Whether a gain is more than chance, over all that was tried, and large enough to matter.
-    bool is_real(const Comparison& comparison) const;
+    /// Whether an effect's gain is more than chance, over all that was tried, and takes away a good part of
+    /// what exceeds the floor: where the true law differs a little from the catalogue's, many an effect gains
+    /// a little.
+    bool is_real(const CrossFit& without, const CrossFit& with) const;
 
     /// Whether what the other lacks to the best is no more than chance.
     bool ties(const CrossFit& best, const CrossFit& other) const;
@@ -64,6 +66,8 @@ class Search {
     Wanted fitted_windows(std::size_t side, const Hypothesis& hypothesis,
                           std::span<const double> mean_squares) const;
     void judge_first_half(const CrossFit& base, Trial& trial) const;
+    /// Sum over the signals of what their mean squares exceed the floor by.
+    double excess(std::span<const double> mean_squares) const;
     bool leaves_floor_only(const Trial& trial) const;
     void judge(CrossFit& cross) const;
 

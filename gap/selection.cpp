@@ -39,7 +39,7 @@ void grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
         std::vector<Trial> trials = search.try_all(chain.fitted, chain.candidates());
         if (first_step != nullptr) *first_step = trials;
         first_step = nullptr;
-        if (!has_leader(trials) || !search.is_real(trials.front().against_base)) return;
+        if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) return;
         CrossFit fitted = trials.front().fitted;
         chain.choices.push_back(choice_of(search, chain.fitted, std::move(trials)));
         chain.fitted = std::move(fitted);
@@ -65,7 +65,7 @@ bool exchange(Search& search, Chain& chain) {
     int exchanges = 0;
     for (std::size_t k = 0; chain.choices.size() > 1 && k < chain.choices.size();) {
         Chain rest = without(search, chain, k);
-        if (!search.is_real(search.compared(rest.fitted, chain.fitted))) {
+        if (!search.is_real(rest.fitted, chain.fitted)) {
             chain = std::move(rest);
             changed = true;
             k = 0;
