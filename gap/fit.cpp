@@ -208,8 +208,8 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     solver.max_num_iterations = options.most_iterations;
-    solver.function_tolerance = 1e-4;
-    solver.parameter_tolerance = 1e-4;
+    solver.function_tolerance = options.tolerance;
+    solver.parameter_tolerance = options.tolerance;
     solver.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);

@@ -25,6 +25,7 @@ enum class Threads { one, all };
 
 struct FitOptions {
     int most_iterations = 12;
+    double tolerance = 1e-4;         ///< relative, of loss and parameters, at which a fit ends
     Threads threads = Threads::one;  ///< that predict at the same time
 };
 

@@ -20,7 +20,7 @@ struct Regime {
     Eigen::Vector2d equilibrium_degC;
 
     Regime(const ThermalPair& pair, double tau_s, double phi_degC) {
-        const double a = pair.coupling, r = pair.retention;
+        const double a = pair.coupling * tau_s / pair.cooling_tau_s, r = pair.retention;
         rates_per_s << -(1.0 + a) / tau_s, a / tau_s, r / pair.mass_tau_s, -1.0 / pair.mass_tau_s;
         const double wire_degC = phi_degC / (1.0 + a * (1.0 - r));
         equilibrium_degC = {wire_degC, r * wire_degC};
@@ -37,19 +37,14 @@ struct Regime {
     }
 };
 
-/// What the wire gains: its sign decides the regime.
-double gain_degC(const ThermalPair& pair, const Eigen::Vector2d& rise_degC, double phi_degC) {
-    return phi_degC - rise_degC.x() - pair.coupling * (rise_degC.x() - rise_degC.y());
-}
-
-/// When the wire stops doing what it does at the start: bisection.
-double turning_time_s(const ThermalPair& pair, const Regime& regime, const Eigen::Vector2d& start_degC,
-                      double phi_degC, bool heating, double end_s) {
+/// When the wire passes phi: bisection.
+double passing_time_s(const Regime& regime, const Eigen::Vector2d& start_degC, double phi_degC, bool heating,
+                      double end_s) {
     constexpr double resolution = 1e-15;
     double before_s = 0.0, after_s = end_s;
     while (after_s - before_s > resolution * end_s) {
         const double middle_s = 0.5 * (before_s + after_s);
-        const bool still = (gain_degC(pair, regime.after(start_degC, middle_s), phi_degC) > 0.0) == heating;
+        const bool still = (phi_degC > regime.after(start_degC, middle_s).x()) == heating;
         (still ? before_s : after_s) = middle_s;
     }
     return after_s;
@@ -59,13 +54,17 @@ double turning_time_s(const ThermalPair& pair, const Regime& regime, const Eigen
 
 Eigen::Vector2d advance(const ThermalPair& pair, const Eigen::Vector2d& rise_degC, double phi_degC,
                         double time_s) {
-    const bool heating = gain_degC(pair, rise_degC, phi_degC) > 0.0;
-    const Regime regime(pair, heating ? pair.heating_tau_s : pair.cooling_tau_s, phi_degC);
-    const Eigen::Vector2d end_degC = regime.after(rise_degC, time_s);
-    if ((gain_degC(pair, end_degC, phi_degC) > 0.0) == heating) return end_degC;
-    const double turn_s = turning_time_s(pair, regime, rise_degC, phi_degC, heating, time_s);
-    const Regime other(pair, heating ? pair.cooling_tau_s : pair.heating_tau_s, phi_degC);
-    return other.after(regime.after(rise_degC, turn_s), time_s - turn_s);
+    bool heating = phi_degC > rise_degC.x();
+    Eigen::Vector2d now_degC = rise_degC;
+    for (;;) {
+        const Regime regime(pair, heating ? pair.heating_tau_s : pair.cooling_tau_s, phi_degC);
+        const Eigen::Vector2d end_degC = regime.after(now_degC, time_s);
+        if ((phi_degC > end_degC.x()) == heating) return end_degC;
+        const double pass_s = passing_time_s(regime, now_degC, phi_degC, heating, time_s);
+        now_degC = regime.after(now_degC, pass_s);
+        time_s -= pass_s;
+        heating = !heating;
+    }
 }
 
 }  // namespace fidservo::plant

@@ -1,20 +1,20 @@
 #pragma once
 // A wire and a second thermal mass (clamps, plates, mount) that takes heat from it and gives it back later:
 //
-//     tau   dq/dt = phi - q - a (q - b)          q, b: wire and mass above ambient, degC
+//     dq/dt = (phi - q) / tau - a / tau_c (q - b)          q, b: wire and mass above ambient, degC
 //     tau_b db/dt = r q - b
 //
-// a: conductance from the wire to the mass per conductance to the room; r: the mass's steady rise per rise of
-// the wire. tau is the heating time constant while the wire gets warmer, else the cooling one. Both equations
-// are linear within a regime and have real rates, so that a tick has a closed form:
+// tau_c: the cooling time constant; a: conductance from the wire to the mass per conductance to the room; r:
+// the mass's steady rise per rise of the wire. tau is the heating time constant while phi > q, else the
+// cooling one. Both equations are linear within a regime and have real rates, so that a tick has a closed
+// form:
 //
 //     y(t) = exp(m t) (cosh(d t) I + sinh(d t)/d (A - m I)) y(0),   m = tr A / 2,  d^2 = m^2 - det A,
 //
-// y the deviation from the equilibrium. Under a held command the wire turns at most once (dq/dt is a sum of
-// two exponentials; where it vanishes its slope is a/tau db/dt, and afterwards it keeps that sign): the time
-// of the turn is found to rounding, and the rest of the tick has the other regime.
-// Source: two lumped capacitances, Incropera, DeWitt, Fundamentals of Heat and Mass Transfer, 6th ed., 2007,
-// ch. 5; matrix exponential of a 2 x 2 matrix: Bernstein, So, IEEE Trans. Automatic Control 38(8), 1993.
+// y the deviation from the equilibrium. Where the wire comes to phi within a tick, the time is found to
+// rounding, and what is left of the tick has the other regime. Source: two lumped capacitances, Incropera,
+// DeWitt, Fundamentals of Heat and Mass Transfer, 6th ed., 2007, ch. 5; matrix exponential of a 2 x 2 matrix:
+// Bernstein, So, IEEE Trans. Automatic Control 38(8), 1993.
 #include <Eigen/Core>
 
 namespace fidservo::plant {

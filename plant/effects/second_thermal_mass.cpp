@@ -22,8 +22,8 @@ extern constexpr Effect second_thermal_mass{
     .block = "micro.heater",
     .text =
         "Plates or the mount store heat and slow the cooling later on. With q, b the rise of wire and "
-        "mass above the room: tau dq/dt = phi - q - coupling (q - b), mass_tau db/dt = retention q - "
-        "b; tau is the heating time constant while the wire gets warmer, else the cooling one.",
+        "mass above the room: dq/dt = (phi - q) / tau - coupling / tau_c (q - b), mass_tau db/dt = "
+        "retention q - b; tau is the heating time constant while phi > q, else the cooling one, tau_c.",
     .source =
         "Incropera, DeWitt, Fundamentals of Heat and Mass Transfer, 6th ed., 2007, ch. 5: two lumped "
         "capacitances",
