@@ -1,6 +1,7 @@
 #include "plant/thermal_pair.h"
 
 #include <cmath>
+#include <optional>
 
 namespace fidservo::plant {
 
@@ -37,17 +38,36 @@ struct Regime {
     }
 };
 
-/// When the wire passes phi: bisection.
-double passing_time_s(const Regime& regime, const Eigen::Vector2d& start_degC, double phi_degC, bool heating,
-                      double end_s) {
+/// When a condition that holds at first and not at the end ceases to hold: bisection.
+template <class Condition>
+double end_of(const Condition& holds, double end_s) {
     constexpr double resolution = 1e-15;
     double before_s = 0.0, after_s = end_s;
     while (after_s - before_s > resolution * end_s) {
         const double middle_s = 0.5 * (before_s + after_s);
-        const bool still = (phi_degC > regime.after(start_degC, middle_s).x()) == heating;
-        (still ? before_s : after_s) = middle_s;
+        (holds(middle_s) ? before_s : after_s) = middle_s;
     }
     return after_s;
+}
+
+/// When the wire passes phi, if it does within a time; it may come back before the end, as it turns at most
+/// once.
+std::optional<double> passing_time_s(const Regime& regime, const Eigen::Vector2d& start_degC, double phi_degC,
+                                     bool heating, double end_s) {
+    const auto rises = [&](double time_s) {
+        const Eigen::Vector2d deviation = regime.after(start_degC, time_s) - regime.equilibrium_degC;
+        return regime.rates_per_s.row(0).dot(deviation) > 0.0;
+    };
+    const auto keeps_side = [&](double time_s) {
+        return (phi_degC > regime.after(start_degC, time_s).x()) == heating;
+    };
+    const bool rises_first = rises(0.0);
+    const double turn_s = rises(end_s) == rises_first
+                              ? end_s
+                              : end_of([&](double time_s) { return rises(time_s) == rises_first; }, end_s);
+    for (const double until_s : {turn_s, end_s})
+        if (!keeps_side(until_s)) return end_of(keeps_side, until_s);
+    return std::nullopt;
 }
 
 }  // namespace
@@ -58,11 +78,10 @@ Eigen::Vector2d advance(const ThermalPair& pair, const Eigen::Vector2d& rise_deg
     Eigen::Vector2d now_degC = rise_degC;
     for (;;) {
         const Regime regime(pair, heating ? pair.heating_tau_s : pair.cooling_tau_s, phi_degC);
-        const Eigen::Vector2d end_degC = regime.after(now_degC, time_s);
-        if ((phi_degC > end_degC.x()) == heating) return end_degC;
-        const double pass_s = passing_time_s(regime, now_degC, phi_degC, heating, time_s);
-        now_degC = regime.after(now_degC, pass_s);
-        time_s -= pass_s;
+        const auto pass_s = passing_time_s(regime, now_degC, phi_degC, heating, time_s);
+        if (!pass_s) return regime.after(now_degC, time_s);
+        now_degC = regime.after(now_degC, *pass_s);
+        time_s -= *pass_s;
         heating = !heating;
     }
 }

@@ -17,11 +17,11 @@ inline StagePlant plant_with(std::string_view effect) {
 /// dead zone the command is the voltage.
 inline MacroAxis endless_axis_with(std::string_view effect, bool dead_zone = false) {
     PlantParameters plant = plant_parameters(macro_only_rig());
+    if (!dead_zone) plant.axis.dead_zone = {};
     const EffectSetting setting = parse_effect(effect);
     apply_effects(plant, {&setting, 1});
     plant.axis.low_mm = -std::numeric_limits<double>::infinity();
     plant.axis.high_mm = std::numeric_limits<double>::infinity();
-    if (!dead_zone) plant.axis.dead_zone = {};
     return make_macro_axis(plant.axis, plant.tick_s);
 }
 
