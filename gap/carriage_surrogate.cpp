@@ -156,7 +156,7 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors) {
     const std::vector<double> places =
         knots_by_share(make.moving([](const Row& at) { return at.position_mm; }), 16);
     for (std::size_t k = 0; places.size() > 1 && k < places.size(); ++k)
-        columns.push_back(make.of_force(Dependence::position, [&, k](const Row& at) {
+        columns.push_back(make.of_force(Dependence::position_friction, [&, k](const Row& at) {
             return at.direction * hat(places, k, at.position_mm);
         }));
     columns.push_back(make.of_force(Dependence::acceleration,

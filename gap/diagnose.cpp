@@ -17,6 +17,7 @@ namespace {
 /// Probabilities of the alternatives of a choice, the one of no further effect at the end.
 std::vector<double> shares_of(const std::vector<Trial>& trials, double loss_without) {
     std::vector<double> losses;
+    losses.reserve(trials.size() + 1);
     for (const Trial& trial : trials) losses.push_back(loss_without - trial.gain);
     losses.push_back(loss_without);
     return probabilities(losses);
@@ -125,6 +126,7 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
     diagnosis.signals = signal_gaps(evidence, nothing.mean_squares, explained.mean_squares);
     diagnosis.gap = total_gap(diagnosis.signals);
     diagnosis.effects = found_effects(evidence, selection, fitted);
+    for (FoundEffect& effect : diagnosis.effects) effect.probability *= trust_in(diagnosis.gap.after);
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection);
     diagnosis.unexplained = remainder_of(evidence, explained, options.selection.search.tail);

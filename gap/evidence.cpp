@@ -149,8 +149,11 @@ class RunPredictor {
 
     /// The flags of a signal's windows, which follow each other.
     std::span<const std::uint8_t> wanted_of(Signal signal) const {
-        const auto own = std::ranges::equal_range(windows_, signal, {}, &Window::signal);
-        return wanted_.subspan(static_cast<std::size_t>(own.begin() - windows_.begin()), own.size());
+        const auto is_own = [signal](const Window& window) { return window.signal == signal; };
+        const auto first = std::ranges::find_if(windows_, is_own);
+        const auto end = std::find_if_not(first, windows_.end(), is_own);
+        return wanted_.subspan(static_cast<std::size_t>(first - windows_.begin()),
+                               static_cast<std::size_t>(end - first));
     }
 
     const Evidence::Parts& parts_;

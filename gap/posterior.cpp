@@ -15,4 +15,9 @@ std::vector<double> probabilities(std::span<const double> losses) {
     return shares;
 }
 
+double trust_in(double floors_left) {
+    constexpr double at_floor = 1.1;
+    return std::sqrt(at_floor / std::max(at_floor, floors_left));
+}
+
 }  // namespace fidservo::gap

@@ -5,9 +5,18 @@
 namespace fidservo::gap {
 
 std::string_view name_of(Dependence dependence) {
-    constexpr std::array<std::string_view, 11> names{
-        "velocity", "direction",   "position",    "position, periodic", "acceleration",      "command",
-        "time",     "temperature", "contraction", "macro command",      "place in the image"};
+    constexpr std::array<std::string_view, 12> names{"velocity",
+                                                     "direction",
+                                                     "position",
+                                                     "position, periodic",
+                                                     "acceleration",
+                                                     "command",
+                                                     "time",
+                                                     "temperature",
+                                                     "contraction",
+                                                     "macro command",
+                                                     "position, against the motion",
+                                                     "place in the image"};
     return names.at(static_cast<std::size_t>(dependence));
 }
 
@@ -15,7 +24,8 @@ std::string_view block_of(Signal signal, Dependence dependence) {
     switch (signal) {
         case Signal::encoder:
             if (dependence == Dependence::command || dependence == Dependence::time) return "macro.drive";
-            if (dependence == Dependence::velocity || dependence == Dependence::direction)
+            if (dependence == Dependence::velocity || dependence == Dependence::direction ||
+                dependence == Dependence::position_friction)
                 return "macro.friction";
             return "macro.mechanics";
         case Signal::hall:

@@ -26,6 +26,7 @@ enum class Dependence : std::uint8_t {
     temperature,
     contraction,
     macro_command,
+    position_friction,  ///< a friction that depends on the place
     image_place,
 };
 

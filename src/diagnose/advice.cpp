@@ -149,6 +149,8 @@ constexpr DependenceAdvice dependences[] = {
     {"position, periodic",
      "Something that repeats along the way: compare the period with the pitch of motor poles, pulley teeth, "
      "screw and encoder scale."},
+    {"position, against the motion",
+     "Friction at a place: dirt, a dent or a dry spot on the rail; clean and oil it there."},
     {"position",
      "Something that is fixed to a place: dirt or a dent on the rail, the cable harness, a bent scale."},
     {"acceleration", "Mass, or something loose or elastic that swings: look at mounts, screws and flexures."},

@@ -116,8 +116,7 @@ bool is_named(const gap::Diagnosis& diagnosis, Signal signal, const Quantity& qu
     if (!diagnosis.unexplained || !diagnosis.unexplained->text.starts_with(gap::name_of(signal)))
         return false;
     return std::ranges::any_of(diagnosis.unexplained->depends_on, [&](const std::string& name) {
-        return name == quantity.name ||
-               (name.starts_with("position, periodic") && quantity.name == "position") ||
+        return name == quantity.name || (name.starts_with("position, ") && quantity.name == "position") ||
                (name == "direction" && quantity.name == "velocity");
     });
 }
