@@ -97,6 +97,7 @@ std::vector<PositionPeriod> peaks(std::span<const PositionPeriod> all) {
         if (!is_beside && chosen.size() < most) chosen.push_back(k);
     }
     std::vector<PositionPeriod> found;
+    found.reserve(chosen.size());
     for (const std::size_t k : chosen) found.push_back(all[k]);
     return found;
 }

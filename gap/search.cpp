@@ -92,13 +92,13 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         judge_first_half(base, trial);
     };
     const auto richer =
-        std::ranges::stable_partition(order, [&](std::size_t c) { return is_simple(*open[c]); });
-    const std::span simple(order.begin(), richer.begin());
+        std::stable_partition(order.begin(), order.end(), [&](std::size_t c) { return is_simple(*open[c]); });
+    const std::span simple(order.begin(), richer), rich(richer, order.end());
     parallel_for(simple.size(), [&](std::size_t k) { fit_first_half(simple[k]); });
     if (std::ranges::any_of(simple, [&](std::size_t c) { return leaves_floor_only(trials[c]); }))
-        order.erase(richer.begin(), richer.end());
+        order.erase(richer, order.end());
     else
-        parallel_for(richer.size(), [&](std::size_t k) { fit_first_half(richer[k]); });
+        parallel_for(rich.size(), [&](std::size_t k) { fit_first_half(rich[k]); });
 
     std::ranges::sort(order, std::greater{}, [&](std::size_t c) { return trials[c].gain; });
     constexpr double near_best = 0.5;
