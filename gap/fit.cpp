@@ -139,6 +139,8 @@ Eigen::MatrixXd sandwich(const Linearised& at, std::span<const Window> windows, 
     for (std::size_t k = 0; k < parameters.size(); ++k)
         if (!parameters.at_bound(k)) free.push_back(k);
     const auto width = static_cast<Eigen::Index>(free.size());
+    const auto all = static_cast<Eigen::Index>(parameters.size());
+    if (width == 0) return Eigen::MatrixXd::Zero(all, all);
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(width, width), scatter = normal;
     for (std::size_t w = 0; w < windows.size(); ++w) {
         if (counted[w] == 0) continue;
@@ -161,7 +163,6 @@ Eigen::MatrixXd sandwich(const Linearised& at, std::span<const Window> windows, 
     }
     const Eigen::MatrixXd inverse = normal.completeOrthogonalDecomposition().pseudoInverse();
     const Eigen::MatrixXd of_free = inverse * scatter * inverse;
-    const auto all = static_cast<Eigen::Index>(parameters.size());
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(all, all);
     for (Eigen::Index i = 0; i < width; ++i)
         for (Eigen::Index k = 0; k < width; ++k) {

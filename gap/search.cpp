@@ -117,7 +117,17 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     });
     std::ranges::stable_sort(trials, std::greater{},
                              [](const Trial& trial) { return std::pair(trial.is_leader, trial.gain); });
+    if (!trials.empty()) prefer_simplest(trials);
     return trials;
+}
+
+void Search::prefer_simplest(std::vector<Trial>& trials) const {
+    const auto parameters = [](const Trial& trial) { return trial.candidate->effect->parameters.size(); };
+    auto best = trials.begin();
+    for (auto trial = trials.begin(); trial != trials.end() && trial->is_leader; ++trial)
+        if (parameters(*trial) < parameters(*best) && ties(trials.front().fitted, trial->fitted))
+            best = trial;
+    std::rotate(trials.begin(), best, std::next(best));
 }
 
 void Search::fit_again(CrossFit& cross) const {

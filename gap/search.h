@@ -43,7 +43,8 @@ class Search {
 
     CrossFit nothing() const;
 
-    /// Candidates added to a base, all of them but those `added` in it; leaders first, then by gain.
+    /// Candidates added to a base, all of them but those `added` in it; leaders first, then by gain,
+    /// but of those that tie with the best the one of fewest parameters first.
     std::vector<Trial> try_all(const CrossFit& base, std::span<const Candidate* const> added);
 
     /// Fits all parameters of a cross fit from where they are.
@@ -65,6 +66,8 @@ class Search {
     Fit fit_half(std::size_t side, const Hypothesis& start, const CrossFit& base) const;
     Wanted fitted_windows(std::size_t side, const Hypothesis& hypothesis,
                           std::span<const double> mean_squares) const;
+    /// Puts the one of fewest parameters first, of those that tie with the best.
+    void prefer_simplest(std::vector<Trial>& trials) const;
     void judge_first_half(const CrossFit& base, Trial& trial) const;
     /// Sum over the signals of what their mean squares exceed the floor by.
     double excess(std::span<const double> mean_squares) const;

@@ -1,0 +1,79 @@
+// Fits of hypotheses whose errors are known in closed form.
+#include "gap/fit.h"
+
+#include "core/random.h"
+#include "plant/effects/catalogue.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+namespace {
+
+using namespace gap;
+
+constexpr std::size_t windows_count = 12, values = 300;
+
+std::vector<Window> windows() {
+    std::vector<Window> all(windows_count);
+    for (std::size_t w = 0; w < windows_count; ++w) {
+        all[w].begin = w * values;
+        all[w].end = all[w].begin + values;
+    }
+    return all;
+}
+
+/// Errors of drive_gain as if they were in proportion to what the factor lacks to `truth`, and noise of a
+/// floor.
+Predict prediction(double truth, const std::vector<double>& noise) {
+    return [truth, &noise](const Hypothesis& hypothesis) {
+        Errors errors(windows_count * values);
+        const double lacks = hypothesis.front().values.front() - truth;
+        for (std::size_t k = 0; k < errors.size(); ++k)
+            errors[k] =
+                static_cast<float>(noise[k] + 1000.0 * lacks * std::sin(0.05 * static_cast<double>(k)));
+        return errors;
+    };
+}
+
+Fit fitted(double truth, std::uint64_t seed) {
+    NoiseStream random(seed, "noise");
+    std::vector<double> noise(windows_count * values);
+    for (double& value : noise) value = random.normal();
+    return fit(prediction(truth, noise), windows(), Wanted(windows_count, 1),
+               {plant::parse_effect("drive_gain:factor=1")}, {.tolerance = 1e-8});
+}
+
+TEST(Fit, ValueComesBack_AndItsErrorIsThatOfManyNoises) {
+    constexpr int draws = 60;
+    double squares = 0.0;
+    for (int seed = 1; seed <= draws; ++seed) {
+        const Fit found = fitted(1.04, static_cast<std::uint64_t>(seed));
+        const double error = found.hypothesis.front().values.front() - 1.04;
+        EXPECT_LT(std::abs(error), 3e-4) << "seed " << seed;
+        squares += error * error / found.covariance(0, 0);
+    }
+    EXPECT_GT(squares / draws, 0.6);  // 1 expected; 60 draws scatter by 0.18
+    EXPECT_LT(squares / draws, 1.6);
+}
+
+TEST(Fit, ValueBeyondItsBound_EndsAtTheBound_WithoutAnError) {
+    const Fit found = fitted(1.9, 1);
+    EXPECT_EQ(found.hypothesis.front().values.front(), 1.5);
+    EXPECT_EQ(found.covariance(0, 0), 0.0);
+}
+
+TEST(Fit, RefusedHypothesis_IsGivenBackAsItIs) {
+    const Predict refuses = [](const Hypothesis&) { return Errors{}; };
+    const Fit found =
+        fit(refuses, windows(), Wanted(windows_count, 1), {plant::parse_effect("drive_gain:factor=1.1")});
+    EXPECT_TRUE(std::isinf(found.loss));
+    EXPECT_EQ(found.hypothesis.front().values.front(), 1.1);
+}
+
+}  // namespace
+
+}  // namespace fidservo
