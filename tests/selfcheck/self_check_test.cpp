@@ -33,13 +33,13 @@ TEST(SelfCheck, RigWithoutMicroStage_IsRefusedBeforeAnyCase) {
     EXPECT_THROW(run_self_check(rig, {}, [](const Outcome&) { FAIL(); }), InputError);
 }
 
-/// The first case of a kind, diagnosed with two effects to choose from.
+/// The first case of a kind, diagnosed with three effects to choose from.
 Outcome first_case(CaseKind kind) {
     SelfCheckOptions options;
     options.cases = 1;
     options.kinds = {kind};
     options.seed = 3;
-    options.only = {"hall_gain", "drive_gain"};
+    options.only = {"hall_gain", "drive_gain", "stress_shift"};
     SelfCheck check =
         run_self_check(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), options, [](const Outcome&) {});
     EXPECT_TRUE(check.failures.empty());
@@ -51,7 +51,7 @@ TEST(SlowSelfCheck, OneEffectAndNone_AreRecordedDiagnosedAndScored) {
     EXPECT_EQ(none.score.verdict, gap::Verdict::no_gap) << line_of(none);
     EXPECT_NEAR(none.score.floors, 1.0, 0.05);
     const Outcome one = first_case(CaseKind::one);
-    ASSERT_EQ(one.label.effects.front().effect, "drive_gain");
+    ASSERT_EQ(one.label.effects.front().effect, "stress_shift") << "the draw has changed: offer its effect";
     EXPECT_TRUE(one.score.right_effect_first && one.score.right_block_first) << line_of(one);
     EXPECT_GT(one.score.floors, 3.0);
 }
