@@ -18,6 +18,22 @@ bool says_how_large(const plant::EffectParameter& parameter) {
     return parameter.vanishing != parameter.typical;
 }
 
+/// Where the carriage has been in all recordings, mm.
+struct TravelledRange {
+    double low_mm = 0.0, high_mm = 0.0;
+};
+
+TravelledRange travelled(const Evidence& evidence) {
+    TravelledRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (std::size_t run = 0; run < evidence.recordings().size(); ++run)
+        for (const float position_mm : evidence.course(run).position_mm) {
+            if (std::isnan(position_mm)) continue;
+            range.low_mm = std::min(range.low_mm, static_cast<double>(position_mm));
+            range.high_mm = std::max(range.high_mm, static_cast<double>(position_mm));
+        }
+    return range.low_mm <= range.high_mm ? range : TravelledRange{};
+}
+
 /// Values from which a fit of a shape may begin.
 std::vector<double> grid_of(const plant::EffectParameter& parameter, const TravelledRange& range) {
     const auto within = [&](double value) { return std::clamp(value, parameter.low, parameter.high); };
@@ -77,17 +93,6 @@ bool names(std::span<const std::string> list, std::string_view name) {
 
 }  // namespace
 
-TravelledRange travelled(const Evidence& evidence) {
-    TravelledRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    for (std::size_t run = 0; run < evidence.recordings().size(); ++run)
-        for (const float position_mm : evidence.course(run).position_mm) {
-            if (std::isnan(position_mm)) continue;
-            range.low_mm = std::min(range.low_mm, static_cast<double>(position_mm));
-            range.high_mm = std::max(range.high_mm, static_cast<double>(position_mm));
-        }
-    return range.low_mm <= range.high_mm ? range : TravelledRange{};
-}
-
 std::string_view class_of(std::string_view effect) {
     return effect == "stress_shift" ? temperature_class : effect;
 }
@@ -95,7 +100,7 @@ std::string_view class_of(std::string_view effect) {
 std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std::string> only,
                                   std::span<const std::string> without) {
     std::array<bool, signal_count> recorded{};
-    for (const Window& window : evidence.windows()) recorded[static_cast<std::size_t>(window.signal)] = true;
+    for (const Window& window : evidence.windows()) recorded[index_of(window.signal)] = true;
     const auto is_withheld = [&](std::string_view name) {
         return std::ranges::any_of(
             without, [&](const std::string& other) { return class_of(other) == class_of(name); });
@@ -105,10 +110,9 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
     for (const plant::Effect* effect : plant::effect_catalogue()) {
         if (effect->block == "camera.image" || is_withheld(effect->name)) continue;
         if (!only.empty() && !names(only, effect->name)) continue;
-        const std::vector<Signal> reach = reach_of(*effect);
-        if (std::ranges::none_of(reach, [&](Signal s) { return recorded[static_cast<std::size_t>(s)]; }))
+        if (std::ranges::none_of(reach_of(*effect), [&](Signal s) { return recorded[index_of(s)]; }))
             continue;
-        Candidate candidate{effect, {}, {}, period_of(*effect), reach, std::string(class_of(effect->name))};
+        Candidate candidate{effect, {}, {}, period_of(*effect), std::string(class_of(effect->name))};
         candidate.shapes = shapes_of(*effect, range, candidate.period);
         for (std::size_t k = 0; k < effect->parameters.size(); ++k)
             if (says_how_large(effect->parameters[k])) candidate.sizes.push_back(k);

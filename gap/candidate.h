@@ -17,16 +17,8 @@ struct Candidate {
     std::vector<std::size_t> sizes;           ///< parameters that say how large; one at least
     std::vector<std::vector<double>> shapes;  ///< all values, sizes at typical ones, shapes over a grid
     std::optional<std::size_t> period;        ///< parameter that the errors' own period begins with
-    std::vector<Signal> reach;
     std::string class_name;  ///< effects that no data can tell apart share it, otherwise the effect's name
 };
-
-/// Where the carriage has been in all recordings, mm.
-struct TravelledRange {
-    double low_mm = 0.0, high_mm = 0.0;
-};
-
-TravelledRange travelled(const Evidence& evidence);
 
 /// Effects of the catalogue that the rig can have and a recorded signal can show. camera.image effects show
 /// in frames only and are not among them.

@@ -9,9 +9,6 @@
 namespace fidservo::gap {
 namespace {
 
-/// Slower than this the carriage may be held, and no force shows.
-constexpr double moving_mm_per_s = 1.0;
-
 /// The nominal carriage's answer to forces.
 struct Answer {
     double decay, speed_per_V, tick_s;

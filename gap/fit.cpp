@@ -59,8 +59,9 @@ class Linearised : public ceres::EvaluationCallback {
         : predict_(predict), parameters_(parameters), threads_(threads) {}
 
     void PrepareForEvaluation(bool with_derivatives, bool at_new_point) override {
-        if (at_new_point) {
-            errors = predict_(parameters_.at(parameters_.values));
+        if (at_new_point && parameters_.values != values_) {
+            values_ = parameters_.values;
+            errors = predict_(parameters_.at(values_));
             has_derivatives_ = false;
         }
         if (!with_derivatives || has_derivatives_ || errors.empty()) return;
@@ -91,6 +92,7 @@ class Linearised : public ceres::EvaluationCallback {
     const Predict& predict_;
     const Parameters& parameters_;
     Threads threads_;
+    std::vector<double> values_;  ///< that errors are of
     bool has_derivatives_ = false;
 };
 
@@ -215,15 +217,16 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);
 
-    linearised.PrepareForEvaluation(true, true);
+    linearised.PrepareForEvaluation(false, true);
     const double loss_there = total_loss(windows, counted, linearised.errors);
-    if (!(loss_there < result.loss)) {
-        parameters.values = values_at_start;
-        linearised.PrepareForEvaluation(true, true);
-    } else {
+    if (loss_there < result.loss) {
         result.hypothesis = parameters.at(parameters.values);
         result.loss = loss_there;
+    } else {
+        parameters.values = values_at_start;
     }
+    if (!options.with_covariance) return result;
+    linearised.PrepareForEvaluation(true, true);
     result.covariance = sandwich(linearised, windows, counted, parameters);
     return result;
 }

@@ -17,7 +17,8 @@ struct Fit {
     Hypothesis hypothesis;
     double loss = 0.0;  ///< of the windows fitted, as in gap/score.h
     /// Of all parameters in order, from the scatter of the windows' gradients (sandwich), which holds where
-    /// errors within a window are not independent. Zero for parameters at a bound.
+    /// errors within a window are not independent. Zero for parameters at a bound, and where it was not asked
+    /// for.
     Eigen::MatrixXd covariance;
 };
 
@@ -26,6 +27,7 @@ enum class Threads { one, all };
 struct FitOptions {
     int most_iterations = 12;
     double tolerance = 1e-4;         ///< relative, of loss and parameters, at which a fit ends
+    bool with_covariance = false;    ///< costs a prediction a parameter
     Threads threads = Threads::one;  ///< that predict at the same time
 };
 

@@ -9,13 +9,32 @@
 namespace fidservo::gap {
 namespace {
 
+/// Of squared ratios to the floor, none of them below it.
+class MeanOverSignals {
+  public:
+    void add(double before_square, double after_square) {
+        before_ += std::max(1.0, before_square);
+        after_ += std::max(1.0, after_square);
+        count_ += 1.0;
+    }
+
+    /// At the floor without signals.
+    TotalGap root() const {
+        if (count_ == 0.0) return {1.0, 1.0};
+        return {std::sqrt(before_ / count_), std::sqrt(after_ / count_)};
+    }
+
+  private:
+    double before_ = 0.0, after_ = 0.0, count_ = 0.0;
+};
+
 /// Sums over windows: squared errors in floors, and the number of values.
 struct Sums {
     std::array<double, signal_count> before{}, after{}, values{};
 
     void add(const Window& window, double before_square, double after_square) {
         if (std::isnan(before_square) || std::isnan(after_square)) return;
-        const auto signal = static_cast<std::size_t>(window.signal);
+        const auto signal = index_of(window.signal);
         const auto count = static_cast<double>(window.end - window.begin);
         before[signal] += count * before_square;
         after[signal] += count * after_square;
@@ -23,15 +42,10 @@ struct Sums {
     }
 
     TotalGap total() const {
-        double sum_before = 0.0, sum_after = 0.0, signals = 0.0;
-        for (std::size_t s = 0; s < signal_count; ++s) {
-            if (values[s] == 0.0) continue;
-            sum_before += std::max(1.0, before[s] / values[s]);
-            sum_after += std::max(1.0, after[s] / values[s]);
-            signals += 1.0;
-        }
-        if (signals == 0.0) return {1.0, 1.0};
-        return {std::sqrt(sum_before / signals), std::sqrt(sum_after / signals)};
+        MeanOverSignals mean;
+        for (std::size_t s = 0; s < signal_count; ++s)
+            if (values[s] > 0.0) mean.add(before[s] / values[s], after[s] / values[s]);
+        return mean.root();
     }
 };
 
@@ -53,14 +67,10 @@ std::vector<SignalGap> signal_gaps(const Evidence& evidence, std::span<const dou
 }
 
 TotalGap total_gap(std::span<const SignalGap> signals) {
-    if (signals.empty()) return {1.0, 1.0};
-    double before = 0.0, after = 0.0;
-    for (const SignalGap& signal : signals) {
-        before += std::max(1.0, std::pow(signal.before / signal.floor, 2));
-        after += std::max(1.0, std::pow(signal.after / signal.floor, 2));
-    }
-    const auto count = static_cast<double>(signals.size());
-    return {std::sqrt(before / count), std::sqrt(after / count)};
+    MeanOverSignals mean;
+    for (const SignalGap& signal : signals)
+        mean.add(std::pow(signal.before / signal.floor, 2), std::pow(signal.after / signal.floor, 2));
+    return mean.root();
 }
 
 double TotalGap::removed() const {

@@ -13,7 +13,6 @@ namespace fidservo::gap {
 namespace {
 
 constexpr double shortest_mm = 0.8, longest_mm = 50.0;
-constexpr double moving_mm_per_s = 1.0;
 constexpr std::size_t every = 4;  ///< rows that are compared; the carriage is followed through all
 
 using Rows = Eigen::Index;

@@ -6,6 +6,9 @@
 
 namespace fidservo::gap {
 
+/// Slower than this the carriage may be held, and no force shows.
+inline constexpr double moving_mm_per_s = 1.0;
+
 /// A period and how much of the errors waves of it take: of a force along the rail, passed through the
 /// nominal carriage, and of the reading itself.
 struct PositionPeriod {

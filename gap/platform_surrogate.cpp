@@ -82,7 +82,7 @@ Errors by_warmth(const Evidence& evidence) {
 
 }  // namespace
 
-Surrogate platform_surrogate(const Evidence& evidence, const Errors&) {
+Surrogate platform_surrogate(const Evidence& evidence) {
     const Columns make(evidence);
     Surrogate surrogate{Signal::hall, {}, {}};
     std::vector<Column>& columns = surrogate.columns;

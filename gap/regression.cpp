@@ -14,7 +14,6 @@ namespace {
 
 /// Of the columns' own weight: enough to hold columns that hardly differ from each other.
 constexpr double ridge = 1e-3;
-constexpr double least_gain = 0.5;
 
 Eigen::MatrixXd gram_of(const Window& window, const Errors& errors, std::span<const Column> columns,
                         std::span<const Column> nuisances, double& count) {

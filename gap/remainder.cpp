@@ -4,9 +4,6 @@
 #include "gap/halves.h"
 #include "gap/surrogate.h"
 
-#include <array>
-#include <cmath>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -29,18 +26,6 @@ Errors held_out_errors(const Evidence& evidence, const CrossFit& explained,
             for (std::size_t k = evidence.windows()[w].begin; k < evidence.windows()[w].end; ++k)
                 errors[k] = other[k];
     return errors;
-}
-
-/// R.m.s. of the windows' errors in floors.
-double rms(const Evidence& evidence, Signal signal, std::span<const double> squares) {
-    double sum = 0.0, count = 0.0;
-    for (std::size_t w = 0; w < squares.size(); ++w) {
-        const Window& window = evidence.windows()[w];
-        if (window.signal != signal || std::isnan(squares[w])) continue;
-        sum += squares[w] * static_cast<double>(window.end - window.begin);
-        count += static_cast<double>(window.end - window.begin);
-    }
-    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
 /// A block for what is left of a signal and depends on nothing that was looked at.
@@ -68,8 +53,8 @@ struct Dependences {
 Dependences dependences(const Evidence& evidence, Signal signal, const Errors& errors,
                         std::span<const std::uint8_t> half, double tail) {
     if (signal != Signal::encoder && signal != Signal::hall) return {};
-    const Surrogate surrogate = signal == Signal::encoder ? carriage_surrogate(evidence, errors)
-                                                          : platform_surrogate(evidence, errors);
+    const Surrogate surrogate =
+        signal == Signal::encoder ? carriage_surrogate(evidence, errors) : platform_surrogate(evidence);
     const Regression regression(evidence.windows(), signal, errors, surrogate.columns, surrogate.nuisances,
                                 half);
     return {regression.significant_groups(tail), surrogate.period_mm};
@@ -102,13 +87,12 @@ std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& 
     const Errors errors = held_out_errors(evidence, explained, half);
     std::optional<Remainder> largest;
     double largest_floors = 0.0;
-    for (std::size_t s = 0; s < signal_count; ++s) {
-        const auto signal = static_cast<Signal>(s);
-        const double floors = rms(evidence, signal, explained.mean_squares);
+    for (const SignalGap& gap : signal_gaps(evidence, explained.mean_squares, explained.mean_squares)) {
+        const double floors = gap.after / gap.floor;
         if (floors < least_floors || floors < largest_floors) continue;
-        const Dependences found = dependences(evidence, signal, errors, half, tail);
+        const Dependences found = dependences(evidence, gap.signal, errors, half, tail);
         if (found.groups.empty() && floors < clear_floors) continue;
-        largest = remainder_of_signal(evidence, signal, floors, found);
+        largest = remainder_of_signal(evidence, gap.signal, floors, found);
         largest_floors = floors;
     }
     return largest;

@@ -39,6 +39,10 @@ struct Comparison {
 Comparison compare(std::span<const Window> windows, std::span<const double> first,
                    std::span<const double> second);
 
+/// Least held-out loss that a cause has to save, whatever its significance: what makes the error of a window
+/// far above its floor smaller by the factor 1.6.
+inline constexpr double least_gain = 0.5;
+
 /// Smallest significance that is no chance, at level `tail` over `trials` comparisons: Student's law with a
 /// degree of freedom less than blocks. Infinite for fewer than three blocks.
 double significance_bound(int blocks, int trials, double tail);

@@ -6,9 +6,11 @@
 #include "gap/period_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 namespace fidservo::gap {
 namespace {
@@ -16,13 +18,23 @@ namespace {
 /// A tie: what is behind the best by fewer standard deviations than this is not told from it.
 constexpr double tie_significance = 2.0;
 
+using SignalFlags = std::array<bool, signal_count>;
+
 /// Signals from which the parameters of an effect are learnt: those whose prediction it changes at first
 /// hand. What moves the carriage shows in the tags as well, but says there what the encoder has said.
-bool teaches(const plant::Effect& effect, Signal signal) {
+SignalFlags teachers_of(const plant::Effect& effect) {
+    SignalFlags teach{};
+    for (const Signal signal : reach_of(effect)) teach[index_of(signal)] = true;
     if (effect.block.starts_with("macro.") && effect.block != "macro.encoder")
-        return signal == Signal::encoder;
-    const std::vector<Signal> reach = reach_of(effect);
-    return std::ranges::find(reach, signal) != reach.end();
+        teach[index_of(Signal::tag)] = false;
+    return teach;
+}
+
+/// Those of the windows that are wanted whose signal teaches.
+Wanted only_of(std::span<const Window> windows, Wanted wanted, const SignalFlags& teach) {
+    for (std::size_t w = 0; w < wanted.size(); ++w)
+        if (!teach[index_of(windows[w].signal)]) wanted[w] = 0;
+    return wanted;
 }
 
 /// Effects of few parameters are tried first: where one of them leaves nothing, a richer one that does as
@@ -31,7 +43,27 @@ bool is_simple(const Candidate& candidate) {
     return candidate.effect->parameters.size() <= 2;
 }
 
+/// Of those sorted from the best on, the first that come near it, `most` at most.
+template <class Score>
+std::span<Search::Contender> near_best(std::span<Search::Contender> sorted, double share, double least,
+                                       std::size_t most, const Score& score) {
+    if (sorted.empty()) return sorted;
+    const double bound = std::max(least, share * score(sorted.front()));
+    std::size_t count = 0;
+    while (count < std::min(most, sorted.size()) && score(sorted[count]) > bound) ++count;
+    return sorted.first(count);
+}
+
 }  // namespace
+
+/// A trial on its way: the values from which its fits may begin, best first.
+struct Search::Contender {
+    Trial trial;
+    std::vector<Promise> starts;
+
+    double promised() const { return starts.empty() ? 0.0 : starts.front().gain; }
+    double gain() const { return trial.gain; }
+};
 
 Search::Search(const Evidence& evidence, const std::vector<Candidate>& candidates,
                const SearchOptions& options)
@@ -44,84 +76,93 @@ CrossFit Search::nothing() const {
 }
 
 std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candidate* const> added) {
-    std::vector<const Candidate*> open;
+    constexpr double share_of_promise = 0.2, share_of_gain = 0.5;
+    std::vector<Contender> contenders = promising(base, added);
+    trials_ += static_cast<int>(contenders.size());
+    std::ranges::sort(contenders, std::greater{}, &Contender::promised);
+    const std::span fitted =
+        near_best(contenders, share_of_promise, least_gain, options_.fits, std::mem_fn(&Contender::promised));
+    fit_simple_first(base, fitted);
+    std::ranges::sort(fitted, std::greater{}, &Contender::gain);
+    const std::span leaders =
+        near_best(fitted, share_of_gain, 0.0, options_.leaders, std::mem_fn(&Contender::gain));
+    parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k].trial); });
+
+    std::vector<Trial> trials;
+    for (Contender& contender : contenders) trials.push_back(std::move(contender.trial));
+    std::ranges::stable_sort(trials, std::greater{},
+                             [](const Trial& trial) { return std::pair(trial.is_leader, trial.gain); });
+    prefer_simplest(trials);
+    return trials;
+}
+
+std::vector<Search::Contender> Search::promising(const CrossFit& base,
+                                                 std::span<const Candidate* const> added) const {
+    std::vector<Contender> contenders;
     for (const Candidate& candidate : candidates_)
-        if (std::ranges::find(added, &candidate) == added.end()) open.push_back(&candidate);
-    if (open.empty()) return {};
-    trials_ += static_cast<int>(open.size());
+        if (std::ranges::find(added, &candidate) == added.end())
+            contenders.push_back({{&candidate, 0.0, false, {}}, {}});
 
     const Wanted looked_at = instructive(evidence_.windows(), half(0), base.mean_squares, options_.windows);
     const Errors base_errors = evidence_.errors(base.of_half[0], looked_at);
     std::vector<double> periods_mm;
+    if (std::ranges::any_of(contenders,
+                            [](const Contender& c) { return c.trial.candidate->period.has_value(); }))
+        periods_mm = periods_left(base);
+    parallel_for(contenders.size(), [&](std::size_t c) {
+        const Candidate& candidate = *contenders[c].trial.candidate;
+        const Wanted wanted = only_of(evidence_.windows(), looked_at, teachers_of(*candidate.effect));
+        contenders[c].starts = at_first_sight(predictor(wanted), evidence_.windows(), wanted, base.of_half[0],
+                                              base_errors, candidate, periods_mm);
+    });
+    return contenders;
+}
+
+std::vector<double> Search::periods_left(const CrossFit& base) const {
     const Wanted first_half = half(0);
+    std::vector<double> periods_mm;
     for (const PositionPeriod& period :
-         strongest_periods(evidence_, evidence_.errors(base.of_half[0], first_half), first_half)) {
+         strongest_periods(evidence_, evidence_.errors(base.of_half[0], first_half), first_half))
         for (const double steps : {-1.2, -0.6, 0.0, 0.6, 1.2})  // a wave keeps in step over the rail
             periods_mm.push_back(1.0 / (1.0 / period.period_mm + steps * period.step_per_mm));
+    return periods_mm;
+}
+
+void Search::fit_simple_first(const CrossFit& base, std::span<Contender> contenders) const {
+    const auto is_simple_one = [](const Contender& c) { return is_simple(*c.trial.candidate); };
+    const std::span rich = std::ranges::stable_partition(contenders, is_simple_one);
+    const std::span simple = contenders.first(contenders.size() - rich.size());
+    parallel_for(simple.size(), [&](std::size_t k) { fit_first_half(base, simple[k]); });
+    if (std::ranges::any_of(simple, [&](const Contender& c) { return leaves_floor_only(c.trial.fitted); }))
+        return;
+    parallel_for(rich.size(), [&](std::size_t k) { fit_first_half(base, rich[k]); });
+}
+
+void Search::fit_first_half(const CrossFit& base, Contender& contender) const {
+    constexpr double share_of_best_start = 0.5;
+    Hypothesis& best = contender.trial.fitted.of_half[0];
+    double least_loss = std::numeric_limits<double>::infinity();
+    for (const Promise& promise : contender.starts) {
+        if (promise.gain < share_of_best_start * contender.promised()) continue;
+        const Fit fitted = fit_half(0, promise.start, base);
+        if (fitted.loss >= least_loss) continue;
+        least_loss = fitted.loss;
+        best = fitted.hypothesis;
     }
-    std::vector<Trial> trials(open.size());
-    std::vector<std::vector<Promise>> promises(open.size());
-    const auto promised = [&](std::size_t c) { return promises[c].empty() ? 0.0 : promises[c].front().gain; };
-    parallel_for(open.size(), [&](std::size_t c) {
-        Wanted wanted = looked_at;
-        for (std::size_t w = 0; w < wanted.size(); ++w)
-            if (!teaches(*open[c]->effect, evidence_.windows()[w].signal)) wanted[w] = 0;
-        promises[c] = at_first_sight(predictor(wanted), evidence_.windows(), wanted, base.of_half[0],
-                                     base_errors, *open[c], periods_mm);
-        trials[c].candidate = open[c];
-    });
+    judge_first_half(base, contender.trial);
+}
 
-    std::vector<std::size_t> order(open.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, std::greater{}, promised);
-    constexpr double share_of_best = 0.2;
-    const double least = std::max(least_gain, share_of_best * promised(order.front()));
-    std::erase_if(order, [&](std::size_t c) { return !(promised(c) > least); });
-    if (order.size() > options_.fits) order.resize(options_.fits);
-
-    const auto fit_first_half = [&](std::size_t c) {
-        Trial& trial = trials[c];
-        double least_loss = std::numeric_limits<double>::infinity();
-        for (const Promise& promise : promises[c]) {
-            if (promise.gain < 0.5 * promised(c)) continue;
-            const Fit fitted = fit_half(0, promise.start, base);
-            if (fitted.loss >= least_loss) continue;
-            least_loss = fitted.loss;
-            trial.fitted.of_half[0] = fitted.hypothesis;
-        }
-        judge_first_half(base, trial);
-    };
-    const auto richer =
-        std::stable_partition(order.begin(), order.end(), [&](std::size_t c) { return is_simple(*open[c]); });
-    const std::span simple(order.begin(), richer), rich(richer, order.end());
-    parallel_for(simple.size(), [&](std::size_t k) { fit_first_half(simple[k]); });
-    if (std::ranges::any_of(simple, [&](std::size_t c) { return leaves_floor_only(trials[c]); }))
-        order.erase(richer, order.end());
-    else
-        parallel_for(rich.size(), [&](std::size_t k) { fit_first_half(rich[k]); });
-
-    std::ranges::sort(order, std::greater{}, [&](std::size_t c) { return trials[c].gain; });
-    constexpr double near_best = 0.5;
-    const double best_gain = order.empty() ? 0.0 : trials[order.front()].gain;
-    std::erase_if(order, [&](std::size_t c) { return !(trials[c].gain > near_best * best_gain); });
-    if (order.size() > options_.leaders) order.resize(options_.leaders);
-    parallel_for(order.size(), [&](std::size_t k) {
-        Trial& trial = trials[order[k]];
-        Hypothesis start = base.of_half[1];
-        start.push_back(trial.fitted.of_half[0].back());
-        trial.fitted.of_half[1] = fit_half(1, start, base).hypothesis;
-        judge(trial.fitted);
-        trial.against_base = compared(base, trial.fitted);
-        trial.gain = trial.against_base.gain;
-        trial.is_leader = true;
-    });
-    std::ranges::stable_sort(trials, std::greater{},
-                             [](const Trial& trial) { return std::pair(trial.is_leader, trial.gain); });
-    if (!trials.empty()) prefer_simplest(trials);
-    return trials;
+void Search::fit_second_half(const CrossFit& base, Trial& trial) const {
+    Hypothesis start = base.of_half[1];
+    start.push_back(trial.fitted.of_half[0].back());
+    trial.fitted.of_half[1] = fit_half(1, start, base).hypothesis;
+    judge(trial.fitted);
+    trial.gain = compared(base, trial.fitted).gain;
+    trial.is_leader = true;
 }
 
 void Search::prefer_simplest(std::vector<Trial>& trials) const {
+    if (trials.empty()) return;
     const auto parameters = [](const Trial& trial) { return trial.candidate->effect->parameters.size(); };
     auto best = trials.begin();
     for (auto trial = trials.begin(); trial != trials.end() && trial->is_leader; ++trial)
@@ -171,13 +212,13 @@ Predict Search::predictor(const Wanted& wanted) const {
 
 Wanted Search::fitted_windows(std::size_t side, const Hypothesis& hypothesis,
                               std::span<const double> mean_squares) const {
-    Wanted wanted = half(side);
-    for (std::size_t w = 0; w < wanted.size(); ++w)
-        if (std::ranges::none_of(hypothesis, [&](const plant::EffectSetting& setting) {
-                return teaches(*setting.effect, evidence_.windows()[w].signal);
-            }))
-            wanted[w] = 0;
-    return instructive(evidence_.windows(), wanted, mean_squares, options_.windows);
+    SignalFlags teach{};
+    for (const plant::EffectSetting& setting : hypothesis) {
+        const SignalFlags own = teachers_of(*setting.effect);
+        for (std::size_t s = 0; s < signal_count; ++s) teach[s] = teach[s] || own[s];
+    }
+    return instructive(evidence_.windows(), only_of(evidence_.windows(), half(side), teach), mean_squares,
+                       options_.windows);
 }
 
 Fit Search::fit_half(std::size_t side, const Hypothesis& start, const CrossFit& base) const {
@@ -199,7 +240,7 @@ double Search::excess(std::span<const double> mean_squares) const {
     std::array<double, signal_count> sums{}, counts{};
     for (std::size_t w = 0; w < mean_squares.size(); ++w) {
         if (std::isnan(mean_squares[w])) continue;
-        const auto signal = static_cast<std::size_t>(evidence_.windows()[w].signal);
+        const std::size_t signal = index_of(evidence_.windows()[w].signal);
         sums[signal] += mean_squares[w];
         counts[signal] += 1.0;
     }
@@ -209,8 +250,8 @@ double Search::excess(std::span<const double> mean_squares) const {
     return excess;
 }
 
-bool Search::leaves_floor_only(const Trial& trial) const {
-    return excess(trial.fitted.mean_squares) == 0.0;
+bool Search::leaves_floor_only(const CrossFit& fitted) const {
+    return excess(fitted.mean_squares) == 0.0;
 }
 
 void Search::judge(CrossFit& cross) const {

@@ -24,7 +24,6 @@ struct Trial {
     double gain = 0.0;       ///< loss saved in the held-out windows
     bool is_leader = false;  ///< fitted on both halves; otherwise on the first, judged on some of the second
     CrossFit fitted;
-    Comparison against_base;  ///< of a leader, with the hypothesis that it was added to
 };
 
 struct SearchOptions {
@@ -58,9 +57,17 @@ class Search {
     /// Whether what the other lacks to the best is no more than chance.
     bool ties(const CrossFit& best, const CrossFit& other) const;
 
-    Comparison compared(const CrossFit& base, const CrossFit& fitted) const;
+    struct Contender;
 
   private:
+    /// What each candidate that is not `added` promises beside a base.
+    std::vector<Contender> promising(const CrossFit& base, std::span<const Candidate* const> added) const;
+    /// Periods in position, mm, that effects periodic in position may begin with.
+    std::vector<double> periods_left(const CrossFit& base) const;
+    void fit_simple_first(const CrossFit& base, std::span<Contender> contenders) const;
+    void fit_first_half(const CrossFit& base, Contender& contender) const;
+    void fit_second_half(const CrossFit& base, Trial& trial) const;
+    Comparison compared(const CrossFit& base, const CrossFit& fitted) const;
     Wanted half(std::size_t side) const;
     Predict predictor(const Wanted& wanted) const;
     Fit fit_half(std::size_t side, const Hypothesis& start, const CrossFit& base) const;
@@ -71,7 +78,7 @@ class Search {
     void judge_first_half(const CrossFit& base, Trial& trial) const;
     /// Sum over the signals of what their mean squares exceed the floor by.
     double excess(std::span<const double> mean_squares) const;
-    bool leaves_floor_only(const Trial& trial) const;
+    bool leaves_floor_only(const CrossFit& fitted) const;
     void judge(CrossFit& cross) const;
 
     const Evidence& evidence_;
@@ -80,8 +87,5 @@ class Search {
     std::vector<std::uint8_t> half_;
     int trials_ = 0;
 };
-
-/// Least held-out loss that an effect has to save: what halves the error of one and a half windows.
-inline constexpr double least_gain = 0.5;
 
 }  // namespace fidservo::gap

@@ -106,7 +106,7 @@ Fit fit_to_all(const Evidence& evidence, const CrossFit& cross) {
     const Wanted wanted = everything(evidence);
     const Predict predict = [&](const Hypothesis& hypothesis) { return evidence.errors(hypothesis, wanted); };
     return fit(predict, evidence.windows(), wanted, cross.of_half[0],
-               {.tolerance = 1e-8, .threads = Threads::all});
+               {.tolerance = 1e-8, .with_covariance = true, .threads = Threads::all});
 }
 
 Selection select(const Evidence& evidence, const std::vector<Candidate>& candidates,

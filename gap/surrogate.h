@@ -39,11 +39,11 @@ struct Surrogate {
     double period_mm = 0.0;         ///< of Dependence::position_period
 };
 
-/// Of the encoder's errors.
+/// Of the encoder's errors. @param errors  that the period is looked for in
 Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors);
 
 /// Of the Hall reading's errors.
-Surrogate platform_surrogate(const Evidence& evidence, const Errors& errors);
+Surrogate platform_surrogate(const Evidence& evidence);
 
 /// The block that errors of a signal accuse by what they depend on first.
 std::string_view block_of(Signal signal, Dependence dependence);

@@ -45,11 +45,8 @@ std::vector<Task> tasks_of(const SimulateOptions& options, const Rig& rig) {
     if (options.experiment != whole_campaign)
         return {{options.experiment, options.experiment + "-1", options.out}};
     std::vector<Task> tasks;
-    for (const std::string_view kind : experiment_kinds())
-        for (int copy = 1; copy <= 2 && missing_for(kind, rig).empty(); ++copy) {
-            const std::string name = fmt::format("{}-{}", kind, copy);
-            tasks.push_back({std::string(kind), name, options.out / name});
-        }
+    for (const CampaignRun& run : campaign_runs(rig))
+        tasks.push_back({run.kind, run.name, options.out / run.name});
     return tasks;
 }
 

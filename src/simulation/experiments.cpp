@@ -220,6 +220,16 @@ std::string missing_for(std::string_view name, const Rig& rig) {
     return "";
 }
 
+std::vector<CampaignRun> campaign_runs(const Rig& rig) {
+    std::vector<CampaignRun> runs;
+    for (const Kind& kind : kinds) {
+        if (!missing_for(kind.name, rig).empty()) continue;
+        for (const int copy : {1, 2})
+            runs.push_back({std::string(kind.name), fmt::format("{}-{}", kind.name, copy)});
+    }
+    return runs;
+}
+
 Experiment make_experiment(std::string_view name, const Rig& rig, std::uint64_t seed,
                            std::string_view recording_name) {
     const Kind& kind = find_kind(name);

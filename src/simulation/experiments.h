@@ -42,4 +42,13 @@ Experiment make_experiment(std::string_view kind, const Rig& rig, std::uint64_t 
 /// Why a rig cannot do an experiment; empty if it can.
 std::string missing_for(std::string_view kind, const Rig& rig);
 
+/// A recording of a campaign. Its name says which experiment it is and no more.
+struct CampaignRun {
+    std::string kind;
+    std::string name;
+};
+
+/// Two of each experiment that the rig can do.
+std::vector<CampaignRun> campaign_runs(const Rig& rig);
+
 }  // namespace fidservo

@@ -44,7 +44,7 @@ Fit fitted(double truth, std::uint64_t seed) {
     std::vector<double> noise(windows_count * values);
     for (double& value : noise) value = random.normal();
     return fit(prediction(truth, noise), windows(), Wanted(windows_count, 1),
-               {plant::parse_effect("drive_gain:factor=1")}, {.tolerance = 1e-8});
+               {plant::parse_effect("drive_gain:factor=1")}, {.tolerance = 1e-8, .with_covariance = true});
 }
 
 TEST(Fit, ValueComesBack_AndItsErrorIsThatOfManyNoises) {

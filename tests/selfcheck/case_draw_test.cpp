@@ -131,7 +131,7 @@ TEST(CaseDraw, Withheld_LeavesTheWholeClassOut) {
 }
 
 TEST(Campaign, Recordings_DoNotCarryTheLabel) {
-    const std::vector<CampaignRun> runs = campaign_runs();
+    const std::vector<CampaignRun> runs = campaign_runs(nominal());
     EXPECT_EQ(runs.size(), 16u);
     const auto rest = std::ranges::find(runs, "rest-1", &CampaignRun::name);
     ASSERT_NE(rest, runs.end());

@@ -136,7 +136,7 @@ TEST(SlowListedEffects, DepartureOfTheReference_IsTheEffectOfThatName) {
         TrueRig true_rig{rig, {}};
         pair.depart(true_rig.departures);
         std::vector<Recording> recordings;
-        for (const CampaignRun& run : campaign_runs())
+        for (const CampaignRun& run : campaign_runs(rig))
             if (std::ranges::find(names, run.name) != names.end())
                 recordings.push_back(record_run(rig, true_rig, run, 3));
         const gap::Evidence evidence(rig, std::move(recordings));
