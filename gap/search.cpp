@@ -133,7 +133,7 @@ void Search::fit_simple_first(const CrossFit& base, std::span<Contender> contend
     const std::span rich = std::ranges::stable_partition(contenders, is_simple_one);
     const std::span simple = contenders.first(contenders.size() - rich.size());
     parallel_for(simple.size(), [&](std::size_t k) { fit_first_half(base, simple[k]); });
-    if (std::ranges::any_of(simple, [&](const Contender& c) { return leaves_floor_only(c.trial.fitted); }))
+    if (std::ranges::any_of(simple, [&](const Contender& c) { return is_at_floor(c.trial.fitted); }))
         return;
     parallel_for(rich.size(), [&](std::size_t k) { fit_first_half(base, rich[k]); });
 }
@@ -250,7 +250,7 @@ double Search::excess(std::span<const double> mean_squares) const {
     return excess;
 }
 
-bool Search::leaves_floor_only(const CrossFit& fitted) const {
+bool Search::is_at_floor(const CrossFit& fitted) const {
     return excess(fitted.mean_squares) == 0.0;
 }
 

@@ -54,6 +54,9 @@ class Search {
     /// a little.
     bool is_real(const CrossFit& without, const CrossFit& with) const;
 
+    /// Whether every signal is at its floor: nothing is left for another effect to explain.
+    bool is_at_floor(const CrossFit& fitted) const;
+
     /// Whether what the other lacks to the best is no more than chance.
     bool ties(const CrossFit& best, const CrossFit& other) const;
 
@@ -78,7 +81,6 @@ class Search {
     void judge_first_half(const CrossFit& base, Trial& trial) const;
     /// Sum over the signals of what their mean squares exceed the floor by.
     double excess(std::span<const double> mean_squares) const;
-    bool leaves_floor_only(const CrossFit& fitted) const;
     void judge(CrossFit& cross) const;
 
     const Evidence& evidence_;

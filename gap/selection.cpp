@@ -43,6 +43,7 @@ void grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
         CrossFit fitted = trials.front().fitted;
         chain.choices.push_back(choice_of(search, chain.fitted, std::move(trials)));
         chain.fitted = std::move(fitted);
+        if (search.is_at_floor(chain.fitted)) return;
     }
 }
 
