@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace fidservo::gap {
 namespace {
@@ -38,9 +37,7 @@ TravelledRange travelled(const Evidence& evidence) {
 std::vector<double> grid_of(const plant::EffectParameter& parameter, const TravelledRange& range) {
     const auto within = [&](double value) { return std::clamp(value, parameter.low, parameter.high); };
     std::vector<double> grid;
-    if (parameter.unit == "rad") {
-        for (const double share : {-1.0, 0.0, 1.0}) grid.push_back(share * 2.0 / 3.0 * std::numbers::pi);
-    } else if (parameter.unit == "Hz") {
+    if (parameter.unit == "Hz") {
         constexpr double ratio = 1.15;  // of neighbours: half the width of a resonance of damping ratio 0.07
         for (double value = parameter.low; value < parameter.high; value *= ratio) grid.push_back(value);
     } else if (parameter.unit == "deg") {
@@ -58,24 +55,14 @@ std::vector<double> grid_of(const plant::EffectParameter& parameter, const Trave
     return grid;
 }
 
-/// Of an effect periodic in position: it has a phase, and its only shape in mm is the period.
-std::optional<std::size_t> period_of(const plant::Effect& effect) {
-    const auto& all = effect.parameters;
-    if (std::ranges::find(all, "rad", &plant::EffectParameter::unit) == all.end()) return {};
-    const auto period = std::ranges::find(all, "mm", &plant::EffectParameter::unit);
-    if (period == all.end()) return {};
-    return static_cast<std::size_t>(period - all.begin());
-}
-
 /// All combinations of the shapes' grids.
 std::vector<std::vector<double>> shapes_of(const plant::Effect& effect, const TravelledRange& range,
-                                           std::optional<std::size_t> period) {
+                                           bool is_wave) {
     std::vector<std::vector<double>> shapes{{}};
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
         const plant::EffectParameter& parameter = effect.parameters[k];
-        const std::vector<double> grid = says_how_large(parameter) || k == period
-                                             ? std::vector{parameter.typical}
-                                             : grid_of(parameter, range);
+        const std::vector<double> grid =
+            is_wave || says_how_large(parameter) ? std::vector{parameter.typical} : grid_of(parameter, range);
         std::vector<std::vector<double>> longer;
         for (const std::vector<double>& shape : shapes)
             for (const double value : grid) {
@@ -112,8 +99,8 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
         if (!only.empty() && !names(only, effect->name)) continue;
         if (std::ranges::none_of(reach_of(*effect), [&](Signal s) { return recorded[index_of(s)]; }))
             continue;
-        Candidate candidate{effect, {}, {}, period_of(*effect), std::string(class_of(effect->name))};
-        candidate.shapes = shapes_of(*effect, range, candidate.period);
+        Candidate candidate{effect, {}, {}, wave_of(*effect), std::string(class_of(effect->name))};
+        candidate.shapes = shapes_of(*effect, range, candidate.wave.has_value());
         for (std::size_t k = 0; k < effect->parameters.size(); ++k)
             if (says_how_large(effect->parameters[k])) candidate.sizes.push_back(k);
         found.push_back(std::move(candidate));

@@ -1,6 +1,7 @@
 #pragma once
 // The effects that a diagnosis tries, and where their fits may begin.
 #include "gap/evidence.h"
+#include "gap/wave.h"
 
 #include <optional>
 #include <span>
@@ -16,7 +17,7 @@ struct Candidate {
     const plant::Effect* effect;
     std::vector<std::size_t> sizes;           ///< parameters that say how large; one at least
     std::vector<std::vector<double>> shapes;  ///< all values, sizes at typical ones, shapes over a grid
-    std::optional<std::size_t> period;        ///< parameter that the errors' own period begins with
+    std::optional<WaveParameters> wave;       ///< of an effect periodic in position; it has one shape
     std::string class_name;  ///< effects that no data can tell apart share it, otherwise the effect's name
 };
 

@@ -66,35 +66,11 @@ Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen
     return sum;
 }
 
-/// Loss saved in the windows that both predict.
-double gained(std::span<const Window> windows, const Wanted& counted, const Errors& base,
-              const Errors& errors) {
-    if (errors.empty()) return -std::numeric_limits<double>::infinity();
-    const std::vector<double> before = mean_squares(windows, base), after = mean_squares(windows, errors);
-    double gain = 0.0;
-    for (std::size_t w = 0; w < windows.size(); ++w)
-        if (counted[w] != 0 && !std::isnan(before[w]) && !std::isnan(after[w]))
-            gain += window_loss(before[w]) - window_loss(after[w]);
-    return gain;
-}
-
-/// The candidate's shapes; of an effect periodic in position, once with each period.
-std::vector<std::vector<double>> shapes_of(const Candidate& candidate, std::span<const double> periods_mm) {
-    if (!candidate.period) return candidate.shapes;
-    std::vector<std::vector<double>> shapes;
-    for (std::vector<double> shape : candidate.shapes)
-        for (const double period_mm : periods_mm) {
-            shape[*candidate.period] = period_mm;
-            shapes.push_back(shape);
-        }
-    return shapes;
-}
-
 }  // namespace
 
 std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
                                     const Wanted& counted, const Hypothesis& base, const Errors& base_errors,
-                                    const Candidate& candidate, std::span<const double> periods_mm) {
+                                    const Candidate& candidate) {
     constexpr double probe = 0.25;  // of the typical size
     constexpr std::size_t most_places = 8, most_starts = 4;
     const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
@@ -105,7 +81,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         double probe_gain;     ///< of a small size, really
     };
     std::vector<Place> places;
-    for (const std::vector<double>& shape : shapes_of(candidate, periods_mm)) {
+    for (const std::vector<double>& shape : candidate.shapes) {
         std::vector<Errors> changes;
         double probe_gain = -std::numeric_limits<double>::infinity();
         for (Eigen::Index k = 0; k < width; ++k) {

@@ -13,9 +13,8 @@ struct Promise {
 /// Along each shape of the grid the sizes that fit best if errors changed in proportion to them: weighted
 /// least squares of the base's errors against what each size changes. Of the shapes that promise most by
 /// that at most four, best first; `gain` is what it really saves.
-/// @param periods_mm  of what is left of the encoder: what effects periodic in position begin with
 std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
                                     const Wanted& counted, const Hypothesis& base, const Errors& base_errors,
-                                    const Candidate& candidate, std::span<const double> periods_mm);
+                                    const Candidate& candidate);
 
 }  // namespace fidservo::gap

@@ -1,6 +1,7 @@
 #include "gap/fit.h"
 
 #include "gap/parallel.h"
+#include "gap/scaled_parameters.h"
 #include "gap/score.h"
 
 #include <algorithm>
@@ -16,46 +17,10 @@ namespace {
 /// Steps of the numerical derivatives, in scales: above what friction's events and float errors scatter.
 constexpr double difference_step = 0.01;
 
-/// All parameters of a hypothesis, in scales.
-class Parameters {
-  public:
-    explicit Parameters(const Hypothesis& start) : hypothesis_(start) {
-        for (const plant::EffectSetting& setting : start)
-            for (std::size_t k = 0; k < setting.values.size(); ++k) {
-                const plant::EffectParameter& parameter = setting.effect->parameters[k];
-                all_.push_back(&parameter);
-                values.push_back(setting.values[k] / scale_of(parameter));
-            }
-    }
-
-    std::size_t size() const { return all_.size(); }
-    double scale(std::size_t k) const { return scale_of(*all_[k]); }
-    double low(std::size_t k) const { return all_[k]->low / scale(k); }
-    double high(std::size_t k) const { return all_[k]->high / scale(k); }
-    bool at_bound(std::size_t k) const { return values[k] <= low(k) || values[k] >= high(k); }
-
-    Hypothesis at(std::span<const double> scaled) const {
-        Hypothesis changed = hypothesis_;
-        std::size_t k = 0;
-        for (plant::EffectSetting& setting : changed)
-            for (double& value : setting.values) {
-                value = std::clamp(scaled[k] * scale(k), all_[k]->low, all_[k]->high);
-                ++k;
-            }
-        return changed;
-    }
-
-    std::vector<double> values;
-
-  private:
-    Hypothesis hypothesis_;
-    std::vector<const plant::EffectParameter*> all_;
-};
-
 /// Errors and their derivatives at one point, computed once for all windows.
 class Linearised : public ceres::EvaluationCallback {
   public:
-    Linearised(const Predict& predict, const Parameters& parameters, Threads threads)
+    Linearised(const Predict& predict, const ScaledParameters& parameters, Threads threads)
         : predict_(predict), parameters_(parameters), threads_(threads) {}
 
     void PrepareForEvaluation(bool with_derivatives, bool at_new_point) override {
@@ -90,7 +55,7 @@ class Linearised : public ceres::EvaluationCallback {
     }
 
     const Predict& predict_;
-    const Parameters& parameters_;
+    const ScaledParameters& parameters_;
     Threads threads_;
     std::vector<double> values_;  ///< that errors are of
     bool has_derivatives_ = false;
@@ -136,7 +101,7 @@ std::vector<std::size_t> counted_rows(const Window& window, const Errors& errors
 
 /// H^-1 (sum of g g') H^-1 over windows; parameters at their bounds count as known.
 Eigen::MatrixXd sandwich(const Linearised& at, std::span<const Window> windows, const Wanted& counted,
-                         const Parameters& parameters) {
+                         const ScaledParameters& parameters) {
     std::vector<std::size_t> free;
     for (std::size_t k = 0; k < parameters.size(); ++k)
         if (!parameters.at_bound(k)) free.push_back(k);
@@ -177,17 +142,9 @@ Eigen::MatrixXd sandwich(const Linearised& at, std::span<const Window> windows, 
 
 }  // namespace
 
-double scale_of(const plant::EffectParameter& parameter) {
-    constexpr double share_of_value = 0.2, share_of_range = 0.05;
-    if (parameter.vanishing != parameter.typical) return std::abs(parameter.typical - parameter.vanishing);
-    if (parameter.unit == "rad" || parameter.typical == 0.0 || parameter.low < 0.0)
-        return share_of_range * (parameter.high - parameter.low);
-    return share_of_value * std::abs(parameter.typical);
-}
-
 Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
         const Hypothesis& start, const FitOptions& options) {
-    Parameters parameters(start);
+    ScaledParameters parameters(start);
     const std::vector<double> values_at_start = parameters.values;
     Linearised linearised(predict, parameters, options.threads);
     linearised.PrepareForEvaluation(false, true);

@@ -38,8 +38,4 @@ struct FitOptions {
 Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
         const Hypothesis& start, const FitOptions& options = {});
 
-/// Length over which a parameter matters: what separates its typical value from its vanishing one, or for a
-/// shape a share of its typical value or of its range.
-double scale_of(const plant::EffectParameter& parameter);
-
 }  // namespace fidservo::gap

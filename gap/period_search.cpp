@@ -66,6 +66,9 @@ struct Normal {
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
 };
 
+/// Of a column's way, that numbers are of one size: in ticks of the velocity that the force would sustain.
+constexpr double way_unit = 1e-2;
+
 /// Sine and cosine of the position, as readings and as what they do as forces.
 void add(Normal& normal, const Stretch& stretch, double decay) {
     const auto height = static_cast<Rows>(stretch.compared.size());
@@ -77,11 +80,16 @@ void add(Normal& normal, const Stretch& stretch, double decay) {
         if (static_cast<Rows>(k) == stretch.compared[static_cast<std::size_t>(next)])
             columns.row(next++) << wave.real(), wave.imag(), way.real(), way.imag();
         velocity = stretch.moves[k] != 0 ? decay * velocity + (1.0 - decay) * wave : 0.0;
-        way += 1e-2 * velocity;
+        way += way_unit * velocity;
     }
     columns -= stretch.start * (stretch.start.transpose() * columns);
     normal.matrix += stretch.weight * columns.transpose() * columns;
     normal.right += stretch.weight * columns.transpose() * stretch.errors;
+}
+
+/// The wave whose lack leaves errors of these shares of cosine and sine.
+Wave wave_of(const Eigen::Vector2d& cosine_sine, double unit) {
+    return {unit * cosine_sine.norm(), std::atan2(-cosine_sine.x(), -cosine_sine.y())};
 }
 
 /// The highest of a periodogram, none beside a higher one.
@@ -126,17 +134,20 @@ std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Er
             stretch.wave.emplace_back(std::polar(1.0, angle * first));
             stretch.turn.emplace_back(std::polar(1.0, angle * step));
         }
-    const double decay = evidence.rig().macro.velocity_pole;
+    const MacroParameters& macro = evidence.rig().macro;
+    const double push_V =
+        way_unit * macro.encoder_resolution_mm / (macro.velocity_gain_mm_per_s_per_V * evidence.rig().tick_s);
     std::vector<PositionPeriod> all;
     for (double per_mm = first; per_mm <= 1.0 / shortest_mm; per_mm += step) {
         Normal normal;
         for (Stretch& stretch : stretches) {
-            add(normal, stretch, decay);
+            add(normal, stretch, macro.velocity_pole);
             for (std::size_t k = 0; k < stretch.wave.size(); ++k) stretch.wave[k] *= stretch.turn[k];
         }
-        const double taken =
-            normal.right.dot(normal.matrix.completeOrthogonalDecomposition().solve(normal.right));
-        all.push_back({1.0 / per_mm, step, taken / squares});
+        const Eigen::Vector4d found = normal.matrix.completeOrthogonalDecomposition().solve(normal.right);
+        all.push_back({1.0 / per_mm, found.dot(normal.right) / squares, wave_of(found.tail<2>(), push_V),
+                       wave_of(found.head<2>(), macro.encoder_resolution_mm), step,
+                       0.5 * (low_mm + high_mm)});
     }
     return peaks(all);
 }

@@ -9,12 +9,20 @@ namespace fidservo::gap {
 /// Slower than this the carriage may be held, and no force shows.
 inline constexpr double moving_mm_per_s = 1.0;
 
-/// A period and how much of the errors waves of it take: of a force along the rail, passed through the
-/// nominal carriage, and of the reading itself.
+/// A sin(2 pi y / p + phase) of the place y on the rail.
+struct Wave {
+    double amplitude = 0.0, phase_rad = 0.0;
+};
+
+/// A period, and the waves of it that take most of the errors together: of a force along the rail, passed
+/// through the nominal carriage, and of the reading itself. What is found has the opposite sign of the
+/// errors.
 struct PositionPeriod {
     double period_mm = 0.0;
+    double share = 0.0;  ///< of the weighted squares, 0 .. 1
+    Wave force_V{}, reading_mm{};
     double step_per_mm = 0.0;  ///< of the search, in 1 / period
-    double share = 0.0;        ///< of the weighted squares, 0 .. 1
+    double middle_mm = 0.0;    ///< of the places that were met
 };
 
 /// Linear periodogram over 0.8 mm to 50 mm (Lomb, Scargle: least squares of sine and cosine), with the state

@@ -27,6 +27,11 @@ double total_loss(std::span<const double> mean_squares);
 /// Of the windows counted. Infinite for errors of a hypothesis that the plant refused.
 double total_loss(std::span<const Window> windows, const Wanted& counted, const Errors& errors);
 
+/// Loss that one hypothesis saves over another in the windows counted that both predict; minus infinity where
+/// the plant refused it.
+double gained(std::span<const Window> windows, const Wanted& counted, const Errors& base,
+              const Errors& errors);
+
 /// Of two hypotheses on the same windows.
 struct Comparison {
     double gain = 0.0;  ///< sum of the losses that the second one saves

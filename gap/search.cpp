@@ -3,7 +3,8 @@
 #include "gap/first_sight.h"
 #include "gap/halves.h"
 #include "gap/parallel.h"
-#include "gap/period_search.h"
+#include "gap/polish.h"
+#include "gap/wave_starts.h"
 
 #include <algorithm>
 #include <array>
@@ -87,6 +88,8 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     const std::span leaders =
         near_best(fitted, share_of_gain, 0.0, options_.leaders, std::mem_fn(&Contender::gain));
     parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k].trial); });
+    std::ranges::sort(leaders, std::greater{}, &Contender::gain);
+    if (!leaders.empty()) polish_both_halves(base, leaders.front().trial);
 
     std::vector<Trial> trials;
     for (Contender& contender : contenders) trials.push_back(std::move(contender.trial));
@@ -105,27 +108,21 @@ std::vector<Search::Contender> Search::promising(const CrossFit& base,
 
     const Wanted looked_at = instructive(evidence_.windows(), half(0), base.mean_squares, options_.windows);
     const Errors base_errors = evidence_.errors(base.of_half[0], looked_at);
-    std::vector<double> periods_mm;
+    std::vector<PositionPeriod> periods;
     if (std::ranges::any_of(contenders,
-                            [](const Contender& c) { return c.trial.candidate->period.has_value(); }))
-        periods_mm = periods_left(base);
+                            [](const Contender& c) { return c.trial.candidate->wave.has_value(); }))
+        periods = strongest_periods(evidence_, evidence_.errors(base.of_half[0], half(0)), half(0));
     parallel_for(contenders.size(), [&](std::size_t c) {
         const Candidate& candidate = *contenders[c].trial.candidate;
         const Wanted wanted = only_of(evidence_.windows(), looked_at, teachers_of(*candidate.effect));
-        contenders[c].starts = at_first_sight(predictor(wanted), evidence_.windows(), wanted, base.of_half[0],
-                                              base_errors, candidate, periods_mm);
+        const auto& windows = evidence_.windows();
+        contenders[c].starts =
+            candidate.wave
+                ? waves_at_first_sight(predictor(wanted), windows, wanted, base.of_half[0], base_errors,
+                                       candidate, periods)
+                : at_first_sight(predictor(wanted), windows, wanted, base.of_half[0], base_errors, candidate);
     });
     return contenders;
-}
-
-std::vector<double> Search::periods_left(const CrossFit& base) const {
-    const Wanted first_half = half(0);
-    std::vector<double> periods_mm;
-    for (const PositionPeriod& period :
-         strongest_periods(evidence_, evidence_.errors(base.of_half[0], first_half), first_half))
-        for (const double steps : {-1.2, -0.6, 0.0, 0.6, 1.2})  // a wave keeps in step over the rail
-            periods_mm.push_back(1.0 / (1.0 / period.period_mm + steps * period.step_per_mm));
-    return periods_mm;
 }
 
 void Search::fit_simple_first(const CrossFit& base, std::span<Contender> contenders) const {
@@ -133,8 +130,7 @@ void Search::fit_simple_first(const CrossFit& base, std::span<Contender> contend
     const std::span rich = std::ranges::stable_partition(contenders, is_simple_one);
     const std::span simple = contenders.first(contenders.size() - rich.size());
     parallel_for(simple.size(), [&](std::size_t k) { fit_first_half(base, simple[k]); });
-    if (std::ranges::any_of(simple, [&](const Contender& c) { return is_at_floor(c.trial.fitted); }))
-        return;
+    if (std::ranges::any_of(simple, [&](const Contender& c) { return is_at_floor(c.trial.fitted); })) return;
     parallel_for(rich.size(), [&](std::size_t k) { fit_first_half(base, rich[k]); });
 }
 
@@ -159,6 +155,20 @@ void Search::fit_second_half(const CrossFit& base, Trial& trial) const {
     judge(trial.fitted);
     trial.gain = compared(base, trial.fitted).gain;
     trial.is_leader = true;
+}
+
+void Search::polish_both_halves(const CrossFit& base, Trial& trial) const {
+    const SignalFlags teach = teachers_of(*trial.candidate->effect);
+    if (!teach[index_of(Signal::encoder)] || is_at_floor(trial.fitted)) return;
+    Trial polished = trial;
+    parallel_for(2, [&](std::size_t side) {
+        const Wanted wanted = only_of(evidence_.windows(), half(side), teach);
+        Hypothesis& hypothesis = polished.fitted.of_half[side];
+        hypothesis = polish(predictor(wanted), evidence_.windows(), wanted, hypothesis).hypothesis;
+    });
+    judge(polished.fitted);
+    polished.gain = compared(base, polished.fitted).gain;
+    if (polished.gain > trial.gain) trial = std::move(polished);
 }
 
 void Search::prefer_simplest(std::vector<Trial>& trials) const {

@@ -65,11 +65,11 @@ class Search {
   private:
     /// What each candidate that is not `added` promises beside a base.
     std::vector<Contender> promising(const CrossFit& base, std::span<const Candidate* const> added) const;
-    /// Periods in position, mm, that effects periodic in position may begin with.
-    std::vector<double> periods_left(const CrossFit& base) const;
     void fit_simple_first(const CrossFit& base, std::span<Contender> contenders) const;
     void fit_first_half(const CrossFit& base, Contender& contender) const;
     void fit_second_half(const CrossFit& base, Trial& trial) const;
+    /// Where the carriage teaches and more than the floor is left, over all windows.
+    void polish_both_halves(const CrossFit& base, Trial& trial) const;
     Comparison compared(const CrossFit& base, const CrossFit& fitted) const;
     Wanted half(std::size_t side) const;
     Predict predictor(const Wanted& wanted) const;

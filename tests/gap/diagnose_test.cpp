@@ -10,8 +10,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace fidservo {
@@ -92,6 +94,32 @@ TEST(Diagnosis, TwoEffectsInTwoBlocks_AreBothNamed) {
                   .selection = {}});
     EXPECT_EQ(names(diagnosis), (std::vector<std::string>{"airflow", "drive_gain"}));
     EXPECT_EQ(diagnosis.verdict, Verdict::explained);
+}
+
+TEST(SlowDiagnosis, WaveAlongTheRail_IsFoundWithItsPeriodAndPhase) {
+    struct Truth {
+        double amplitude_V, period_mm, phase_rad;
+    };
+    constexpr double middle_mm = 100.0;
+    for (const Truth& truth : {Truth{0.05, 5.0, 1.0}, Truth{0.1, 2.2, -2.0}}) {
+        const std::string text = fmt::format("cogging:amplitude_V={},period_mm={},phase_rad={}",
+                                             truth.amplitude_V, truth.period_mm, truth.phase_rad);
+        const Diagnosis diagnosis =
+            diagnose(campaign(effects({text}), {"macro-sweep", "macro-pulses", "macro-square", "integrated"}),
+                     {.only = {"cogging"}, .without = {}, .selection = {}});
+        ASSERT_EQ(names(diagnosis), std::vector<std::string>{"cogging"});
+        const std::vector<FittedParameter>& found = diagnosis.effects.front().parameters;
+        EXPECT_NEAR(found[0].value, truth.amplitude_V, 0.01 * truth.amplitude_V);
+        EXPECT_NEAR(found[1].value, truth.period_mm, 5e-4 * truth.period_mm);
+        const auto phase_there = [&](double period_mm, double phase_rad) {
+            return 2.0 * std::numbers::pi * middle_mm / period_mm + phase_rad;
+        };
+        EXPECT_NEAR(std::remainder(phase_there(found[1].value, found[2].value) -
+                                       phase_there(truth.period_mm, truth.phase_rad),
+                                   2.0 * std::numbers::pi),
+                    0.0, 0.05);
+        EXPECT_GT(diagnosis.gap.removed(), 0.999);
+    }
 }
 
 TEST(Diagnosis, SearchThatIsStopped_Ends) {

@@ -1,0 +1,34 @@
+#pragma once
+// Parameters of a hypothesis in lengths over which they matter, as fits change them.
+#include "gap/evidence.h"
+
+#include <span>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// All parameters of a hypothesis, in order, in scales. A scale is what separates the typical value from the
+/// vanishing one; for a shape a share of its typical value or of its range; for the period of a wave what
+/// puts it out of step by a radian over the reach of the rail.
+class ScaledParameters {
+  public:
+    explicit ScaledParameters(const Hypothesis& start);
+
+    std::size_t size() const { return all_.size(); }
+    double scale(std::size_t k) const { return scales_[k]; }
+    double low(std::size_t k) const { return all_[k]->low / scale(k); }
+    double high(std::size_t k) const { return all_[k]->high / scale(k); }
+    bool at_bound(std::size_t k) const { return values[k] <= low(k) || values[k] >= high(k); }
+
+    /// A value beyond a bound counts as at it.
+    Hypothesis at(std::span<const double> scaled) const;
+
+    std::vector<double> values;
+
+  private:
+    Hypothesis hypothesis_;
+    std::vector<const plant::EffectParameter*> all_;
+    std::vector<double> scales_;
+};
+
+}  // namespace fidservo::gap

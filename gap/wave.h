@@ -1,0 +1,18 @@
+#pragma once
+// Effects that are waves along the rail, A sin(2 pi y / p + phase) of the place y.
+#include "plant/effects/effect.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace fidservo::gap {
+
+/// Which parameters of an effect are a wave's.
+struct WaveParameters {
+    std::size_t amplitude, period, phase;
+};
+
+/// Of an effect periodic in position: it has a size, a phase, and its only shape in mm is the period.
+std::optional<WaveParameters> wave_of(const plant::Effect& effect);
+
+}  // namespace fidservo::gap

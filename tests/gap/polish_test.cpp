@@ -1,0 +1,62 @@
+// Fits of what depends on a parameter by jumps.
+#include "gap/polish.h"
+
+#include "plant/effects/catalogue.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+namespace {
+
+using namespace gap;
+
+constexpr std::size_t windows_count = 10, values = 50;
+
+std::vector<Window> windows() {
+    std::vector<Window> all(windows_count);
+    for (std::size_t w = 0; w < windows_count; ++w) {
+        all[w].begin = w * values;
+        all[w].end = all[w].begin + values;
+    }
+    return all;
+}
+
+/// A window's errors jump whenever the amplitude passes a place of its own: between jumps no derivative says
+/// where the truth lies.
+Errors jumping(const Hypothesis& hypothesis) {
+    constexpr double truth_V = 0.0512;
+    const double amplitude_V = hypothesis.back().values.front();
+    Errors errors(windows_count * values);
+    for (std::size_t w = 0; w < windows_count; ++w) {
+        const double jump_V = 0.001 * (1.0 + 0.1 * static_cast<double>(w));
+        const double jumps = std::floor(amplitude_V / jump_V) - std::floor(truth_V / jump_V);
+        for (std::size_t k = 0; k < values; ++k)
+            errors[w * values + k] = static_cast<float>(jumps * std::sin(0.3 * static_cast<double>(k)));
+    }
+    return errors;
+}
+
+TEST(Polish, GoesOverJumps_WhereDerivativesStandStill) {
+    const Hypothesis start{plant::parse_effect("cogging:amplitude_V=0.06,period_mm=5,phase_rad=1")};
+    const Wanted all(windows_count, 1);
+    const Fit by_derivatives = fit(jumping, windows(), all, start);
+    const Fit polished = polish(jumping, windows(), all, start);
+    EXPECT_LT(polished.loss, 0.3 * by_derivatives.loss);
+    EXPECT_NEAR(polished.hypothesis.back().values.front(), 0.0512, 0.001);
+}
+
+TEST(Polish, ChangesTheLastEffectOnly_AndKeepsAStartThatNothingBetters) {
+    const Hypothesis start{plant::parse_effect("drive_gain:factor=1.1"),
+                           plant::parse_effect("cogging:amplitude_V=0.0512,period_mm=5,phase_rad=1")};
+    const Fit polished = polish(jumping, windows(), Wanted(windows_count, 1), start);
+    EXPECT_EQ(polished.hypothesis.front().values.front(), 1.1);
+    EXPECT_EQ(polished.hypothesis.back().values, start.back().values);
+    EXPECT_EQ(polished.loss, 0.0);
+}
+
+}  // namespace
+
+}  // namespace fidservo
