@@ -25,11 +25,19 @@ if(FIDSERVO_SANITIZE)
   target_link_options(fidservo_compile_options INTERFACE -fsanitize=${FIDSERVO_SANITIZE})
 endif()
 
+# fidservo_precompiled_headers(TARGET): takes part in the precompiled headers, if there are any.
+function(fidservo_precompiled_headers target)
+  if(TARGET fidservo_precompiled)
+    target_precompile_headers(${target} REUSE_FROM fidservo_precompiled)
+  endif()
+endfunction()
+
 # fidservo_library(NAME SOURCES a.cpp ... USES targets...): the one library target of a room.
 function(fidservo_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;USES;PRIVATELY" ${ARGN})
   add_library(fidservo_${name} STATIC ${ARG_SOURCES})
   target_link_libraries(fidservo_${name} PUBLIC fidservo_compile_options ${ARG_USES} PRIVATE ${ARG_PRIVATELY})
+  fidservo_precompiled_headers(fidservo_${name})
 endfunction()
 
 # Under a sanitizer the libraries' start takes longer than most tests: there a few processes run all quick tests of a
@@ -55,6 +63,7 @@ function(fidservo_test name)
   cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;USES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE fidservo_compile_options ${ARG_USES} GTest::gtest_main GTest::gmock)
+  fidservo_precompiled_headers(${name})
   target_compile_definitions(${name} PRIVATE
     FIDSERVO_ASSETS_DIR="${CMAKE_SOURCE_DIR}/assets"
     FIDSERVO_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
