@@ -1,5 +1,5 @@
-# What most files include, compiled once. In the sanitizers' builds only: in the others every file has to include
-# what it uses, and clang-tidy reads what the compiler reads.
+# What most files include, compiled once: for builds of everything that nobody works in (continuous integration, the
+# sanitizers). In the others every file has to include what it uses, which this would hide.
 
 add_library(fidservo_precompiled OBJECT ${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp)
 target_link_libraries(fidservo_precompiled PRIVATE

@@ -13,6 +13,16 @@ namespace {
 /// Both move the wire's temperature against the table by a constant.
 constexpr std::string_view temperature_class = "ambient_temperature";
 
+/// The plainer effect is the richer one where bristles are stiff, the patch is long, friction does not depend
+/// on speed or direction, the harness's spring is long.
+struct Limit {
+    std::string_view richer, plainer;
+};
+constexpr std::array limits{
+    Limit{"presliding", "coulomb_friction"}, Limit{"stribeck_friction", "coulomb_friction"},
+    Limit{"rail_patch", "coulomb_friction"}, Limit{"friction_asymmetry", "viscous_friction"},
+    Limit{"cable_force", "drive_offset"}};
+
 bool says_how_large(const plant::EffectParameter& parameter) {
     return parameter.vanishing != parameter.typical;
 }
@@ -92,14 +102,22 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
         return std::ranges::any_of(
             without, [&](const std::string& other) { return class_of(other) == class_of(name); });
     };
+    const auto is_left_out = [&](std::string_view name) {
+        return is_withheld(name) || (!only.empty() && !names(only, name));
+    };
+    const auto is_limit = [&](std::string_view name) {
+        return std::ranges::any_of(
+            limits, [&](const Limit& limit) { return limit.plainer == name && !is_left_out(limit.richer); });
+    };
     const TravelledRange range = travelled(evidence);
     std::vector<Candidate> found;
     for (const plant::Effect* effect : plant::effect_catalogue()) {
-        if (effect->block == "camera.image" || is_withheld(effect->name)) continue;
-        if (!only.empty() && !names(only, effect->name)) continue;
+        if (effect->block == "camera.image") continue;
+        const bool left_out = is_left_out(effect->name);
+        if (left_out && !is_limit(effect->name)) continue;
         if (std::ranges::none_of(reach_of(*effect), [&](Signal s) { return recorded[index_of(s)]; }))
             continue;
-        Candidate candidate{effect, {}, {}, wave_of(*effect), std::string(class_of(effect->name))};
+        Candidate candidate{effect, {}, {}, wave_of(*effect), std::string(class_of(effect->name)), left_out};
         candidate.shapes = shapes_of(*effect, range, candidate.wave.has_value());
         for (std::size_t k = 0; k < effect->parameters.size(); ++k)
             if (says_how_large(effect->parameters[k])) candidate.sizes.push_back(k);

@@ -19,10 +19,14 @@ struct Candidate {
     std::vector<std::vector<double>> shapes;  ///< all values, sizes at typical ones, shapes over a grid
     std::optional<WaveParameters> wave;       ///< of an effect periodic in position; it has one shape
     std::string class_name;  ///< effects that no data can tell apart share it, otherwise the effect's name
+    /// Not to be named, but what another candidate comes to where what sets that apart vanishes: without it
+    /// the richer one would be named for what it shares with the plainer.
+    bool is_limit = false;
 };
 
 /// Effects of the catalogue that the rig can have and a recorded signal can show. camera.image effects show
 /// in frames only and are not among them.
+/// Those left out of which one of the others is a richer form are there as its limits.
 /// @param only  names to keep; empty: all
 /// @param without  names to leave out, with all of their class
 std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std::string> only,

@@ -21,7 +21,7 @@ struct Answer {
 
 /// What a row offers to the functions below.
 struct Row {
-    double velocity_mm_per_s, position_mm, command_V, acceleration_mm_per_s2, time_s;
+    double velocity_mm_per_s, position_mm, command_V, command_before_V, acceleration_mm_per_s2, time_s;
     double direction;  ///< -1, 0, 1
 };
 
@@ -34,6 +34,7 @@ class Columns {
     }
 
     Row row(const Window& window, std::size_t k) const {
+        constexpr std::size_t look_back = 5;
         const Course& course = evidence_.course(window.run);
         const Recording& recording = evidence_.recordings()[window.run];
         const double v = course.velocity_mm_per_s[k];
@@ -41,6 +42,7 @@ class Columns {
         return {v,
                 course.position_mm[k],
                 recording.rows[k].macro_command_V,
+                recording.rows[k >= look_back ? k - look_back : 0].macro_command_V,
                 (v - before) / answer_.tick_s,
                 seconds(recording.rows[k].time_ns - recording.rows.front().time_ns),
                 std::abs(v) < moving_mm_per_s ? 0.0 : std::copysign(1.0, v)};
@@ -148,7 +150,7 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors) {
     std::vector<Column>& columns = surrogate.columns;
     add_hats(columns, make, Dependence::velocity, 12, [](const Row& at) { return at.velocity_mm_per_s; });
     columns.push_back(make.of_force(Dependence::direction, [](const Row& at) { return at.direction; }));
-    columns.push_back(make.of_force(Dependence::direction, [](const Row&) { return 1.0; }));
+    columns.push_back(make.of_force(Dependence::nothing, [](const Row&) { return 1.0; }));
     add_hats(columns, make, Dependence::position, 16, [](const Row& at) { return at.position_mm; });
     const std::vector<double> places =
         knots_by_share(make.moving([](const Row& at) { return at.position_mm; }), 16);
@@ -161,6 +163,8 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors) {
     columns.push_back(make.of_reading(Dependence::acceleration,
                                       [](const Row& at) { return 1e-5 * at.acceleration_mm_per_s2; }));
     add_hats(columns, make, Dependence::command, 8, [](const Row& at) { return at.command_V; });
+    columns.push_back(make.of_force(Dependence::command_change,
+                                    [](const Row& at) { return at.command_before_V - at.command_V; }));
     add_hats(columns, make, Dependence::time, 6, [](const Row& at) { return at.time_s; });
     const auto periods = strongest_periods(evidence, errors, everything(evidence));
     if (!periods.empty()) surrogate.period_mm = periods.front().period_mm;

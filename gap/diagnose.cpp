@@ -96,7 +96,7 @@ std::vector<TriedEffect> tried_effects(const Evidence& evidence, const Selection
 }
 
 /// Of each block that one of its effects, as far as the choices tell, is part of the explanation.
-std::vector<BlockProbability> blocks_of(const Selection& selection) {
+std::vector<BlockProbability> blocks_of(const Selection& selection, double trust) {
     std::map<std::string, double> by_block;
     for (const Choice& choice : selection.choices) {
         const std::vector<double> shares = shares_of(choice.alternatives, choice.loss_without);
@@ -104,13 +104,31 @@ std::vector<BlockProbability> blocks_of(const Selection& selection) {
         for (std::size_t k = 0; k < choice.alternatives.size(); ++k)
             here[std::string(choice.alternatives[k].candidate->effect->block)] += shares[k];
         for (const auto& [block, probability] : here)
-            by_block[block] = 1.0 - (1.0 - by_block[block]) * (1.0 - probability);
+            by_block[block] = 1.0 - (1.0 - by_block[block]) * (1.0 - trust * probability);
     }
     std::vector<BlockProbability> where;
     for (const auto& [block, probability] : by_block)
         if (probability > 1e-4) where.push_back({block, probability});
     std::ranges::stable_sort(where, std::greater{}, &BlockProbability::probability);
     return where;
+}
+
+/// The block that what is not explained accuses: where little of an explanation can be trusted, all of the
+/// gap.
+std::string accused(const Evidence& evidence, const Selection& selection, const Remainder& remainder,
+                    double trust, double tail) {
+    if (selection.choices.empty() || trust > 0.5) return remainder.block;
+    const std::optional<Remainder> all = remainder_of(evidence, selection.steps.front(), tail);
+    return all ? all->block : remainder.block;
+}
+
+void accuse(std::vector<BlockProbability>& where, const std::string& block, double probability) {
+    const auto known = std::ranges::find(where, block, &BlockProbability::block);
+    if (known != where.end())
+        known->probability = 1.0 - (1.0 - known->probability) * (1.0 - probability);
+    else
+        where.push_back({block, probability});
+    std::ranges::stable_sort(where, std::greater{}, &BlockProbability::probability);
 }
 
 }  // namespace
@@ -126,14 +144,16 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
     diagnosis.signals = signal_gaps(evidence, nothing.mean_squares, explained.mean_squares);
     diagnosis.gap = total_gap(diagnosis.signals);
     diagnosis.effects = found_effects(evidence, selection, fitted);
-    for (FoundEffect& effect : diagnosis.effects) effect.probability *= trust_in(diagnosis.gap.after);
+    const double trust = trust_in(typical_floors(evidence.windows(), explained.mean_squares));
+    for (FoundEffect& effect : diagnosis.effects) effect.probability *= trust;
     diagnosis.candidates = tried_effects(evidence, selection);
-    diagnosis.where = blocks_of(selection);
-    diagnosis.unexplained = remainder_of(evidence, explained, options.selection.search.tail);
+    diagnosis.where = blocks_of(selection, trust);
+    const double tail = options.selection.search.tail;
+    diagnosis.unexplained = remainder_of(evidence, explained, tail);
     if (diagnosis.unexplained) {
         diagnosis.verdict = selection.choices.empty() ? Verdict::unexplained : Verdict::partly_explained;
-        if (selection.choices.empty())
-            diagnosis.where.insert(diagnosis.where.begin(), {diagnosis.unexplained->block, 1.0});
+        accuse(diagnosis.where, accused(evidence, selection, *diagnosis.unexplained, trust, tail),
+               selection.choices.empty() ? 1.0 : 1.0 - trust);
     } else {
         diagnosis.verdict = selection.choices.empty() ? Verdict::no_gap : Verdict::explained;
     }

@@ -102,4 +102,17 @@ std::pair<double, double> removed_interval(const Evidence& evidence, std::span<c
     return {at(tail), at(1.0 - tail)};
 }
 
+double typical_floors(std::span<const Window> windows, std::span<const double> mean_squares) {
+    std::array<double, signal_count> logs{}, counts{};
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        if (std::isnan(mean_squares[w])) continue;
+        logs[index_of(windows[w].signal)] += std::log1p(mean_squares[w]);
+        counts[index_of(windows[w].signal)] += 1.0;
+    }
+    double largest = 0.0;
+    for (std::size_t s = 0; s < signal_count; ++s)
+        if (counts[s] > 0.0) largest = std::max(largest, std::sqrt(std::expm1(logs[s] / counts[s])));
+    return largest;
+}
+
 }  // namespace fidservo::gap

@@ -1,9 +1,11 @@
 #include "gap/hat_functions.h"
 #include "gap/surrogate.h"
 #include "plant/effects/catalogue.h"
+#include "plant/platform_swing.h"
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 namespace fidservo::gap {
 namespace {
@@ -110,6 +112,21 @@ Surrogate platform_surrogate(const Evidence& evidence) {
     columns.push_back(make.of(Dependence::acceleration, [](const Window&, std::size_t, const Row& at) {
         return 1e-3 * at.carriage_mm_per_s2;
     }));
+    constexpr double damping_ratio = 0.1;
+    for (const double frequency_Hz : {8.0, 12.0, 18.0, 27.0, 40.0, 60.0})
+        for (const bool of_velocity : {false, true}) {
+            const auto swing =
+                plant::make_platform_swing({frequency_Hz, damping_ratio, 1.0}, evidence.rig().tick_s);
+            const double unit = 2.0 * std::numbers::pi * frequency_Hz *
+                                (of_velocity ? 1.0 : 2.0 * std::numbers::pi * frequency_Hz);
+            plant::SwingState state;
+            columns.push_back(
+                make.of(Dependence::acceleration, [&](const Window&, std::size_t k, const Row& at) {
+                    if (k == 0) state = {};
+                    plant::advance(swing, state, at.carriage_mm_per_s2);
+                    return 1e-3 * unit * (of_velocity ? state.velocity_mm_per_s : state.position_mm);
+                }));
+        }
     return surrogate;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -51,6 +52,26 @@ double square_of(const CondensedWindow& window, std::span<const Eigen::Index> co
     return std::max(0.0, square) / window.count;
 }
 
+/// Mean square of what the nuisances leave.
+double square_of(const CondensedWindow& window) {
+    return window.gram(window.gram.rows() - 1, window.gram.cols() - 1) / window.count;
+}
+
+/// Windows that are wrong by orders of magnitude more than most wrong ones: the carriage stood where it
+/// should have gone, or went where it should have stood. Any column makes them a little less wrong; no linear
+/// model explains them.
+void drop_gross_windows(std::vector<CondensedWindow>& windows) {
+    constexpr double wrong = 2.0, ratio = 100.0;
+    std::vector<double> squares;
+    for (const CondensedWindow& window : windows)
+        if (square_of(window) > wrong) squares.push_back(square_of(window));
+    if (squares.empty()) return;
+    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+    std::ranges::nth_element(squares, middle);
+    const double most = ratio * *middle;
+    std::erase_if(windows, [&](const CondensedWindow& window) { return square_of(window) > most; });
+}
+
 }  // namespace
 
 Regression::Regression(std::span<const Window> windows, Signal signal, const Errors& errors,
@@ -64,6 +85,7 @@ Regression::Regression(std::span<const Window> windows, Signal signal, const Err
         condensed.gram = gram_of(windows[w], errors, columns, nuisances, condensed.count);
         if (condensed.count > 0.0) condensed_.push_back(std::move(condensed));
     }
+    drop_gross_windows(condensed_);
 }
 
 Eigen::VectorXd Regression::solve(std::span<const Eigen::Index> columns, std::uint8_t half) const {
@@ -100,31 +122,40 @@ std::vector<double> Regression::mean_squares(std::span<const int> groups) const 
 }
 
 std::vector<int> Regression::significant_groups(double tail) const {
+    struct Trial {
+        int group;
+        Comparison comparison;
+        std::vector<double> squares;
+    };
+    constexpr double as_good = 0.8;  // of the best one's gain
     const std::set<int> all(group_of_.begin(), group_of_.end());
     std::vector<int> taken;
     std::vector<double> before = mean_squares(taken);
-    int trials = 0;
+    int count = 0;
     for (;;) {
-        int best = -1;
-        Comparison of_best;
-        std::vector<double> after_best;
+        std::vector<Trial> trials;
         for (const int group : all) {
             if (std::ranges::find(taken, group) != taken.end()) continue;
             std::vector<int> more = taken;
             more.push_back(group);
             std::vector<double> after = mean_squares(more);
             const Comparison comparison = compare(windows_, before, after);
-            ++trials;
-            if (best >= 0 && comparison.gain <= of_best.gain) continue;
-            best = group;
-            of_best = comparison;
-            after_best = std::move(after);
+            trials.push_back({group, comparison, std::move(after)});
         }
-        const bool is_real = best >= 0 && of_best.gain > least_gain &&
-                             of_best.significance > significance_bound(of_best.blocks, trials, tail);
-        if (!is_real) return taken;
-        taken.push_back(best);
-        before = std::move(after_best);
+        count += static_cast<int>(trials.size());
+        std::erase_if(trials, [&](const Trial& trial) {
+            return trial.comparison.gain <= least_gain ||
+                   trial.comparison.significance <= significance_bound(trial.comparison.blocks, count, tail);
+        });
+        if (trials.empty()) return taken;
+        const auto gain = [](const Trial& trial) { return trial.comparison.gain; };
+        const double enough = as_good * gain(*std::ranges::max_element(trials, {}, gain));
+        std::erase_if(trials, [&](const Trial& trial) { return gain(trial) < enough; });
+        const auto simplest = std::ranges::min_element(trials, {}, [&](const Trial& trial) {
+            return std::pair(std::ranges::count(group_of_, trial.group), -gain(trial));
+        });
+        taken.push_back(simplest->group);
+        before = std::move(simplest->squares);
     }
 }
 

@@ -28,6 +28,7 @@ struct CondensedWindow {
     Eigen::MatrixXd gram;  ///< of the columns, then the errors
 };
 
+/// Windows whose errors are of another order of magnitude than most are left out.
 class Regression {
   public:
     /// @param columns, nuisances  as long as the errors
@@ -40,7 +41,8 @@ class Regression {
     /// Ridge regression, weights 1 / (1 + S_w) as in gap/score.h.
     std::vector<double> mean_squares(std::span<const int> groups) const;
 
-    /// Groups that make held-out predictions better beyond chance, in the order of what they add.
+    /// Groups that make held-out predictions better beyond chance, in the order of what they add; of groups
+    /// that add about as much, the one of fewest columns.
     /// @param tail  of taking in anything where there is nothing
     std::vector<int> significant_groups(double tail) const;
 

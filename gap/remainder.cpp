@@ -1,8 +1,13 @@
 #include "gap/remainder.h"
 
+#include "gap/accusation.h"
 #include "gap/gap_size.h"
 #include "gap/halves.h"
 #include "gap/surrogate.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,8 +15,6 @@
 namespace fidservo::gap {
 namespace {
 
-/// A remainder below this is not worth a finding, whatever its significance.
-constexpr double least_floors = 1.1;
 /// What is above this is a gap, whether or not anything is found that it depends on.
 constexpr double clear_floors = 1.25;
 
@@ -26,22 +29,6 @@ Errors held_out_errors(const Evidence& evidence, const CrossFit& explained,
             for (std::size_t k = evidence.windows()[w].begin; k < evidence.windows()[w].end; ++k)
                 errors[k] = other[k];
     return errors;
-}
-
-/// A block for what is left of a signal and depends on nothing that was looked at.
-std::string_view likely_block(Signal signal) {
-    switch (signal) {
-        case Signal::encoder:
-            return "macro.mechanics";
-        case Signal::hall:
-            return "micro.heater";
-        case Signal::tag:
-            return "camera.geometry";
-        case Signal::macro_command:
-        case Signal::micro_command:
-            break;
-    }
-    return "controller";
 }
 
 /// Groups of the signal's surrogate that predict what was not fitted, and the surrogate's period.
@@ -60,17 +47,18 @@ Dependences dependences(const Evidence& evidence, Signal signal, const Errors& e
     return {regression.significant_groups(tail), surrogate.period_mm};
 }
 
-Remainder remainder_of_signal(const Evidence& evidence, Signal signal, double floors,
+Remainder remainder_of_signal(const Evidence& evidence, Signal signal, const Pattern& pattern,
                               const Dependences& found) {
-    Remainder remainder{std::string(likely_block(signal)), {}, {}};
+    const double floors = pattern.floors[index_of(signal)];
+    const auto first =
+        found.groups.empty() ? std::nullopt : std::optional(static_cast<Dependence>(found.groups.front()));
+    Remainder remainder{std::string(accused_block(pattern, signal, first)), {}, {}};
     for (const int group : found.groups) {
         const auto dependence = static_cast<Dependence>(group);
         std::string name(name_of(dependence));
         if (dependence == Dependence::position_period) name += fmt::format(" ({:.3g} mm)", found.period_mm);
         remainder.depends_on.push_back(std::move(name));
     }
-    if (!found.groups.empty())
-        remainder.block = block_of(signal, static_cast<Dependence>(found.groups.front()));
     remainder.text =
         fmt::format("{}: {:.3g} {} r.m.s. ({:.3g} floors) remain that no effect explains; {}",
                     name_of(signal), floors * evidence.floor(signal), unit_of(signal), floors,
@@ -85,17 +73,20 @@ Remainder remainder_of_signal(const Evidence& evidence, Signal signal, double fl
 std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail) {
     const std::vector<std::uint8_t> half = halves(evidence);
     const Errors errors = held_out_errors(evidence, explained, half);
-    std::optional<Remainder> largest;
-    double largest_floors = 0.0;
-    for (const SignalGap& gap : signal_gaps(evidence, explained.mean_squares, explained.mean_squares)) {
-        const double floors = gap.after / gap.floor;
-        if (floors < least_floors || floors < largest_floors) continue;
+    std::vector<SignalGap> gaps = signal_gaps(evidence, explained.mean_squares, explained.mean_squares);
+    const Pattern pattern = pattern_of(evidence, gaps, errors);
+    const auto floors = [&](const SignalGap& gap) { return gap.after / gap.floor; };
+    const std::optional<Signal> suspect = false_sensor(pattern);
+    std::ranges::sort(gaps, std::greater{},
+                      [&](const SignalGap& gap) { return std::pair(gap.signal == suspect, floors(gap)); });
+    for (const SignalGap& gap : gaps) {
+        if (floors(gap) < least_floors) continue;
+        if (gap.signal == Signal::tag && tags_are_innocent(pattern)) continue;
         const Dependences found = dependences(evidence, gap.signal, errors, half, tail);
-        if (found.groups.empty() && floors < clear_floors) continue;
-        largest = remainder_of_signal(evidence, gap.signal, floors, found);
-        largest_floors = floors;
+        if (found.groups.empty() && floors(gap) < clear_floors) continue;
+        return remainder_of_signal(evidence, gap.signal, pattern, found);
     }
-    return largest;
+    return {};
 }
 
 }  // namespace fidservo::gap

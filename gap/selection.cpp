@@ -22,7 +22,7 @@ struct Chain {
 Choice choice_of(const Search& search, const CrossFit& beside, std::vector<Trial> trials) {
     Choice choice{trials.front().candidate, beside.loss, {}, {}};
     for (std::size_t k = 1; k < trials.size(); ++k)
-        if (trials[k].is_leader && trials[k].gain > least_gain &&
+        if (trials[k].is_leader && !trials[k].candidate->is_limit && trials[k].gain > least_gain &&
             search.ties(trials[0].fitted, trials[k].fitted))
             choice.ties.push_back(trials[k].candidate);
     choice.alternatives = std::move(trials);
@@ -93,6 +93,13 @@ bool exchange(Search& search, Chain& chain) {
     return changed;
 }
 
+/// The chain without what cannot be named.
+Chain nameable(const Search& search, Chain chain) {
+    for (std::size_t k = chain.choices.size(); k-- > 0;)
+        if (chain.choices[k].candidate->is_limit) chain = without(search, chain, k);
+    return chain;
+}
+
 /// The first `count` effects of a chain alone.
 CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
     CrossFit fitted = chain.fitted;
@@ -118,6 +125,8 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     selection.steps.push_back(chain.fitted);
     grow(search, chain, options.most_effects, &selection.alone);
     if (exchange(search, chain)) grow(search, chain, options.most_effects, nullptr);
+    chain = nameable(search, std::move(chain));
+    std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     for (std::size_t k = 1; k < chain.choices.size(); ++k)
         selection.steps.push_back(first_of(search, chain, k));
     if (!chain.choices.empty()) selection.steps.push_back(chain.fitted);

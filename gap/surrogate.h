@@ -22,6 +22,8 @@ enum class Dependence : std::uint8_t {
     position_period,
     acceleration,
     command,
+    command_change,  ///< what came before the command that is in force
+    nothing,         ///< a constant
     time,
     temperature,
     contraction,
@@ -44,8 +46,5 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors);
 
 /// Of the Hall reading's errors.
 Surrogate platform_surrogate(const Evidence& evidence);
-
-/// The block that errors of a signal accuse by what they depend on first.
-std::string_view block_of(Signal signal, Dependence dependence);
 
 }  // namespace fidservo::gap

@@ -20,8 +20,8 @@
 
 namespace fidservo::plant {
 
-/// Below this a belt counts as stiff: it would give by less than 0.001 counts of 50 um at the largest force.
-constexpr double least_compliance_mm_per_V = 1e-5;
+/// Below this a belt counts as stiff: it would give by a hundredth of a count of 50 um at the largest force.
+constexpr double least_compliance_mm_per_V = 1e-4;
 
 struct Belt {
     double compliance_mm_per_V = 0.0;  ///< 0: stiff

@@ -6,7 +6,7 @@ namespace {
 
 constexpr EffectParameter parameters[] = {
     {"stretch_um_per_V", "um/V", 0.0, 5000.0, 0.0, 50.0,
-     "stretch per volt of force; below 0.01 the belt counts as stiff"},
+     "stretch per volt of force; below 0.1 the belt counts as stiff"},
     {"damping_ratio", "", 0.0, 2.0, 0.05, 0.05, "of the swing of motor and carriage"},
     {"motor_share", "", 0.1, 0.9, 0.5, 0.5, "of the moving mass; the rest is the carriage"},
 };

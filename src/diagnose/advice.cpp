@@ -154,6 +154,8 @@ constexpr DependenceAdvice dependences[] = {
     {"position",
      "Something that is fixed to a place: dirt or a dent on the rail, the cable harness, a bent scale."},
     {"acceleration", "Mass, or something loose or elastic that swings: look at mounts, screws and flexures."},
+    {"changes of the command", "A delay between the program and the drive: buffers, a slow bus, a filter."},
+    {"nothing", "A constant force or voltage: an offset of the amplifier, a tilted rail."},
     {"command", "The amplifier: saturation, a dead zone or a gain that is not constant."},
     {"time", "Something that drifts during a run: warming up, a sagging supply, draughts."},
     {"temperature", "Heat flow or the wire's table: supply, contacts, clamps, draughts, a tired wire."},

@@ -85,6 +85,17 @@ TEST(Diagnosis, EffectThatIsWithheld_LeavesWhatNothingExplains) {
     EXPECT_GT(diagnosis.gap.before, 2.0);
 }
 
+TEST(Diagnosis, RicherEffect_IsNotNamedForWhatItSharesWithThePlainerOne) {
+    const Evidence evidence =
+        campaign(effects({"coulomb_friction:level_V=0.1"}), {"macro-sweep", "macro-pulses", "macro-square"});
+    const Diagnosis diagnosis =
+        diagnose(evidence, {.only = {"presliding", "payload"}, .without = {}, .selection = {}});
+    EXPECT_TRUE(diagnosis.effects.empty());
+    EXPECT_EQ(diagnosis.verdict, Verdict::unexplained);
+    EXPECT_EQ(diagnosis.where.front().block, "macro.friction");
+    for (const TriedEffect& tried : diagnosis.candidates) EXPECT_NE(tried.effect, "coulomb_friction");
+}
+
 TEST(Diagnosis, TwoEffectsInTwoBlocks_AreBothNamed) {
     const Diagnosis diagnosis =
         diagnose(campaign(effects({"drive_gain:factor=0.97", "airflow:factor=0.9"}),

@@ -1,0 +1,101 @@
+#include "gap/accusation.h"
+
+#include "core/camera_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fidservo::gap {
+namespace {
+
+std::string_view carriage_block(std::optional<Dependence> dependence) {
+    if (dependence == Dependence::command || dependence == Dependence::command_change ||
+        dependence == Dependence::nothing || dependence == Dependence::time)
+        return "macro.drive";
+    if (dependence == Dependence::velocity || dependence == Dependence::direction ||
+        dependence == Dependence::position_friction)
+        return "macro.friction";
+    return "macro.mechanics";
+}
+
+std::string_view platform_block(std::optional<Dependence> dependence) {
+    if (dependence == Dependence::macro_command || dependence == Dependence::acceleration)
+        return "micro.mechanics";
+    if (dependence == Dependence::contraction || dependence == Dependence::direction)
+        return "micro.hysteresis";
+    return "micro.heater";
+}
+
+/// Whether the tags are off along the stage's motion and hardly elsewhere.
+bool is_displacement(const Pattern& pattern) {
+    constexpr double ratio = 4.0;  // of the excess squares
+    const double along = pattern.tag_along * pattern.tag_along - 1.0,
+                 across = std::max(0.0, pattern.tag_across * pattern.tag_across - 1.0);
+    return along > least_floors * least_floors - 1.0 && along > ratio * across;
+}
+
+bool off(const Pattern& pattern, Signal signal) {
+    return pattern.floors[index_of(signal)] >= least_floors;
+}
+
+/// Of the place that is interpolated between two counts by a wrong model of the carriage.
+constexpr double between_counts = 0.1;
+
+}  // namespace
+
+Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, const Errors& errors) {
+    constexpr std::size_t coordinates = 8;
+    Pattern pattern;
+    for (const SignalGap& gap : gaps) pattern.floors[index_of(gap.signal)] = gap.after / gap.floor;
+    const Rig& rig = evidence.rig();
+    double along = 0.0, across = 0.0, count = 0.0;
+    for (const Window& window : evidence.windows()) {
+        if (window.signal != Signal::tag) continue;
+        for (std::size_t k = window.begin; k + coordinates <= window.end; k += coordinates) {
+            if (std::isnan(errors[k])) continue;
+            along += std::pow(errors[k], 2);
+            for (std::size_t i = 1; i < coordinates; ++i) across += std::pow(errors[k + i], 2);
+            count += 1.0;
+        }
+    }
+    if (count == 0.0) return pattern;
+    pattern.tag_along = std::sqrt(along / count);
+    pattern.tag_across = std::sqrt(across / (count * (coordinates - 1)));
+    constexpr double corners = 4.0;  // a tag that is displaced by d is so at each
+    if (rig.camera)
+        pattern.tags_count = pattern.tag_along * evidence.floor(Signal::tag) *
+                             mm_per_px(rig.camera->geometry) / std::sqrt(corners) /
+                             rig.macro.encoder_resolution_mm;
+    return pattern;
+}
+
+std::optional<Signal> false_sensor(const Pattern& pattern) {
+    constexpr double beyond_smoothing =
+        2.0;  // floors; a wrong actuator's model leaves the tags at 1.5 at most
+    if (!is_displacement(pattern)) return {};
+    if (off(pattern, Signal::encoder) && pattern.tags_count > between_counts) return Signal::encoder;
+    if (off(pattern, Signal::encoder) || !off(pattern, Signal::hall)) return {};
+    return pattern.tag_along > beyond_smoothing ? std::optional(Signal::hall) : std::nullopt;
+}
+
+bool tags_are_innocent(const Pattern& pattern) {
+    return is_displacement(pattern) && off(pattern, Signal::encoder) && pattern.tags_count <= between_counts;
+}
+
+std::string_view accused_block(const Pattern& pattern, Signal signal, std::optional<Dependence> dependence) {
+    const bool is_false = false_sensor(pattern) == signal;
+    switch (signal) {
+        case Signal::encoder:
+            return is_false ? "macro.encoder" : carriage_block(dependence);
+        case Signal::hall:
+            return is_false ? "micro.hall" : platform_block(dependence);
+        case Signal::tag:
+            return is_displacement(pattern) ? "camera.timing" : "camera.geometry";
+        case Signal::macro_command:
+        case Signal::micro_command:
+            break;
+    }
+    return "controller";
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,57 @@
+// Which block a pattern of errors accuses.
+#include "gap/accusation.h"
+
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+namespace {
+
+using namespace gap;
+
+/// Floors of encoder, Hall reading and tags, of the tags' motion along and across, and as counts.
+Pattern pattern(double encoder, double hall, double tag, double along, double across, double count) {
+    Pattern pattern{{}, along, across, count};
+    pattern.floors[index_of(Signal::encoder)] = encoder;
+    pattern.floors[index_of(Signal::hall)] = hall;
+    pattern.floors[index_of(Signal::tag)] = tag;
+    return pattern;
+}
+
+TEST(Accusation, SensorThatReadsFalsely_SpoilsTheTagsAsWell) {
+    const Pattern hall = pattern(0.4, 30.0, 30.0, 85.0, 1.0, 0.07);
+    EXPECT_EQ(false_sensor(hall), Signal::hall);
+    EXPECT_EQ(accused_block(hall, Signal::hall, Dependence::contraction), "micro.hall");
+    const Pattern encoder = pattern(11.0, 1.0, 1900.0, 5300.0, 1.0, 4.2);
+    EXPECT_EQ(false_sensor(encoder), Signal::encoder);
+    EXPECT_EQ(accused_block(encoder, Signal::encoder, Dependence::command), "macro.encoder");
+}
+
+TEST(Accusation, ActuatorSpoilsItsOwnPredictionOnly) {
+    const Pattern wire = pattern(0.4, 334.0, 1.1, 1.3, 1.0, 0.001);
+    EXPECT_FALSE(false_sensor(wire).has_value());
+    EXPECT_EQ(accused_block(wire, Signal::hall, Dependence::temperature), "micro.heater");
+    EXPECT_EQ(accused_block(wire, Signal::hall, Dependence::direction), "micro.hysteresis");
+    EXPECT_EQ(accused_block(wire, Signal::hall, Dependence::acceleration), "micro.mechanics");
+    EXPECT_EQ(accused_block(wire, Signal::hall, {}), "micro.heater");
+}
+
+TEST(Accusation, PlaceBetweenTwoCounts_IsNoFalseEncoder_AndNoCameraIsBlamed) {
+    const Pattern friction = pattern(201.0, 1.0, 18.0, 50.0, 1.0, 0.04);
+    EXPECT_FALSE(false_sensor(friction).has_value());
+    EXPECT_TRUE(tags_are_innocent(friction));
+    EXPECT_EQ(accused_block(friction, Signal::encoder, Dependence::velocity), "macro.friction");
+    EXPECT_EQ(accused_block(friction, Signal::encoder, Dependence::command_change), "macro.drive");
+}
+
+TEST(Accusation, TagsAlone_AccuseTheCamera) {
+    const Pattern late = pattern(0.4, 1.0, 85.0, 240.0, 1.0, 0.2),
+                  tilted = pattern(0.4, 1.0, 9.0, 12.0, 8.0, 0.01);
+    EXPECT_EQ(accused_block(late, Signal::tag, {}), "camera.timing");
+    EXPECT_EQ(accused_block(tilted, Signal::tag, {}), "camera.geometry");
+    EXPECT_FALSE(tags_are_innocent(late));
+}
+
+}  // namespace
+
+}  // namespace fidservo
