@@ -117,9 +117,18 @@ class Lead {
     std::vector<double> errors_;
 };
 
-/// Whether a window has to know what came before its 100 ms.
+/// Whether a window has to know all that came before it.
 bool carries_over(const plant::MacroAxis& axis) {
-    return axis.has_belt || axis.has_bristles || axis.parameters.play_mm != 0.0;
+    return axis.has_bristles || axis.parameters.play_mm != 0.0;
+}
+
+/// Which windows of a stretch to run: those wanted; with a belt also those before them, in which its swing
+/// dies down.
+std::vector<bool> needed_windows(std::span<const std::uint8_t> wanted, bool has_belt) {
+    std::vector<bool> needed(wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        needed[i] = wanted[i] != 0 || (has_belt && i + 1 < wanted.size() && wanted[i + 1] != 0);
+    return needed;
 }
 
 /// @param wanted  a flag for each window; empty: all
@@ -135,10 +144,13 @@ std::vector<double> simulate(const CarriageModel& model, const CarriageRun& run,
         const std::vector<WindowRows>& windows = run.windows[stretch];
         plant::MacroAxisState carried = first_state(model, run, windows.front().lead);
         plant::MacroAxisState state = carried;
+        std::vector<bool> needed(windows.size(), true);
+        if (may_skip) needed = needed_windows(wanted.subspan(count, windows.size()), model.axis.has_belt);
+        count += windows.size();
         bool skipped = false;
         for (std::size_t i = 0; i < windows.size(); ++i) {
             const WindowRows& window = windows[i];
-            if (may_skip && wanted[count++] == 0) {
+            if (!needed[i]) {
                 skipped = true;
                 continue;
             }

@@ -44,6 +44,16 @@ std::vector<std::string> indistinguishable(const Choice& choice) {
     return names;
 }
 
+std::vector<plant::EffectSetting> rivals(const Choice& choice) {
+    std::vector<plant::EffectSetting> settings;
+    for (const Candidate* tie : choice.ties) {
+        if (tie->class_name == choice.candidate->class_name) continue;
+        const auto trial = std::ranges::find(choice.alternatives, tie, &Trial::candidate);
+        settings.push_back(trial->fitted.of_half[0].back());
+    }
+    return settings;
+}
+
 std::vector<FittedParameter> parameters_of(const plant::EffectSetting& setting,
                                            const Eigen::MatrixXd& covariance, Eigen::Index first) {
     std::vector<FittedParameter> parameters;
@@ -70,6 +80,7 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
                          .probability = probability_of_class(choice),
                          .parameters = parameters_of(fitted.hypothesis[k], fitted.covariance, first),
                          .indistinguishable_from = indistinguishable(choice),
+                         .rivals = rivals(choice),
                          .gap_removed = total_gap(signal_gaps(evidence, before, after)).removed(),
                          .gap_removed_low = low,
                          .gap_removed_high = high});

@@ -33,6 +33,8 @@ struct FoundEffect {
     double probability;
     std::vector<FittedParameter> parameters;
     std::vector<std::string> indistinguishable_from;
+    /// Of these, as fitted, what other recordings could tell from it.
+    std::vector<plant::EffectSetting> rivals = {};
     double gap_removed;  ///< with this one and those before it
     double gap_removed_low, gap_removed_high;
 };

@@ -158,8 +158,8 @@ void Search::fit_second_half(const CrossFit& base, Trial& trial) const {
 }
 
 void Search::polish_both_halves(const CrossFit& base, Trial& trial) const {
+    if (!trial.candidate->wave || is_at_floor(trial.fitted)) return;
     const SignalFlags teach = teachers_of(*trial.candidate->effect);
-    if (!teach[index_of(Signal::encoder)] || is_at_floor(trial.fitted)) return;
     Trial polished = trial;
     parallel_for(2, [&](std::size_t side) {
         const Wanted wanted = only_of(evidence_.windows(), half(side), teach);

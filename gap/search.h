@@ -68,7 +68,7 @@ class Search {
     void fit_simple_first(const CrossFit& base, std::span<Contender> contenders) const;
     void fit_first_half(const CrossFit& base, Contender& contender) const;
     void fit_second_half(const CrossFit& base, Trial& trial) const;
-    /// Where the carriage teaches and more than the floor is left, over all windows.
+    /// Of a wave that leaves more than the floor, over all windows.
     void polish_both_halves(const CrossFit& base, Trial& trial) const;
     Comparison compared(const CrossFit& base, const CrossFit& fitted) const;
     Wanted half(std::size_t side) const;

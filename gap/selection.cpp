@@ -58,13 +58,15 @@ Chain without(const Search& search, const Chain& chain, std::size_t left_out) {
 }
 
 /// An effect that was taken in first may have been a compromise of two others: each is given up where the
-/// rest does as well without it, and otherwise exchanged for what is best beside the rest.
+/// rest does as well without it, and otherwise exchanged for what is best beside the rest. As long as nothing
+/// has changed the last one needs no test: it was found beside this very rest.
 /// @return whether anything changed
 bool exchange(Search& search, Chain& chain) {
     bool changed = false;
     constexpr int most_exchanges = 4;
     int exchanges = 0;
-    for (std::size_t k = 0; chain.choices.size() > 1 && k < chain.choices.size();) {
+    const auto tested = [&] { return changed ? chain.choices.size() : chain.choices.size() - 1; };
+    for (std::size_t k = 0; chain.choices.size() > 1 && k < tested();) {
         Chain rest = without(search, chain, k);
         if (!search.is_real(rest.fitted, chain.fitted)) {
             chain = std::move(rest);

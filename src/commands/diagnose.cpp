@@ -7,6 +7,7 @@
 #include "src/commands/self_check.h"
 #include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
+#include "src/diagnose/next_experiment.h"
 #include "src/diagnose/report.h"
 #include "src/interrupt.h"
 #include "src/recording/durable_file.h"
@@ -65,11 +66,12 @@ int run_diagnose(const DiagnoseOptions& options) {
     const gap::Evidence evidence(load_rig(options.rig_file), read_recordings(options.recordings));
     gap::DiagnosisOptions how{.only = options.only, .without = options.without, .selection = {}};
     how.selection.search.stop = interrupt_requested;
-    const gap::Diagnosis diagnosis = gap::diagnose(evidence, how);
+    gap::Diagnosis diagnosis = gap::diagnose(evidence, how);
     if (interrupt_requested()) {
         fmt::print("interrupted ({}): no diagnosis, nothing was written\n", interrupt_name());
         return exit_answer_is_no;
     }
+    diagnosis.next_experiment = diagnose::next_experiment(evidence.rig(), diagnosis);
     fmt::print("{}", describe(diagnosis));
     if (!options.json.empty()) write_or_throw(options.json, diagnosis_json(diagnosis));
     if (!options.write_rig.empty()) {

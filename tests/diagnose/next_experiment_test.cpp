@@ -1,0 +1,52 @@
+// The experiment that decides between causes that are tied.
+#include "src/diagnose/next_experiment.h"
+
+#include "plant/effects/catalogue.h"
+#include "src/config/rig_file.h"
+#include "src/simulation/experiments.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+namespace {
+
+const Rig& reference_rig() {
+    static const Rig rig = load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
+    return rig;
+}
+
+/// One effect found, tied with another.
+gap::Diagnosis tied(const std::string& found, const std::string& rival) {
+    gap::Diagnosis diagnosis;
+    diagnosis.hypothesis = {plant::parse_effect(found)};
+    gap::FoundEffect effect{};
+    effect.effect = diagnosis.hypothesis.front().effect->name;
+    effect.rivals = {plant::parse_effect(rival)};
+    diagnosis.effects = {effect};
+    return diagnosis;
+}
+
+TEST(NextExperiment, OfTwoCausesInTheDrive_MovesTheCarriage_AndTakesHalfAMinuteAtMost) {
+    const auto proposed = diagnose::next_experiment(
+        reference_rig(), tied("drive_gain:factor=0.99", "viscous_friction:damping_V_s_per_mm=0.0001"));
+    ASSERT_TRUE(proposed.has_value());
+    EXPECT_TRUE(proposed->experiment.starts_with("macro-") || proposed->experiment == "integrated")
+        << proposed->experiment;
+    EXPECT_LE(make_experiment(proposed->experiment, reference_rig(), 1, "next").duration_s, 30.0);
+    EXPECT_EQ(proposed->separates, (std::vector<std::string>{"drive_gain", "viscous_friction"}));
+}
+
+TEST(NextExperiment, CausesThatNoDataTellApart_AndNoTie_LeadToNone) {
+    EXPECT_FALSE(diagnose::next_experiment(
+                     reference_rig(), tied("ambient_temperature:shift_degC=3", "stress_shift:shift_degC=3"))
+                     .has_value());
+    EXPECT_FALSE(diagnose::next_experiment(reference_rig(), gap::Diagnosis{}).has_value());
+}
+
+}  // namespace
+
+}  // namespace fidservo
