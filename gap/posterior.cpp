@@ -17,7 +17,7 @@ std::vector<double> probabilities(std::span<const double> losses) {
 
 double trust_in(double floors_left) {
     constexpr double at_floor = 1.1;
-    return std::pow(at_floor / std::max(at_floor, floors_left), 2);
+    return 1.0 / (1.0 + 4.0 * std::log10(std::max(at_floor, floors_left) / at_floor));
 }
 
 }  // namespace fidservo::gap

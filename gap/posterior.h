@@ -15,7 +15,7 @@ namespace fidservo::gap {
 inline constexpr double values_per_window = 1.0;
 
 /// What a probability among named effects is worth where the best explanation still leaves a gap: the cause
-/// may be none of them. 1 up to 1.1 floors, from there (1.1 / floors left)^2.
+/// may be none of them. 1 up to 1.1 floors, from there 1 / (1 + 4 log10(floors left / 1.1)).
 /// @param floors_left  typical_floors of gap/gap_size.h
 double trust_in(double floors_left);
 

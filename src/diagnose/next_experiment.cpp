@@ -33,6 +33,9 @@ std::vector<Pair> pairs_of(const gap::Diagnosis& diagnosis) {
     std::vector<Pair> pairs;
     for (std::size_t k = 0; k < diagnosis.effects.size(); ++k)
         for (const plant::EffectSetting& rival : diagnosis.effects[k].rivals) {
+            if (std::ranges::find(diagnosis.hypothesis, rival.effect, &plant::EffectSetting::effect) !=
+                diagnosis.hypothesis.end())
+                continue;  // in the end it was found beside the other
             gap::Hypothesis exchanged = diagnosis.hypothesis;
             exchanged[k] = rival;
             pairs.push_back({diagnosis.hypothesis, exchanged, diagnosis.effects[k].effect,

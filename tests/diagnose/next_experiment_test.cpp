@@ -47,6 +47,15 @@ TEST(NextExperiment, CausesThatNoDataTellApart_AndNoTie_LeadToNone) {
     EXPECT_FALSE(diagnose::next_experiment(reference_rig(), gap::Diagnosis{}).has_value());
 }
 
+TEST(NextExperiment, RivalThatWasFoundAsWell_IsNone) {
+    gap::Diagnosis both = tied("drive_gain:factor=0.99", "viscous_friction:damping_V_s_per_mm=0.0001");
+    both.hypothesis.push_back(both.effects.front().rivals.front());
+    both.effects.push_back(both.effects.front());
+    both.effects.back().effect = "viscous_friction";
+    both.effects.back().rivals.clear();
+    EXPECT_FALSE(diagnose::next_experiment(reference_rig(), both).has_value());
+}
+
 }  // namespace
 
 }  // namespace fidservo

@@ -22,7 +22,7 @@ TEST(Posterior, ProbabilitiesGoWithTheExponentialOfTheLossSaved) {
 TEST(Posterior, ExplanationThatLeavesAGap_IsTrustedLess) {
     EXPECT_EQ(trust_in(1.0), 1.0);
     EXPECT_EQ(trust_in(1.1), 1.0);
-    EXPECT_DOUBLE_EQ(trust_in(2.2), 0.25);
+    EXPECT_DOUBLE_EQ(trust_in(11.0), 0.2);
 }
 
 }  // namespace
