@@ -44,6 +44,19 @@ bool is_simple(const Candidate& candidate) {
     return candidate.effect->parameters.size() <= 2;
 }
 
+}  // namespace
+
+/// A trial on its way: the values from which its fits may begin, best first.
+struct Search::Contender {
+    Trial trial;
+    std::vector<Promise> starts;
+
+    double promised() const { return starts.empty() ? 0.0 : starts.front().gain; }
+    double gain() const { return trial.gain; }
+};
+
+namespace {
+
 /// Of those sorted from the best on, the first that come near it, `most` at most.
 template <class Score>
 std::span<Search::Contender> near_best(std::span<Search::Contender> sorted, double share, double least,
@@ -56,15 +69,6 @@ std::span<Search::Contender> near_best(std::span<Search::Contender> sorted, doub
 }
 
 }  // namespace
-
-/// A trial on its way: the values from which its fits may begin, best first.
-struct Search::Contender {
-    Trial trial;
-    std::vector<Promise> starts;
-
-    double promised() const { return starts.empty() ? 0.0 : starts.front().gain; }
-    double gain() const { return trial.gain; }
-};
 
 Search::Search(const Evidence& evidence, const std::vector<Candidate>& candidates,
                const SearchOptions& options)
@@ -92,6 +96,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     if (!leaders.empty()) polish_both_halves(base, leaders.front().trial);
 
     std::vector<Trial> trials;
+    trials.reserve(contenders.size());
     for (Contender& contender : contenders) trials.push_back(std::move(contender.trial));
     std::ranges::stable_sort(trials, std::greater{},
                              [](const Trial& trial) { return std::pair(trial.is_leader, trial.gain); });
@@ -127,8 +132,9 @@ std::vector<Search::Contender> Search::promising(const CrossFit& base,
 
 void Search::fit_simple_first(const CrossFit& base, std::span<Contender> contenders) const {
     const auto is_simple_one = [](const Contender& c) { return is_simple(*c.trial.candidate); };
-    const std::span rich = std::ranges::stable_partition(contenders, is_simple_one);
-    const std::span simple = contenders.first(contenders.size() - rich.size());
+    const auto first_rich = std::stable_partition(contenders.begin(), contenders.end(), is_simple_one);
+    const auto simple_count = static_cast<std::size_t>(first_rich - contenders.begin());
+    const std::span simple = contenders.first(simple_count), rich = contenders.subspan(simple_count);
     parallel_for(simple.size(), [&](std::size_t k) { fit_first_half(base, simple[k]); });
     if (std::ranges::any_of(simple, [&](const Contender& c) { return is_at_floor(c.trial.fitted); })) return;
     parallel_for(rich.size(), [&](std::size_t k) { fit_first_half(base, rich[k]); });

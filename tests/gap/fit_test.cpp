@@ -3,6 +3,7 @@
 
 #include "core/random.h"
 #include "plant/effects/catalogue.h"
+#include "tests/gap/equal_windows.h"
 
 #include <cmath>
 #include <vector>
@@ -18,12 +19,7 @@ using namespace gap;
 constexpr std::size_t windows_count = 12, values = 300;
 
 std::vector<Window> windows() {
-    std::vector<Window> all(windows_count);
-    for (std::size_t w = 0; w < windows_count; ++w) {
-        all[w].begin = w * values;
-        all[w].end = all[w].begin + values;
-    }
-    return all;
+    return testing::equal_windows(windows_count, values);
 }
 
 /// Errors of drive_gain as if they were in proportion to what the factor lacks to `truth`, and noise of a

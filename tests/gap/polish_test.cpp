@@ -2,6 +2,7 @@
 #include "gap/polish.h"
 
 #include "plant/effects/catalogue.h"
+#include "tests/gap/equal_windows.h"
 
 #include <cmath>
 
@@ -16,12 +17,7 @@ using namespace gap;
 constexpr std::size_t windows_count = 10, values = 50;
 
 std::vector<Window> windows() {
-    std::vector<Window> all(windows_count);
-    for (std::size_t w = 0; w < windows_count; ++w) {
-        all[w].begin = w * values;
-        all[w].end = all[w].begin + values;
-    }
-    return all;
+    return testing::equal_windows(windows_count, values);
 }
 
 /// A window's errors jump whenever the amplitude passes a place of its own: between jumps no derivative says
