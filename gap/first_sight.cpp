@@ -80,6 +80,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         double expected_gain;  ///< if errors changed in proportion to the sizes
         double probe_gain;     ///< of a small size, really
     };
+    const std::vector<double> base_squares = mean_squares(windows, base_errors);
     std::vector<Place> places;
     for (const std::vector<double>& shape : candidate.shapes) {
         std::vector<Errors> changes;
@@ -87,14 +88,14 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         for (Eigen::Index k = 0; k < width; ++k) {
             Errors change = predict(with(base, candidate, shape, probe * Eigen::VectorXd::Unit(width, k)));
             if (change.empty()) break;
-            probe_gain = std::max(probe_gain, gained(windows, counted, base_errors, change));
+            probe_gain = std::max(probe_gain, gained(windows, counted, base_squares, change));
             for (std::size_t i = 0; i < change.size(); ++i)
                 change[i] = (change[i] - base_errors[i]) / static_cast<float>(probe);
             changes.push_back(std::move(change));
         }
         if (static_cast<Eigen::Index>(changes.size()) < width) continue;
         const Eigen::VectorXd shares = best_shares(windows, counted, base_errors, changes);
-        const double expected = gained(windows, counted, base_errors, added(base_errors, changes, shares));
+        const double expected = gained(windows, counted, base_squares, added(base_errors, changes, shares));
         places.push_back({shape, shares, expected, probe_gain});
     }
     std::ranges::sort(places, std::greater{}, &Place::expected_gain);
@@ -105,7 +106,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         Promise best{base, -std::numeric_limits<double>::infinity()};
         for (const double part : {1.0, 0.4, 2.5}) {
             const Hypothesis there = with(base, candidate, places[p].shape, part * places[p].shares);
-            const double gain = gained(windows, counted, base_errors, predict(there));
+            const double gain = gained(windows, counted, base_squares, predict(there));
             if (gain > best.gain) best = {there, gain};
         }
         starts.push_back(best);

@@ -75,7 +75,7 @@ std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& 
     const Errors errors = held_out_errors(evidence, explained, half);
     std::vector<SignalGap> gaps = signal_gaps(evidence, explained.mean_squares, explained.mean_squares);
     const Pattern pattern = pattern_of(evidence, gaps, errors);
-    const auto floors = [&](const SignalGap& gap) { return gap.after / gap.floor; };
+    const auto floors = [&](const SignalGap& gap) { return pattern.floors[index_of(gap.signal)]; };
     const std::optional<Signal> suspect = false_sensor(pattern);
     std::ranges::sort(gaps, std::greater{},
                       [&](const SignalGap& gap) { return std::pair(gap.signal == suspect, floors(gap)); });

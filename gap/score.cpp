@@ -62,14 +62,14 @@ double total_loss(std::span<const Window> windows, const Wanted& counted, const 
     return loss;
 }
 
-double gained(std::span<const Window> windows, const Wanted& counted, const Errors& base,
+double gained(std::span<const Window> windows, const Wanted& counted, std::span<const double> base_squares,
               const Errors& errors) {
     if (errors.empty()) return -std::numeric_limits<double>::infinity();
-    const std::vector<double> before = mean_squares(windows, base), after = mean_squares(windows, errors);
+    const std::vector<double> squares = mean_squares(windows, errors);
     double gain = 0.0;
     for (std::size_t w = 0; w < windows.size(); ++w)
-        if (counted[w] != 0 && !std::isnan(before[w]) && !std::isnan(after[w]))
-            gain += window_loss(before[w]) - window_loss(after[w]);
+        if (counted[w] != 0 && !std::isnan(base_squares[w]) && !std::isnan(squares[w]))
+            gain += window_loss(base_squares[w]) - window_loss(squares[w]);
     return gain;
 }
 

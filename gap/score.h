@@ -27,9 +27,9 @@ double total_loss(std::span<const double> mean_squares);
 /// Of the windows counted. Infinite for errors of a hypothesis that the plant refused.
 double total_loss(std::span<const Window> windows, const Wanted& counted, const Errors& errors);
 
-/// Loss that one hypothesis saves over another in the windows counted that both predict; minus infinity where
-/// the plant refused it.
-double gained(std::span<const Window> windows, const Wanted& counted, const Errors& base,
+/// Loss that errors save over mean squares of other ones in the windows counted that both predict; minus
+/// infinity where the plant refused it.
+double gained(std::span<const Window> windows, const Wanted& counted, std::span<const double> base_squares,
               const Errors& errors);
 
 /// Of two hypotheses on the same windows.

@@ -244,11 +244,9 @@ Fit Search::fit_half(std::size_t side, const Hypothesis& start, const CrossFit& 
 
 void Search::judge_first_half(const CrossFit& base, Trial& trial) const {
     const Wanted wanted = fitted_windows(1, trial.fitted.of_half[0], base.mean_squares);
-    std::vector<double>& squares = trial.fitted.mean_squares;
-    squares = mean_squares(evidence_.windows(), evidence_.errors(trial.fitted.of_half[0], wanted));
-    for (std::size_t w = 0; w < wanted.size(); ++w)
-        if (!std::isnan(squares[w]))
-            trial.gain += window_loss(base.mean_squares[w]) - window_loss(squares[w]);
+    trial.fitted.mean_squares =
+        mean_squares(evidence_.windows(), evidence_.errors(trial.fitted.of_half[0], wanted));
+    trial.gain = compared(base, trial.fitted).gain;
 }
 
 double Search::excess(std::span<const double> mean_squares) const {

@@ -19,7 +19,7 @@ class WaveTrials {
           windows_(windows),
           counted_(counted),
           base_(base),
-          base_errors_(base_errors),
+          base_squares_(mean_squares(windows, base_errors)),
           candidate_(candidate) {}
 
     /// The best of some factors of the amplitude that the errors show.
@@ -58,7 +58,7 @@ class WaveTrials {
         values[candidate_.wave->phase] = std::remainder(phase_rad, 2.0 * std::numbers::pi);
         Hypothesis there = base_;
         there.push_back({candidate_.effect, values});
-        const double gain = gained(windows_, counted_, base_errors_, predict_(there));
+        const double gain = gained(windows_, counted_, base_squares_, predict_(there));
         return {std::move(there), gain};
     }
 
@@ -66,7 +66,7 @@ class WaveTrials {
     std::span<const Window> windows_;
     const Wanted& counted_;
     const Hypothesis& base_;
-    const Errors& base_errors_;
+    std::vector<double> base_squares_;
     const Candidate& candidate_;
 };
 

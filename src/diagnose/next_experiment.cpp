@@ -9,7 +9,6 @@
 #include "src/simulation/simulate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>

@@ -18,9 +18,7 @@ using namespace gap;
 
 constexpr std::size_t windows_count = 12, values = 300;
 
-std::vector<Window> windows() {
-    return testing::equal_windows(windows_count, values);
-}
+const std::vector<Window> windows = testing::equal_windows(windows_count, values);
 
 /// Errors of drive_gain as if they were in proportion to what the factor lacks to `truth`, and noise of a
 /// floor.
@@ -39,7 +37,7 @@ Fit fitted(double truth, std::uint64_t seed) {
     NoiseStream random(seed, "noise");
     std::vector<double> noise(windows_count * values);
     for (double& value : noise) value = random.normal();
-    return fit(prediction(truth, noise), windows(), Wanted(windows_count, 1),
+    return fit(prediction(truth, noise), windows, Wanted(windows_count, 1),
                {plant::parse_effect("drive_gain:factor=1")}, {.tolerance = 1e-8, .with_covariance = true});
 }
 
@@ -65,7 +63,7 @@ TEST(Fit, ValueBeyondItsBound_EndsAtTheBound_WithoutAnError) {
 TEST(Fit, RefusedHypothesis_IsGivenBackAsItIs) {
     const Predict refuses = [](const Hypothesis&) { return Errors{}; };
     const Fit found =
-        fit(refuses, windows(), Wanted(windows_count, 1), {plant::parse_effect("drive_gain:factor=1.1")});
+        fit(refuses, windows, Wanted(windows_count, 1), {plant::parse_effect("drive_gain:factor=1.1")});
     EXPECT_TRUE(std::isinf(found.loss));
     EXPECT_EQ(found.hypothesis.front().values.front(), 1.1);
 }

@@ -16,9 +16,7 @@ using namespace gap;
 
 constexpr std::size_t windows_count = 10, values = 50;
 
-std::vector<Window> windows() {
-    return testing::equal_windows(windows_count, values);
-}
+const std::vector<Window> windows = testing::equal_windows(windows_count, values);
 
 /// A window's errors jump whenever the amplitude passes a place of its own: between jumps no derivative says
 /// where the truth lies.
@@ -38,8 +36,8 @@ Errors jumping(const Hypothesis& hypothesis) {
 TEST(Polish, GoesOverJumps_WhereDerivativesStandStill) {
     const Hypothesis start{plant::parse_effect("cogging:amplitude_V=0.06,period_mm=5,phase_rad=1")};
     const Wanted all(windows_count, 1);
-    const Fit by_derivatives = fit(jumping, windows(), all, start);
-    const Fit polished = polish(jumping, windows(), all, start);
+    const Fit by_derivatives = fit(jumping, windows, all, start);
+    const Fit polished = polish(jumping, windows, all, start);
     EXPECT_LT(polished.loss, 0.3 * by_derivatives.loss);
     EXPECT_NEAR(polished.hypothesis.back().values.front(), 0.0512, 0.001);
 }
@@ -47,7 +45,7 @@ TEST(Polish, GoesOverJumps_WhereDerivativesStandStill) {
 TEST(Polish, ChangesTheLastEffectOnly_AndKeepsAStartThatNothingBetters) {
     const Hypothesis start{plant::parse_effect("drive_gain:factor=1.1"),
                            plant::parse_effect("cogging:amplitude_V=0.0512,period_mm=5,phase_rad=1")};
-    const Fit polished = polish(jumping, windows(), Wanted(windows_count, 1), start);
+    const Fit polished = polish(jumping, windows, Wanted(windows_count, 1), start);
     EXPECT_EQ(polished.hypothesis.front().values.front(), 1.1);
     EXPECT_EQ(polished.hypothesis.back().values, start.back().values);
     EXPECT_EQ(polished.loss, 0.0);
