@@ -1,33 +1,49 @@
 #include "gap/first_sight.h"
 
 #include "gap/score.h"
+#include "gap/slopes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Dense>
 
 namespace fidservo::gap {
 namespace {
 
-/// The base with an effect at a size that is a share of the given one.
-Hypothesis with(const Hypothesis& base, const Candidate& candidate, const std::vector<double>& shape,
-                const Eigen::VectorXd& share) {
+/// A candidate at sizes that are shares of a shape's.
+plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>& shape,
+                           const Eigen::VectorXd& shares) {
     std::vector<double> values = shape;
     for (std::size_t k = 0; k < candidate.sizes.size(); ++k) {
         const std::size_t at = candidate.sizes[k];
         const plant::EffectParameter& parameter = candidate.effect->parameters[at];
         values[at] = std::clamp(
-            parameter.vanishing + share(static_cast<Eigen::Index>(k)) * (shape[at] - parameter.vanishing),
+            parameter.vanishing + shares(static_cast<Eigen::Index>(k)) * (shape[at] - parameter.vanishing),
             parameter.low, parameter.high);
     }
-    Hypothesis changed = base;
-    changed.push_back({candidate.effect, values});
-    return changed;
+    return {candidate.effect, std::move(values)};
 }
 
-/// Shares of the sizes that make the errors smallest, weighted by the loss at the base.
+/// What moves, by some scales, then the candidate.
+Hypothesis moved(const Surroundings& beside, const Eigen::VectorXd& scales, plant::EffectSetting added) {
+    std::vector<double> values = beside.parameters.values;
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += scales(static_cast<Eigen::Index>(k));
+    Hypothesis part = beside.parameters.at(values);
+    part.push_back(std::move(added));
+    return part;
+}
+
+/// The base with such a part.
+Hypothesis placed(const Surroundings& beside, const Hypothesis& part) {
+    Hypothesis whole = with_part(beside.base, beside.places, part);
+    whole.push_back(part.back());
+    return whole;
+}
+
+/// Shares of some changes that make the errors smallest, weighted by the loss at the base.
 Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& counted, const Errors& base,
                             const std::vector<Errors>& changes) {
     const auto width = static_cast<Eigen::Index>(changes.size());
@@ -57,7 +73,7 @@ Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& count
     return full.completeOrthogonalDecomposition().solve(right);
 }
 
-/// Errors if they changed in proportion to the sizes.
+/// Errors with such shares of the changes.
 Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen::VectorXd& shares) {
     Errors sum = base;
     for (std::size_t k = 0; k < changes.size(); ++k)
@@ -68,46 +84,62 @@ Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen
 
 }  // namespace
 
+Surroundings surroundings(const Predict& predict, const Hypothesis& base, const Errors& base_errors,
+                          const Places& places) {
+    Surroundings beside{base, base_errors, places, ScaledParameters(part_of(base, places)), {}};
+    const Predict predict_part = [&](const Hypothesis& part) {
+        return predict(with_part(base, places, part));
+    };
+    for (std::size_t k = 0; k < beside.parameters.size(); ++k)
+        beside.slopes.push_back(slope(predict_part, beside.parameters, k, base_errors));
+    return beside;
+}
+
 std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
-                                    const Wanted& counted, const Hypothesis& base, const Errors& base_errors,
+                                    const Wanted& counted, const Surroundings& beside,
                                     const Candidate& candidate) {
     constexpr double probe = 0.25;  // of the typical size
     constexpr std::size_t most_places = 8, most_starts = 4;
     const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
+    const auto moving = static_cast<Eigen::Index>(beside.slopes.size());
+    const Eigen::VectorXd unmoved = Eigen::VectorXd::Zero(moving);
     struct Place {
         std::vector<double> shape;
-        Eigen::VectorXd shares;
-        double expected_gain;  ///< if errors changed in proportion to the sizes
-        double probe_gain;     ///< of a small size, really
+        Eigen::VectorXd steps;  ///< scales of what moves, then shares of the sizes
+        double expected_gain;   ///< if errors changed in proportion to them
+        double probe_gain;      ///< of a small size, really
     };
-    const std::vector<double> base_squares = mean_squares(windows, base_errors);
+    const std::vector<double> base_squares = mean_squares(windows, beside.errors);
     std::vector<Place> places;
     for (const std::vector<double>& shape : candidate.shapes) {
-        std::vector<Errors> changes;
+        std::vector<Errors> changes = beside.slopes;
         double probe_gain = -std::numeric_limits<double>::infinity();
         for (Eigen::Index k = 0; k < width; ++k) {
-            Errors change = predict(with(base, candidate, shape, probe * Eigen::VectorXd::Unit(width, k)));
+            const Hypothesis part =
+                moved(beside, unmoved, sized(candidate, shape, probe * Eigen::VectorXd::Unit(width, k)));
+            Errors change = predict(placed(beside, part));
             if (change.empty()) break;
             probe_gain = std::max(probe_gain, gained(windows, counted, base_squares, change));
             for (std::size_t i = 0; i < change.size(); ++i)
-                change[i] = (change[i] - base_errors[i]) / static_cast<float>(probe);
+                change[i] = (change[i] - beside.errors[i]) / static_cast<float>(probe);
             changes.push_back(std::move(change));
         }
-        if (static_cast<Eigen::Index>(changes.size()) < width) continue;
-        const Eigen::VectorXd shares = best_shares(windows, counted, base_errors, changes);
-        const double expected = gained(windows, counted, base_squares, added(base_errors, changes, shares));
-        places.push_back({shape, shares, expected, probe_gain});
+        if (static_cast<Eigen::Index>(changes.size()) < moving + width) continue;
+        const Eigen::VectorXd steps = best_shares(windows, counted, beside.errors, changes);
+        const double expected = gained(windows, counted, base_squares, added(beside.errors, changes, steps));
+        places.push_back({shape, steps, expected, probe_gain});
     }
     std::ranges::sort(places, std::greater{}, &Place::expected_gain);
     if (places.size() > most_places / 2)  // the others by what is not extrapolated
         std::ranges::sort(places.begin() + most_places / 2, places.end(), std::greater{}, &Place::probe_gain);
     std::vector<Promise> starts;
     for (std::size_t p = 0; p < std::min(places.size(), most_places); ++p) {
-        Promise best{base, -std::numeric_limits<double>::infinity()};
+        Promise best{{}, -std::numeric_limits<double>::infinity()};
         for (const double part : {1.0, 0.4, 2.5}) {
-            const Hypothesis there = with(base, candidate, places[p].shape, part * places[p].shares);
-            const double gain = gained(windows, counted, base_squares, predict(there));
-            if (gain > best.gain) best = {there, gain};
+            Hypothesis there = moved(beside, part * places[p].steps.head(moving),
+                                     sized(candidate, places[p].shape, part * places[p].steps.tail(width)));
+            const double gain = gained(windows, counted, base_squares, predict(placed(beside, there)));
+            if (best.start.empty() || gain > best.gain) best = {std::move(there), gain};
         }
         starts.push_back(best);
     }

@@ -1,20 +1,37 @@
 #pragma once
 // How much a candidate promises, and from which values its fit should begin.
 #include "gap/candidate.h"
+#include "gap/coupling.h"
 #include "gap/fit.h"
+#include "gap/scaled_parameters.h"
+
+#include <vector>
 
 namespace fidservo::gap {
 
+/// What candidates are looked at beside: a base, of which those settings may move that they are coupled with.
+struct Surroundings {
+    Hypothesis base;
+    Errors errors;  ///< of the base
+    Places places;  ///< of the settings that may move
+    ScaledParameters parameters;
+    std::vector<Errors> slopes;  ///< of these parameters
+};
+
+Surroundings surroundings(const Predict& predict, const Hypothesis& base, const Errors& base_errors,
+                          const Places& places);
+
 struct Promise {
-    Hypothesis start;  ///< the base with the candidate
+    Hypothesis start;  ///< the settings that may move, then the candidate
     double gain;       ///< loss that it saves over the base, in the windows counted and predicted
 };
 
-/// Along each shape of the grid the sizes that fit best if errors changed in proportion to them: weighted
-/// least squares of the base's errors against what each size changes. Of the shapes that promise most by
-/// that at most four, best first; `gain` is what it really saves.
+/// Along each shape of the grid the sizes that fit best, together with what moves, if errors changed in
+/// proportion to both: weighted least squares of the base's errors. (A base that was fitted without the
+/// candidate has taken over what it can of it.) Of the shapes that promise most by that at most four, best
+/// first; `gain` is what it really saves.
 std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
-                                    const Wanted& counted, const Hypothesis& base, const Errors& base_errors,
+                                    const Wanted& counted, const Surroundings& beside,
                                     const Candidate& candidate);
 
 }  // namespace fidservo::gap

@@ -3,6 +3,7 @@
 #include "gap/parallel.h"
 #include "gap/scaled_parameters.h"
 #include "gap/score.h"
+#include "gap/slopes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +14,6 @@
 
 namespace fidservo::gap {
 namespace {
-
-/// Steps of the numerical derivatives, in scales: above what friction's events and float errors scatter.
-constexpr double difference_step = 0.01;
 
 /// Errors and their derivatives at one point, computed once for all windows.
 class Linearised : public ceres::EvaluationCallback {
@@ -31,10 +29,13 @@ class Linearised : public ceres::EvaluationCallback {
         }
         if (!with_derivatives || has_derivatives_ || errors.empty()) return;
         by_parameter.assign(parameters_.size(), {});
+        const auto differentiate = [this](std::size_t k) {
+            by_parameter[k] = slope(predict_, parameters_, k, errors);
+        };
         if (threads_ == Threads::one)
             for (std::size_t k = 0; k < parameters_.size(); ++k) differentiate(k);
         else
-            parallel_for(parameters_.size(), [this](std::size_t k) { differentiate(k); });
+            parallel_for(parameters_.size(), differentiate);
         has_derivatives_ = true;
     }
 
@@ -42,18 +43,6 @@ class Linearised : public ceres::EvaluationCallback {
     std::vector<Errors> by_parameter;
 
   private:
-    void differentiate(std::size_t k) {
-        std::vector<double> beside = parameters_.values;
-        const double step =
-            beside[k] + difference_step <= parameters_.high(k) ? difference_step : -difference_step;
-        beside[k] += step;
-        Errors& slope = by_parameter[k];
-        slope = predict_(parameters_.at(beside));
-        if (slope.empty()) slope = errors;
-        for (std::size_t i = 0; i < slope.size(); ++i)
-            slope[i] = (slope[i] - errors[i]) / static_cast<float>(step);
-    }
-
     const Predict& predict_;
     const ScaledParameters& parameters_;
     Threads threads_;

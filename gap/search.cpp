@@ -1,16 +1,13 @@
 #include "gap/search.h"
 
-#include "gap/first_sight.h"
-#include "gap/halves.h"
 #include "gap/parallel.h"
 #include "gap/polish.h"
 #include "gap/wave_starts.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace fidservo::gap {
@@ -19,40 +16,48 @@ namespace {
 /// A tie: what is behind the best by fewer standard deviations than this is not told from it.
 constexpr double tie_significance = 2.0;
 
-using SignalFlags = std::array<bool, signal_count>;
-
-/// Signals from which the parameters of an effect are learnt: those whose prediction it changes at first
-/// hand. What moves the carriage shows in the tags as well, but says there what the encoder has said.
-SignalFlags teachers_of(const plant::Effect& effect) {
-    SignalFlags teach{};
-    for (const Signal signal : reach_of(effect)) teach[index_of(signal)] = true;
-    if (effect.block.starts_with("macro.") && effect.block != "macro.encoder")
-        teach[index_of(Signal::tag)] = false;
-    return teach;
-}
-
-/// Those of the windows that are wanted whose signal teaches.
-Wanted only_of(std::span<const Window> windows, Wanted wanted, const SignalFlags& teach) {
-    for (std::size_t w = 0; w < wanted.size(); ++w)
-        if (!teach[index_of(windows[w].signal)]) wanted[w] = 0;
-    return wanted;
-}
-
 /// Effects of few parameters are tried first: where one of them leaves nothing, a richer one that does as
 /// well is no better explanation.
 bool is_simple(const Candidate& candidate) {
     return candidate.effect->parameters.size() <= 2;
 }
 
+bool includes(const SignalFlags& all, const SignalFlags& some) {
+    for (std::size_t s = 0; s < signal_count; ++s)
+        if (some[s] && !all[s]) return false;
+    return true;
+}
+
 }  // namespace
 
-/// A trial on its way: the values from which its fits may begin, best first.
+/// A trial on its way.
 struct Search::Contender {
     Trial trial;
-    std::vector<Promise> starts;
+    Places coupled;  ///< settings of the base that it is coupled with
+    Finding* finding;
 
-    double promised() const { return starts.empty() ? 0.0 : starts.front().gain; }
+    double promised() const { return finding->starts.empty() ? 0.0 : finding->starts.front().gain; }
     double gain() const { return trial.gain; }
+    SignalFlags teachers() const { return teachers_of(*trial.candidate->effect); }
+
+    /// The base with the candidate, where that and what it is coupled with have been fitted on a half.
+    Hypothesis placed(const CrossFit& base, std::size_t side, const Hypothesis& part) const {
+        Hypothesis whole = with_part(base.of_half[side], coupled, part);
+        whole.push_back(part.back());
+        return whole;
+    }
+    /// What of a whole is kept in a finding.
+    Hypothesis part(const Hypothesis& whole) const {
+        Hypothesis part = part_of(whole, coupled);
+        part.push_back(whole.back());
+        return part;
+    }
+    /// Of a whole, what is fitted.
+    Places fitted_places(const CrossFit& base) const {
+        Places places = coupled;
+        places.push_back(base.of_half[0].size());
+        return places;
+    }
 };
 
 namespace {
@@ -72,62 +77,107 @@ std::span<Search::Contender> near_best(std::span<Search::Contender> sorted, doub
 
 Search::Search(const Evidence& evidence, const std::vector<Candidate>& candidates,
                const SearchOptions& options)
-    : evidence_(evidence), candidates_(candidates), options_(options), half_(halves(evidence)) {}
+    : candidates_(candidates),
+      options_(options),
+      fitter_(evidence, options.windows, options.stop),
+      memory_(candidates.size()) {}
 
 CrossFit Search::nothing() const {
     CrossFit cross;
-    judge(cross);
+    fitter_.judge(cross);
     return cross;
 }
 
-std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candidate* const> added) {
+std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candidate* const> added,
+                                   const Effort& effort) {
     constexpr double share_of_promise = 0.2, share_of_gain = 0.5;
-    std::vector<Contender> contenders = promising(base, added);
-    trials_ += static_cast<int>(contenders.size());
-    std::ranges::sort(contenders, std::greater{}, &Contender::promised);
+    std::vector<Contender> all = contenders(base, added);
+    look_at(base, all);
+    std::ranges::sort(all, std::greater{}, &Contender::promised);
     const std::span fitted =
-        near_best(contenders, share_of_promise, least_gain, options_.fits, std::mem_fn(&Contender::promised));
+        near_best(all, share_of_promise, least_gain, effort.fits, std::mem_fn(&Contender::promised));
     fit_simple_first(base, fitted);
     std::ranges::sort(fitted, std::greater{}, &Contender::gain);
     const std::span leaders =
-        near_best(fitted, share_of_gain, 0.0, options_.leaders, std::mem_fn(&Contender::gain));
-    parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k].trial); });
+        near_best(fitted, share_of_gain, 0.0, effort.leaders, std::mem_fn(&Contender::gain));
+    parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k]); });
     std::ranges::sort(leaders, std::greater{}, &Contender::gain);
-    if (!leaders.empty()) polish_both_halves(base, leaders.front().trial);
+    if (!leaders.empty()) {
+        fit_closer(base, leaders.front());
+        polish_both_halves(base, leaders.front());
+    }
 
     std::vector<Trial> trials;
-    trials.reserve(contenders.size());
-    for (Contender& contender : contenders) trials.push_back(std::move(contender.trial));
+    trials.reserve(candidates_.size());
+    for (Contender& contender : all) trials.push_back(std::move(contender.trial));
+    for (const Candidate& candidate : candidates_)
+        if (std::ranges::find(added, &candidate) == added.end() &&
+            std::ranges::find(trials, &candidate, &Trial::candidate) == trials.end())
+            trials.push_back({&candidate, 0.0, false, {}});
     std::ranges::stable_sort(trials, std::greater{},
                              [](const Trial& trial) { return std::pair(trial.is_leader, trial.gain); });
     prefer_simplest(trials);
     return trials;
 }
 
-std::vector<Search::Contender> Search::promising(const CrossFit& base,
-                                                 std::span<const Candidate* const> added) const {
-    std::vector<Contender> contenders;
-    for (const Candidate& candidate : candidates_)
-        if (std::ranges::find(added, &candidate) == added.end())
-            contenders.push_back({{&candidate, 0.0, false, {}}, {}});
+CrossFit Search::with(const CrossFit& base, const Candidate& candidate) {
+    Contender one = contender(base, candidate);
+    fit_first_half(base, one);
+    fit_second_half(base, one);
+    return std::move(one.trial.fitted);
+}
 
-    const Wanted looked_at = instructive(evidence_.windows(), half(0), base.mean_squares, options_.windows);
-    const Errors base_errors = evidence_.errors(base.of_half[0], looked_at);
+Search::Contender Search::contender(const CrossFit& base, const Candidate& candidate) {
+    Places coupled = coupled_with(base.of_half[0], *candidate.effect);
+    Finding& finding = memory_.of(static_cast<std::size_t>(&candidate - candidates_.data()),
+                                  {part_of(base.of_half[0], coupled), part_of(base.of_half[1], coupled)});
+    return {{&candidate, 0.0, false, {}}, std::move(coupled), &finding};
+}
+
+std::vector<Search::Contender> Search::contenders(const CrossFit& base,
+                                                  std::span<const Candidate* const> added) {
+    const SignalFlags wrong = off(base);
+    std::vector<Contender> all;
+    for (const Candidate& candidate : candidates_)
+        if (std::ranges::find(added, &candidate) == added.end() &&
+            meet(teachers_of(*candidate.effect), wrong))
+            all.push_back(contender(base, candidate));
+    return all;
+}
+
+void Search::look_at(const CrossFit& base, std::span<Contender> contenders) {
+    std::vector<Contender*> fresh;
+    for (Contender& contender : contenders)
+        if (!contender.finding->is_looked_at) fresh.push_back(&contender);
+    if (fresh.empty()) return;
+    trials_ += static_cast<int>(fresh.size());
+
+    const std::vector<Window>& windows = fitter_.evidence().windows();
+    SignalFlags seen{};
+    for (const Contender* contender : fresh) seen = either(seen, contender->teachers());
+    const Wanted looked_at = fitter_.instructive_of(0, seen, base.mean_squares);
+    const Errors base_errors = fitter_.evidence().errors(base.of_half[0], looked_at);
     std::vector<PositionPeriod> periods;
-    if (std::ranges::any_of(contenders,
-                            [](const Contender& c) { return c.trial.candidate->wave.has_value(); }))
-        periods = strongest_periods(evidence_, evidence_.errors(base.of_half[0], half(0)), half(0));
-    parallel_for(contenders.size(), [&](std::size_t c) {
-        const Candidate& candidate = *contenders[c].trial.candidate;
-        const Wanted wanted = only_of(evidence_.windows(), looked_at, teachers_of(*candidate.effect));
-        const auto& windows = evidence_.windows();
-        contenders[c].starts =
-            candidate.wave
-                ? waves_at_first_sight(predictor(wanted), windows, wanted, base.of_half[0], base_errors,
-                                       candidate, periods)
-                : at_first_sight(predictor(wanted), windows, wanted, base.of_half[0], base_errors, candidate);
+    if (std::ranges::any_of(fresh, [](const Contender* c) { return c->trial.candidate->wave.has_value(); })) {
+        const Wanted all = fitter_.half(0);
+        periods = strongest_periods(fitter_.evidence(), fitter_.evidence().errors(base.of_half[0], all), all);
+    }
+    std::map<Places, Surroundings> beside;
+    for (const Contender* contender : fresh)
+        if (!beside.contains(contender->coupled))
+            beside.emplace(contender->coupled, surroundings(fitter_.predictor(looked_at), base.of_half[0],
+                                                            base_errors, contender->coupled));
+    parallel_for(fresh.size(), [&](std::size_t c) {
+        const Candidate& candidate = *fresh[c]->trial.candidate;
+        const Wanted wanted = only_of(windows, looked_at, fresh[c]->teachers());
+        const Predict predict = fitter_.predictor(wanted);
+        const Surroundings& here = beside.at(fresh[c]->coupled);
+        Finding& finding = *fresh[c]->finding;
+        finding.starts = candidate.wave
+                             ? waves_at_first_sight(predict, windows, wanted, here, candidate, periods)
+                             : at_first_sight(predict, windows, wanted, here, candidate);
+        finding.is_looked_at = true;
     });
-    return contenders;
 }
 
 void Search::fit_simple_first(const CrossFit& base, std::span<Contender> contenders) const {
@@ -136,45 +186,100 @@ void Search::fit_simple_first(const CrossFit& base, std::span<Contender> contend
     const auto simple_count = static_cast<std::size_t>(first_rich - contenders.begin());
     const std::span simple = contenders.first(simple_count), rich = contenders.subspan(simple_count);
     parallel_for(simple.size(), [&](std::size_t k) { fit_first_half(base, simple[k]); });
-    if (std::ranges::any_of(simple, [&](const Contender& c) { return is_at_floor(c.trial.fitted); })) return;
-    parallel_for(rich.size(), [&](std::size_t k) { fit_first_half(base, rich[k]); });
+    const auto leaves_nothing_to = [&](const Contender& other) {
+        return std::ranges::any_of(simple, [&](const Contender& one) {
+            return one.gain() > 0.0 && includes(one.teachers(), other.teachers()) &&
+                   !meet(off(one.trial.fitted), other.teachers());
+        });
+    };
+    std::vector<Contender*> wanted;
+    for (Contender& contender : rich)
+        if (!leaves_nothing_to(contender)) wanted.push_back(&contender);
+    parallel_for(wanted.size(), [&](std::size_t k) { fit_first_half(base, *wanted[k]); });
 }
 
 void Search::fit_first_half(const CrossFit& base, Contender& contender) const {
     constexpr double share_of_best_start = 0.5;
-    Hypothesis& best = contender.trial.fitted.of_half[0];
-    double least_loss = std::numeric_limits<double>::infinity();
-    for (const Promise& promise : contender.starts) {
-        if (promise.gain < share_of_best_start * contender.promised()) continue;
-        const Fit fitted = fit_half(0, promise.start, base);
-        if (fitted.loss >= least_loss) continue;
-        least_loss = fitted.loss;
-        best = fitted.hypothesis;
+    Finding& finding = *contender.finding;
+    if (finding.fitted[0].empty()) {
+        double least_loss = std::numeric_limits<double>::infinity();
+        for (const Promise& promise : finding.starts) {
+            if (promise.gain < share_of_best_start * contender.promised()) continue;
+            const Fit fitted = fitter_.fit_places(0, contender.placed(base, 0, promise.start),
+                                                  contender.fitted_places(base), base.mean_squares);
+            if (fitted.loss >= least_loss) continue;
+            least_loss = fitted.loss;
+            finding.fitted[0] = contender.part(fitted.hypothesis);
+        }
     }
-    judge_first_half(base, contender.trial);
+    Trial& trial = contender.trial;
+    if (finding.fitted[0].empty()) return;
+    trial.fitted.of_half[0] = contender.placed(base, 0, finding.fitted[0]);
+    const Wanted others = fitter_.instructive_of(1, contender.teachers(), base.mean_squares);
+    trial.fitted.mean_squares = mean_squares(fitter_.evidence().windows(),
+                                             fitter_.evidence().errors(trial.fitted.of_half[0], others));
+    trial.gain = fitter_.compared(base, trial.fitted).gain;
 }
 
-void Search::fit_second_half(const CrossFit& base, Trial& trial) const {
-    Hypothesis start = base.of_half[1];
-    start.push_back(trial.fitted.of_half[0].back());
-    trial.fitted.of_half[1] = fit_half(1, start, base).hypothesis;
-    judge(trial.fitted);
-    trial.gain = compared(base, trial.fitted).gain;
+void Search::fit_second_half(const CrossFit& base, Contender& contender) const {
+    Finding& finding = *contender.finding;
+    if (finding.fitted[1].empty()) {
+        finding.fitted[1] = contender.part(fitter_
+                                               .fit_places(1, contender.placed(base, 1, finding.fitted[0]),
+                                                           contender.fitted_places(base), base.mean_squares)
+                                               .hypothesis);
+    }
+    for (std::size_t side = 0; side < 2; ++side)
+        contender.trial.fitted.of_half[side] = contender.placed(base, side, finding.fitted[side]);
+    judge_both_halves(base, contender);
+}
+
+void Search::fit_closer(const CrossFit& base, Contender& contender) const {
+    constexpr int most_times = 3;
+    Finding& finding = *contender.finding;
+    for (int time = 0; time < most_times && !finding.is_close; ++time) {
+        const CrossFit& fitted = contender.trial.fitted;
+        if (!meet(off(fitted), contender.teachers())) return;
+        Contender closer = contender;
+        parallel_for(2, [&](std::size_t side) {
+            closer.trial.fitted.of_half[side] =
+                fitter_
+                    .fit_places(side, fitted.of_half[side], contender.fitted_places(base),
+                                fitted.mean_squares)
+                    .hypothesis;
+        });
+        judge_both_halves(base, closer);
+        finding.is_close = closer.gain() < contender.gain() + least_gain;
+        if (closer.gain() <= contender.gain()) return;
+        for (std::size_t side = 0; side < 2; ++side)
+            finding.fitted[side] = contender.part(closer.trial.fitted.of_half[side]);
+        contender = std::move(closer);
+    }
+}
+
+void Search::polish_both_halves(const CrossFit& base, Contender& contender) const {
+    if (!contender.trial.candidate->wave || is_at_floor(contender.trial.fitted)) return;
+    Finding& finding = *contender.finding;
+    if (finding.polished[0].empty())
+        parallel_for(2, [&](std::size_t side) {
+            const std::vector<Window>& windows = fitter_.evidence().windows();
+            const Wanted wanted = only_of(windows, fitter_.half(side), contender.teachers());
+            finding.polished[side] = contender.part(
+                polish(fitter_.predictor(wanted), windows, wanted, contender.trial.fitted.of_half[side])
+                    .hypothesis);
+        });
+    Contender polished = contender;
+    for (std::size_t side = 0; side < 2; ++side)
+        polished.trial.fitted.of_half[side] = polished.placed(base, side, finding.polished[side]);
+    judge_both_halves(base, polished);
+    if (polished.gain() > contender.gain()) contender = std::move(polished);
+}
+
+void Search::judge_both_halves(const CrossFit& base, Contender& contender) const {
+    Trial& trial = contender.trial;
+    fitter_.judge_beside(base, reached_by(contender.finding->fitted[0]), trial.fitted);
+    trial.gain = fitter_.compared(base, trial.fitted).gain;
     trial.is_leader = true;
-}
-
-void Search::polish_both_halves(const CrossFit& base, Trial& trial) const {
-    if (!trial.candidate->wave || is_at_floor(trial.fitted)) return;
-    const SignalFlags teach = teachers_of(*trial.candidate->effect);
-    Trial polished = trial;
-    parallel_for(2, [&](std::size_t side) {
-        const Wanted wanted = only_of(evidence_.windows(), half(side), teach);
-        Hypothesis& hypothesis = polished.fitted.of_half[side];
-        hypothesis = polish(predictor(wanted), evidence_.windows(), wanted, hypothesis).hypothesis;
-    });
-    judge(polished.fitted);
-    polished.gain = compared(base, polished.fitted).gain;
-    if (polished.gain > trial.gain) trial = std::move(polished);
 }
 
 void Search::prefer_simplest(std::vector<Trial>& trials) const {
@@ -187,97 +292,33 @@ void Search::prefer_simplest(std::vector<Trial>& trials) const {
     std::rotate(trials.begin(), best, std::next(best));
 }
 
-void Search::fit_again(CrossFit& cross) const {
-    if (cross.of_half[0].empty()) return judge(cross);
-    parallel_for(2, [&](std::size_t side) {
-        cross.of_half[side] = fit_half(side, cross.of_half[side], cross).hypothesis;
-    });
-    judge(cross);
-}
-
 bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
-    constexpr double least_share = 0.3;  // of the excess
-    const Comparison comparison = compared(without, with);
-    const double excess_without = excess(without.mean_squares);
-    return excess_without > 0.0 && excess(with.mean_squares) < (1.0 - least_share) * excess_without &&
-           comparison.gain > least_gain &&
+    constexpr double least_share = 0.3;  // of a signal's excess
+    const SignalExcess before = fitter_.excess(without.mean_squares),
+                       after = fitter_.excess(with.mean_squares);
+    bool clears_a_signal = false;
+    for (std::size_t s = 0; s < signal_count; ++s)
+        clears_a_signal = clears_a_signal || after[s] < (1.0 - least_share) * before[s];
+    const Comparison comparison = fitter_.compared(without, with);
+    return clears_a_signal && comparison.gain > least_gain &&
            comparison.significance >
                significance_bound(comparison.blocks, std::max(trials_, 1), options_.tail);
 }
 
-bool Search::ties(const CrossFit& best, const CrossFit& other) const {
-    const Comparison lead = compared(other, best);
-    return lead.gain < least_gain || lead.significance < tie_significance;
-}
-
-Comparison Search::compared(const CrossFit& base, const CrossFit& fitted) const {
-    return compare(evidence_.windows(), base.mean_squares, fitted.mean_squares);
-}
-
-Wanted Search::half(std::size_t side) const {
-    Wanted wanted(half_.size());
-    for (std::size_t w = 0; w < half_.size(); ++w) wanted[w] = half_[w] == side ? 1 : 0;
-    return wanted;
-}
-
-Predict Search::predictor(const Wanted& wanted) const {
-    return [this, wanted](const Hypothesis& hypothesis) {
-        return options_.stop && options_.stop() ? Errors{} : evidence_.errors(hypothesis, wanted);
-    };
-}
-
-Wanted Search::fitted_windows(std::size_t side, const Hypothesis& hypothesis,
-                              std::span<const double> mean_squares) const {
-    SignalFlags teach{};
-    for (const plant::EffectSetting& setting : hypothesis) {
-        const SignalFlags own = teachers_of(*setting.effect);
-        for (std::size_t s = 0; s < signal_count; ++s) teach[s] = teach[s] || own[s];
-    }
-    return instructive(evidence_.windows(), only_of(evidence_.windows(), half(side), teach), mean_squares,
-                       options_.windows);
-}
-
-Fit Search::fit_half(std::size_t side, const Hypothesis& start, const CrossFit& base) const {
-    const Wanted wanted = fitted_windows(side, start, base.mean_squares);
-    return fit(predictor(wanted), evidence_.windows(), wanted, start);
-}
-
-void Search::judge_first_half(const CrossFit& base, Trial& trial) const {
-    const Wanted wanted = fitted_windows(1, trial.fitted.of_half[0], base.mean_squares);
-    trial.fitted.mean_squares =
-        mean_squares(evidence_.windows(), evidence_.errors(trial.fitted.of_half[0], wanted));
-    trial.gain = compared(base, trial.fitted).gain;
-}
-
-double Search::excess(std::span<const double> mean_squares) const {
-    constexpr double floor_square = 1.1;  // what is at most 5 % above the floor is at it
-    std::array<double, signal_count> sums{}, counts{};
-    for (std::size_t w = 0; w < mean_squares.size(); ++w) {
-        if (std::isnan(mean_squares[w])) continue;
-        const std::size_t signal = index_of(evidence_.windows()[w].signal);
-        sums[signal] += mean_squares[w];
-        counts[signal] += 1.0;
-    }
-    double excess = 0.0;
-    for (std::size_t s = 0; s < signal_count; ++s)
-        if (sums[s] > floor_square * counts[s]) excess += sums[s] / counts[s] - 1.0;
-    return excess;
+SignalFlags Search::off(const CrossFit& fitted) const {
+    const SignalExcess excess = fitter_.excess(fitted.mean_squares);
+    SignalFlags flags{};
+    for (std::size_t s = 0; s < signal_count; ++s) flags[s] = excess[s] > 0.0;
+    return flags;
 }
 
 bool Search::is_at_floor(const CrossFit& fitted) const {
-    return excess(fitted.mean_squares) == 0.0;
+    return off(fitted) == SignalFlags{};
 }
 
-void Search::judge(CrossFit& cross) const {
-    cross.mean_squares.assign(evidence_.windows().size(), std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t side = 0; side < 2; ++side) {
-        const Wanted others = half(1 - side);
-        const std::vector<double> squares =
-            mean_squares(evidence_.windows(), evidence_.errors(cross.of_half[side], others));
-        for (std::size_t w = 0; w < squares.size(); ++w)
-            if (others[w] != 0) cross.mean_squares[w] = squares[w];
-    }
-    cross.loss = total_loss(cross.mean_squares);
+bool Search::ties(const CrossFit& best, const CrossFit& other) const {
+    const Comparison lead = fitter_.compared(other, best);
+    return lead.gain < least_gain || lead.significance < tie_significance;
 }
 
 }  // namespace fidservo::gap

@@ -29,6 +29,14 @@ Choice choice_of(const Search& search, const CrossFit& beside, std::vector<Trial
     return choice;
 }
 
+/// A chain with one more effect.
+Chain grown(const Search& search, Chain chain, std::vector<Trial> trials) {
+    CrossFit fitted = trials.front().fitted;
+    chain.choices.push_back(choice_of(search, chain.fitted, std::move(trials)));
+    chain.fitted = std::move(fitted);
+    return chain;
+}
+
 bool has_leader(const std::vector<Trial>& trials) {
     return !trials.empty() && trials.front().is_leader;
 }
@@ -40,9 +48,7 @@ void grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
         if (first_step != nullptr) *first_step = trials;
         first_step = nullptr;
         if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) return;
-        CrossFit fitted = trials.front().fitted;
-        chain.choices.push_back(choice_of(search, chain.fitted, std::move(trials)));
-        chain.fitted = std::move(fitted);
+        chain = grown(search, std::move(chain), std::move(trials));
         if (search.is_at_floor(chain.fitted)) return;
     }
 }
@@ -50,19 +56,20 @@ void grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
 /// The chain without one of its effects, fitted anew.
 Chain without(const Search& search, const Chain& chain, std::size_t left_out) {
     Chain shorter = chain;
+    const SignalFlags concerned = teachers_of(*chain.choices[left_out].candidate->effect);
     const auto at = static_cast<std::ptrdiff_t>(left_out);
     shorter.choices.erase(shorter.choices.begin() + at);
     for (Hypothesis& hypothesis : shorter.fitted.of_half) hypothesis.erase(hypothesis.begin() + at);
-    search.fit_again(shorter.fitted);
+    search.fit_again(shorter.fitted, concerned);
     return shorter;
 }
 
 /// An effect that was taken in first may have been a compromise of two others: each is given up where the
 /// rest does as well without it, and otherwise exchanged for what is best beside the rest. As long as nothing
 /// has changed the last one needs no test: it was found beside this very rest.
-/// @return whether anything changed
-bool exchange(Search& search, Chain& chain) {
-    bool changed = false;
+/// @param changed  whether anything changed before
+/// @return whether anything changed, before or here
+bool exchange(Search& search, Chain& chain, bool changed) {
     constexpr int most_exchanges = 4;
     int exchanges = 0;
     const auto tested = [&] { return changed ? chain.choices.size() : chain.choices.size() - 1; };
@@ -82,15 +89,50 @@ bool exchange(Search& search, Chain& chain) {
             if (has_leader(trials)) chain.choices[k] = choice_of(search, rest.fitted, std::move(trials));
             ++k;
         } else if (better && exchanges++ < most_exchanges) {
-            CrossFit fitted = trials.front().fitted;
-            rest.choices.push_back(choice_of(search, rest.fitted, std::move(trials)));
-            rest.fitted = std::move(fitted);
-            chain = std::move(rest);
+            chain = grown(search, std::move(rest), std::move(trials));
             changed = true;
             k = 0;
         } else {
             ++k;
         }
+    }
+    return changed;
+}
+
+/// Whether another chain explains better: the shorter one unless the longer one's gain is no chance.
+bool is_better(const Search& search, const Chain& other, const Chain& chain) {
+    if (other.choices.size() < chain.choices.size()) return !search.is_real(other.fitted, chain.fitted);
+    if (other.choices.size() > chain.choices.size()) return search.is_real(chain.fitted, other.fitted);
+    return other.fitted.loss < chain.fitted.loss - least_gain;
+}
+
+/// Where signals stay off their floors, what was taken in for them, one after the other, may be no step on
+/// the way to what there is: instead of it each of the best single effects, with what is best beside it.
+/// @return whether anything changed
+bool pair_up(Search& search, Chain& chain, int most_effects) {
+    constexpr std::size_t most_first = 5;
+    constexpr Effort effort{.fits = 3, .leaders = 1};
+    const SignalFlags off = search.off(chain.fitted);
+    Chain rest = chain;
+    for (std::size_t k = chain.choices.size(); k-- > 0;)
+        if (meet(teachers_of(*chain.choices[k].candidate->effect), off)) rest = without(search, rest, k);
+    if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
+    const std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates());
+    std::vector<std::string> classes;
+    bool changed = false;
+    for (const Trial& single : singles) {
+        const bool is_new = std::ranges::find(classes, single.candidate->class_name) == classes.end();
+        if (single.gain < least_gain || !is_new) continue;
+        if (classes.size() == most_first) break;
+        classes.push_back(single.candidate->class_name);
+        Trial first{single.candidate, single.gain, true, search.with(rest.fitted, *single.candidate)};
+        const Chain one = grown(search, rest, {std::move(first)});
+        std::vector<Trial> trials = search.try_all(one.fitted, one.candidates(), effort);
+        if (!has_leader(trials)) continue;
+        Chain two = grown(search, one, std::move(trials));
+        if (!is_better(search, two, chain)) continue;
+        chain = std::move(two);
+        changed = true;
     }
     return changed;
 }
@@ -105,8 +147,11 @@ Chain nameable(const Search& search, Chain chain) {
 /// The first `count` effects of a chain alone.
 CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
     CrossFit fitted = chain.fitted;
+    SignalFlags concerned{};
+    for (std::size_t k = count; k < chain.choices.size(); ++k)
+        concerned = either(concerned, teachers_of(*chain.choices[k].candidate->effect));
     for (Hypothesis& hypothesis : fitted.of_half) hypothesis.resize(count);
-    search.fit_again(fitted);
+    search.fit_again(fitted, concerned);
     return fitted;
 }
 
@@ -126,7 +171,8 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     Chain chain{{}, search.nothing()};
     selection.steps.push_back(chain.fitted);
     grow(search, chain, options.most_effects, &selection.alone);
-    if (exchange(search, chain)) grow(search, chain, options.most_effects, nullptr);
+    const bool is_paired = pair_up(search, chain, options.most_effects);
+    if (exchange(search, chain, is_paired)) grow(search, chain, options.most_effects, nullptr);
     chain = nameable(search, std::move(chain));
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     for (std::size_t k = 1; k < chain.choices.size(); ++k)

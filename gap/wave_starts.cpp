@@ -14,12 +14,12 @@ constexpr std::size_t most_starts = 4;
 class WaveTrials {
   public:
     WaveTrials(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
-               const Hypothesis& base, const Errors& base_errors, const Candidate& candidate)
+               const Surroundings& beside, const Candidate& candidate)
         : predict_(predict),
           windows_(windows),
           counted_(counted),
-          base_(base),
-          base_squares_(mean_squares(windows, base_errors)),
+          beside_(beside),
+          base_squares_(mean_squares(windows, beside.errors)),
           candidate_(candidate) {}
 
     /// The best of some factors of the amplitude that the errors show.
@@ -56,16 +56,17 @@ class WaveTrials {
         values[candidate_.wave->amplitude] = amplitude;
         values[candidate_.wave->period] = period_mm;
         values[candidate_.wave->phase] = std::remainder(phase_rad, 2.0 * std::numbers::pi);
-        Hypothesis there = base_;
-        there.push_back({candidate_.effect, values});
+        Hypothesis there = beside_.base, part = part_of(beside_.base, beside_.places);
+        part.push_back({candidate_.effect, std::move(values)});
+        there.push_back(part.back());
         const double gain = gained(windows_, counted_, base_squares_, predict_(there));
-        return {std::move(there), gain};
+        return {std::move(part), gain};
     }
 
     const Predict& predict_;
     std::span<const Window> windows_;
     const Wanted& counted_;
-    const Hypothesis& base_;
+    const Surroundings& beside_;
     std::vector<double> base_squares_;
     const Candidate& candidate_;
 };
@@ -73,11 +74,11 @@ class WaveTrials {
 }  // namespace
 
 std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<const Window> windows,
-                                          const Wanted& counted, const Hypothesis& base,
-                                          const Errors& base_errors, const Candidate& candidate,
+                                          const Wanted& counted, const Surroundings& beside,
+                                          const Candidate& candidate,
                                           std::span<const PositionPeriod> periods) {
     constexpr std::size_t most_refined = 3;
-    const WaveTrials trials(predict, windows, counted, base, base_errors, candidate);
+    const WaveTrials trials(predict, windows, counted, beside, candidate);
     struct Start {
         PositionPeriod period;
         Promise promise;

@@ -10,8 +10,8 @@ namespace fidservo::gap {
 /// that the errors show, tries larger ones, and the periods beside those that promise most, in step at the
 /// middle of the rail.
 std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<const Window> windows,
-                                          const Wanted& counted, const Hypothesis& base,
-                                          const Errors& base_errors, const Candidate& candidate,
+                                          const Wanted& counted, const Surroundings& beside,
+                                          const Candidate& candidate,
                                           std::span<const PositionPeriod> periods);
 
 }  // namespace fidservo::gap

@@ -1,0 +1,34 @@
+#pragma once
+// What a search has found out about a candidate, so that it need not find it out again beside another base
+// that differs only in what the candidate does not meet.
+#include "gap/first_sight.h"
+
+#include <array>
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// Of a candidate beside those settings of a base that it is coupled with.
+struct Finding {
+    std::array<Hypothesis, 2> beside;    ///< as fitted on each half
+    bool is_looked_at = false;           ///< whether starts were looked for
+    std::vector<Promise> starts;         ///< best first
+    std::array<Hypothesis, 2> fitted;    ///< on each half: what is beside, then the candidate; empty before
+    bool is_close = false;               ///< whether it was fitted once more
+    std::array<Hypothesis, 2> polished;  ///< likewise
+};
+
+class SearchMemory {
+  public:
+    explicit SearchMemory(std::size_t candidates) : findings_(candidates) {}
+
+    /// Stays where it is. Not to be called from two threads at once.
+    Finding& of(std::size_t candidate, const std::array<Hypothesis, 2>& beside);
+
+  private:
+    std::vector<std::deque<Finding>> findings_;
+};
+
+}  // namespace fidservo::gap

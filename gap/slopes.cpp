@@ -1,0 +1,19 @@
+#include "gap/slopes.h"
+
+namespace fidservo::gap {
+
+Errors slope(const Predict& predict, const ScaledParameters& parameters, std::size_t k,
+             const Errors& errors) {
+    constexpr double difference_step = 0.01;
+    std::vector<double> beside = parameters.values;
+    const double step =
+        beside[k] + difference_step <= parameters.high(k) ? difference_step : -difference_step;
+    beside[k] += step;
+    Errors change = predict(parameters.at(beside));
+    if (change.empty()) change = errors;
+    for (std::size_t i = 0; i < change.size(); ++i)
+        change[i] = (change[i] - errors[i]) / static_cast<float>(step);
+    return change;
+}
+
+}  // namespace fidservo::gap
