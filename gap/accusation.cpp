@@ -9,6 +9,7 @@ namespace fidservo::gap {
 namespace {
 
 std::string_view carriage_block(std::optional<Dependence> dependence) {
+    if (dependence == Dependence::reading_period) return "macro.encoder";
     if (dependence == Dependence::command || dependence == Dependence::command_change ||
         dependence == Dependence::nothing || dependence == Dependence::time)
         return "macro.drive";
@@ -34,6 +35,16 @@ bool is_displacement(const Pattern& pattern) {
     return along > least_floors * least_floors - 1.0 && along > ratio * across;
 }
 
+std::string_view view_block(const Pattern& pattern, std::optional<Dependence> dependence) {
+    if (dependence == Dependence::velocity) return "camera.timing";
+    if (dependence == Dependence::position || dependence == Dependence::reading_period)
+        return "macro.encoder";
+    if (dependence == Dependence::contraction) return "micro.hall";
+    if (dependence == Dependence::image_place) return "camera.geometry";
+    if (dependence == Dependence::plate_place || dependence == Dependence::tag_size) return "plate";
+    return is_displacement(pattern) ? "camera.timing" : "camera.geometry";
+}
+
 bool off(const Pattern& pattern, Signal signal) {
     return pattern.floors[index_of(signal)] >= least_floors;
 }
@@ -44,23 +55,30 @@ constexpr double between_counts = 0.1;
 }  // namespace
 
 Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, const Errors& errors) {
-    constexpr std::size_t coordinates = 8;
     Pattern pattern;
-    for (const SignalGap& gap : gaps) pattern.floors[index_of(gap.signal)] = gap.after / gap.floor;
+    std::array<double, signal_count> expected{}, counts{};
+    for (const Window& window : evidence.windows()) {
+        expected[index_of(window.signal)] += std::max(least_expected_square, window.expected_square);
+        counts[index_of(window.signal)] += 1.0;
+    }
+    for (const SignalGap& gap : gaps) {
+        const std::size_t s = index_of(gap.signal);
+        pattern.floors[s] = gap.after / gap.floor / std::sqrt(expected[s] / counts[s]);
+    }
     const Rig& rig = evidence.rig();
     double along = 0.0, across = 0.0, count = 0.0;
     for (const Window& window : evidence.windows()) {
         if (window.signal != Signal::tag) continue;
-        for (std::size_t k = window.begin; k + coordinates <= window.end; k += coordinates) {
+        for (std::size_t k = window.begin; k + corner_values <= window.end; k += corner_values) {
             if (std::isnan(errors[k])) continue;
             along += std::pow(errors[k], 2);
-            for (std::size_t i = 1; i < coordinates; ++i) across += std::pow(errors[k + i], 2);
+            for (std::size_t i = 1; i < corner_values; ++i) across += std::pow(errors[k + i], 2);
             count += 1.0;
         }
     }
     if (count == 0.0) return pattern;
     pattern.tag_along = std::sqrt(along / count);
-    pattern.tag_across = std::sqrt(across / (count * (coordinates - 1)));
+    pattern.tag_across = std::sqrt(across / (count * (corner_values - 1)));
     constexpr double corners = 4.0;  // a tag that is displaced by d is so at each
     if (rig.camera)
         pattern.tags_count = pattern.tag_along * evidence.floor(Signal::tag) *
@@ -90,7 +108,7 @@ std::string_view accused_block(const Pattern& pattern, Signal signal, std::optio
         case Signal::hall:
             return is_false ? "micro.hall" : platform_block(dependence);
         case Signal::tag:
-            return is_displacement(pattern) ? "camera.timing" : "camera.geometry";
+            return view_block(pattern, dependence);
         case Signal::macro_command:
         case Signal::micro_command:
             break;

@@ -16,7 +16,7 @@
 
 namespace fidservo::gap {
 
-/// What is left, in floors (r.m.s.); 0 for signals that were not recorded.
+/// What is left, r.m.s., over what is expected under the truth; 0 for signals that were not recorded.
 struct Pattern {
     std::array<double, signal_count> floors{};
     double tag_along = 0.0;   ///< of the tags' corners along the stage's motion

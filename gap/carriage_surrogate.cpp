@@ -1,7 +1,9 @@
 #include "gap/hat_functions.h"
 #include "gap/period_search.h"
 #include "gap/surrogate.h"
+#include "plant/dead_zone.h"
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -19,10 +21,14 @@ struct Answer {
           tick_s(rig.tick_s) {}
 };
 
+/// By how much commands may be late.
+constexpr std::array<std::size_t, 2> late_ticks{2, 8};
+
 /// What a row offers to the functions below.
 struct Row {
-    double velocity_mm_per_s, position_mm, command_V, command_before_V, acceleration_mm_per_s2, time_s;
-    double direction;  ///< -1, 0, 1
+    double velocity_mm_per_s, position_mm, command_V, acceleration_mm_per_s2, time_s;
+    std::array<double, late_ticks.size()> late_V;  ///< what the command would do more if it came late
+    double direction;                              ///< -1, 0, 1
 };
 
 class Columns {
@@ -34,18 +40,21 @@ class Columns {
     }
 
     Row row(const Window& window, std::size_t k) const {
-        constexpr std::size_t look_back = 5;
         const Course& course = evidence_.course(window.run);
         const Recording& recording = evidence_.recordings()[window.run];
         const double v = course.velocity_mm_per_s[k];
         const double before = course.velocity_mm_per_s[k > 0 ? k - 1 : 0];
-        return {v,
+        Row row{v,
                 course.position_mm[k],
                 recording.rows[k].macro_command_V,
-                recording.rows[k >= look_back ? k - look_back : 0].macro_command_V,
                 (v - before) / answer_.tick_s,
                 seconds(recording.rows[k].time_ns - recording.rows.front().time_ns),
+                {},
                 std::abs(v) < moving_mm_per_s ? 0.0 : std::copysign(1.0, v)};
+        for (std::size_t i = 0; i < late_ticks.size(); ++i)
+            row.late_V[i] = effective_V(recording.rows[k >= late_ticks[i] ? k - late_ticks[i] : 0]) -
+                            effective_V(recording.rows[k]);
+        return row;
     }
 
     /// What a force adds to the reading; it acts on a carriage that moves.
@@ -107,6 +116,13 @@ class Columns {
     }
 
   private:
+    /// Of a command, what the file's friction leaves.
+    double effective_V(const StageRow& row) const {
+        const DeadZone& zone = evidence_.rig().macro.dead_zone;
+        return plant::dead_zone_V(zone, plant::dead_zone_branch(zone, row.macro_command_V),
+                                  row.macro_command_V);
+    }
+
     Column over_windows(Dependence group,
                         const std::function<void(const Window&, std::vector<float>&)>& fill) const {
         Column column{static_cast<int>(group), std::vector<float>(size_, 0.0F)};
@@ -132,12 +148,11 @@ void add_hats(std::vector<Column>& columns, const Columns& make, Dependence grou
 
 std::vector<Column> waves(const Columns& make, double period_mm) {
     const double per_mm = 2.0 * std::numbers::pi / period_mm;
-    const auto group = Dependence::position_period;
     std::vector<Column> columns;
     for (const double phase : {0.0, 0.5 * std::numbers::pi}) {
         const auto wave = [=](const Row& at) { return std::sin(per_mm * at.position_mm + phase); };
-        columns.push_back(make.of_force(group, wave));
-        columns.push_back(make.of_reading(group, wave));
+        columns.push_back(make.of_force(Dependence::position_period, wave));
+        columns.push_back(make.of_reading(Dependence::reading_period, wave));
     }
     return columns;
 }
@@ -163,8 +178,9 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors) {
     columns.push_back(make.of_reading(Dependence::acceleration,
                                       [](const Row& at) { return 1e-5 * at.acceleration_mm_per_s2; }));
     add_hats(columns, make, Dependence::command, 8, [](const Row& at) { return at.command_V; });
-    columns.push_back(make.of_force(Dependence::command_change,
-                                    [](const Row& at) { return at.command_before_V - at.command_V; }));
+    for (std::size_t i = 0; i < late_ticks.size(); ++i)
+        columns.push_back(
+            make.of_force(Dependence::command_change, [i](const Row& at) { return at.late_V[i]; }));
     add_hats(columns, make, Dependence::time, 6, [](const Row& at) { return at.time_s; });
     const auto periods = strongest_periods(evidence, errors, everything(evidence));
     if (!periods.empty()) surrogate.period_mm = periods.front().period_mm;

@@ -3,6 +3,7 @@
 #include "gap/halves.h"
 #include "gap/parallel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -36,13 +37,13 @@ Wanted CrossFitter::instructive_of(std::size_t side, const SignalFlags& signals,
 }
 
 Fit CrossFitter::fit_places(std::size_t side, const Hypothesis& start, const Places& places,
-                            std::span<const double> mean_squares) const {
+                            std::span<const double> mean_squares, const FitOptions& options) const {
     const Wanted wanted = instructive_of(side, taught_by(part_of(start, places)), mean_squares);
     const Predict predict_whole = predictor(wanted);
     const Predict predict = [&](const Hypothesis& part) {
         return predict_whole(with_part(start, places, part));
     };
-    Fit fitted = fit(predict, evidence_.windows(), wanted, part_of(start, places));
+    Fit fitted = fit(predict, evidence_.windows(), wanted, part_of(start, places), options);
     fitted.hypothesis = with_part(start, places, fitted.hypothesis);
     return fitted;
 }
@@ -82,7 +83,7 @@ SignalExcess CrossFitter::excess(std::span<const double> mean_squares) const {
         if (std::isnan(mean_squares[w])) continue;
         const std::size_t signal = index_of(evidence_.windows()[w].signal);
         sums[signal] += mean_squares[w];
-        counts[signal] += 1.0;
+        counts[signal] += std::max(least_expected_square, evidence_.windows()[w].expected_square);
     }
     SignalExcess excess{};
     for (std::size_t s = 0; s < signal_count; ++s)

@@ -38,7 +38,7 @@ class CrossFitter {
 
     /// Fits the settings at some places on a half, the others being as they are.
     Fit fit_places(std::size_t side, const Hypothesis& start, const Places& places,
-                   std::span<const double> mean_squares) const;
+                   std::span<const double> mean_squares, const FitOptions& options = {}) const;
 
     /// Fits all parameters, from where they are, of the parts of the hypothesis that meet some signals.
     void fit_again(CrossFit& cross, const SignalFlags& signals) const;

@@ -58,7 +58,7 @@ void write_detections(Errors& errors, const Window& window, const TagRun& run,
         const TagSighting& sighting = run.sightings[window.first_detection + i];
         for (int value = 0; value < 8; ++value) {
             const double floor_px = value == 0 ? sighting.along_floor_px : corner_noise_px;
-            errors[window.begin + 8 * i + static_cast<std::size_t>(value)] =
+            errors[window.begin + corner_values * i + static_cast<std::size_t>(value)] =
                 static_cast<float>(found[i][value] / floor_px);
         }
     }
@@ -232,6 +232,10 @@ const std::vector<Omission>& Evidence::omissions() const {
 }
 const Course& Evidence::course(std::size_t run) const {
     return parts_->courses[run];
+}
+
+const TagSighting& Evidence::sighting(std::size_t run, std::size_t detection) const {
+    return parts_->links[run].tags.sightings[detection];
 }
 
 Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted) const {

@@ -44,14 +44,19 @@ std::string_view unit_of(Signal signal);  ///< count, adc, px, V, V
 /// What a rig is claimed to have beyond its file.
 using Hypothesis = std::vector<plant::EffectSetting>;
 
+/// u and v of a tag's four corners.
+inline constexpr std::size_t corner_values = 8;
+
 /// A stretch of one recording over which one signal is predicted from the state at its start.
 struct Window {
     std::size_t run = 0;  ///< which recording
     Signal signal = Signal::encoder;
     TimeNs start_ns = 0;
     std::size_t first_row = 0, rows = 0;  ///< of the recording
-    std::size_t begin = 0, end = 0;       ///< its values in Errors: one a row; of tags, eight a detection
-    std::size_t first_detection = 0;      ///< of the recording's, for tags; sorted by time
+    std::size_t begin = 0, end = 0;   ///< its values in Errors: one a row; of tags, corner_values a detection
+    std::size_t first_detection = 0;  ///< of the recording's, for tags; sorted by time
+    /// Mean square of its errors under the truth, floors^2: less than 1 where the encoder's reading stands.
+    double expected_square = 1.0;
 };
 
 /// Prediction minus recording in floors, window after window; NaN where a value does not count (a tag that
@@ -75,6 +80,9 @@ struct Course {
     std::vector<float> contraction_mm;                  ///< by the Hall reading, smoothed
 };
 
+/// What a carriage that stands all the time may be off, by readings that flicker between two counts.
+inline constexpr double least_expected_square = 0.05;
+
 /// A signal that was not judged, or a part of one, and why.
 struct Omission {
     std::string recording;
@@ -83,6 +91,8 @@ struct Omission {
 
 /// What is to be predicted: a flag for each of Evidence::windows().
 using Wanted = std::vector<std::uint8_t>;
+
+struct TagSighting;
 
 class Evidence {
   public:
@@ -102,6 +112,8 @@ class Evidence {
     double floor(Signal signal) const;
     const std::vector<Omission>& omissions() const;
     const Course& course(std::size_t run) const;
+    /// One of a recording's detections, in the order of Window::first_detection (gap/tag_link.h).
+    const TagSighting& sighting(std::size_t run, std::size_t detection) const;
 
     /// Predictions of a hypothesis; values of windows that are not wanted are NaN.
     /// Deterministic, const and safe to call from several threads at once.

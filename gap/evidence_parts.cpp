@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -30,18 +31,29 @@ Course course_of(const Rig& rig, const RunLinks& links, const PlatformPrediction
 }
 
 /// Appends a recording's windows of one signal.
-void add_windows(Evidence::Parts& parts, std::size_t run, Signal signal, const std::vector<WindowRows>& all) {
+/// @param expected_square  of each
+void add_windows(
+    Evidence::Parts& parts, std::size_t run, Signal signal, const std::vector<WindowRows>& all,
+    const std::function<double(const WindowRows&)>& expected_square = [](const WindowRows&) { return 1.0; }) {
     for (const WindowRows& window : all) {
         const std::size_t rows = window.end - window.first;
         parts.windows.push_back({run, signal, parts.recordings[run].rows[window.first].time_ns, window.first,
                                  rows, parts.values, parts.values + rows});
+        parts.windows.back().expected_square = expected_square(window);
         parts.values += rows;
     }
 }
 
+/// Share of a window's rows in which the carriage's reading does not stand.
+double moving_share(const CarriageRun& run, const WindowRows& window) {
+    std::size_t moving = 0;
+    for (std::size_t k = window.first; k < window.end; ++k) moving += run.stands[k] ? 0 : 1;
+    return static_cast<double>(moving) / static_cast<double>(window.end - window.first);
+}
+
 void add_tag_windows(Evidence::Parts& parts, std::size_t run) {
     for (const TagWindow& window : parts.links[run].tags.windows) {
-        const std::size_t values = 8 * (window.end - window.first);
+        const std::size_t values = corner_values * (window.end - window.first);
         parts.windows.push_back({run, Signal::tag, parts.recordings[run].rows[window.rows.first].time_ns,
                                  window.rows.first, window.rows.end - window.rows.first, parts.values,
                                  parts.values + values, window.first});
@@ -164,7 +176,9 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     parts.courses.push_back(course_of(rig, links, platform ? &*platform : nullptr));
 
     parts.first_window.push_back(parts.windows.size());
-    for (const auto& windows : links.carriage.windows) add_windows(parts, run, Signal::encoder, windows);
+    for (const auto& windows : links.carriage.windows)
+        add_windows(parts, run, Signal::encoder, windows,
+                    [&](const WindowRows& window) { return moving_share(links.carriage, window); });
     if (links.platform) add_windows(parts, run, Signal::hall, links.platform->windows);
     add_tag_windows(parts, run);
     add_windows(parts, run, Signal::macro_command, links.macro.windows);

@@ -121,13 +121,12 @@ std::vector<double> Regression::mean_squares(std::span<const int> groups) const 
     return squares;
 }
 
-std::vector<int> Regression::significant_groups(double tail) const {
+std::vector<int> Regression::significant_groups(double tail, double as_good) const {
     struct Trial {
         int group;
         Comparison comparison;
         std::vector<double> squares;
     };
-    constexpr double as_good = 0.8;  // of the best one's gain
     const std::set<int> all(group_of_.begin(), group_of_.end());
     std::vector<int> taken;
     std::vector<double> before = mean_squares(taken);

@@ -31,6 +31,11 @@ Errors held_out_errors(const Evidence& evidence, const CrossFit& explained,
     return errors;
 }
 
+Surrogate surrogate_of(const Evidence& evidence, Signal signal, const Errors& errors) {
+    if (signal == Signal::encoder) return carriage_surrogate(evidence, errors);
+    return signal == Signal::hall ? platform_surrogate(evidence) : tag_surrogate(evidence, errors);
+}
+
 /// Groups of the signal's surrogate that predict what was not fitted, and the surrogate's period.
 struct Dependences {
     std::vector<int> groups;
@@ -39,29 +44,28 @@ struct Dependences {
 
 Dependences dependences(const Evidence& evidence, Signal signal, const Errors& errors,
                         std::span<const std::uint8_t> half, double tail) {
-    if (signal != Signal::encoder && signal != Signal::hall) return {};
-    const Surrogate surrogate =
-        signal == Signal::encoder ? carriage_surrogate(evidence, errors) : platform_surrogate(evidence);
+    if (signal == Signal::macro_command || signal == Signal::micro_command) return {};
+    const Surrogate surrogate = surrogate_of(evidence, signal, errors);
     const Regression regression(evidence.windows(), signal, errors, surrogate.columns, surrogate.nuisances,
                                 half);
-    return {regression.significant_groups(tail), surrogate.period_mm};
+    return {regression.significant_groups(tail, surrogate.as_good), surrogate.period_mm};
 }
 
-Remainder remainder_of_signal(const Evidence& evidence, Signal signal, const Pattern& pattern,
-                              const Dependences& found) {
-    const double floors = pattern.floors[index_of(signal)];
+Remainder remainder_of_signal(const SignalGap& gap, const Pattern& pattern, const Dependences& found) {
+    const Signal signal = gap.signal;
     const auto first =
         found.groups.empty() ? std::nullopt : std::optional(static_cast<Dependence>(found.groups.front()));
     Remainder remainder{std::string(accused_block(pattern, signal, first)), {}, {}};
     for (const int group : found.groups) {
         const auto dependence = static_cast<Dependence>(group);
         std::string name(name_of(dependence));
-        if (dependence == Dependence::position_period) name += fmt::format(" ({:.3g} mm)", found.period_mm);
+        if (dependence == Dependence::position_period || dependence == Dependence::reading_period)
+            name += fmt::format(" ({:.3g} mm)", found.period_mm);
         remainder.depends_on.push_back(std::move(name));
     }
     remainder.text =
         fmt::format("{}: {:.3g} {} r.m.s. ({:.3g} floors) remain that no effect explains; {}",
-                    name_of(signal), floors * evidence.floor(signal), unit_of(signal), floors,
+                    name_of(signal), gap.after, unit_of(signal), pattern.floors[index_of(signal)],
                     remainder.depends_on.empty()
                         ? std::string("nothing was found that they depend on")
                         : fmt::format("they depend on {}", fmt::join(remainder.depends_on, ", ")));
@@ -84,7 +88,7 @@ std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& 
         if (gap.signal == Signal::tag && tags_are_innocent(pattern)) continue;
         const Dependences found = dependences(evidence, gap.signal, errors, half, tail);
         if (found.groups.empty() && floors(gap) < clear_floors) continue;
-        return remainder_of_signal(evidence, gap.signal, pattern, found);
+        return remainder_of_signal(gap, pattern, found);
     }
     return {};
 }

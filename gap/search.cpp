@@ -245,7 +245,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
             closer.trial.fitted.of_half[side] =
                 fitter_
                     .fit_places(side, fitted.of_half[side], contender.fitted_places(base),
-                                fitted.mean_squares)
+                                fitted.mean_squares, {.tolerance = 1e-7})
                     .hypothesis;
         });
         judge_both_halves(base, closer);

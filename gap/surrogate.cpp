@@ -5,10 +5,11 @@
 namespace fidservo::gap {
 
 std::string_view name_of(Dependence dependence) {
-    constexpr std::array<std::string_view, 14> names{"velocity",
+    constexpr std::array<std::string_view, 17> names{"velocity",
                                                      "direction",
                                                      "position",
                                                      "position, periodic",
+                                                     "position, periodic in the reading",
                                                      "acceleration",
                                                      "command",
                                                      "changes of the command",
@@ -18,7 +19,9 @@ std::string_view name_of(Dependence dependence) {
                                                      "contraction",
                                                      "macro command",
                                                      "position, against the motion",
-                                                     "place in the image"};
+                                                     "place in the image",
+                                                     "place on the plate",
+                                                     "size of the tag"};
     return names.at(static_cast<std::size_t>(dependence));
 }
 

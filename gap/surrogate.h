@@ -5,7 +5,7 @@
 //
 //     tau dv/dt = K f - v,   dy/dt = v
 //
-// so that no recorded position is differentiated.
+// so that no recorded position is differentiated. What acts on the image is a pattern of corners.
 #include "gap/evidence.h"
 #include "gap/regression.h"
 
@@ -19,7 +19,8 @@ enum class Dependence : std::uint8_t {
     velocity,
     direction,
     position,
-    position_period,
+    position_period,  ///< of a force
+    reading_period,   ///< of the reading itself
     acceleration,
     command,
     command_change,  ///< what came before the command that is in force
@@ -30,6 +31,8 @@ enum class Dependence : std::uint8_t {
     macro_command,
     position_friction,  ///< a friction that depends on the place
     image_place,
+    plate_place,
+    tag_size,
 };
 
 std::string_view name_of(Dependence dependence);
@@ -38,7 +41,10 @@ struct Surrogate {
     Signal signal;
     std::vector<Column> columns;    ///< group: a Dependence
     std::vector<Column> nuisances;  ///< of the state at a window's start
-    double period_mm = 0.0;         ///< of Dependence::position_period
+    double period_mm = 0.0;         ///< of Dependence::position_period and reading_period
+    /// Groups that add this share of what the best one adds are as good, and of those the one of fewest
+    /// columns is preferred.
+    double as_good = 0.8;
 };
 
 /// Of the encoder's errors. @param errors  that the period is looked for in
@@ -46,5 +52,9 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors);
 
 /// Of the Hall reading's errors.
 Surrogate platform_surrogate(const Evidence& evidence);
+
+/// Of the tags' errors. What has no room of its own here shifts them along the stage's motion; each window's
+/// mean along it is a nuisance. @param errors  that the period is looked for in
+Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors);
 
 }  // namespace fidservo::gap

@@ -142,10 +142,6 @@ CornerValues predicted(const TagModel& model, const TagRun& run, const CameraPla
     return corners;
 }
 
-CornerValues turned(const TagSighting& sighting, const CornerValues& values) {
-    return values - 2.0 * sighting.mirror.dot(values) * sighting.mirror;
-}
-
 /// What makes a detection's first value the one along the slope. The slope is never along the first axis
 /// alone.
 CornerValues mirror_of(const CornerValues& slope) {
@@ -249,6 +245,10 @@ TagModel tag_model(const plant::PlantParameters& parameters, const Rig& rig) {
             rig.macro.encoder_resolution_mm,
             parameters.micro,
             parameters.axis.drive_gain};
+}
+
+CornerValues turned(const TagSighting& sighting, const CornerValues& values) {
+    return values - 2.0 * sighting.mirror.dot(values) * sighting.mirror;
 }
 
 std::vector<CornerValues> tag_errors(const TagModel& model, const TagRun& run, const TagWindow& window,

@@ -16,6 +16,7 @@
 // The std of x is the smoothed reading's. That of y grows with the way since the window's 100 ms began, as a
 // share of it, to what rounding hides; this is what it is, too, where no detection gave the offset.
 #include "gap/carriage_link.h"
+#include "gap/evidence.h"
 #include "gap/hall_smoothing.h"
 
 #include <array>
@@ -27,7 +28,7 @@
 
 namespace fidservo::gap {
 
-using CornerValues = Eigen::Matrix<double, 8, 1>;  ///< u and v of the corners in turn
+using CornerValues = Eigen::Matrix<double, corner_values, 1>;  ///< u and v of the corners in turn
 
 /// A detection that is judged.
 struct TagSighting {
@@ -70,6 +71,9 @@ struct TagModel {
 
 /// Demands a camera.
 TagModel tag_model(const plant::PlantParameters& parameters, const Rig& rig);
+
+/// Values of a detection turned as its errors are.
+CornerValues turned(const TagSighting& sighting, const CornerValues& values);
 
 /// The turned values, prediction minus recording in px, of a window's detections one after the other.
 std::vector<CornerValues> tag_errors(const TagModel& model, const TagRun& run, const TagWindow& window,

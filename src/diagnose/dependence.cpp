@@ -37,14 +37,14 @@ std::vector<Sample> row_samples(const gap::Evidence& evidence, const Predictions
 /// @param quantity  of a run's detection
 std::vector<Sample> tag_samples(const gap::Evidence& evidence, const Predictions& predictions,
                                 const OfRow& quantity) {
-    constexpr std::size_t values = 8;
     std::vector<Sample> samples;
     const std::vector<gap::Window>& windows = evidence.windows();
     for (std::size_t w = 0; w < windows.size(); ++w) {
         const gap::Window& window = windows[w];
         if (window.signal != Signal::tag) continue;
-        for (std::size_t k = window.begin; k < window.end; k += values) {
-            const double x = quantity(window.run, window.first_detection + (k - window.begin) / values);
+        for (std::size_t k = window.begin; k < window.end; k += gap::corner_values) {
+            const double x =
+                quantity(window.run, window.first_detection + (k - window.begin) / gap::corner_values);
             if (std::isfinite(x) && !std::isnan(predictions.nominal[k]) &&
                 !std::isnan(predictions.explained[k]))
                 samples.push_back({static_cast<float>(x), predictions.nominal[k], predictions.explained[k],

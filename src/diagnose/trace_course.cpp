@@ -32,19 +32,19 @@ double recorded_value(const StageRow& row, Signal signal, const MacroParameters&
 /// Mean along the motion and r.m.s. across it, of a frame's detections from index `first` up to `end`.
 void add_frame(TraceCourse& course, const gap::Window& window, const Predictions& predictions,
                std::size_t first, std::size_t end) {
-    constexpr std::size_t values = 8;
     const auto of = [&](const gap::Errors& errors, std::vector<float>& along, std::vector<float>& across) {
         double sum = 0.0, squares = 0.0, known = 0.0;
         for (std::size_t i = first; i < end; ++i) {
-            const std::size_t at = window.begin + values * i;
+            const std::size_t at = window.begin + gap::corner_values * i;
             if (std::isnan(errors[at])) continue;
             sum += static_cast<double>(errors[at]);
-            for (std::size_t k = 1; k < values; ++k)
+            for (std::size_t k = 1; k < gap::corner_values; ++k)
                 squares += static_cast<double>(errors[at + k]) * static_cast<double>(errors[at + k]);
             known += 1.0;
         }
         along.push_back(known > 0.0 ? static_cast<float>(sum / known) : nan);
-        across.push_back(known > 0.0 ? static_cast<float>(std::sqrt(squares / (known * (values - 1)))) : nan);
+        across.push_back(
+            known > 0.0 ? static_cast<float>(std::sqrt(squares / (known * (gap::corner_values - 1)))) : nan);
     };
     of(predictions.nominal, course.nominal_error, course.nominal_across);
     of(predictions.explained, course.explained_error, course.explained_across);
@@ -88,7 +88,7 @@ TraceCourse course_of_frames(const gap::Evidence& evidence, const Predictions& p
     TraceCourse course;
     for (const gap::Window& window : evidence.windows()) {
         if (window.run != run || window.signal != Signal::tag) continue;
-        const std::size_t detections = (window.end - window.begin) / 8;
+        const std::size_t detections = (window.end - window.begin) / gap::corner_values;
         const auto time_ns = [&](std::size_t i) {
             return recording.detections[window.first_detection + i].time_ns;
         };

@@ -65,7 +65,7 @@ TEST(Regression, GroupThatIsThere_IsFoundAlone_AndLeavesTheNoise) {
     SCOPED_TRACE(seed);
     const Setting setting = make_setting(seed);
     const Regression found = regression(setting, sum(setting.noise, setting.columns[0], 4.0F));
-    EXPECT_EQ(found.significant_groups(0.01), std::vector{wave});
+    EXPECT_EQ(found.significant_groups(0.01, 0.8), std::vector{wave});
     const int groups[] = {wave};
     for (const double square : found.mean_squares(groups)) EXPECT_NEAR(square, 1.0, 0.6);
     for (const double square : found.mean_squares({})) EXPECT_NEAR(square, 9.0, 2.5);  // 1 + 4^2 / 2
@@ -74,14 +74,14 @@ TEST(Regression, GroupThatIsThere_IsFoundAlone_AndLeavesTheNoise) {
 TEST(Regression, BothGroups_AreFoundInTheOrderOfWhatTheyAdd) {
     const Setting setting = make_setting(4);
     const Errors errors = sum(sum(setting.noise, setting.columns[1], 30.0F), setting.columns[0], 3.0F);
-    EXPECT_EQ(regression(setting, errors).significant_groups(0.01), (std::vector{ramp, wave}));
+    EXPECT_EQ(regression(setting, errors).significant_groups(0.01, 0.8), (std::vector{ramp, wave}));
 }
 
 TEST(Regression, WhatTheStateAtAWindowsStartExplains_IsNoFinding) {
     Setting setting = make_setting(5);
     Errors errors = setting.noise;
     for (std::size_t k = 0; k < errors.size(); ++k) errors[k] += static_cast<float>(k / values % 7) * 50.0F;
-    EXPECT_TRUE(regression(setting, errors).significant_groups(0.01).empty());
+    EXPECT_TRUE(regression(setting, errors).significant_groups(0.01, 0.8).empty());
 }
 
 TEST(Regression, Noise_IsNoFinding) {
@@ -89,7 +89,7 @@ TEST(Regression, Noise_IsNoFinding) {
     int findings = 0;
     for (int seed = 1; seed <= draws; ++seed) {
         const Setting setting = make_setting(static_cast<std::uint64_t>(seed));
-        findings += regression(setting, setting.noise).significant_groups(0.01).empty() ? 0 : 1;
+        findings += regression(setting, setting.noise).significant_groups(0.01, 0.8).empty() ? 0 : 1;
     }
     EXPECT_LE(findings, 6);  // 1 % expected; 7 or more of 200 have a chance of 0.5 %
 }

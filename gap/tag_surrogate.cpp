@@ -1,0 +1,210 @@
+#include "gap/hat_functions.h"
+#include "gap/surrogate.h"
+#include "gap/tag_link.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/LU>
+
+namespace fidservo::gap {
+namespace {
+
+/// What a detection offers to the functions below.
+struct Sight {
+    const TagSighting& tag;
+    double position_mm, velocity_mm_per_s, contraction_mm, time_s;
+};
+
+using Pattern = std::function<CornerValues(const Sight&)>;  ///< of corners, px
+using Along = std::function<double(const Sight&)>;          ///< along the motion, px
+
+class Columns {
+  public:
+    explicit Columns(const Evidence& evidence) : evidence_(evidence), floor_px_(evidence.floor(Signal::tag)) {
+        for (const Window& window : evidence.windows())
+            if (window.signal == Signal::tag) size_ = std::max(size_, window.end);
+    }
+
+    Column of_corners(Dependence group, const Pattern& pattern) const {
+        return over_sights(group, [&](const Sight& sight, float* values) {
+            const CornerValues there = turned(sight.tag, pattern(sight));
+            values[0] = static_cast<float>(there[0] / sight.tag.along_floor_px);
+            for (Eigen::Index i = 1; i < there.size(); ++i)
+                values[i] = static_cast<float>(there[i] / floor_px_);
+        });
+    }
+
+    Column along(Dependence group, const Along& place) const {
+        return over_sights(group, [&](const Sight& sight, float* values) {
+            values[0] = static_cast<float>(place(sight) / sight.tag.along_floor_px);
+        });
+    }
+
+    std::vector<float> all(const Along& quantity) const {
+        std::vector<float> values;
+        over_sights(Dependence::position, [&](const Sight& sight, float*) {
+            values.push_back(static_cast<float>(quantity(sight)));
+        });
+        return values;
+    }
+
+  private:
+    Column over_sights(Dependence group, const std::function<void(const Sight&, float*)>& fill) const {
+        Column column{static_cast<int>(group), std::vector<float>(size_, 0.0F)};
+        for (const Window& window : evidence_.windows()) {
+            if (window.signal != Signal::tag) continue;
+            const std::size_t count = (window.end - window.begin) / corner_values;
+            for (std::size_t i = 0; i < count; ++i)
+                fill(sight(window, window.first_detection + i),
+                     &column.values[window.begin + corner_values * i]);
+        }
+        return column;
+    }
+
+    Sight sight(const Window& window, std::size_t detection) const {
+        constexpr std::size_t look_back = 20;
+        const TagSighting& tag = evidence_.sighting(window.run, detection);
+        const Course& course = evidence_.course(window.run);
+        const std::vector<StageRow>& rows = evidence_.recordings()[window.run].rows;
+        const TimeNs start_ns = rows.front().time_ns;
+        const auto after = std::ranges::upper_bound(
+            rows, tag.stamp_s, {}, [&](const StageRow& row) { return seconds(row.time_ns - start_ns); });
+        const auto next = static_cast<std::size_t>(after - rows.begin());
+        const std::size_t row = next > 0 ? next - 1 : 0, before = row > look_back ? row - look_back : 0;
+        Sight found{tag, course.position_mm[row], course.velocity_mm_per_s[row], 0.0, tag.stamp_s};
+        if (!course.contraction_mm.empty() && std::isfinite(course.contraction_mm[row])) {
+            found.contraction_mm = course.contraction_mm[row];
+            if (row > before)
+                found.velocity_mm_per_s += (course.contraction_mm[row] - course.contraction_mm[before]) /
+                                           (evidence_.rig().tick_s * static_cast<double>(row - before));
+        }
+        return found;
+    }
+
+    const Evidence& evidence_;
+    double floor_px_;
+    std::size_t size_ = 0;
+};
+
+/// A pattern by where a corner is from the image's middle, in halves of its width.
+Pattern by_image_place(const CameraGeometry& camera,
+                       const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& shift) {
+    return [&camera, shift](const Sight& sight) {
+        CornerValues values;
+        for (int c = 0; c < 4; ++c)
+            values.segment<2>(2 * c) =
+                shift((sight.tag.corners_px.segment<2>(2 * c) - camera.principal_point_px) /
+                      (0.5 * camera.width_px));
+        return values;
+    };
+}
+
+/// The tag larger about its own middle.
+CornerValues larger(const Sight& sight) {
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    for (int c = 0; c < 4; ++c) middle += 0.25 * sight.tag.corners_px.segment<2>(2 * c);
+    CornerValues values;
+    for (int c = 0; c < 4; ++c)
+        values.segment<2>(2 * c) = (sight.tag.corners_px.segment<2>(2 * c) - middle).normalized();
+    return values;
+}
+
+void add_hats(std::vector<Column>& columns, const Columns& make, Dependence group, std::size_t count,
+              const Along& quantity) {
+    const std::vector<double> knots = knots_by_share(make.all(quantity), count);
+    if (knots.size() < 2) return;
+    for (std::size_t k = 0; k < knots.size(); ++k)
+        columns.push_back(
+            make.along(group, [&, k](const Sight& sight) { return hat(knots, k, quantity(sight)); }));
+}
+
+/// The period in the carriage's position that takes most of the errors along the motion, with each window's
+/// mean free; 0 where there are none.
+double strongest_period_mm(const Evidence& evidence, const Errors& errors, const Columns& make) {
+    constexpr double shortest_mm = 1.0, longest_mm = 50.0;
+    const std::vector<float> places = make.all([](const Sight& sight) { return sight.position_mm; });
+    if (places.empty()) return 0.0;
+    const auto [low, high] = std::ranges::minmax(places);
+    const double step_per_mm = 0.25 / std::max(longest_mm, static_cast<double>(high - low));
+    double best_mm = 0.0, most = 0.0;
+    for (double per_mm = 1.0 / longest_mm; per_mm <= 1.0 / shortest_mm; per_mm += step_per_mm) {
+        Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() * 1e-9;
+        Eigen::Vector2d right = Eigen::Vector2d::Zero();
+        std::size_t at = 0;
+        for (const Window& window : evidence.windows()) {
+            if (window.signal != Signal::tag) continue;
+            Eigen::Matrix3d own = Eigen::Matrix3d::Zero();  // of sine, cosine, error, about their means
+            Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+            double count = 0.0;
+            for (std::size_t k = window.begin; k < window.end; k += corner_values, ++at) {
+                if (std::isnan(errors[k])) continue;
+                const double phase = 2.0 * std::numbers::pi * per_mm * places[at];
+                const Eigen::Vector3d row(std::sin(phase), std::cos(phase), errors[k]);
+                own += row * row.transpose();
+                sum += row;
+                count += 1.0;
+            }
+            if (count < 3.0) continue;
+            own -= sum * sum.transpose() / count;
+            const double weight = 1.0 / (count + own(2, 2));
+            normal += weight * own.topLeftCorner<2, 2>();
+            right += weight * own.topRightCorner<2, 1>();
+        }
+        const double taken = right.dot(normal.inverse() * right);
+        if (taken <= most) continue;
+        most = taken;
+        best_mm = 1.0 / per_mm;
+    }
+    return best_mm;
+}
+
+void add_image_places(std::vector<Column>& columns, const Columns& make, const CameraGeometry& camera) {
+    using Place = Eigen::Vector2d;
+    const auto add = [&](const std::function<Place(const Place&)>& shift) {
+        columns.push_back(make.of_corners(Dependence::image_place, by_image_place(camera, shift)));
+    };
+    add([](const Place&) { return Place(1.0, 0.0); });
+    add([](const Place&) { return Place(0.0, 1.0); });
+    add([](const Place& at) { return at; });
+    add([](const Place& at) { return Place(-at.y(), at.x()); });
+    add([](const Place& at) { return Place(at.x(), -at.y()); });
+    add([](const Place& at) { return Place(at.x() * at.x(), at.x() * at.y()); });
+    add([](const Place& at) { return Place(at.x() * at.y(), at.y() * at.y()); });
+    add([](const Place& at) { return Place(at * at.squaredNorm()); });
+}
+
+}  // namespace
+
+Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors) {
+    const Columns make(evidence);
+    Surrogate surrogate{
+        Signal::tag, {}, {make.along(Dependence::position, [](const Sight&) { return 1.0; })}};
+    surrogate.as_good = 0.95;
+    std::vector<Column>& columns = surrogate.columns;
+    columns.push_back(
+        make.along(Dependence::velocity, [](const Sight& sight) { return 1e-2 * sight.velocity_mm_per_s; }));
+    columns.push_back(make.along(Dependence::velocity, [](const Sight& sight) {
+        return 1e-3 * sight.time_s * sight.velocity_mm_per_s;
+    }));
+    add_hats(columns, make, Dependence::position, 16, [](const Sight& sight) { return sight.position_mm; });
+    surrogate.period_mm = strongest_period_mm(evidence, errors, make);
+    if (surrogate.period_mm > 0.0)
+        for (const double phase : {0.0, 0.5 * std::numbers::pi})
+            columns.push_back(make.along(Dependence::reading_period, [&](const Sight& sight) {
+                return std::sin(2.0 * std::numbers::pi * sight.position_mm / surrogate.period_mm + phase);
+            }));
+    if (evidence.rig().micro)
+        add_hats(columns, make, Dependence::contraction, 8,
+                 [](const Sight& sight) { return sight.contraction_mm; });
+    add_image_places(columns, make, evidence.rig().camera->geometry);
+    columns.push_back(make.of_corners(Dependence::tag_size, larger));
+    columns.push_back(make.along(Dependence::plate_place,
+                                 [](const Sight& sight) { return 1e-2 * sight.tag.centre_mm.x(); }));
+    return surrogate;
+}
+
+}  // namespace fidservo::gap
