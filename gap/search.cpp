@@ -103,8 +103,8 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k]); });
     std::ranges::sort(leaders, std::greater{}, &Contender::gain);
     if (!leaders.empty()) {
-        fit_closer(base, leaders.front());
-        polish_both_halves(base, leaders.front());
+        Contender& best = leaders.front();
+        best.trial.candidate->wave ? polish_both_halves(base, best) : fit_closer(base, best);
     }
 
     std::vector<Trial> trials;
@@ -258,7 +258,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
 }
 
 void Search::polish_both_halves(const CrossFit& base, Contender& contender) const {
-    if (!contender.trial.candidate->wave || is_at_floor(contender.trial.fitted)) return;
+    if (!meet(off(contender.trial.fitted), contender.teachers())) return;
     Finding& finding = *contender.finding;
     if (finding.polished[0].empty())
         parallel_for(2, [&](std::size_t side) {

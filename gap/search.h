@@ -77,7 +77,7 @@ class Search {
     void fit_second_half(const CrossFit& base, Contender& contender) const;
     /// Where a fit from afar leaves more than the floor: once more, to the windows that say most from there.
     void fit_closer(const CrossFit& base, Contender& contender) const;
-    /// Of a wave that leaves more than the floor, over all windows.
+    /// For a wave instead, over all windows.
     void polish_both_halves(const CrossFit& base, Contender& contender) const;
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
     /// Puts the one of fewest parameters first, of those that tie with the best.
