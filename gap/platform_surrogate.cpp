@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace fidservo::gap {
 namespace {
@@ -72,6 +74,23 @@ class Columns {
     std::size_t size_ = 0;
 };
 
+/// What the wire's temperature was before, as far as a body of some time constant remembers it: of each
+/// recording, row by row.
+std::vector<std::vector<float>> remembered_degC(const Evidence& evidence, double memory_s) {
+    const double share = -std::expm1(-evidence.rig().tick_s / memory_s);
+    std::vector<std::vector<float>> of_run;
+    for (std::size_t run = 0; run < evidence.recordings().size(); ++run) {
+        std::vector<float> values = evidence.course(run).temperature_degC;
+        double memory = values.empty() ? 0.0 : static_cast<double>(values.front());
+        for (float& value : values) {
+            if (std::isfinite(value)) memory += share * (static_cast<double>(value) - memory);
+            value = static_cast<float>(memory);
+        }
+        of_run.push_back(std::move(values));
+    }
+    return of_run;
+}
+
 /// What a wire that is warmer by a degree does to the errors: the tangent of the ambient temperature.
 Errors by_warmth(const Evidence& evidence) {
     const plant::Effect* ambient = plant::find_effect("ambient_temperature");
@@ -102,6 +121,14 @@ Surrogate platform_surrogate(const Evidence& evidence) {
     add_hats(Dependence::time, 6, false, [](const Row& at) { return at.time_s; });
     add_hats(Dependence::temperature, 8, true, [](const Row& at) { return at.temperature_degC; });
     add_hats(Dependence::command, 8, true, [](const Row& at) { return at.command_V; });
+    for (const double memory_s : {0.2, 0.6, 2.0, 6.0, 20.0}) {
+        const auto remembered = remembered_degC(evidence, memory_s);
+        columns.push_back(
+            make.of(Dependence::temperature_before, [&](const Window& window, std::size_t k, const Row& at) {
+                return 1e-2 * (remembered[window.run][window.first_row + k] - at.temperature_degC) *
+                       warmth[window.begin + k];
+            }));
+    }
     columns.push_back(make.of(Dependence::direction, [&](const Window& window, std::size_t k, const Row& at) {
         return at.direction * warmth[window.begin + k];
     }));

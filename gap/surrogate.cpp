@@ -5,7 +5,7 @@
 namespace fidservo::gap {
 
 std::string_view name_of(Dependence dependence) {
-    constexpr std::array<std::string_view, 17> names{"velocity",
+    constexpr std::array<std::string_view, 18> names{"velocity",
                                                      "direction",
                                                      "position",
                                                      "position, periodic",
@@ -16,6 +16,7 @@ std::string_view name_of(Dependence dependence) {
                                                      "nothing: a constant force",
                                                      "time",
                                                      "temperature",
+                                                     "temperature before",
                                                      "contraction",
                                                      "macro command",
                                                      "position, against the motion",

@@ -27,6 +27,7 @@ enum class Dependence : std::uint8_t {
     nothing,         ///< a constant
     time,
     temperature,
+    temperature_before,  ///< as bodies of some time constants remember it
     contraction,
     macro_command,
     position_friction,  ///< a friction that depends on the place
