@@ -135,8 +135,8 @@ std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Er
             stretch.turn.emplace_back(std::polar(1.0, angle * step));
         }
     const MacroParameters& macro = evidence.rig().macro;
-    const double push_V =
-        way_unit * macro.encoder_resolution_mm / (macro.velocity_gain_mm_per_s_per_V * evidence.rig().tick_s);
+    const double floor_mm = evidence.floor(Signal::encoder) * macro.encoder_resolution_mm;
+    const double push_V = way_unit * floor_mm / (macro.velocity_gain_mm_per_s_per_V * evidence.rig().tick_s);
     std::vector<PositionPeriod> all;
     for (double per_mm = first; per_mm <= 1.0 / shortest_mm; per_mm += step) {
         Normal normal;
@@ -146,8 +146,7 @@ std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Er
         }
         const Eigen::Vector4d found = normal.matrix.completeOrthogonalDecomposition().solve(normal.right);
         all.push_back({1.0 / per_mm, found.dot(normal.right) / squares, wave_of(found.tail<2>(), push_V),
-                       wave_of(found.head<2>(), macro.encoder_resolution_mm), step,
-                       0.5 * (low_mm + high_mm)});
+                       wave_of(found.head<2>(), floor_mm), step, 0.5 * (low_mm + high_mm)});
     }
     return peaks(all);
 }

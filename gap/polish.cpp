@@ -2,8 +2,12 @@
 
 #include "gap/scaled_parameters.h"
 #include "gap/score.h"
+#include "gap/wave.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
 
 #include <opencv2/core/optim.hpp>
 
@@ -18,7 +22,9 @@ class LossOfLast : public cv::MinProblemSolver::Function {
           windows_(windows),
           counted_(counted),
           parameters_(start),
-          first_(parameters_.size() - start.back().values.size()) {}
+          first_(parameters_.size() - start.back().values.size()),
+          start_(start.back()),
+          wave_(wave_of(*start.back().effect)) {}
 
     int getDims() const override { return static_cast<int>(parameters_.size() - first_); }
     double calc(const double* scaled) const override {
@@ -29,18 +35,32 @@ class LossOfLast : public cv::MinProblemSolver::Function {
     Hypothesis at(const double* scaled) const {
         std::vector<double> all = parameters_.values;
         std::copy_n(scaled, getDims(), all.begin() + static_cast<std::ptrdiff_t>(first_));
-        return parameters_.at(all);
+        Hypothesis there = parameters_.at(all);
+        if (wave_) keep_in_step(there.back().values);
+        return there;
     }
     std::vector<double> start() const {
         return {parameters_.values.begin() + static_cast<std::ptrdiff_t>(first_), parameters_.values.end()};
     }
 
   private:
+    /// Turns the phase with the period so that the wave keeps its place in the middle of the rail: along the
+    /// ends period and phase would have to be changed together.
+    void keep_in_step(std::vector<double>& values) const {
+        constexpr double middle_mm = 100.0;
+        const double period_at_start_mm = start_.values[wave_->period];
+        const double turned_rad =
+            2.0 * std::numbers::pi * middle_mm * (1.0 / values[wave_->period] - 1.0 / period_at_start_mm);
+        values[wave_->phase] = std::remainder(values[wave_->phase] - turned_rad, 2.0 * std::numbers::pi);
+    }
+
     const Predict& predict_;
     std::span<const Window> windows_;
     const Wanted& counted_;
     ScaledParameters parameters_;
     std::size_t first_;
+    plant::EffectSetting start_;
+    std::optional<WaveParameters> wave_;
 };
 
 }  // namespace

@@ -102,10 +102,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         near_best(fitted, share_of_gain, 0.0, effort.leaders, std::mem_fn(&Contender::gain));
     parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k]); });
     std::ranges::sort(leaders, std::greater{}, &Contender::gain);
-    if (!leaders.empty()) {
-        Contender& best = leaders.front();
-        best.trial.candidate->wave ? polish_both_halves(base, best) : fit_closer(base, best);
-    }
+    if (!leaders.empty()) fit_closer(base, leaders.front());
 
     std::vector<Trial> trials;
     trials.reserve(candidates_.size());
@@ -235,18 +232,15 @@ void Search::fit_second_half(const CrossFit& base, Contender& contender) const {
 }
 
 void Search::fit_closer(const CrossFit& base, Contender& contender) const {
+    const bool is_wave = contender.trial.candidate->wave.has_value();
     constexpr int most_times = 3;
     Finding& finding = *contender.finding;
     for (int time = 0; time < most_times && !finding.is_close; ++time) {
-        const CrossFit& fitted = contender.trial.fitted;
-        if (!meet(off(fitted), contender.teachers())) return;
+        if (!meet(off(contender.trial.fitted), contender.teachers())) return;
         Contender closer = contender;
         parallel_for(2, [&](std::size_t side) {
             closer.trial.fitted.of_half[side] =
-                fitter_
-                    .fit_places(side, fitted.of_half[side], contender.fitted_places(base),
-                                fitted.mean_squares, {.tolerance = 1e-7})
-                    .hypothesis;
+                is_wave ? polished(contender, side) : fitted_from_there(base, contender, side);
         });
         judge_both_halves(base, closer);
         finding.is_close = closer.gain() < contender.gain() + least_gain;
@@ -255,24 +249,23 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
             finding.fitted[side] = contender.part(closer.trial.fitted.of_half[side]);
         contender = std::move(closer);
     }
+    finding.is_close = true;
 }
 
-void Search::polish_both_halves(const CrossFit& base, Contender& contender) const {
-    if (!meet(off(contender.trial.fitted), contender.teachers())) return;
-    Finding& finding = *contender.finding;
-    if (finding.polished[0].empty())
-        parallel_for(2, [&](std::size_t side) {
-            const std::vector<Window>& windows = fitter_.evidence().windows();
-            const Wanted wanted = only_of(windows, fitter_.half(side), contender.teachers());
-            finding.polished[side] = contender.part(
-                polish(fitter_.predictor(wanted), windows, wanted, contender.trial.fitted.of_half[side])
-                    .hypothesis);
-        });
-    Contender polished = contender;
-    for (std::size_t side = 0; side < 2; ++side)
-        polished.trial.fitted.of_half[side] = polished.placed(base, side, finding.polished[side]);
-    judge_both_halves(base, polished);
-    if (polished.gain() > contender.gain()) contender = std::move(polished);
+Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& contender,
+                                     std::size_t side) const {
+    const CrossFit& fitted = contender.trial.fitted;
+    return fitter_
+        .fit_places(side, fitted.of_half[side], contender.fitted_places(base), fitted.mean_squares,
+                    {.tolerance = 1e-7})
+        .hypothesis;
+}
+
+Hypothesis Search::polished(const Contender& contender, std::size_t side) const {
+    const std::vector<Window>& windows = fitter_.evidence().windows();
+    const Wanted wanted = only_of(windows, fitter_.half(side), contender.teachers());
+    return polish(fitter_.predictor(wanted), windows, wanted, contender.trial.fitted.of_half[side])
+        .hypothesis;
 }
 
 void Search::judge_both_halves(const CrossFit& base, Contender& contender) const {

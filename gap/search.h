@@ -75,10 +75,11 @@ class Search {
     void fit_simple_first(const CrossFit& base, std::span<Contender> contenders) const;
     void fit_first_half(const CrossFit& base, Contender& contender) const;
     void fit_second_half(const CrossFit& base, Contender& contender) const;
-    /// Where a fit from afar leaves more than the floor: once more, to the windows that say most from there.
+    /// Where a fit from afar leaves more than the floor: again from where it ended, to the windows that say
+    /// most there; of a wave by a simplex over all windows, as its losses have many minima.
     void fit_closer(const CrossFit& base, Contender& contender) const;
-    /// For a wave instead, over all windows.
-    void polish_both_halves(const CrossFit& base, Contender& contender) const;
+    Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side) const;
+    Hypothesis polished(const Contender& contender, std::size_t side) const;
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
     /// Puts the one of fewest parameters first, of those that tie with the best.
     void prefer_simplest(std::vector<Trial>& trials) const;

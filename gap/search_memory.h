@@ -12,12 +12,11 @@ namespace fidservo::gap {
 
 /// Of a candidate beside those settings of a base that it is coupled with.
 struct Finding {
-    std::array<Hypothesis, 2> beside;    ///< as fitted on each half
-    bool is_looked_at = false;           ///< whether starts were looked for
-    std::vector<Promise> starts;         ///< best first
-    std::array<Hypothesis, 2> fitted;    ///< on each half: what is beside, then the candidate; empty before
-    bool is_close = false;               ///< whether it was fitted once more
-    std::array<Hypothesis, 2> polished;  ///< likewise
+    std::array<Hypothesis, 2> beside;  ///< as fitted on each half
+    bool is_looked_at = false;         ///< whether starts were looked for
+    std::vector<Promise> starts;       ///< best first
+    std::array<Hypothesis, 2> fitted;  ///< on each half: what is beside, then the candidate; empty before
+    bool is_close = false;             ///< whether nothing more was found from there
 };
 
 class SearchMemory {

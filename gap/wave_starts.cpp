@@ -22,17 +22,18 @@ class WaveTrials {
           base_squares_(mean_squares(windows, beside.errors)),
           candidate_(candidate) {}
 
-    /// The best of some factors of the amplitude that the errors show.
+    /// Of a reading, the amplitude that the errors show; of a force the best of some multiples of it, since
+    /// what friction holds does not show.
     Promise sized(const PositionPeriod& period) const {
-        const plant::EffectParameter& amplitude = candidate_.effect->parameters[candidate_.wave->amplitude];
-        const bool is_force = amplitude.unit == "V";
-        const Wave& wave = is_force ? period.force_V : period.reading_mm;
-        const double unit = is_force ? 1.0 : um_per_mm;
-        const auto with_factor = [&](double factor) {
-            return promise(factor * unit * wave.amplitude, period.period_mm, wave.phase_rad);
+        const auto with = [&](const Wave& wave, double factor) {
+            return promise(factor * wave.amplitude, period.period_mm, wave.phase_rad);
         };
-        Promise best = with_factor(1.0);
-        for (const double factor : {1.6, 2.5, 4.0, 6.3}) best = std::max(best, with_factor(factor), less);
+        const plant::EffectParameter& amplitude = candidate_.effect->parameters[candidate_.wave->amplitude];
+        if (amplitude.unit != "V") return with(period.reading_mm, um_per_mm);
+        const double least = std::sqrt(12.0);
+        Promise best = with(period.force_V, least);
+        for (const double factor : {1.6, 2.5, 4.0, 6.3})
+            best = std::max(best, with(period.force_V, factor * least), less);
         return best;
     }
 
