@@ -19,6 +19,27 @@ struct Frame {
     std::string source;  ///< file name, where there is one
 };
 
+/// What became of the frames that a camera took.
+struct FrameCounts {
+    std::uint64_t handed_out = 0;
+    std::uint64_t skipped = 0;  ///< a newer one had come before anybody asked
+    std::uint64_t lost = 0;     ///< taken by the camera and never delivered: gaps in its numbers
+    std::uint64_t damaged = 0;  ///< delivered with an error, cut short, or not to be decoded
+    std::uint64_t unstamped =
+        0;  ///< without a usable time stamp: their time is the arrival's less the latency
+    std::uint64_t reconnects = 0;  ///< the camera was lost and came back
+
+    FrameCounts& operator+=(const FrameCounts& more) {
+        handed_out += more.handed_out;
+        skipped += more.skipped;
+        lost += more.lost;
+        damaged += more.damaged;
+        unstamped += more.unstamped;
+        reconnects += more.reconnects;
+        return *this;
+    }
+};
+
 class Camera {
   public:
     Camera() = default;
@@ -29,6 +50,9 @@ class Camera {
     /// The newest frame that has arrived by now_ns and was not handed out before; empty if there is none.
     /// Fails with Reason::device.
     virtual Result<std::optional<Frame>> poll(TimeNs now_ns) = 0;
+
+    /// So far. Cameras that cannot lose anything count nothing.
+    virtual FrameCounts counts() const { return {}; }
 };
 
 }  // namespace fidservo::vision

@@ -3,6 +3,7 @@
 #include "src/commands/commands.h"
 #include "src/commands/session_options.h"
 #include "src/config/rig_file.h"
+#include "src/session/camera_choice.h"
 #include "src/session/session.h"
 
 #include <memory>
@@ -21,6 +22,7 @@ struct RecordOptions {
     SessionOptions session;
     std::filesystem::path out;
     double duration_s = 4.0;
+    bool frames = false;
 };
 
 void check(const Status& status) {
@@ -31,11 +33,12 @@ int run_record(const RecordOptions& options) {
     const Rig rig = load_rig(options.session.rig_file);
     const Plate plate = rig_plate(rig, options.session.rig_file);
     Session session(options.session, rig, plate, plate);
-    session.record_to(options.out, "rest");
+    session.record_to(options.out, "rest", options.frames ? KeepFrames::yes : KeepFrames::no);
     const Status held = session.observe(options.duration_s);
     check(session.end_recording());
     if (!held && held.error().reason != Reason::stopped) throw RunFault(held.error().text);
-    fmt::print("{:.3f} s recorded in {}\n", session.now_s(), options.out.string());
+    fmt::print("{:.3f} s recorded in {}\n", session.elapsed_s(), options.out.string());
+    if (!camera_is_simulated(options.session)) fmt::print("{}\n", text_of(session.frame_counts()));
     return exit_done;
 }
 
@@ -48,6 +51,7 @@ void add_record(CLI::App& app, int& exit_code) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command->add_option("--out", options->out, "New folder for the recording")->type_name("DIR")->required();
+    command->add_flag("--frames", options->frames, "Keep the camera's images too");
     add_session_options(*command, options->session);
     add_sim_rig_option(*command, options->session);
     add_example(*command, "fidservo record --duration 10 --out rest-10s");

@@ -3,6 +3,7 @@
 #include "core/camera_slopes.h"
 #include "core/plumb_bob.h"
 #include "src/config/camera_info.h"
+#include "src/config/capture_keys.h"
 
 #include <numbers>
 
@@ -71,7 +72,8 @@ CameraParameters read_rig_camera(const YamlValue& map) {
                     "focal_ratio",  "principal_point_px", "distortion",      "distance_mm",
                     "rotation_rad", "tilt_rad",           "axis_rad",        "frame_rate_hz",
                     "exposure_s",   "full_well_e",        "read_noise_e",    "gain_spread",
-                    "blur_px",      "latency_s",          "corner_noise_px", "max_speed_mm_per_s"});
+                    "blur_px",      "latency_s",          "corner_noise_px", "max_speed_mm_per_s",
+                    "capture"});
     CameraParameters camera{.geometry = read_geometry(map),
                             .frame_rate_hz = map.at("frame_rate_hz").number({0.0, 1e5, true}),
                             .exposure_s = map.at("exposure_s").number(positive),
@@ -81,6 +83,7 @@ CameraParameters read_rig_camera(const YamlValue& map) {
                             .latency_s = map.at("latency_s").number(not_negative),
                             .corner_noise_px = map.at("corner_noise_px").number(not_negative),
                             .max_speed_mm_per_s = map.at("max_speed_mm_per_s").number(positive)};
+    if (const auto capture = map.find("capture")) (void)read_capture_keys(*capture);
     if (const auto spread = map.find("gain_spread")) camera.gain_spread = spread->number({0.0, 1.0});
     if (camera.exposure_s * camera.frame_rate_hz > 1.0)
         map.at("exposure_s")

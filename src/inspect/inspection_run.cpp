@@ -67,6 +67,7 @@ Counts run_inspection(const InspectionOptions& options) {
     demand_reference_images(recipe, rig.camera.value());
     const Plate printed = recipe.simulation.plate ? load_plate(*recipe.simulation.plate) : recipe.nominal;
     SessionOptions session_options = options.session;
+    session_options.camera_reconnect_s = recipe.camera_reconnect_s;
     session_options.seed = options.seed.value_or(recipe.simulation.seed);
     const RunIdentity identity = identity_of(recipe, rig, session_options);
 
@@ -88,7 +89,7 @@ Counts run_inspection(const InspectionOptions& options) {
     std::filesystem::create_directories(output.root / "images");
     std::filesystem::create_directories(output.root / "recordings");
 
-    const bool simulated = session_options.stage == "sim";
+    const bool simulated = session_options.stage == "sim" && session_options.camera == "sim";
     const bool all_done = content.checkpoint && !next_visit(recipe.sites, content.visits);
     if (content.checkpoint && (simulated || all_done)) {
         if (simulated) session.restore(*content.checkpoint);

@@ -155,7 +155,7 @@ std::map<int, SiteRules> read_exceptions(const YamlValue& list, const OnFailure&
 }
 
 Recipe read_recipe(const YamlValue& root, const std::filesystem::path& file, const Rig& rig) {
-    root.allow_only({"name", "plate", "pattern", "sites", "views", "simulation"});
+    root.allow_only({"name", "plate", "pattern", "sites", "views", "camera_reconnect_s", "simulation"});
     Recipe recipe{root.at("name").text(), file, read_plate(root.at("plate")), {}, {}};
 
     const YamlValue sites = root.at("sites");
@@ -197,6 +197,8 @@ Recipe read_recipe(const YamlValue& root, const std::filesystem::path& file, con
         check_placement(root.at("views"), rig, recipe.nominal, site);
         recipe.sites.push_back(std::move(site));
     }
+    if (const auto reconnect = root.find("camera_reconnect_s"))
+        recipe.camera_reconnect_s = reconnect->number({0.0, 3600.0});
     if (const auto simulation = root.find("simulation")) {
         simulation->allow_only({"plate", "seed"});
         if (const auto plate = simulation->find("plate")) recipe.simulation.plate = plate->file();

@@ -78,6 +78,7 @@ struct Recipe {
     Plate nominal;
     std::vector<Site> sites;  ///< in the order in which they are visited
     Simulation simulation;
+    double camera_reconnect_s = 0.0;  ///< a camera that is lost is waited for so long; 0: the run ends
 };
 
 /// Reads a recipe and checks it against the rig. Throws InputError for what is wrong in the file, and for

@@ -1,6 +1,8 @@
 #include "src/session/devices.h"
 
 #include "src/config/rig_file.h"
+#include "src/session/camera_choice.h"
+#include "src/session/paced_stage.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -46,26 +48,31 @@ struct SimulationGuardian {
     control::Guardian guardian;
 };
 
-void demand_simulation(const char* option, const std::string& value) {
-    if (value != "sim") throw InputError(fmt::format("{} {}: no such device; allowed: sim", option, value));
+void demand_simulated_stage(const std::string& stage) {
+    if (stage != "sim") throw InputError(fmt::format("--stage {}: no such device; allowed: sim", stage));
 }
 
 }  // namespace
 
-SimulatedDevices make_simulated_devices(const SessionOptions& options, const Rig& rig, const Plate& printed) {
-    demand_simulation("--stage", options.stage);
-    demand_simulation("--camera", options.camera);
+RigDevices make_devices(const SessionOptions& options, const Rig& rig, const Plate& printed) {
+    demand_simulated_stage(options.stage);
     const Rig truth = options.sim_rig_file.empty() ? rig : load_rig(options.sim_rig_file);
     if (!truth.camera || !truth.micro)
         throw InputError(fmt::format("{}: {}: missing; the simulated rig needs it",
                                      options.sim_rig_file.string(), truth.camera ? "micro" : "camera"));
-    SimulatedDevices devices;
+    RigDevices devices;
     const auto guarding = std::make_shared<SimulationGuardian>(options);
     devices.guardian = std::shared_ptr<control::Guardian>(guarding, &guarding->guardian);
-    devices.rig =
+    const auto simulated =
         std::make_shared<SimulatedRig>(plant::plant_parameters(truth), *truth.camera, printed, options.seed);
-    devices.stage = std::make_shared<SimulatedStage>(devices.rig, devices.guardian);
-    devices.camera = std::make_shared<SimulatedCamera>(devices.rig);
+    devices.stage = std::make_shared<SimulatedStage>(simulated, devices.guardian);
+    if (camera_is_simulated(options)) {
+        devices.simulated = simulated;
+        devices.camera = std::make_shared<SimulatedCamera>(simulated);
+    } else {
+        devices.stage = std::make_shared<PacedStage>(devices.stage);
+        devices.camera = open_camera(options, rig.camera.value());
+    }
     return devices;
 }
 

@@ -7,16 +7,17 @@
 
 namespace fidservo {
 
-struct SimulatedDevices {
-    std::shared_ptr<SimulatedRig> rig;
+struct RigDevices {
+    std::shared_ptr<SimulatedRig> simulated;  ///< where stage and camera are both simulated
     std::shared_ptr<control::Guardian> guardian;
     std::shared_ptr<control::Stage> stage;
     std::shared_ptr<vision::Camera> camera;
 };
 
-/// The simulated rig as its file (options.sim_rig_file, else the rig's own) describes it, behind a guardian
-/// process that holds its outputs. Call it before the program starts threads. Throws InputError if the
-/// options name other devices than this program drives.
-SimulatedDevices make_simulated_devices(const SessionOptions& options, const Rig& rig, const Plate& printed);
+/// Stage and camera as the options name them. What is simulated is the rig as its file (options.sim_rig_file,
+/// else the rig's own) describes it, behind a guardian process that holds its outputs; beside a real camera
+/// it runs in real time. Call it before the program starts threads. Throws InputError for a device that this
+/// program does not drive or that is not there, RunFault where one fails.
+RigDevices make_devices(const SessionOptions& options, const Rig& rig, const Plate& printed);
 
 }  // namespace fidservo

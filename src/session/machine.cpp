@@ -11,7 +11,9 @@ Machine::~Machine() {
 Result<control::StageSample> Machine::begin_tick() {
     if (interrupt_requested()) return failure(Reason::stopped, "stopped by the user");
     auto sample = devices_.stage->read();
-    if (sample) now_ns_ = sample->time_ns;
+    if (!sample) return sample;
+    now_ns_ = sample->time_ns;
+    if (!first_ns_) first_ns_ = now_ns_;
     return sample;
 }
 
@@ -39,6 +41,10 @@ Status Machine::keep(const std::vector<TagDetection>& detections) {
     for (const TagDetection& detection : detections)
         if (auto kept = recorder_->add(detection); !kept) return kept;
     return {};
+}
+
+Status Machine::keep(const vision::Frame& frame) {
+    return recorder_ ? recorder_->add_frame(frame.time_ns, frame.image) : Status();
 }
 
 Status Machine::end_recording() {

@@ -45,6 +45,9 @@ class Machine {
     Result<std::optional<vision::Frame>> poll_camera();
     /// Keeps detections in the recording.
     Status keep(const std::vector<TagDetection>& detections);
+    /// Keeps a frame in the recording, which must be one that keeps frames.
+    Status keep(const vision::Frame& frame);
+    vision::FrameCounts frame_counts() const { return devices_.camera->counts(); }
 
     /// All ticks from now on go to this recording; null: none.
     void record_to(std::unique_ptr<RecordingWriter> recorder) { recorder_ = std::move(recorder); }
@@ -53,6 +56,8 @@ class Machine {
 
     TimeNs now_ns() const { return now_ns_; }
     void set_now(TimeNs now_ns) { now_ns_ = now_ns; }
+    /// From the first tick to the last.
+    TimeNs elapsed_ns() const { return first_ns_ ? now_ns_ - *first_ns_ : 0; }
 
     /// Both commands to zero.
     Status switch_off();
@@ -65,6 +70,7 @@ class Machine {
     Devices devices_;
     std::unique_ptr<RecordingWriter> recorder_;
     TimeNs now_ns_ = 0;
+    std::optional<TimeNs> first_ns_;
 };
 
 }  // namespace fidservo

@@ -1,6 +1,7 @@
 #include "src/session/session.h"
 
 #include "core/units.h"
+#include "src/session/camera_choice.h"
 #include "src/session/devices.h"
 #include "src/session/home.h"
 #include "src/session/motion_params.h"
@@ -31,6 +32,7 @@ struct Session::Impl {
     Pilot pilot;
     std::shared_ptr<SimulatedRig> simulated;
     std::shared_ptr<control::Guardian> guardian;
+    KeepFrames keep_frames = KeepFrames::no;
 };
 
 Session::Session(const SessionOptions& options, const Rig& rig, const Plate& nominal, Devices devices)
@@ -39,19 +41,23 @@ Session::Session(const SessionOptions& options, const Rig& rig, const Plate& nom
 
 Session::Session(const SessionOptions& options, const Rig& rig, const Plate& nominal, const Plate& printed) {
     const auto params = positioner_params(rig, mm_from_um(options.tolerance_um));
-    SimulatedDevices simulated = make_simulated_devices(options, rig, printed);
-    impl_ = std::make_unique<Impl>(rig, nominal, params, Devices{simulated.stage, simulated.camera});
-    impl_->simulated = std::move(simulated.rig);
-    impl_->guardian = std::move(simulated.guardian);
+    RigDevices devices = make_devices(options, rig, printed);
+    impl_ = std::make_unique<Impl>(rig, nominal, params, Devices{devices.stage, devices.camera});
+    impl_->simulated = std::move(devices.simulated);
+    impl_->guardian = std::move(devices.guardian);
 }
 
 Session::~Session() {
     (void)impl_->pilot.machine.switch_off();
+    const vision::FrameCounts frames = frame_counts();
+    if (frames.lost + frames.damaged + frames.reconnects > 0) spdlog::warn("camera: {}", text_of(frames));
     if (!impl_->guardian) return;
     if (const auto off = impl_->guardian->finish(); !off) spdlog::error("{}", off.error().text);
 }
 
-void Session::record_to(const std::filesystem::path& folder, const std::string& experiment) {
+void Session::record_to(const std::filesystem::path& folder, const std::string& experiment,
+                        KeepFrames keep_frames) {
+    impl_->keep_frames = keep_frames;
     RecordingOptions recording;
     recording.name = folder.filename().string();
     recording.rig = impl_->pilot.rig.name;
@@ -59,6 +65,7 @@ void Session::record_to(const std::filesystem::path& folder, const std::string& 
     recording.tick_s = impl_->pilot.rig.tick_s;
     recording.columns = columns_of(impl_->pilot.rig);
     recording.camera = impl_->pilot.rig.camera;
+    recording.frames = keep_frames == KeepFrames::yes;
     recording.when_full = impl_->simulated ? WhenFull::wait : WhenFull::fail;
     impl_->pilot.machine.record_to(std::make_unique<RecordingWriter>(folder, recording));
 }
@@ -136,6 +143,8 @@ Status Session::observe(double duration_s) {
         if (!*frame) continue;
         if (const auto fit = pilot.sight.locate_anywhere(**frame)) pilot.saw(fit->position);
         if (auto kept = pilot.machine.keep(pilot.sight.found()); !kept) return kept;
+        if (impl_->keep_frames == KeepFrames::yes)
+            if (auto kept = pilot.machine.keep(**frame); !kept) return kept;
     }
     return {};
 }
@@ -148,8 +157,16 @@ Eigen::Vector2d Session::camera_mm() const {
     return impl_->pilot.camera_mm;
 }
 
+vision::FrameCounts Session::frame_counts() const {
+    return impl_->pilot.machine.frame_counts();
+}
+
 double Session::now_s() const {
     return seconds(impl_->pilot.machine.now_ns());
+}
+
+double Session::elapsed_s() const {
+    return seconds(impl_->pilot.machine.elapsed_ns());
 }
 
 namespace {

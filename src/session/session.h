@@ -35,14 +35,18 @@ struct SessionOptions {
     /// The rig that is simulated, where it differs from what rig_file says; the program never sees it. Empty:
     /// rig_file.
     std::filesystem::path sim_rig_file;
-    std::string stage = "sim";   ///< sim | comedi:/dev/comedi0
-    std::string camera = "sim";  ///< sim | v4l2:/dev/video0 | images:DIR
-    std::uint64_t seed = 1;      ///< of the simulated rig's noise
-    double tolerance_um = 1.0;   ///< of a motion's arrival
+    std::string stage = "sim";        ///< sim | comedi:/dev/comedi0
+    std::string camera = "sim";       ///< sim | v4l2:/dev/video0 | images:DIR
+    std::uint64_t seed = 1;           ///< of the simulated rig's noise
+    double tolerance_um = 1.0;        ///< of a motion's arrival
+    double camera_reconnect_s = 0.0;  ///< a camera that is lost is waited for so long
     /// What the guardian's board file and log are called: FOLDER/stage-outputs, FOLDER/guardian.log. Empty: a
     /// temporary folder.
     std::filesystem::path guardian_folder;
 };
+
+/// Does a recording keep the images too, or only what was found in them?
+enum class KeepFrames { no, yes };
 
 /// Puts a machine together, homes it, moves it and takes pictures at rest. Ends with both stage commands
 /// zero, whatever happens.
@@ -58,7 +62,8 @@ class Session {
     Session& operator=(const Session&) = delete;
 
     /// Starts a recording folder (EuRoC layout); all ticks and detections go there until the next call.
-    void record_to(const std::filesystem::path& folder, const std::string& experiment);
+    void record_to(const std::filesystem::path& folder, const std::string& experiment,
+                   KeepFrames keep_frames = KeepFrames::no);
     /// Closes the recording; all of it is on the disk then.
     Status end_recording();
 
@@ -70,7 +75,7 @@ class Session {
     Result<vision::Frame> capture();
     /// Holds the position for a while.
     Status hold(double duration_s);
-    /// The same, and keeps what every frame shows in the recording.
+    /// The same, and keeps what every frame shows in the recording; the frames too, if they are to be kept.
     Status observe(double duration_s);
 
     /// The rig under way, for commands that move it in ways of their own.
@@ -78,8 +83,12 @@ class Session {
 
     /// Where the camera's axis was at the last confirmed arrival, plate frame, mm.
     Eigen::Vector2d camera_mm() const;
+    /// What became of the camera's frames so far.
+    vision::FrameCounts frame_counts() const;
     /// Session time on the rig's clock.
     double now_s() const;
+    /// The same since the first tick.
+    double elapsed_s() const;
 
     /// All that a later process needs to go on from here as if nothing had happened (JSON text). On a
     /// simulated rig that includes the rig itself.

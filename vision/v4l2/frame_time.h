@@ -1,0 +1,49 @@
+#pragma once
+// When a frame was exposed, from what the driver says about it.
+#include "core/time.h"
+
+#include <cstdint>
+
+namespace fidservo::vision::v4l2 {
+
+/// The clock of a driver's time stamp.
+enum class StampClock {
+    monotonic,  ///< CLOCK_MONOTONIC
+    other,      ///< none, unknown, or copied from whoever fed the device
+};
+
+/// What happened at the stamp's time.
+enum class StampEvent {
+    end_of_frame,       ///< the frame's last byte had arrived
+    start_of_exposure,  ///< its exposure began
+};
+
+struct Stamp {
+    TimeNs time_ns = 0;
+    StampClock clock = StampClock::other;
+    StampEvent event = StampEvent::end_of_frame;
+};
+
+struct FrameDelays {
+    double exposure_s = 0.0;
+    double latency_s = 0.0;  ///< from the middle of the exposure to the arrival, for frames without a stamp
+};
+
+/// Does the stamp tell the time? It must be of the monotonic clock, before the frame's arrival, and no more
+/// than 10 s before it: drivers that stamp with another clock than they say are found out by that.
+bool stamp_is_usable(const Stamp& stamp, TimeNs arrival_ns);
+
+/// The middle of the exposure, ns on CLOCK_MONOTONIC.
+///
+///   start of exposure:  t = stamp + exposure / 2
+///   end of frame:       t = stamp - exposure / 2
+///   no usable stamp:    t = arrival - latency
+///
+/// The read-out, which lies between the exposure and the frame's end, is not known to any driver; what
+/// remains is a constant delay, which homing measures against the stage.
+TimeNs mid_exposure_ns(const Stamp& stamp, TimeNs arrival_ns, const FrameDelays& delays);
+
+/// Now, ns on CLOCK_MONOTONIC.
+TimeNs monotonic_now_ns();
+
+}  // namespace fidservo::vision::v4l2

@@ -1,0 +1,46 @@
+#include "vision/v4l2/jpeg_decoder.h"
+
+#include <string>
+
+#include <fmt/format.h>
+#include <turbojpeg.h>
+
+namespace fidservo::vision::v4l2 {
+
+struct JpegDecoder::Impl {
+    tjhandle turbo = tjInitDecompress();
+
+    /// A new instance then: the old one would go on to complain about the frames after it.
+    tl::unexpected<Failure> damaged() {
+        const std::string why = tjGetErrorStr2(turbo);
+        tjDestroy(turbo);
+        turbo = tjInitDecompress();
+        return failure(Reason::device, fmt::format("damaged JPEG: {}", why));
+    }
+};
+
+JpegDecoder::JpegDecoder() : impl_(std::make_unique<Impl>()) {
+    FIDSERVO_DEMAND(impl_->turbo != nullptr);
+}
+
+JpegDecoder::~JpegDecoder() {
+    tjDestroy(impl_->turbo);
+}
+
+Result<cv::Mat> JpegDecoder::decode(std::span<const std::byte> jpeg) {
+    const auto* data = reinterpret_cast<const unsigned char*>(jpeg.data());
+    int width = 0;
+    int height = 0;
+    int subsampling = 0;
+    int colours = 0;
+    if (tjDecompressHeader3(impl_->turbo, data, jpeg.size(), &width, &height, &subsampling, &colours) != 0)
+        return impl_->damaged();
+    cv::Mat grey(height, width, CV_8UC1);
+    // Not TJFLAG_STOPONWARNING: what is wrong at the end of the data is said as well without it.
+    if (tjDecompress2(impl_->turbo, data, jpeg.size(), grey.data, width, static_cast<int>(grey.step[0]),
+                      height, TJPF_GRAY, TJFLAG_ACCURATEDCT) != 0)
+        return impl_->damaged();
+    return grey;
+}
+
+}  // namespace fidservo::vision::v4l2

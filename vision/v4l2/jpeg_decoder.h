@@ -1,0 +1,29 @@
+#pragma once
+#include "core/failure.h"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include <opencv2/core/mat.hpp>
+
+namespace fidservo::vision::v4l2 {
+
+/// JPEG to grey: the luma alone is decoded. A frame without Huffman tables has the standard's, as in
+/// motion-JPEG. Single-threaded.
+class JpegDecoder {
+  public:
+    JpegDecoder();
+    ~JpegDecoder();
+    JpegDecoder(const JpegDecoder&) = delete;
+    JpegDecoder& operator=(const JpegDecoder&) = delete;
+
+    /// The image, CV_8UC1. Fails with Reason::device for data that are damaged anywhere or cut short.
+    Result<cv::Mat> decode(std::span<const std::byte> jpeg);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fidservo::vision::v4l2

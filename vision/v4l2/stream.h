@@ -1,0 +1,54 @@
+#pragma once
+// A camera that sends: opened, set, started. One thread uses it.
+#include "vision/v4l2/buffer_queue.h"
+#include "vision/v4l2/capture_format.h"
+#include "vision/v4l2/control_lock.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace fidservo::vision::v4l2 {
+
+/// Why wait() came back.
+enum class Wake {
+    ready,   ///< a frame may be there
+    broken,  ///< the device has an error, and a frame may be there
+    late,    ///< nothing happened in the time allowed
+    told,    ///< the other descriptor became readable
+};
+
+class Stream {
+  public:
+    /// Throws InputError for settings that the camera cannot have, RunFault where the device fails.
+    Stream(const std::filesystem::path& node, const CaptureSettings& settings);
+    /// Stops the stream. Leases and what shares their memory live on.
+    ~Stream();
+    Stream(const Stream&) = delete;
+    Stream& operator=(const Stream&) = delete;
+
+    /// Waits for a frame. Fails with Reason::device if the source changed.
+    /// @param wake_fd  another descriptor that ends the waiting
+    Result<Wake> wait(int wake_fd, TimeNs at_most_ns);
+    /// The oldest frame that is there; see BufferQueue.
+    Result<std::optional<Lease>> take() { return queue_->take(); }
+    /// Fails with Reason::device if the format in force is no longer the one that was set.
+    Status check_format() const;
+
+    const std::string& card() const { return card_; }
+    const CaptureFormat& format() const { return format_; }
+    const ControlLock& lock() const { return lock_; }
+    double frame_rate_hz() const { return frame_rate_hz_; }
+    Memory memory() const { return queue_->memory(); }
+
+  private:
+    bool source_changed();
+
+    std::string card_;
+    CaptureFormat format_;
+    ControlLock lock_;
+    double frame_rate_hz_ = 0.0;
+    std::shared_ptr<BufferQueue> queue_;
+};
+
+}  // namespace fidservo::vision::v4l2

@@ -1,0 +1,43 @@
+#pragma once
+// A camera behind Linux's video interface (V4L2).
+//
+// A thread of its own takes every frame from the driver at once and keeps the newest; older ones go back to
+// the driver unread, so that a frame that is asked for late is none the older for it. Frames are made grey
+// when they are asked for, on the thread that asks.
+//
+// Copies: GREY frames are handed out where the driver put them, and the driver gets the buffer back when the
+// last cv::Mat that shares it has gone; while so many are kept that the driver would run out of buffers, they
+// are copied instead. All other formats are converted, which is the one time that they are touched.
+#include "vision/camera.h"
+#include "vision/v4l2/capture_settings.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fidservo::vision::v4l2 {
+
+class V4l2Camera final : public Camera {
+  public:
+    /// Opens the camera, fixes its settings and starts it. Throws InputError for settings that it cannot
+    /// have, RunFault where the device fails.
+    V4l2Camera(const std::filesystem::path& node, const CaptureSettings& settings);
+    ~V4l2Camera() override;
+
+    /// The newest frame that has come; its times are of CLOCK_MONOTONIC, whatever the time asked for.
+    /// Fails with Reason::device for good if the camera is gone, refuses, or sends something else than it was
+    /// told; with Reason::timeout if no whole frame came for 1 s and five frames. A camera that is
+    /// waited for (CaptureSettings::reconnect_s) gives no frames in the meantime. One thread at a time.
+    Result<std::optional<Frame>> poll(TimeNs now_ns) override;
+    FrameCounts counts() const override;
+
+    /// What was set, in words: format, controls as they read back, memory; and what the camera could not do.
+    const std::vector<std::string>& notes() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fidservo::vision::v4l2
