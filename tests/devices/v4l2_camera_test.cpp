@@ -175,6 +175,7 @@ TEST(V4l2Camera, Stamp_IsTakenToTheMiddleOfTheExposureThatWasSet) {
     FakeFrame frame = even_frame(0, 128);
     frame.bytes.resize(2 * frame_bytes);
     frame.flags = monotonic | V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+    frame.stamp_us -= 50'000;
     const TimeNs stamp_ns = frame.stamp_us * 1000;
     fake.expose(frame);
     EXPECT_EQ(next_frame(camera).time_ns, stamp_ns + 5'100'000);

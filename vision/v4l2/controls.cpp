@@ -38,9 +38,9 @@ std::optional<std::int64_t> read_value(const Device& device, const v4l2_query_ex
     v4l2_ext_control control{};
     control.id = about.id;
     if (exchange(device, VIDIOC_G_EXT_CTRLS, control) != 0) return std::nullopt;
-    if (about.type == V4L2_CTRL_TYPE_INTEGER64) return control.value64;
+    if (about.type == V4L2_CTRL_TYPE_INTEGER64) return std::int64_t{control.value64};
     if (about.type == V4L2_CTRL_TYPE_BITMASK) return static_cast<std::uint32_t>(control.value);
-    return control.value;
+    return std::int64_t{control.value};
 }
 
 std::vector<MenuItem> read_menu(const Device& device, const v4l2_query_ext_ctrl& about) {

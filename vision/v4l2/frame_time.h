@@ -29,8 +29,9 @@ struct FrameDelays {
     double latency_s = 0.0;  ///< from the middle of the exposure to the arrival, for frames without a stamp
 };
 
-/// Does the stamp tell the time? It must be of the monotonic clock, before the frame's arrival, and no more
-/// than 10 s before it: drivers that stamp with another clock than they say are found out by that.
+/// Does the stamp tell the time? It must be of the monotonic clock, at most 10 s before the frame's arrival,
+/// and at most 0.1 s after it, which drivers that extrapolate their stamps need: those that stamp with
+/// another clock than they say are found out by that.
 bool stamp_is_usable(const Stamp& stamp, TimeNs arrival_ns);
 
 /// The middle of the exposure, ns on CLOCK_MONOTONIC.
@@ -39,8 +40,8 @@ bool stamp_is_usable(const Stamp& stamp, TimeNs arrival_ns);
 ///   end of frame:       t = stamp - exposure / 2
 ///   no usable stamp:    t = arrival - latency
 ///
-/// The read-out, which lies between the exposure and the frame's end, is not known to any driver; what
-/// remains is a constant delay, which homing measures against the stage.
+/// It never lies after the arrival. The read-out, which lies between the exposure and the frame's end, is not
+/// known to any driver; what remains is a constant delay, which homing measures against the stage.
 TimeNs mid_exposure_ns(const Stamp& stamp, TimeNs arrival_ns, const FrameDelays& delays);
 
 /// Now, ns on CLOCK_MONOTONIC.

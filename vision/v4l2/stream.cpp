@@ -31,6 +31,8 @@ void demand_capture(const Device& device, const Capability& capability) {
 void ask_for_source_changes(const Device& device) {
     v4l2_event_subscription wanted{};
     wanted.type = V4L2_EVENT_SOURCE_CHANGE;
+    int input = 0;
+    if (device.request(VIDIOC_G_INPUT, &input) == 0) wanted.id = static_cast<std::uint32_t>(input);
     (void)device.request(VIDIOC_SUBSCRIBE_EVENT, &wanted);  // sources that cannot change have no such event
 }
 

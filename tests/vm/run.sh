@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# run.sh VM-DIR BUILD-DIR [GROUP...]: the device tests, a boot a group. Exit code 0 if all groups passed.
+set -uo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+vm=$1 build=$2
+shift 2
+
+# group: kernel modules | seconds allowed | command
+declare -A groups=(
+    [vivid]="vivid:n_devs=1:node_types=0x1:vid_cap_nr=10|900|$build/tests/vm/vivid_test"
+    [loopback]="v4l2loopback:video_nr=20:exclusive_caps=0|900|$build/tests/vm/loopback_test"
+)
+order=(vivid loopback)
+(($#)) && order=("$@")
+
+failed=0
+for group in "${order[@]}"; do
+    [[ -v groups[$group] ]] || { echo "no group '$group' (allowed: ${!groups[*]})" >&2 && exit 2; }
+    IFS='|' read -r modules timeout_s command <<<"${groups[$group]}"
+    printf '\n== device tests: %s\n' "$group"
+    began=$SECONDS
+    "$here/boot.sh" "$vm" "$modules" "$timeout_s" "$command"
+    code=$?
+    ((code == 0)) && word=passed || word="failed ($code)" failed=1
+    echo "$group: $word, $((SECONDS - began)) s"
+done
+exit "$failed"
