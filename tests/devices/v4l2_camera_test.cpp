@@ -57,7 +57,7 @@ bool wait_until(const std::function<bool()>& condition) {
 Result<std::optional<Frame>> next(V4l2Camera& camera) {
     Result<std::optional<Frame>> got = std::optional<Frame>();
     wait_until([&] {
-        got = camera.poll(0);
+        got = camera.poll(monotonic_now_ns());
         return !got || *got;
     });
     return got;
@@ -80,9 +80,20 @@ int value_of(const Frame& frame) {
 TEST(V4l2Camera, NothingExposed_NoFrame) {
     const FakeCamera fake(devices::grey_camera());
     V4l2Camera camera("/dev/video0", settings());
-    const auto frame = camera.poll(0);
+    const auto frame = camera.poll(monotonic_now_ns());
     ASSERT_TRUE(frame);
     EXPECT_FALSE(*frame);
+}
+
+TEST(V4l2Camera, FrameThatCameAfterTheTimeAskedFor_IsKeptUntilThen) {
+    FakeCamera fake(devices::grey_camera());
+    V4l2Camera camera("/dev/video0", settings());
+    const TimeNs before_ns = monotonic_now_ns();
+    fake.expose(even_frame(0, 5));
+    ASSERT_TRUE(wait_until([&] { return fake.waiting() == 0; }));
+    const auto early = camera.poll(before_ns);
+    EXPECT_TRUE(early && !*early);
+    EXPECT_EQ(value_of(next_frame(camera)), 5);
 }
 
 TEST(V4l2Camera, SeveralFrames_TheNewestWinsAndTheOthersAreSkipped) {
@@ -94,7 +105,7 @@ TEST(V4l2Camera, SeveralFrames_TheNewestWinsAndTheOthersAreSkipped) {
     EXPECT_EQ(value_of(frame), 13);
     EXPECT_EQ(frame.sequence, 3U);
     EXPECT_EQ(camera.counts().lost, 0U);
-    const auto again = camera.poll(0);
+    const auto again = camera.poll(monotonic_now_ns());
     EXPECT_TRUE(again && !*again) << "a frame is handed out once";
 }
 
@@ -225,7 +236,7 @@ TEST(V4l2Camera, OnlyDamagedFrames_EndInATimeOutThatSaysSo) {
         frame.flags |= V4L2_BUF_FLAG_ERROR;
         fake.expose(frame);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        got = camera.poll(0);
+        got = camera.poll(monotonic_now_ns());
         return !got;
     }));
     EXPECT_EQ(got.error().reason, Reason::timeout);
@@ -238,7 +249,7 @@ TEST(V4l2Camera, NoFrames_TimeOut) {
     const auto got = next(camera);
     ASSERT_FALSE(got);
     EXPECT_EQ(got.error().reason, Reason::timeout);
-    EXPECT_FALSE(camera.poll(0)) << "for good";
+    EXPECT_FALSE(camera.poll(monotonic_now_ns())) << "for good";
 }
 
 TEST(V4l2Camera, Unplugged_SaysSo) {
@@ -265,7 +276,7 @@ TEST(V4l2Camera, UnpluggedAndBack_GoesOnWhereAllowed) {
     (void)next_frame(camera);
     fake.unplug();
     std::this_thread::sleep_for(std::chrono::milliseconds(150));
-    const auto away = camera.poll(0);
+    const auto away = camera.poll(monotonic_now_ns());
     EXPECT_TRUE(away && !*away) << "no frames, and no failure, while it is waited for";
     fake.plug_in();
     ASSERT_TRUE(wait_until([&] { return camera.counts().reconnects == 1; }));
@@ -320,7 +331,7 @@ TEST(V4l2Camera, Mjpeg_DecodedDamagedAndOfAnotherSize) {
     cut.bytes.resize(cut.bytes.size() / 2);
     fake.expose(cut);
     ASSERT_TRUE(wait_until([&] {
-        const auto none = camera.poll(0);
+        const auto none = camera.poll(monotonic_now_ns());
         EXPECT_TRUE(none && !*none);
         return camera.counts().damaged == 1;
     }));

@@ -2,6 +2,7 @@
 // Waiting for a camera in a test. The limit is for the case that what is waited for never comes; emulated
 // machines are slow.
 #include "vision/camera.h"
+#include "vision/v4l2/frame_time.h"
 
 #include <chrono>
 #include <functional>
@@ -25,7 +26,7 @@ inline bool wait_until(const std::function<bool()>& condition,
 inline Result<std::optional<Frame>> next(Camera& camera) {
     Result<std::optional<Frame>> got = std::optional<Frame>();
     wait_until([&] {
-        got = camera.poll(0);
+        got = camera.poll(v4l2::monotonic_now_ns());
         return !got || *got;
     });
     return got;
@@ -43,7 +44,7 @@ inline Frame next_frame(Camera& camera) {
 inline Result<std::optional<Frame>> failure_of(Camera& camera) {
     Result<std::optional<Frame>> got = std::optional<Frame>();
     wait_until([&] {
-        got = camera.poll(0);
+        got = camera.poll(v4l2::monotonic_now_ns());
         return !got;
     });
     return got;

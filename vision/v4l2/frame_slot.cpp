@@ -11,9 +11,10 @@ void FrameSlot::put(RawFrame frame) {
     if (older) ++counts_.skipped;
 }
 
-Result<std::optional<RawFrame>> FrameSlot::take() {
+Result<std::optional<RawFrame>> FrameSlot::take(TimeNs now_ns) {
     const std::lock_guard lock(mutex_);
     if (failure_) return tl::make_unexpected(*failure_);
+    if (newest_ && newest_->arrival_ns > now_ns) return std::optional<RawFrame>();
     return std::exchange(newest_, std::nullopt);
 }
 

@@ -27,8 +27,9 @@ class FrameSlot {
   public:
     /// Takes the place of a frame that nobody has asked for, which counts as skipped.
     void put(RawFrame frame);
-    /// The newest frame, once; empty if there is none; the failure for good once there is one.
-    Result<std::optional<RawFrame>> take();
+    /// The newest frame, once; empty if there is none or it arrived after now_ns; the failure for good once
+    /// there is one.
+    Result<std::optional<RawFrame>> take(TimeNs now_ns);
     /// No frame comes any more. The first reason stays.
     void fail(Failure why);
     /// Drops the frame that is there, if any: it is of a camera that was lost.

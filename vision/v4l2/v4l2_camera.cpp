@@ -172,7 +172,7 @@ struct V4l2Camera::Impl {
     }
 
     Result<std::optional<Frame>> slot_failure() {
-        const auto failed = slot.take();
+        const auto failed = slot.take(0);
         FIDSERVO_DEMAND(!failed);
         return tl::make_unexpected(failed.error());
     }
@@ -197,8 +197,8 @@ V4l2Camera::V4l2Camera(const std::filesystem::path& node, const CaptureSettings&
 
 V4l2Camera::~V4l2Camera() = default;
 
-Result<std::optional<Frame>> V4l2Camera::poll(TimeNs /*now_ns*/) {
-    auto raw = impl_->slot.take();
+Result<std::optional<Frame>> V4l2Camera::poll(TimeNs now_ns) {
+    auto raw = impl_->slot.take(now_ns);
     if (!raw) return tl::make_unexpected(raw.error());
     if (!*raw) return std::optional<Frame>();
     return impl_->handed_out(std::move(**raw));

@@ -25,10 +25,11 @@ class V4l2Camera final : public Camera {
     V4l2Camera(const std::filesystem::path& node, const CaptureSettings& settings);
     ~V4l2Camera() override;
 
-    /// The newest frame that has come; its times are of CLOCK_MONOTONIC, whatever the time asked for.
-    /// Fails with Reason::device for good if the camera is gone, refuses, or sends something else than it was
-    /// told; with Reason::timeout if no whole frame came for 1 s and five frames. A camera that is
-    /// waited for (CaptureSettings::reconnect_s) gives no frames in the meantime. One thread at a time.
+    /// The newest frame, if it had come by now_ns; times are of CLOCK_MONOTONIC. A loop that is late, and
+    /// says so by now_ns, so gets no frame for every tick that it makes up for. Fails with Reason::device for
+    /// good if the camera is gone, refuses, or sends something else than it was told; with Reason::timeout if
+    /// no whole frame came for 1 s and five frames. A camera that is waited for
+    /// (CaptureSettings::reconnect_s) gives no frames in the meantime. One thread at a time.
     Result<std::optional<Frame>> poll(TimeNs now_ns) override;
     FrameCounts counts() const override;
 
