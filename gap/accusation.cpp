@@ -1,7 +1,5 @@
 #include "gap/accusation.h"
 
-#include "core/camera_geometry.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +7,6 @@ namespace fidservo::gap {
 namespace {
 
 std::string_view carriage_block(std::optional<Dependence> dependence) {
-    if (dependence == Dependence::reading_period) return "macro.encoder";
     if (dependence == Dependence::command || dependence == Dependence::command_change ||
         dependence == Dependence::nothing || dependence == Dependence::time)
         return "macro.drive";
@@ -49,8 +46,17 @@ bool off(const Pattern& pattern, Signal signal) {
     return pattern.floors[index_of(signal)] >= least_floors;
 }
 
-/// Of the place that is interpolated between two counts by a wrong model of the carriage.
-constexpr double between_counts = 0.1;
+/// Where a wrong model of the carriage misplaces it between two counts, the tags are off by less than this
+/// share of the encoder's floors; where the encoder reads falsely, by more.
+constexpr double between_counts = 2.5;
+
+bool has_no_tags(const Pattern& pattern) {
+    return pattern.floors[index_of(Signal::tag)] == 0.0;
+}
+
+bool tags_are_further_off(const Pattern& pattern) {
+    return pattern.tag_along > between_counts * pattern.floors[index_of(Signal::encoder)];
+}
 
 }  // namespace
 
@@ -65,7 +71,6 @@ Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, co
         const std::size_t s = index_of(gap.signal);
         pattern.floors[s] = gap.after / gap.floor / std::sqrt(expected[s] / counts[s]);
     }
-    const Rig& rig = evidence.rig();
     double along = 0.0, across = 0.0, count = 0.0;
     for (const Window& window : evidence.windows()) {
         if (window.signal != Signal::tag) continue;
@@ -79,11 +84,6 @@ Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, co
     if (count == 0.0) return pattern;
     pattern.tag_along = std::sqrt(along / count);
     pattern.tag_across = std::sqrt(across / (count * (corner_values - 1)));
-    constexpr double corners = 4.0;  // a tag that is displaced by d is so at each
-    if (rig.camera)
-        pattern.tags_count = pattern.tag_along * evidence.floor(Signal::tag) *
-                             mm_per_px(rig.camera->geometry) / std::sqrt(corners) /
-                             rig.macro.encoder_resolution_mm;
     return pattern;
 }
 
@@ -91,19 +91,20 @@ std::optional<Signal> false_sensor(const Pattern& pattern) {
     constexpr double beyond_smoothing =
         2.0;  // floors; a wrong actuator's model leaves the tags at 1.5 at most
     if (!is_displacement(pattern)) return {};
-    if (off(pattern, Signal::encoder) && pattern.tags_count > between_counts) return Signal::encoder;
+    if (off(pattern, Signal::encoder) && tags_are_further_off(pattern)) return Signal::encoder;
     if (off(pattern, Signal::encoder) || !off(pattern, Signal::hall)) return {};
     return pattern.tag_along > beyond_smoothing ? std::optional(Signal::hall) : std::nullopt;
 }
 
 bool tags_are_innocent(const Pattern& pattern) {
-    return is_displacement(pattern) && off(pattern, Signal::encoder) && pattern.tags_count <= between_counts;
+    return is_displacement(pattern) && off(pattern, Signal::encoder) && !tags_are_further_off(pattern);
 }
 
 std::string_view accused_block(const Pattern& pattern, Signal signal, std::optional<Dependence> dependence) {
     const bool is_false = false_sensor(pattern) == signal;
     switch (signal) {
         case Signal::encoder:
+            if (has_no_tags(pattern) && dependence == Dependence::reading_period) return "macro.encoder";
             return is_false ? "macro.encoder" : carriage_block(dependence);
         case Signal::hall:
             return is_false ? "micro.hall" : platform_block(dependence);

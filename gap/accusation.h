@@ -21,7 +21,6 @@ struct Pattern {
     std::array<double, signal_count> floors{};
     double tag_along = 0.0;   ///< of the tags' corners along the stage's motion
     double tag_across = 0.0;  ///< of their other seven coordinates
-    double tags_count = 0.0;  ///< tag_along as a displacement, in counts of the encoder
 };
 
 Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, const Errors& errors);

@@ -146,13 +146,17 @@ void add_hats(std::vector<Column>& columns, const Columns& make, Dependence grou
             make.of_force(group, [&, k](const Row& at) { return hat(knots, k, quantity(at)); }));
 }
 
+/// A force may be a sine; graduations err in harmonics too.
 std::vector<Column> waves(const Columns& make, double period_mm) {
-    const double per_mm = 2.0 * std::numbers::pi / period_mm;
     std::vector<Column> columns;
     for (const double phase : {0.0, 0.5 * std::numbers::pi}) {
-        const auto wave = [=](const Row& at) { return std::sin(per_mm * at.position_mm + phase); };
-        columns.push_back(make.of_force(Dependence::position_period, wave));
-        columns.push_back(make.of_reading(Dependence::reading_period, wave));
+        const auto wave = [=](double waves_in_period) {
+            const double per_mm = 2.0 * std::numbers::pi * waves_in_period / period_mm;
+            return [=](const Row& at) { return std::sin(per_mm * at.position_mm + phase); };
+        };
+        columns.push_back(make.of_force(Dependence::position_period, wave(1.0)));
+        columns.push_back(make.of_reading(Dependence::reading_period, wave(1.0)));
+        columns.push_back(make.of_reading(Dependence::reading_period, wave(2.0)));
     }
     return columns;
 }

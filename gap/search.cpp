@@ -286,16 +286,23 @@ void Search::prefer_simplest(std::vector<Trial>& trials) const {
 }
 
 bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
-    constexpr double least_share = 0.3;  // of a signal's excess
-    const SignalExcess before = fitter_.excess(without.mean_squares),
-                       after = fitter_.excess(with.mean_squares);
-    bool clears_a_signal = false;
-    for (std::size_t s = 0; s < signal_count; ++s)
-        clears_a_signal = clears_a_signal || after[s] < (1.0 - least_share) * before[s];
+    constexpr double least_share = 0.3;
     const Comparison comparison = fitter_.compared(without, with);
-    return clears_a_signal && comparison.gain > least_gain &&
+    return clears_a_signal(without, with, least_share) && comparison.gain > least_gain &&
            comparison.significance >
                significance_bound(comparison.blocks, std::max(trials_, 1), options_.tail);
+}
+
+bool Search::nearly_clears(const CrossFit& without, const CrossFit& with) const {
+    return clears_a_signal(without, with, 0.9);
+}
+
+bool Search::clears_a_signal(const CrossFit& without, const CrossFit& with, double share) const {
+    const SignalExcess before = fitter_.excess(without.mean_squares),
+                       after = fitter_.excess(with.mean_squares);
+    for (std::size_t s = 0; s < signal_count; ++s)
+        if (after[s] < (1.0 - share) * before[s]) return true;
+    return false;
 }
 
 SignalFlags Search::off(const CrossFit& fitted) const {

@@ -55,6 +55,9 @@ class Search {
     /// effect gains a little.
     bool is_real(const CrossFit& without, const CrossFit& with) const;
 
+    /// Whether a signal loses 90 % of what it exceeds its floor by.
+    bool nearly_clears(const CrossFit& without, const CrossFit& with) const;
+
     /// Signals above their floors.
     SignalFlags off(const CrossFit& fitted) const;
 
@@ -81,6 +84,8 @@ class Search {
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side) const;
     Hypothesis polished(const Contender& contender, std::size_t side) const;
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
+    /// Whether some signal loses such a share of its excess.
+    bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share) const;
     /// Puts the one of fewest parameters first, of those that tie with the best.
     void prefer_simplest(std::vector<Trial>& trials) const;
 

@@ -108,17 +108,17 @@ bool is_better(const Search& search, const Chain& other, const Chain& chain) {
 
 /// Where signals stay off their floors, what was taken in for them, one after the other, may be no step on
 /// the way to what there is: instead of it each of the best single effects, with what is best beside it.
-/// Where nothing was taken in, no pair is tried: two wrong effects fit most things a little.
+/// Where nothing was taken in, a pair has to explain nearly all: two wrong effects fit most things a little.
 /// @return whether anything changed
 bool pair_up(Search& search, Chain& chain, int most_effects) {
-    constexpr std::size_t most_first = 3;
     constexpr Effort effort{.fits = 3, .leaders = 1};
     const SignalFlags off = search.off(chain.fitted);
     Chain rest = chain;
     for (std::size_t k = chain.choices.size(); k-- > 0;)
         if (meet(teachers_of(*chain.choices[k].candidate->effect), off)) rest = without(search, rest, k);
-    const std::size_t taken_out = chain.choices.size() - rest.choices.size();
-    if (taken_out == 0 || static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
+    if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
+    const bool from_nothing = chain.choices.size() == rest.choices.size();
+    const std::size_t most_first = from_nothing ? 2 : 3;
     const std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates());
     std::vector<std::string> classes;
     bool changed = false;
@@ -132,7 +132,9 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
         std::vector<Trial> trials = search.try_all(one.fitted, one.candidates(), effort);
         if (!has_leader(trials)) continue;
         Chain two = grown(search, one, std::move(trials));
-        if (!is_better(search, two, chain)) continue;
+        if (!is_better(search, two, chain) ||
+            (from_nothing && !search.nearly_clears(chain.fitted, two.fitted)))
+            continue;
         chain = std::move(two);
         changed = true;
     }

@@ -9,9 +9,9 @@ namespace {
 
 using namespace gap;
 
-/// Floors of encoder, Hall reading and tags, of the tags' motion along and across, and as counts.
-Pattern pattern(double encoder, double hall, double tag, double along, double across, double count) {
-    Pattern pattern{{}, along, across, count};
+/// Floors of encoder, Hall reading and tags, and of the tags' motion along and across.
+Pattern pattern(double encoder, double hall, double tag, double along, double across) {
+    Pattern pattern{{}, along, across};
     pattern.floors[index_of(Signal::encoder)] = encoder;
     pattern.floors[index_of(Signal::hall)] = hall;
     pattern.floors[index_of(Signal::tag)] = tag;
@@ -19,16 +19,16 @@ Pattern pattern(double encoder, double hall, double tag, double along, double ac
 }
 
 TEST(Accusation, SensorThatReadsFalsely_SpoilsTheTagsAsWell) {
-    const Pattern hall = pattern(0.4, 30.0, 30.0, 85.0, 1.0, 0.07);
+    const Pattern hall = pattern(0.4, 30.0, 30.0, 85.0, 1.0);
     EXPECT_EQ(false_sensor(hall), Signal::hall);
     EXPECT_EQ(accused_block(hall, Signal::hall, Dependence::contraction), "micro.hall");
-    const Pattern encoder = pattern(11.0, 1.0, 1900.0, 5300.0, 1.0, 4.2);
+    const Pattern encoder = pattern(11.0, 1.0, 1900.0, 5300.0, 1.0);
     EXPECT_EQ(false_sensor(encoder), Signal::encoder);
     EXPECT_EQ(accused_block(encoder, Signal::encoder, Dependence::command), "macro.encoder");
 }
 
 TEST(Accusation, ActuatorSpoilsItsOwnPredictionOnly) {
-    const Pattern wire = pattern(0.4, 334.0, 1.1, 1.3, 1.0, 0.001);
+    const Pattern wire = pattern(0.4, 334.0, 1.1, 1.3, 1.0);
     EXPECT_FALSE(false_sensor(wire).has_value());
     EXPECT_EQ(accused_block(wire, Signal::hall, Dependence::temperature), "micro.heater");
     EXPECT_EQ(accused_block(wire, Signal::hall, Dependence::direction), "micro.hysteresis");
@@ -37,16 +37,27 @@ TEST(Accusation, ActuatorSpoilsItsOwnPredictionOnly) {
 }
 
 TEST(Accusation, PlaceBetweenTwoCounts_IsNoFalseEncoder_AndNoCameraIsBlamed) {
-    const Pattern friction = pattern(201.0, 1.0, 18.0, 50.0, 1.0, 0.04);
+    const Pattern friction = pattern(201.0, 1.0, 18.0, 50.0, 1.0);
     EXPECT_FALSE(false_sensor(friction).has_value());
     EXPECT_TRUE(tags_are_innocent(friction));
     EXPECT_EQ(accused_block(friction, Signal::encoder, Dependence::velocity), "macro.friction");
     EXPECT_EQ(accused_block(friction, Signal::encoder, Dependence::command_change), "macro.drive");
 }
 
+TEST(Accusation, CarriageThatIsMisplacedBetweenCounts_IsNoFalseEncoderEither_WhereBothAreLittleOff) {
+    EXPECT_FALSE(false_sensor(pattern(20.9, 1.0, 10.1, 28.7, 1.0)).has_value());
+    EXPECT_FALSE(false_sensor(pattern(8.3, 1.0, 4.0, 11.3, 1.0)).has_value());
+}
+
+TEST(Accusation, PeriodInTheReading_AccusesTheEncoder_IfTheTagsSaySoOrThereAreNone) {
+    const Dependence ripple = Dependence::reading_period;
+    EXPECT_EQ(accused_block(pattern(3.4, 1.0, 5.2, 14.7, 1.0), Signal::encoder, ripple), "macro.encoder");
+    EXPECT_EQ(accused_block(pattern(3.4, 1.0, 1.0, 1.0, 1.0), Signal::encoder, ripple), "macro.mechanics");
+    EXPECT_EQ(accused_block(pattern(3.4, 0.0, 0.0, 0.0, 0.0), Signal::encoder, ripple), "macro.encoder");
+}
+
 TEST(Accusation, TagsAlone_AccuseTheCamera) {
-    const Pattern late = pattern(0.4, 1.0, 85.0, 240.0, 1.0, 0.2),
-                  tilted = pattern(0.4, 1.0, 9.0, 12.0, 8.0, 0.01);
+    const Pattern late = pattern(0.4, 1.0, 85.0, 240.0, 1.0), tilted = pattern(0.4, 1.0, 9.0, 12.0, 8.0);
     EXPECT_EQ(accused_block(late, Signal::tag, {}), "camera.timing");
     EXPECT_EQ(accused_block(tilted, Signal::tag, {}), "camera.geometry");
     EXPECT_FALSE(tags_are_innocent(late));

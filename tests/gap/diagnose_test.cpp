@@ -1,6 +1,7 @@
 // From recordings of the simulated rig to the effect that it has.
 #include "gap/diagnose.h"
 
+#include "gap/search.h"
 #include "plant/effects/catalogue.h"
 #include "src/config/rig_file.h"
 #include "src/simulation/experiments.h"
@@ -105,6 +106,45 @@ TEST(Diagnosis, TwoEffectsInTwoBlocks_AreBothNamed) {
                   .selection = {}});
     EXPECT_EQ(names(diagnosis), (std::vector<std::string>{"airflow", "drive_gain"}));
     EXPECT_EQ(diagnosis.verdict, Verdict::explained);
+}
+
+TEST(Diagnosis, EffectThatClearsOneSignal_IsRealThoughAnotherIsFurtherOff) {
+    const std::vector<Candidate> tried;
+    const Evidence evidence = campaign({}, {"macro-square", "micro-steps"});
+    const Search search(evidence, tried, {});
+    CrossFit without, with;
+    for (const Window& window : evidence.windows())
+        without.mean_squares.push_back(window.signal == Signal::encoder ? 1e6 : 1e3);
+    with = without;
+    for (std::size_t w = 0; w < with.mean_squares.size(); ++w)
+        if (evidence.windows()[w].signal == Signal::hall) with.mean_squares[w] = 1.0;
+    EXPECT_TRUE(search.is_real(without, with));
+    EXPECT_FALSE(search.is_real(without, without));
+    EXPECT_TRUE(search.off(with)[index_of(Signal::encoder)]);
+    EXPECT_FALSE(search.off(with)[index_of(Signal::hall)]);
+}
+
+/// Alone, either of the two does worse than a compromise of others; the one that is found first has taken
+/// over what it can of the other.
+TEST(SlowDiagnosis, TwoEffectsOfOneStretch_AreBothNamed) {
+    const Diagnosis diagnosis =
+        diagnose(campaign(effects({"heater_gain:factor=1.1", "second_thermal_mass"}),
+                          {"micro-steps", "micro-triangle", "micro-servo"}),
+                 {.only = {"heater_gain", "second_thermal_mass", "airflow", "heating_lag"},
+                  .without = {},
+                  .selection = {}});
+    EXPECT_EQ(names(diagnosis), (std::vector<std::string>{"heater_gain", "second_thermal_mass"}));
+    EXPECT_EQ(diagnosis.verdict, Verdict::explained);
+}
+
+TEST(Diagnosis, RippleOfTheReading_IsFoundWithItsAmplitude) {
+    const Diagnosis diagnosis =
+        diagnose(campaign(effects({"encoder_ripple:amplitude_um=60,period_mm=8,phase_rad=1"}),
+                          {"macro-sweep", "macro-square"}),
+                 {.only = {"encoder_ripple", "cogging"}, .without = {}, .selection = {}});
+    ASSERT_EQ(names(diagnosis), std::vector<std::string>{"encoder_ripple"});
+    EXPECT_NEAR(diagnosis.effects.front().parameters[0].value, 60.0, 2.0);
+    EXPECT_NEAR(diagnosis.effects.front().parameters[1].value, 8.0, 0.01);
 }
 
 TEST(SlowDiagnosis, WaveAlongTheRail_IsFoundWithItsPeriodAndPhase) {

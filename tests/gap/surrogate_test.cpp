@@ -1,0 +1,83 @@
+// What a remainder depends on, and which block that accuses, where the effect is withheld.
+#include "gap/diagnose.h"
+#include "src/config/rig_file.h"
+#include "src/simulation/experiments.h"
+#include "src/simulation/simulate.h"
+#include "tests/gap/root_mean_square.h"
+
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+namespace {
+
+using namespace gap;
+using ::testing::HasSubstr;
+
+Rig reference_rig() {
+    return load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
+}
+
+/// Two runs of each kind, with no effect to try that could explain them.
+Diagnosis unnamed(const Rig& true_rig, const Hypothesis& truth, std::initializer_list<std::string_view> kinds,
+                  const std::string& tried) {
+    std::vector<Recording> recordings;
+    for (const std::string_view kind : kinds)
+        for (const std::uint64_t seed : {31, 32}) {
+            const std::string name = std::string(kind) + "-" + std::to_string(seed);
+            recordings.push_back(
+                simulate(true_rig, truth, make_experiment(kind, true_rig, seed, name), name, seed));
+        }
+    const Evidence evidence(reference_rig(), std::move(recordings));
+    return diagnose(evidence, {.only = {tried}, .without = {}, .selection = {}});
+}
+
+std::string first_dependence(const Diagnosis& diagnosis) {
+    if (!diagnosis.unexplained || diagnosis.unexplained->depends_on.empty()) return "none";
+    return diagnosis.unexplained->depends_on.front();
+}
+
+TEST(Surrogate, TagsOfAnotherSize_AccuseThePlate) {
+    Rig rig = reference_rig();
+    rig.fiducials->side_mm *= 1.003;
+    const Diagnosis diagnosis = unnamed(rig, {}, {"rest", "micro-servo"}, "clock_skew");
+    EXPECT_EQ(first_dependence(diagnosis), "size of the tag");
+    EXPECT_EQ(diagnosis.where.front().block, "plate");
+}
+
+TEST(Surrogate, LateFrames_AccuseTheClock_AndALens_AccusesTheCamera) {
+    const Diagnosis late = unnamed(reference_rig(), testing::effects({"camera_latency:delay_ms=20"}),
+                                   {"micro-servo", "integrated"}, "lens_distortion");
+    EXPECT_EQ(first_dependence(late), "velocity");
+    EXPECT_EQ(late.where.front().block, "camera.timing");
+    const Diagnosis bent = unnamed(reference_rig(), testing::effects({"lens_distortion:k1=0.3"}),
+                                   {"micro-servo", "integrated"}, "clock_skew");
+    EXPECT_EQ(first_dependence(bent), "place in the image");
+    EXPECT_EQ(bent.where.front().block, "camera.geometry");
+}
+
+TEST(Surrogate, PeriodOfTheReading_IsToldFromThatOfAForce) {
+    const Diagnosis reading =
+        unnamed(reference_rig(), testing::effects({"encoder_ripple:amplitude_um=60,period_mm=8,phase_rad=1"}),
+                {"macro-sweep", "macro-pulses", "macro-square"}, "clock_skew");
+    EXPECT_THAT(first_dependence(reading), HasSubstr("in the reading"));
+    EXPECT_EQ(reading.where.front().block, "macro.encoder");
+    const Diagnosis force =
+        unnamed(reference_rig(), testing::effects({"cogging:amplitude_V=0.02,period_mm=8,phase_rad=1"}),
+                {"macro-sweep", "macro-pulses", "macro-square"}, "clock_skew");
+    EXPECT_EQ(force.where.front().block, "macro.mechanics") << first_dependence(force);
+}
+
+TEST(Surrogate, BodyThatStoresHeat_AccusesTheHeater) {
+    const Diagnosis diagnosis = unnamed(reference_rig(), testing::effects({"second_thermal_mass"}),
+                                        {"micro-steps", "micro-triangle", "micro-servo"}, "clock_skew");
+    EXPECT_EQ(diagnosis.where.front().block, "micro.heater") << first_dependence(diagnosis);
+}
+
+}  // namespace
+
+}  // namespace fidservo
