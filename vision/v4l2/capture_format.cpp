@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <vector>
 
 #include <fmt/format.h>
@@ -55,11 +54,13 @@ PixelFormat choose_pixels(const Device& device, const CaptureSettings& settings,
         if (offers_size(*format, settings)) return pixels;
         if (first == nullptr) first = format;
     }
-    if (first == nullptr)
-        throw InputError(fmt::format(
-            "{}: offers no pixel format that is understood: {}", device.node().string(),
-            fmt::join(pixel_formats | std::views::transform([](PixelFormat f) { return name_of(f); }),
-                      ", ")));
+    if (first == nullptr) {
+        std::vector<std::string_view> understood;
+        understood.reserve(pixel_formats.size());
+        for (const PixelFormat pixels : pixel_formats) understood.push_back(name_of(pixels));
+        throw InputError(fmt::format("{}: offers no pixel format that is understood: {}",
+                                     device.node().string(), fmt::join(understood, ", ")));
+    }
     return *pixel_format_of(first->fourcc);
 }
 

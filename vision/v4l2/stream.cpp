@@ -38,7 +38,7 @@ void ask_for_source_changes(const Device& device) {
 
 }  // namespace
 
-Stream::Stream(const std::filesystem::path& node, const CaptureSettings& settings) {
+FrameStream::FrameStream(const std::filesystem::path& node, const CaptureSettings& settings) {
     Device device = take_or_throw(Device::open(node));
     const Capability capability = take_or_throw(capability_of(device));
     demand_capture(device, capability);
@@ -50,11 +50,11 @@ Stream::Stream(const std::filesystem::path& node, const CaptureSettings& setting
     queue_ = BufferQueue::start(std::move(device), settings.memory, format_.frame_bytes);
 }
 
-Stream::~Stream() {
+FrameStream::~FrameStream() {
     queue_->stop();
 }
 
-Result<Wake> Stream::wait(int wake_fd, TimeNs at_most_ns) {
+Result<Wake> FrameStream::wait(int wake_fd, TimeNs at_most_ns) {
     std::array<pollfd, 2> watched{pollfd{queue_->device().fd(), POLLIN | POLLPRI, 0},
                                   pollfd{wake_fd, POLLIN, 0}};
     const TimeNs at_most_ms = std::max<TimeNs>(0, (at_most_ns + ns_per_ms - 1) / ns_per_ms);
@@ -70,7 +70,7 @@ Result<Wake> Stream::wait(int wake_fd, TimeNs at_most_ns) {
     return (events & (POLLERR | POLLHUP | POLLNVAL)) != 0 ? Wake::broken : Wake::ready;
 }
 
-bool Stream::source_changed() {
+bool FrameStream::source_changed() {
     bool changed = false;
     v4l2_event event{};
     while (queue_->device().request(VIDIOC_DQEVENT, &event) == 0)
@@ -78,7 +78,7 @@ bool Stream::source_changed() {
     return changed;
 }
 
-Status Stream::check_format() const {
+Status FrameStream::check_format() const {
     const std::string now = format_in_force(queue_->device());
     if (now == text_of(format_)) return {};
     return failure(Reason::device, fmt::format("{}: the format changed under way, from {} to {}",

@@ -18,14 +18,14 @@ enum class Wake {
     told,    ///< the other descriptor became readable
 };
 
-class Stream {
+class FrameStream {
   public:
     /// Throws InputError for settings that the camera cannot have, RunFault where the device fails.
-    Stream(const std::filesystem::path& node, const CaptureSettings& settings);
+    FrameStream(const std::filesystem::path& node, const CaptureSettings& settings);
     /// Stops the stream. Leases and what shares their memory live on.
-    ~Stream();
-    Stream(const Stream&) = delete;
-    Stream& operator=(const Stream&) = delete;
+    ~FrameStream();
+    FrameStream(const FrameStream&) = delete;
+    FrameStream& operator=(const FrameStream&) = delete;
 
     /// Waits for a frame. Fails with Reason::device if the source changed.
     /// @param wake_fd  another descriptor that ends the waiting

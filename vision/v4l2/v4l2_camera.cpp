@@ -21,7 +21,7 @@ namespace {
 /// Below that, a frame that is kept would leave the driver without room for the next.
 constexpr std::size_t least_with_driver = 2;
 
-std::vector<std::string> notes_on(const Stream& stream, const CaptureSettings& settings) {
+std::vector<std::string> notes_on(const FrameStream& stream, const CaptureSettings& settings) {
     std::vector<std::string> notes{fmt::format("{}: {}, {} memory", stream.card(), text_of(stream.format()),
                                                stream.memory() == Memory::mapped ? "the driver's" : "own")};
     for (const LockedControl& control : stream.lock().locked)
@@ -40,7 +40,7 @@ std::vector<std::string> notes_on(const Stream& stream, const CaptureSettings& s
 struct V4l2Camera::Impl {
     Impl(const std::filesystem::path& node, const CaptureSettings& wanted)
         : settings(wanted),
-          stream(std::make_unique<Stream>(node, wanted)),
+          stream(std::make_unique<FrameStream>(node, wanted)),
           card(stream->card()),
           notes(notes_on(*stream, wanted)),
           timeout_ns(ns_per_s + nanoseconds(5.0 / wanted.frame_rate_hz)) {
@@ -119,7 +119,7 @@ struct V4l2Camera::Impl {
         while (!stop.stop_requested() && monotonic_now_ns() < end_ns) {
             wake.wait(between_ns);
             try {
-                auto again = std::make_unique<Stream>(std::filesystem::canonical(path), settings);
+                auto again = std::make_unique<FrameStream>(std::filesystem::canonical(path), settings);
                 if (again->card() != card)
                     throw RunFault(fmt::format("{}: another camera, {}", path.string(), again->card()));
                 stream = std::move(again);
@@ -178,7 +178,7 @@ struct V4l2Camera::Impl {
     }
 
     CaptureSettings settings;
-    std::unique_ptr<Stream> stream;  ///< the reading thread's once that runs
+    std::unique_ptr<FrameStream> stream;  ///< the reading thread's once that runs
     std::string card;
     std::vector<std::string> notes;
     TimeNs timeout_ns;
