@@ -59,14 +59,9 @@ float limit_of(float pixels, float deviations) {
     return root * root * root;
 }
 
-/// The mean square of a block that fits as well as any. Where even the median one does not fit, the print,
-/// the lens or the noise is not as believed, and blocks differ by more than noise lets them.
-struct Usual {
-    float mean_square;
-    bool fits;
-};
-
-Usual usual_of(const std::vector<float>& mean_squares, float allowance) {
+/// The mean square of a block that fits as well as any. Where even the median one does not fit, the print or
+/// the noise is not as believed, and blocks differ by more than noise lets them.
+float usual_of(const std::vector<float>& mean_squares, float allowance) {
     constexpr float fits = 1.3F, spread_of_misfits = 1.5F;
     thread_local std::vector<float> sorted;
     sorted = mean_squares;
@@ -77,16 +72,7 @@ Usual usual_of(const std::vector<float>& mean_squares, float allowance) {
         return *place;
     };
     const float median = at(0.5);
-    if (median < fits * allowance) return {std::max(allowance, median), true};
-    return {std::max(allowance, spread_of_misfits * at(0.75)), false};
-}
-
-/// Whether what misfits is damage, which has a place and may be followed, and not a picture that differs from
-/// what is believed over all of the tag: another lens, print or noise.
-bool is_damage(const Usual& usual, const std::vector<Crossing>& crossings) {
-    constexpr double most_share = 0.3;
-    const auto damaged = std::ranges::count_if(crossings, &Crossing::is_damaged);
-    return usual.fits && static_cast<double>(damaged) <= most_share * static_cast<double>(crossings.size());
+    return std::max(allowance, median < fits * allowance ? median : spread_of_misfits * at(0.75));
 }
 
 /// Finds the parts that are damaged at a damaged crossing or beside one.
@@ -126,14 +112,14 @@ void judge_blocks(const EdgeBand& band, float allowance, const std::vector<kerne
     if (blocks == 0) return;
     const auto size_of = [&](std::size_t k) { return static_cast<float>(band.blocks[k].pixels); };
     for (std::size_t k = 0; k < blocks; ++k) excess[k] = residuals[k].square_sum / size_of(k);
-    const Usual usual = usual_of(excess, allowance);
+    const float usual = usual_of(excess, allowance);
 
     thread_local std::vector<Crossing> crossings;
     crossings.clear();
     for (const kernel::Node& node : band.nodes) {
         Crossing& crossing = crossings.emplace_back(Crossing{&node});
         for (std::size_t k = node.first_block; k < node.last_block; ++k) {
-            excess[k] /= usual.mean_square * limit_of(size_of(k), most_of_block);
+            excess[k] /= usual * limit_of(size_of(k), most_of_block);
             Part& part = crossing.parts[place_of(band.blocks[k])];
             if (excess[k] > 1.0F) {
                 part.misfits = true;
@@ -143,15 +129,13 @@ void judge_blocks(const EdgeBand& band, float allowance, const std::vector<kerne
             crossing.fitting.add(residuals[k], size_of(k));
         }
         const Tally& of = crossing.fitting;
-        if (of.square_sum <=
-            of.pixels * usual.mean_square * limit_of(std::max(1.0F, of.pixels), most_of_crossing))
+        if (of.square_sum <= of.pixels * usual * limit_of(std::max(1.0F, of.pixels), most_of_crossing))
             continue;
         for (Part& part : crossing.parts) part.misfits = true;
         for (std::size_t k = node.first_block; k < node.last_block; ++k)
             excess[k] = std::max(excess[k], left_out);
     }
-    if (!is_damage(usual, crossings)) return;
-    follow_damage(usual.mean_square, crossings);
+    follow_damage(usual, crossings);
     for (const Crossing& crossing : crossings) {
         const std::array<bool, places> out = parts_to_leave_out(crossing);
         for (std::size_t k = crossing.node->first_block; k < crossing.node->last_block; ++k)
