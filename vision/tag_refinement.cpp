@@ -57,7 +57,7 @@ void read_levels(const cv::Mat& image, const TagPicture& picture, const TagPatte
 /// Kept from tag to tag: fresh memory costs more than its use.
 struct WorkingMemory {
     EdgeBand band;
-    std::vector<kernel::Residuals> residuals;
+    std::vector<float> block_squares;
     std::vector<float> excess;
     std::vector<float> weights_before;
 };
@@ -72,7 +72,7 @@ class Fit {
           pattern_(tag_pattern(found.tag_id, found.border_cells)),
           picture_(found.corners_px, pattern_.cells, options.camera),
           band_(memory.band),
-          residuals_(memory.residuals),
+          block_squares_(memory.block_squares),
           excess_(memory.excess),
           weights_before_(memory.weights_before) {
         const Eigen::Matrix2d cells_by_px = picture_.cells_by_px(picture_.image_of({0.0, 0.0}));
@@ -212,7 +212,7 @@ class Fit {
 
     /// One Gauss-Newton step; empty if the pixels do not determine it.
     std::optional<Step> take_step(Outliers outliers) {
-        last_ = evaluate_band(band_, picture_, look_, options_.noise, residuals_);
+        last_ = evaluate_band(band_, picture_, look_, options_.noise, block_squares_);
         weights_before_ = band_.weights;
         weigh_blocks(outliers);
         if (band_.weights != weights_before_)
@@ -254,7 +254,7 @@ class Fit {
         constexpr double rounding_in_common =
             0.09;  // grey levels squared: a 12th, and a little for the model
         const double allowance = 1.0 + rounding_in_common / options_.noise.variance(look_.black_grey);
-        judge_blocks(band_, static_cast<float>(allowance), residuals_, excess_);
+        judge_blocks(band_, static_cast<float>(allowance), block_squares_, excess_);
         used_ = 0;
         for (std::size_t k = 0; k < excess_.size(); ++k) {
             const bool fits = excess_[k] <= 1.0F;
@@ -273,7 +273,7 @@ class Fit {
     BandLook look_;
     double cell_px_;
     EdgeBand& band_;
-    std::vector<kernel::Residuals>& residuals_;
+    std::vector<float>& block_squares_;
     std::vector<float>& excess_;  ///< band_outliers.h
     std::vector<float>& weights_before_;
     BandEquations last_;
