@@ -64,7 +64,7 @@ Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, co
     Pattern pattern;
     std::array<double, signal_count> expected{}, counts{};
     for (const Window& window : evidence.windows()) {
-        expected[index_of(window.signal)] += std::max(least_expected_square, window.expected_square);
+        expected[index_of(window.signal)] += window.expected_square;
         counts[index_of(window.signal)] += 1.0;
     }
     for (const SignalGap& gap : gaps) {

@@ -36,12 +36,18 @@ class Columns {
     explicit Columns(const Evidence& evidence) : evidence_(evidence), answer_(evidence.rig()) {
         for (const Window& window : evidence.windows())
             if (window.signal == Signal::encoder) size_ = std::max(size_, window.end);
+        for (const Recording& recording : evidence.recordings()) {
+            std::vector<double>& of_run = effective_V_.emplace_back();
+            of_run.reserve(recording.rows.size());
+            for (const StageRow& row : recording.rows) of_run.push_back(effective_V(row));
+        }
         per_count_ = 1.0 / evidence.rig().macro.encoder_resolution_mm / evidence.floor(Signal::encoder);
     }
 
     Row row(const Window& window, std::size_t k) const {
         const Course& course = evidence_.course(window.run);
         const Recording& recording = evidence_.recordings()[window.run];
+        const std::vector<double>& effective_V = effective_V_[window.run];
         const double v = course.velocity_mm_per_s[k];
         const double before = course.velocity_mm_per_s[k > 0 ? k - 1 : 0];
         Row row{v,
@@ -52,8 +58,7 @@ class Columns {
                 {},
                 std::abs(v) < moving_mm_per_s ? 0.0 : std::copysign(1.0, v)};
         for (std::size_t i = 0; i < late_ticks.size(); ++i)
-            row.late_V[i] = effective_V(recording.rows[k >= late_ticks[i] ? k - late_ticks[i] : 0]) -
-                            effective_V(recording.rows[k]);
+            row.late_V[i] = effective_V[k >= late_ticks[i] ? k - late_ticks[i] : 0] - effective_V[k];
         return row;
     }
 
@@ -134,6 +139,7 @@ class Columns {
     const Evidence& evidence_;
     Answer answer_;
     std::size_t size_ = 0;
+    std::vector<std::vector<double>> effective_V_;  ///< of each recording's rows
     double per_count_ = 0.0;
 };
 

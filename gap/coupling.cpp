@@ -94,4 +94,10 @@ Hypothesis with_part(Hypothesis hypothesis, const Places& places,
     return hypothesis;
 }
 
+Hypothesis extended(Hypothesis hypothesis, const Places& places, const Hypothesis& part) {
+    Hypothesis whole = with_part(std::move(hypothesis), places, part);
+    whole.push_back(part.back());
+    return whole;
+}
+
 }  // namespace fidservo::gap

@@ -41,4 +41,7 @@ Hypothesis part_of(const Hypothesis& hypothesis, const Places& places);
 /// The hypothesis with other settings at some places.
 Hypothesis with_part(Hypothesis hypothesis, const Places& places, std::span<const plant::EffectSetting> part);
 
+/// The same with the part's last setting as a further one.
+Hypothesis extended(Hypothesis hypothesis, const Places& places, const Hypothesis& part);
+
 }  // namespace fidservo::gap

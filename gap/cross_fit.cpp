@@ -3,7 +3,6 @@
 #include "gap/halves.h"
 #include "gap/parallel.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -83,7 +82,7 @@ SignalExcess CrossFitter::excess(std::span<const double> mean_squares) const {
         if (std::isnan(mean_squares[w])) continue;
         const std::size_t signal = index_of(evidence_.windows()[w].signal);
         sums[signal] += mean_squares[w];
-        counts[signal] += std::max(least_expected_square, evidence_.windows()[w].expected_square);
+        counts[signal] += evidence_.windows()[w].expected_square;
     }
     SignalExcess excess{};
     for (std::size_t s = 0; s < signal_count; ++s)

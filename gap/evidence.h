@@ -80,9 +80,6 @@ struct Course {
     std::vector<float> contraction_mm;                  ///< by the Hall reading, smoothed
 };
 
-/// What a carriage that stands all the time may be off, by readings that flicker between two counts.
-inline constexpr double least_expected_square = 0.05;
-
 /// A signal that was not judged, or a part of one, and why.
 struct Omission {
     std::string recording;

@@ -44,11 +44,13 @@ void add_windows(
     }
 }
 
-/// Share of a window's rows in which the carriage's reading does not stand.
+/// Share of a window's rows in which the carriage's reading does not stand; not 0, as a reading may flicker
+/// between two counts.
 double moving_share(const CarriageRun& run, const WindowRows& window) {
     std::size_t moving = 0;
     for (std::size_t k = window.first; k < window.end; ++k) moving += run.stands[k] ? 0 : 1;
-    return static_cast<double>(moving) / static_cast<double>(window.end - window.first);
+    constexpr double least = 0.05;
+    return std::max(least, static_cast<double>(moving) / static_cast<double>(window.end - window.first));
 }
 
 void add_tag_windows(Evidence::Parts& parts, std::size_t run) {

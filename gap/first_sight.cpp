@@ -36,13 +36,6 @@ Hypothesis moved(const Surroundings& beside, const Eigen::VectorXd& scales, plan
     return part;
 }
 
-/// The base with such a part.
-Hypothesis placed(const Surroundings& beside, const Hypothesis& part) {
-    Hypothesis whole = with_part(beside.base, beside.places, part);
-    whole.push_back(part.back());
-    return whole;
-}
-
 /// Shares of some changes that make the errors smallest, weighted by the loss at the base.
 Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& counted, const Errors& base,
                             const std::vector<Errors>& changes) {
@@ -117,7 +110,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         for (Eigen::Index k = 0; k < width; ++k) {
             const Hypothesis part =
                 moved(beside, unmoved, sized(candidate, shape, probe * Eigen::VectorXd::Unit(width, k)));
-            Errors change = predict(placed(beside, part));
+            Errors change = predict(extended(beside.base, beside.places, part));
             if (change.empty()) break;
             probe_gain = std::max(probe_gain, gained(windows, counted, base_squares, change));
             for (std::size_t i = 0; i < change.size(); ++i)
@@ -138,7 +131,8 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         for (const double part : {1.0, 0.4, 2.5}) {
             Hypothesis there = moved(beside, part * places[p].steps.head(moving),
                                      sized(candidate, places[p].shape, part * places[p].steps.tail(width)));
-            const double gain = gained(windows, counted, base_squares, predict(placed(beside, there)));
+            const double gain =
+                gained(windows, counted, base_squares, predict(extended(beside.base, beside.places, there)));
             if (best.start.empty() || gain > best.gain) best = {std::move(there), gain};
         }
         starts.push_back(best);

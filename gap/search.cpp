@@ -42,9 +42,7 @@ struct Search::Contender {
 
     /// The base with the candidate, where that and what it is coupled with have been fitted on a half.
     Hypothesis placed(const CrossFit& base, std::size_t side, const Hypothesis& part) const {
-        Hypothesis whole = with_part(base.of_half[side], coupled, part);
-        whole.push_back(part.back());
-        return whole;
+        return extended(base.of_half[side], coupled, part);
     }
     /// What of a whole is kept in a finding.
     Hypothesis part(const Hypothesis& whole) const {

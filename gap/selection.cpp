@@ -113,6 +113,7 @@ bool is_better(const Search& search, const Chain& other, const Chain& chain) {
 bool pair_up(Search& search, Chain& chain, int most_effects) {
     constexpr Effort effort{.fits = 3, .leaders = 1};
     const SignalFlags off = search.off(chain.fitted);
+    if (off == SignalFlags{}) return false;
     Chain rest = chain;
     for (std::size_t k = chain.choices.size(); k-- > 0;)
         if (meet(teachers_of(*chain.choices[k].candidate->effect), off)) rest = without(search, rest, k);

@@ -19,14 +19,39 @@ struct Sight {
     double position_mm, velocity_mm_per_s, contraction_mm, time_s;
 };
 
+Sight sight_of(const Evidence& evidence, std::size_t run, std::size_t detection) {
+    constexpr std::size_t look_back = 20;
+    const TagSighting& tag = evidence.sighting(run, detection);
+    const Course& course = evidence.course(run);
+    const std::vector<StageRow>& rows = evidence.recordings()[run].rows;
+    const TimeNs start_ns = rows.front().time_ns;
+    const auto after = std::ranges::upper_bound(
+        rows, tag.stamp_s, {}, [&](const StageRow& row) { return seconds(row.time_ns - start_ns); });
+    const auto next = static_cast<std::size_t>(after - rows.begin());
+    const std::size_t row = next > 0 ? next - 1 : 0, before = row > look_back ? row - look_back : 0;
+    Sight found{tag, course.position_mm[row], course.velocity_mm_per_s[row], 0.0, tag.stamp_s};
+    if (!course.contraction_mm.empty() && std::isfinite(course.contraction_mm[row])) {
+        found.contraction_mm = course.contraction_mm[row];
+        if (row > before)
+            found.velocity_mm_per_s += (course.contraction_mm[row] - course.contraction_mm[before]) /
+                                       (evidence.rig().tick_s * static_cast<double>(row - before));
+    }
+    return found;
+}
+
 using Pattern = std::function<CornerValues(const Sight&)>;  ///< of corners, px
 using Along = std::function<double(const Sight&)>;          ///< along the motion, px
 
 class Columns {
   public:
-    explicit Columns(const Evidence& evidence) : evidence_(evidence), floor_px_(evidence.floor(Signal::tag)) {
-        for (const Window& window : evidence.windows())
-            if (window.signal == Signal::tag) size_ = std::max(size_, window.end);
+    explicit Columns(const Evidence& evidence) : floor_px_(evidence.floor(Signal::tag)) {
+        for (const Window& window : evidence.windows()) {
+            if (window.signal != Signal::tag) continue;
+            size_ = std::max(size_, window.end);
+            for (std::size_t i = 0; window.begin + corner_values * i < window.end; ++i)
+                sights_.push_back({window.begin + corner_values * i,
+                                   sight_of(evidence, window.run, window.first_detection + i)});
+        }
     }
 
     Column of_corners(Dependence group, const Pattern& pattern) const {
@@ -46,48 +71,21 @@ class Columns {
 
     std::vector<float> all(const Along& quantity) const {
         std::vector<float> values;
-        over_sights(Dependence::position, [&](const Sight& sight, float*) {
-            values.push_back(static_cast<float>(quantity(sight)));
-        });
+        values.reserve(sights_.size());
+        for (const auto& [at, sight] : sights_) values.push_back(static_cast<float>(quantity(sight)));
         return values;
     }
 
   private:
     Column over_sights(Dependence group, const std::function<void(const Sight&, float*)>& fill) const {
         Column column{static_cast<int>(group), std::vector<float>(size_, 0.0F)};
-        for (const Window& window : evidence_.windows()) {
-            if (window.signal != Signal::tag) continue;
-            const std::size_t count = (window.end - window.begin) / corner_values;
-            for (std::size_t i = 0; i < count; ++i)
-                fill(sight(window, window.first_detection + i),
-                     &column.values[window.begin + corner_values * i]);
-        }
+        for (const auto& [at, sight] : sights_) fill(sight, &column.values[at]);
         return column;
     }
 
-    Sight sight(const Window& window, std::size_t detection) const {
-        constexpr std::size_t look_back = 20;
-        const TagSighting& tag = evidence_.sighting(window.run, detection);
-        const Course& course = evidence_.course(window.run);
-        const std::vector<StageRow>& rows = evidence_.recordings()[window.run].rows;
-        const TimeNs start_ns = rows.front().time_ns;
-        const auto after = std::ranges::upper_bound(
-            rows, tag.stamp_s, {}, [&](const StageRow& row) { return seconds(row.time_ns - start_ns); });
-        const auto next = static_cast<std::size_t>(after - rows.begin());
-        const std::size_t row = next > 0 ? next - 1 : 0, before = row > look_back ? row - look_back : 0;
-        Sight found{tag, course.position_mm[row], course.velocity_mm_per_s[row], 0.0, tag.stamp_s};
-        if (!course.contraction_mm.empty() && std::isfinite(course.contraction_mm[row])) {
-            found.contraction_mm = course.contraction_mm[row];
-            if (row > before)
-                found.velocity_mm_per_s += (course.contraction_mm[row] - course.contraction_mm[before]) /
-                                           (evidence_.rig().tick_s * static_cast<double>(row - before));
-        }
-        return found;
-    }
-
-    const Evidence& evidence_;
     double floor_px_;
     std::size_t size_ = 0;
+    std::vector<std::pair<std::size_t, Sight>> sights_;  ///< with where their values begin in Errors
 };
 
 /// A pattern by where a corner is from the image's middle, in halves of its width.

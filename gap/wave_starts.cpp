@@ -30,7 +30,7 @@ class WaveTrials {
         };
         const plant::EffectParameter& amplitude = candidate_.effect->parameters[candidate_.wave->amplitude];
         if (amplitude.unit != "V") return with(period.reading_mm, um_per_mm);
-        const double least = std::sqrt(12.0);
+        const double least = std::sqrt(12.0);  // from there on searches for known ripples end at the truth
         Promise best = with(period.force_V, least);
         for (const double factor : {1.6, 2.5, 4.0, 6.3})
             best = std::max(best, with(period.force_V, factor * least), less);
@@ -57,10 +57,10 @@ class WaveTrials {
         values[candidate_.wave->amplitude] = amplitude;
         values[candidate_.wave->period] = period_mm;
         values[candidate_.wave->phase] = std::remainder(phase_rad, 2.0 * std::numbers::pi);
-        Hypothesis there = beside_.base, part = part_of(beside_.base, beside_.places);
+        Hypothesis part = part_of(beside_.base, beside_.places);
         part.push_back({candidate_.effect, std::move(values)});
-        there.push_back(part.back());
-        const double gain = gained(windows_, counted_, base_squares_, predict_(there));
+        const double gain =
+            gained(windows_, counted_, base_squares_, predict_(extended(beside_.base, beside_.places, part)));
         return {std::move(part), gain};
     }
 

@@ -10,6 +10,7 @@
 #include "src/inspect/reference_check.h"
 #include "src/inspect/run_json.h"
 #include "src/inspect/site_visit.h"
+#include "src/session/camera_choice.h"
 
 #include <algorithm>
 
@@ -89,7 +90,7 @@ Counts run_inspection(const InspectionOptions& options) {
     std::filesystem::create_directories(output.root / "images");
     std::filesystem::create_directories(output.root / "recordings");
 
-    const bool simulated = session_options.stage == "sim" && session_options.camera == "sim";
+    const bool simulated = session_options.stage == "sim" && camera_is_simulated(session_options);
     const bool all_done = content.checkpoint && !next_visit(recipe.sites, content.visits);
     if (content.checkpoint && (simulated || all_done)) {
         if (simulated) session.restore(*content.checkpoint);

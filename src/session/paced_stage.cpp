@@ -1,17 +1,13 @@
 #include "src/session/paced_stage.h"
 
+#include "core/monotonic_clock.h"
+
 #include <cerrno>
 #include <ctime>
 
 namespace fidservo {
 
 namespace {
-
-TimeNs now_ns() {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return now.tv_sec * ns_per_s + now.tv_nsec;
-}
 
 void sleep_until(TimeNs time_ns) {
     const timespec until{time_ns / ns_per_s, time_ns % ns_per_s};
@@ -24,7 +20,7 @@ void sleep_until(TimeNs time_ns) {
 Result<control::StageSample> PacedStage::read() {
     auto sample = stage_->read();
     if (!sample) return sample;
-    if (!start_ns_) start_ns_ = now_ns() - sample->time_ns;
+    if (!start_ns_) start_ns_ = monotonic_now_ns() - sample->time_ns;
     sample->time_ns += *start_ns_;
     sleep_until(sample->time_ns);
     return sample;

@@ -3,7 +3,7 @@
 #include "vision/v4l2/v4l2_camera.h"
 
 #include "tests/devices/fake_models.h"
-#include "vision/v4l2/frame_time.h"
+#include "tests/next_frame.h"
 
 #include <algorithm>
 #include <chrono>
@@ -42,31 +42,6 @@ CaptureSettings settings() {
 FakeFrame even_frame(std::uint32_t sequence, int value) {
     return {std::vector<std::byte>(frame_bytes, static_cast<std::byte>(value)), sequence, monotonic,
             monotonic_now_ns() / 1000};
-}
-
-bool wait_until(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() > end) return false;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
-}
-
-/// The next frame or failure.
-Result<std::optional<Frame>> next(V4l2Camera& camera) {
-    Result<std::optional<Frame>> got = std::optional<Frame>();
-    wait_until([&] {
-        got = camera.poll(monotonic_now_ns());
-        return !got || *got;
-    });
-    return got;
-}
-
-Frame next_frame(V4l2Camera& camera) {
-    auto frame = next(camera);
-    EXPECT_TRUE(frame && *frame);
-    return frame && *frame ? std::move(**frame) : Frame();
 }
 
 int value_of(const Frame& frame) {

@@ -2,8 +2,8 @@
 // arrives, every tag is found, and displacements are those that were rendered.
 #include "core/units.h"
 #include "src/session/sight.h"
+#include "tests/next_frame.h"
 #include "tests/vm/loopback_feed.h"
-#include "tests/vm/next_frame.h"
 #include "tests/vm/plate_on_loopback.h"
 #include "vision/v4l2/v4l2_camera.h"
 

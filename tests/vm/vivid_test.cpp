@@ -1,5 +1,5 @@
 // The V4L2 camera on the kernel's own test driver, which can also misbehave when told to.
-#include "tests/vm/next_frame.h"
+#include "tests/next_frame.h"
 #include "vision/v4l2/camera_list.h"
 #include "vision/v4l2/v4l2_camera.h"
 

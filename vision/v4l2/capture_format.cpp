@@ -127,8 +127,7 @@ double frame_rate_hz(const Device& device) {
     v4l2_streamparm parameters{};
     parameters.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     if (device.request(VIDIOC_G_PARM, &parameters) != 0) return 0.0;
-    const auto& period = parameters.parm.capture.timeperframe;
-    return period.numerator == 0 ? 0.0 : static_cast<double>(period.denominator) / period.numerator;
+    return rate_hz(parameters.parm.capture.timeperframe);
 }
 
 std::string format_in_force(const Device& device) {

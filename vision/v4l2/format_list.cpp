@@ -12,10 +12,6 @@ namespace {
 /// Against drivers that list without end.
 constexpr std::uint32_t most_entries = 256;
 
-double rate_of(const v4l2_fract& period_s) {
-    return period_s.numerator == 0 ? 0.0 : static_cast<double>(period_s.denominator) / period_s.numerator;
-}
-
 std::vector<double> rates_of(const Device& device, std::uint32_t fourcc, const OfferedSize& size) {
     std::vector<double> rates;
     for (std::uint32_t k = 0; k < most_entries; ++k) {
@@ -26,10 +22,10 @@ std::vector<double> rates_of(const Device& device, std::uint32_t fourcc, const O
         entry.height = static_cast<std::uint32_t>(size.most_height_px);
         if (device.request(VIDIOC_ENUM_FRAMEINTERVALS, &entry) != 0) break;
         if (entry.type != V4L2_FRMIVAL_TYPE_DISCRETE) {
-            rates = {rate_of(entry.stepwise.max), rate_of(entry.stepwise.min)};
+            rates = {rate_hz(entry.stepwise.max), rate_hz(entry.stepwise.min)};
             break;
         }
-        rates.push_back(rate_of(entry.discrete));
+        rates.push_back(rate_hz(entry.discrete));
     }
     std::erase(rates, 0.0);
     std::ranges::sort(rates);
@@ -87,6 +83,10 @@ std::vector<OfferedFormat> offered_formats(const Device& device) {
                            sizes_of(device, entry.pixelformat)});
     }
     return formats;
+}
+
+double rate_hz(const v4l2_fract& period_s) {
+    return period_s.numerator == 0 ? 0.0 : static_cast<double>(period_s.denominator) / period_s.numerator;
 }
 
 std::string size_text(const OfferedSize& size) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+struct v4l2_fract;
+
 namespace fidservo::vision::v4l2 {
 
 /// Image sizes: one, or all from the smallest to the largest in steps.
@@ -28,6 +30,9 @@ struct OfferedFormat {
 
 /// In the driver's order. A driver that does not say leaves lists empty.
 std::vector<OfferedFormat> offered_formats(const Device& device);
+
+/// Of a frame interval; 0 for one that the driver does not know.
+double rate_hz(const v4l2_fract& period_s);
 
 /// "640x480", "16x16 to 4096x2160 in steps of 2x2".
 std::string size_text(const OfferedSize& size);

@@ -1,7 +1,6 @@
 #include "vision/v4l2/frame_time.h"
 
 #include <algorithm>
-#include <ctime>
 
 namespace fidservo::vision::v4l2 {
 
@@ -16,12 +15,6 @@ TimeNs mid_exposure_ns(const Stamp& stamp, TimeNs arrival_ns, const FrameDelays&
     const TimeNs half_ns = nanoseconds(0.5 * delays.exposure_s);
     const bool start = stamp.event == StampEvent::start_of_exposure;
     return std::min(arrival_ns, stamp.time_ns + (start ? half_ns : -half_ns));
-}
-
-TimeNs monotonic_now_ns() {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return now.tv_sec * ns_per_s + now.tv_nsec;
 }
 
 }  // namespace fidservo::vision::v4l2

@@ -44,7 +44,4 @@ bool stamp_is_usable(const Stamp& stamp, TimeNs arrival_ns);
 /// known to any driver; what remains is a constant delay, which homing measures against the stage.
 TimeNs mid_exposure_ns(const Stamp& stamp, TimeNs arrival_ns, const FrameDelays& delays);
 
-/// Now, ns on CLOCK_MONOTONIC.
-TimeNs monotonic_now_ns();
-
 }  // namespace fidservo::vision::v4l2

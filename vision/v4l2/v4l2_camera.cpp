@@ -1,5 +1,6 @@
 #include "vision/v4l2/v4l2_camera.h"
 
+#include "core/monotonic_clock.h"
 #include "vision/v4l2/camera_list.h"
 #include "vision/v4l2/frame_slot.h"
 #include "vision/v4l2/grey_image.h"

@@ -1,8 +1,8 @@
 #pragma once
-// Waiting for a camera in a test. The limit is for the case that what is waited for never comes; emulated
-// machines are slow.
+// Waiting for a camera in a test. The limit, which a test program's CMake file states, is for the case that
+// what is waited for never comes.
+#include "core/monotonic_clock.h"
 #include "vision/camera.h"
-#include "vision/v4l2/frame_time.h"
 
 #include <chrono>
 #include <functional>
@@ -13,7 +13,7 @@
 namespace fidservo::vision {
 
 inline bool wait_until(const std::function<bool()>& condition,
-                       std::chrono::seconds at_most = std::chrono::seconds(60)) {
+                       std::chrono::seconds at_most = std::chrono::seconds(FIDSERVO_WAIT_LIMIT_S)) {
     const auto end = std::chrono::steady_clock::now() + at_most;
     while (!condition()) {
         if (std::chrono::steady_clock::now() > end) return false;
@@ -26,7 +26,7 @@ inline bool wait_until(const std::function<bool()>& condition,
 inline Result<std::optional<Frame>> next(Camera& camera) {
     Result<std::optional<Frame>> got = std::optional<Frame>();
     wait_until([&] {
-        got = camera.poll(v4l2::monotonic_now_ns());
+        got = camera.poll(monotonic_now_ns());
         return !got || *got;
     });
     return got;
@@ -44,7 +44,7 @@ inline Frame next_frame(Camera& camera) {
 inline Result<std::optional<Frame>> failure_of(Camera& camera) {
     Result<std::optional<Frame>> got = std::optional<Frame>();
     wait_until([&] {
-        got = camera.poll(v4l2::monotonic_now_ns());
+        got = camera.poll(monotonic_now_ns());
         return !got;
     });
     return got;
