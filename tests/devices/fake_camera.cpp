@@ -3,9 +3,7 @@
 #include "tests/devices/fake_state.h"
 
 #include <cstring>
-#include <future>
 #include <stdexcept>
-#include <thread>
 
 #include <fcntl.h>
 #include <umockdev.h>
@@ -15,16 +13,13 @@ namespace fidservo::devices {
 
 namespace {
 
-/// The test bed and the thread that serves its node. One for the program: umockdev redirects the whole
-/// process.
 void update(UMockdevIoctlData* data, const std::vector<std::byte>& bytes) {
     std::vector<std::byte> copy = bytes;
     umockdev_ioctl_data_update(data, 0, reinterpret_cast<guint8*>(copy.data()),
                                static_cast<gint>(copy.size()));
 }
 
-/// The test bed and the thread that serves its node. One for the program: umockdev redirects the whole
-/// process.
+/// The test bed, whose own thread serves its node. One for the program: umockdev redirects the whole process.
 class Bed {
   public:
     static Bed& instance() {
@@ -44,47 +39,26 @@ class Bed {
     }
 
   private:
-    Bed() {
-        std::promise<void> up;
-        auto is_up = up.get_future();
-        server_ = std::thread([this, &up] { serve(up); });
-        is_up.get();
-    }
-
-    ~Bed() {
-        g_main_loop_quit(loop_);
-        server_.join();
-        ::close(node_fd_);
-        g_object_unref(bed_);
-    }
-
-    void serve(std::promise<void>& up) {
-        GMainContext* context = g_main_context_new();
-        g_main_context_push_thread_default(context);
-        loop_ = g_main_loop_new(context, FALSE);
-        bed_ = umockdev_testbed_new();
+    Bed() : bed_(umockdev_testbed_new()), handler_(umockdev_ioctl_base_new()) {
         GError* error = nullptr;
         constexpr const char* device =
             "P: /devices/virtual/video4linux/video0\nN: video0=00\nS: "
             "v4l/by-id/usb-Fake_camera-video-index0\n"
             "E: DEVNAME=/dev/video0\nE: SUBSYSTEM=video4linux\nA: name=Fake camera\\n\nA: dev=81:0\\n\n";
         umockdev_testbed_add_from_string(bed_, device, &error);
-        UMockdevIoctlBase* handler = umockdev_ioctl_base_new();
-        g_signal_connect(handler, "handle-ioctl", G_CALLBACK(&Bed::on_request), this);
-        if (error == nullptr) umockdev_testbed_attach_ioctl(bed_, "/dev/video0", handler, &error);
+        g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(&Bed::on_request), this);
+        if (error == nullptr) umockdev_testbed_attach_ioctl(bed_, "/dev/video0", handler_, &error);
         gchar* root = umockdev_testbed_get_root_dir(bed_);
         node_fd_ = ::open((std::string(root) + "/dev/video0").c_str(), O_RDWR | O_CLOEXEC);
         g_free(root);
         if (error != nullptr || node_fd_ < 0 || ::ftruncate(node_fd_, most_buffers * buffer_stride) != 0)
-            up.set_exception(std::make_exception_ptr(
-                std::runtime_error(error != nullptr ? error->message : "the fake node cannot be opened")));
-        else
-            up.set_value();
-        g_main_loop_run(loop_);
-        g_object_unref(handler);
-        g_main_loop_unref(loop_);
-        g_main_context_pop_thread_default(context);
-        g_main_context_unref(context);
+            throw std::runtime_error(error != nullptr ? error->message : "the fake node cannot be opened");
+    }
+
+    ~Bed() {
+        ::close(node_fd_);
+        g_object_unref(bed_);
+        g_object_unref(handler_);
     }
 
     static gboolean on_request(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
@@ -120,10 +94,9 @@ class Bed {
 
     mutable std::mutex mutex_;
     std::shared_ptr<FakeCamera::State> state_;
-    UMockdevTestbed* bed_ = nullptr;
-    GMainLoop* loop_ = nullptr;
+    UMockdevTestbed* bed_;
+    UMockdevIoctlBase* handler_;
     int node_fd_ = -1;
-    std::thread server_;
 };
 
 }  // namespace
