@@ -81,22 +81,27 @@ constexpr std::size_t columns_of(std::size_t geometry) {
 inline constexpr std::size_t most_columns = columns_of(8);
 inline constexpr double half_side_cells = 4.0;
 
+/// What the model leaves of a block's pixels, in standard deviations of the noise, without weights.
+struct Residuals {
+    float sum;
+    float square_sum;
+};
+
 struct Sums {
     double products[most_columns][most_columns];  ///< of columns; on and below the diagonal
 };
 
 /// @param geometry  4 or 8 parameters
-/// @param block_squares  is filled with each block's sum of squared residuals in standard deviations, without
-///                       weights; may be null, and blocks of weight 0 are passed over then
+/// @param residuals  is filled with each block's; may be null, and blocks of weight 0 are passed over then
 using AddBand = void (*)(std::size_t geometry, const Band& band, const Constants& constants,
-                         float* block_squares, Sums& sums);
+                         Residuals* residuals, Sums& sums);
 /// Outer products of every crossing's sums of column times residual, added up.
 using AddScatter = void (*)(std::size_t geometry, const Band& band, const Constants& constants, Sums& sums);
 
-void add_band_plain(std::size_t, const Band&, const Constants&, float*, Sums&);
+void add_band_plain(std::size_t, const Band&, const Constants&, Residuals*, Sums&);
 void add_scatter_plain(std::size_t, const Band&, const Constants&, Sums&);
 /// For processors with 256-bit vectors and fused multiplication; only where has_wide_vectors().
-void add_band_wide(std::size_t, const Band&, const Constants&, float*, Sums&);
+void add_band_wide(std::size_t, const Band&, const Constants&, Residuals*, Sums&);
 void add_scatter_wide(std::size_t, const Band&, const Constants&, Sums&);
 bool has_wide_vectors();
 

@@ -42,13 +42,14 @@ template <std::size_t geometry>
     }
 }
 
-/// Eight pixels of a block. Adds their squared residuals in standard deviations, without weights.
+/// Eight pixels of a block. Adds their residuals and squared residuals in standard deviations, without
+/// weights.
 /// @param shown  1 for the block's pixels, 0 for those that fill up
 template <std::size_t geometry, Near near>
 [[gnu::always_inline]] inline void fill_columns(const Band& band, const Node& node, const Block& of,
                                                 std::size_t first, const Lanes& shown, float root_of_weight,
                                                 const Constants& c, Columns& j, std::size_t into,
-                                                Lanes& squares) {
+                                                Lanes& residuals, Lanes& squares) {
     const float by_x = node.px_per_cell_x * c.inverse_blur_x;
     const float by_y = node.px_per_cell_y * c.inverse_blur_y;
     Lanes x, y, grey;
@@ -98,6 +99,7 @@ template <std::size_t geometry, Near near>
     const Lanes w = by_std * weight;
     const Lanes height = w * c.height * light;
     const Lanes residual = (grey - model) * by_std * shown;
+    residuals += residual;
     squares += residual * residual;
 
     const auto put = [&](std::size_t column, const Lanes& values) { store(values, &j.at[column][into]); };
@@ -136,23 +138,22 @@ template <std::size_t geometry, Near near>
 }
 
 template <std::size_t geometry, Near near>
-[[gnu::always_inline]] inline float fill_block_near(const Band& band, const Node& node, const Block& of,
-                                                    float root_of_weight, const Constants& c, Columns& j,
-                                                    std::size_t into) {
+[[gnu::always_inline]] inline Residuals fill_block_near(const Band& band, const Node& node, const Block& of,
+                                                        float root_of_weight, const Constants& c, Columns& j,
+                                                        std::size_t into) {
     constexpr Lanes lane{0, 1, 2, 3, 4, 5, 6, 7};
-    Lanes squares = {};
+    Lanes residuals = {}, squares = {};
     for (std::size_t i = 0; i < of.pixels; i += lane_count) {
         const Lanes shown = lane < static_cast<float>(of.pixels - i) ? Lanes{} + 1.0F : Lanes{};
         fill_columns<geometry, near>(band, node, of, of.begin + i, shown, root_of_weight, c, j, into + i,
-                                     squares);
+                                     residuals, squares);
     }
-    return sum_of(squares);
+    return {sum_of(residuals), sum_of(squares)};
 }
 
-/// @return the block's squared residuals in standard deviations, without weight
 template <std::size_t geometry>
-float fill_block(const Band& band, const Node& node, const Block& of, float root_of_weight,
-                 const Constants& c, Columns& j, std::size_t into) {
+Residuals fill_block(const Band& band, const Node& node, const Block& of, float root_of_weight,
+                     const Constants& c, Columns& j, std::size_t into) {
     switch (of.near) {
         case Near::line_x:
             return fill_block_near<geometry, Near::line_x>(band, node, of, root_of_weight, c, j, into);
@@ -203,7 +204,7 @@ template <std::size_t columns>
 }
 
 template <std::size_t geometry>
-void add_band_of(const Band& band, const Constants& constants, float* block_squares, Sums& sums) {
+void add_band_of(const Band& band, const Constants& constants, Residuals* residuals, Sums& sums) {
     constexpr std::size_t columns = columns_of(geometry);
     Columns j;
     alignas(32) Lanes products[columns][columns] = {};
@@ -212,10 +213,10 @@ void add_band_of(const Band& band, const Constants& constants, float* block_squa
         const Node& node = band.nodes[n];
         for (std::size_t b = node.first_block; b < node.last_block; ++b) {
             const float weight = band.weights[b];
-            if (block_squares == nullptr && weight == 0.0F) continue;
-            const float squares =
+            if (residuals == nullptr && weight == 0.0F) continue;
+            const Residuals of_block =
                 fill_block<geometry>(band, node, band.blocks[b], weight, constants, j, filled);
-            if (block_squares != nullptr) block_squares[b] = squares;
+            if (residuals != nullptr) residuals[b] = of_block;
             if (weight == 0.0F) continue;
             filled += whole_lanes(band.blocks[b].pixels);
             if (filled + block <= chunk) continue;
@@ -256,9 +257,9 @@ void add_scatter_of(const Band& band, const Constants& constants, Sums& sums) {
     }
 }
 
-void add_band(std::size_t geometry, const Band& band, const Constants& constants, float* block_squares,
+void add_band(std::size_t geometry, const Band& band, const Constants& constants, Residuals* residuals,
               Sums& sums) {
-    (geometry == 4 ? add_band_of<4> : add_band_of<8>)(band, constants, block_squares, sums);
+    (geometry == 4 ? add_band_of<4> : add_band_of<8>)(band, constants, residuals, sums);
 }
 
 void add_scatter(std::size_t geometry, const Band& band, const Constants& constants, Sums& sums) {

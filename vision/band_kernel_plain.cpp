@@ -2,9 +2,9 @@
 
 namespace fidservo::vision::kernel {
 
-void add_band_plain(std::size_t geometry, const Band& band, const Constants& constants, float* block_squares,
+void add_band_plain(std::size_t geometry, const Band& band, const Constants& constants, Residuals* residuals,
                     Sums& sums) {
-    add_band(geometry, band, constants, block_squares, sums);
+    add_band(geometry, band, constants, residuals, sums);
 }
 
 void add_scatter_plain(std::size_t geometry, const Band& band, const Constants& constants, Sums& sums) {

@@ -55,11 +55,11 @@ Eigen::MatrixXd symmetric(const kernel::Sums& sums, Eigen::Index size) {
 }
 
 BandEquations add_up(const EdgeBand& band, const std::vector<float>& weights, const TagPicture& picture,
-                     const BandLook& look, const GreyNoise& noise, float* block_squares) {
+                     const BandLook& look, const GreyNoise& noise, kernel::Residuals* residuals) {
     kernel::Sums sums{};
     const kernel::AddBand add = wide() ? kernel::add_band_wide : kernel::add_band_plain;
     add(static_cast<std::size_t>(picture.parameters()), view_of(band, weights),
-        constants_of(picture, look, noise), block_squares, sums);
+        constants_of(picture, look, noise), residuals, sums);
     const Eigen::Index parameters = picture.parameters() + kernel::look_columns;
     BandEquations equations{symmetric(sums, parameters), Eigen::VectorXd(parameters),
                             sums.products[parameters][parameters]};
@@ -70,9 +70,9 @@ BandEquations add_up(const EdgeBand& band, const std::vector<float>& weights, co
 }  // namespace
 
 BandEquations evaluate_band(const EdgeBand& band, const TagPicture& picture, const BandLook& look,
-                            const GreyNoise& noise, std::vector<float>& block_squares) {
-    block_squares.resize(band.blocks.size());
-    return add_up(band, band.weights, picture, look, noise, block_squares.data());
+                            const GreyNoise& noise, std::vector<kernel::Residuals>& residuals) {
+    residuals.resize(band.blocks.size());
+    return add_up(band, band.weights, picture, look, noise, residuals.data());
 }
 
 void reweigh(BandEquations& equations, const EdgeBand& band, const std::vector<float>& weights_before,

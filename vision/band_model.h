@@ -34,10 +34,9 @@ struct BandEquations {
     double square_sum;       ///< of w (pixel - model)^2, in variances of the noise
 };
 
-/// @param block_squares  is filled with the band's blocks' sums of squared residuals, in variances of the
-/// noise
+/// @param residuals  is filled with those of the band's blocks
 BandEquations evaluate_band(const EdgeBand& band, const TagPicture& picture, const BandLook& look,
-                            const GreyNoise& noise, std::vector<float>& block_squares);
+                            const GreyNoise& noise, std::vector<kernel::Residuals>& residuals);
 
 /// Brings equations up to date after some blocks' weights have changed: only those blocks are looked at
 /// again.

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,7 @@ constexpr double least_contrast = 8.0;  ///< grey levels; below, noise decides w
 constexpr double least_explained = 0.3;
 constexpr double enough_explained = 0.95;  ///< as a tag that fits has it
 constexpr double clearly_more = 0.02;
+constexpr double most_of_rims = 0.15;
 constexpr double sharpest_px = 0.3;  ///< the area of a pixel alone blurs by 0.29 px
 
 /// Standard deviations of what is known of the look beforehand: so wide that they matter only where the
@@ -57,8 +59,8 @@ void read_levels(const cv::Mat& image, const TagPicture& picture, const TagPatte
 /// Kept from tag to tag: fresh memory costs more than its use.
 struct WorkingMemory {
     EdgeBand band;
-    std::vector<float> block_squares;
-    std::vector<float> excess;
+    std::vector<kernel::Residuals> residuals;
+    BlockJudgement judgement;
     std::vector<float> weights_before;
 };
 
@@ -72,8 +74,8 @@ class Fit {
           pattern_(tag_pattern(found.tag_id, found.border_cells)),
           picture_(found.corners_px, pattern_.cells, options.camera),
           band_(memory.band),
-          block_squares_(memory.block_squares),
-          excess_(memory.excess),
+          residuals_(memory.residuals),
+          judgement_(memory.judgement),
           weights_before_(memory.weights_before) {
         const Eigen::Matrix2d cells_by_px = picture_.cells_by_px(picture_.image_of({0.0, 0.0}));
         cell_px_ = 1.0 / std::max(cells_by_px.row(0).norm(), cells_by_px.row(1).norm());
@@ -111,16 +113,11 @@ class Fit {
 
     /// The fit that counts. False if too little of the tag can be seen.
     bool look_closely() {
-        constexpr int most_steps = 8;
         constexpr double reach_in_blurs = 2.5;
-        constexpr double nearly_all = 0.98;  ///< less left out does not change which blocks fit
         infer_motion();
         select(reach_in_blurs * std::max(look_.blur_x_px, look_.blur_y_px) + 0.2, 1.0);
-        for (int k = 0; k < most_steps; ++k) {
-            const std::optional<Step> step = take_step(Outliers::are_left_out);
-            if (!step || !has_contrast()) return false;
-            if (step->is_within(0.02, 0.04) && (k > 0 || explained_ > nearly_all)) break;
-        }
+        if (!settle(Outliers::are_left_out)) return false;
+        if (explained_ < 1.0) follow_rims();
         return explained_ >= least_explained;
     }
 
@@ -157,6 +154,31 @@ class Fit {
     }
 
   private:
+    /// What becomes of blocks that do not fit: little by little as long as the model is not in its place.
+    enum class Outliers { lose_weight, are_left_out, and_rims_are_left_out };
+
+    /// Steps until the next would change nothing. False if the pixels do not determine it.
+    bool settle(Outliers outliers) {
+        constexpr int most_steps = 8;
+        constexpr double nearly_all = 0.98;  ///< less left out does not change which blocks fit
+        for (int k = 0; k < most_steps; ++k) {
+            const std::optional<Step> step = take_step(outliers);
+            if (!step || !has_contrast()) return false;
+            if (step->is_within(0.02, 0.04) && (k > 0 || explained_ > nearly_all)) break;
+        }
+        return true;
+    }
+
+    /// Leaves out what damage reaches beyond what misfits by itself. Not where that is much of the tag: it is
+    /// no damage then, but a lens or print that is not as believed.
+    void follow_rims() {
+        const auto before = std::tuple(picture_, look_, last_, square_sum_, explained_, used_, band_.weights);
+        const double explained = explained_;
+        const bool settled = settle(Outliers::and_rims_are_left_out);
+        if (settled && explained_ > explained - most_of_rims) return;
+        std::tie(picture_, look_, last_, square_sum_, explained_, used_, band_.weights) = before;
+    }
+
     double possible_blur(double blur_px) const {
         return std::clamp(blur_px, sharpest_px, std::max(0.5 * cell_px_, sharpest_px));
     }
@@ -197,9 +219,6 @@ class Fit {
             look(kernel::light_x + k) -= by_prior(kernel::light_x + k, look_.light(k));
     }
 
-    /// What becomes of blocks that do not fit: little by little as long as the model is not in its place.
-    enum class Outliers { lose_weight, are_left_out };
-
     struct Step {
         double moved_px;
         double widened;  ///< largest change of a blur, as a part of it
@@ -212,7 +231,7 @@ class Fit {
 
     /// One Gauss-Newton step; empty if the pixels do not determine it.
     std::optional<Step> take_step(Outliers outliers) {
-        last_ = evaluate_band(band_, picture_, look_, options_.noise, block_squares_);
+        last_ = evaluate_band(band_, picture_, look_, options_.noise, residuals_);
         weights_before_ = band_.weights;
         weigh_blocks(outliers);
         if (band_.weights != weights_before_)
@@ -254,14 +273,16 @@ class Fit {
         constexpr double rounding_in_common =
             0.09;  // grey levels squared: a 12th, and a little for the model
         const double allowance = 1.0 + rounding_in_common / options_.noise.variance(look_.black_grey);
-        judge_blocks(band_, static_cast<float>(allowance), block_squares_, excess_);
+        judge_blocks(band_, static_cast<float>(allowance), residuals_, judgement_);
+        if (outliers == Outliers::and_rims_are_left_out) follow_damage(band_, residuals_, judgement_);
         used_ = 0;
-        for (std::size_t k = 0; k < excess_.size(); ++k) {
-            const bool fits = excess_[k] <= 1.0F;
+        const std::vector<float>& excess = judgement_.excess;
+        for (std::size_t k = 0; k < excess.size(); ++k) {
+            const bool fits = excess[k] <= 1.0F;
             if (fits) used_ += band_.blocks[k].pixels;
-            band_.weights[k] = fits                                 ? 1.0F
-                               : outliers == Outliers::are_left_out ? 0.0F
-                                                                    : 0.5F / std::sqrt(excess_[k]);
+            band_.weights[k] = fits                                ? 1.0F
+                               : outliers == Outliers::lose_weight ? 0.5F / std::sqrt(excess[k])
+                                                                   : 0.0F;
         }
         explained_ = static_cast<double>(used_) / static_cast<double>(std::max<std::size_t>(1, band_.pixels));
     }
@@ -273,8 +294,8 @@ class Fit {
     BandLook look_;
     double cell_px_;
     EdgeBand& band_;
-    std::vector<float>& block_squares_;
-    std::vector<float>& excess_;  ///< band_outliers.h
+    std::vector<kernel::Residuals>& residuals_;
+    BlockJudgement& judgement_;
     std::vector<float>& weights_before_;
     BandEquations last_;
     double square_sum_ = 0.0;

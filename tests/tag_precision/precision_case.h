@@ -13,8 +13,6 @@ struct PrecisionLimits {
     double sigma_ratio;  ///< standard deviation by the Cramer-Rao bound
     double bias_px;
     double first_harmonic_px;  ///< of the error over the place between pixels
-    /// By how much the mean normalised squared error may exceed the 99 % interval of true claims.
-    double nees_above = 0.0;
 };
 
 /// One kind of picture.

@@ -191,8 +191,7 @@ std::vector<std::string> reproaches(const PrecisionFigures& figures, const Preci
     }
     // 99.99 % of the samples of true claims lie within 1.5 times the 99 % interval.
     const double widened = certain ? 0.5 : 0.0;
-    check("NEES / 2", figures.nees,
-          figures.nees_high + widened * (figures.nees_high - 1.0) + limits.nees_above);
+    check("NEES / 2", figures.nees, figures.nees_high + widened * (figures.nees_high - 1.0));
     check("-NEES / 2", -figures.nees, -(figures.nees_low + widened * (figures.nees_low - 1.0)));
     return found;
 }

@@ -34,15 +34,15 @@ TEST(Reweigh, SomeBlocksChange_AsIfAllWereAddedUpAnew) {
     select_band(image, picture, pattern, {3.0, 3.0}, 1.0, band);
     ASSERT_GT(band.blocks.size(), 100U);
 
-    std::vector<float> squares;
+    std::vector<kernel::Residuals> residuals;
     for (float& weight : band.weights) weight = random() % 2 == 0 ? 1.0F : 0.4F;
-    BandEquations changed = evaluate_band(band, picture, look, noise, squares);
+    BandEquations changed = evaluate_band(band, picture, look, noise, residuals);
     const std::vector<float> before = band.weights;
     for (float& weight : band.weights)
         if (random() % 3 == 0) weight = random() % 2 == 0 ? 0.0F : 0.7F;
     reweigh(changed, band, before, picture, look, noise);
 
-    const BandEquations anew = evaluate_band(band, picture, look, noise, squares);
+    const BandEquations anew = evaluate_band(band, picture, look, noise, residuals);
     constexpr double rounding = 1e-5;
     EXPECT_LT((changed.normal - anew.normal).norm(), rounding * anew.normal.norm());
     EXPECT_LT((changed.right - anew.right).norm(), rounding * anew.right.norm());
