@@ -124,13 +124,32 @@ std::vector<BlockProbability> blocks_of(const Selection& selection, double trust
     return where;
 }
 
-/// The block that what is not explained accuses: where little of an explanation can be trusted, all of the
-/// gap.
-std::string accused(const Evidence& evidence, const Selection& selection, const Remainder& remainder,
-                    double trust, double tail) {
-    if (selection.choices.empty() || trust > 0.5) return remainder.block;
-    const std::optional<Remainder> all = remainder_of(evidence, selection.steps.front(), tail);
-    return all ? all->block : remainder.block;
+/// Whether what is named for the carriage stands in for something else: the gap as a whole accuses a block of
+/// the carriage that none of the names has. (The forces that a carriage lacks tell its blocks apart well.)
+bool has_stand_in(const Selection& selection, const Remainder& whole) {
+    const auto block_of = [](const Choice& choice) {
+        return std::string_view(choice.candidate->effect->block);
+    };
+    const auto is_of_carriage = [&](const Choice& choice) { return block_of(choice).starts_with("macro."); };
+    return whole.block.starts_with("macro.") && std::ranges::any_of(selection.choices, is_of_carriage) &&
+           std::ranges::none_of(selection.choices,
+                                [&](const Choice& choice) { return block_of(choice) == whole.block; });
+}
+
+/// How far the names of a part of an explanation are to be trusted, and which block what is missing accuses.
+struct Doubt {
+    double trust;
+    std::string block;
+};
+
+Doubt doubt_of(const Evidence& evidence, const Selection& selection, const Remainder& remainder, double trust,
+               double tail) {
+    constexpr double trust_in_stand_in = 0.3;
+    if (selection.choices.empty()) return {0.0, remainder.block};
+    const std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
+    if (!whole) return {trust, remainder.block};
+    if (has_stand_in(selection, *whole)) return {std::min(trust, trust_in_stand_in), whole->block};
+    return {trust, trust > 0.5 ? remainder.block : whole->block};
 }
 
 void accuse(std::vector<BlockProbability>& where, const std::string& block, double probability) {
@@ -154,20 +173,23 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
     diagnosis.hypothesis = fitted.hypothesis;
     diagnosis.signals = signal_gaps(evidence, nothing.mean_squares, explained.mean_squares);
     diagnosis.gap = total_gap(diagnosis.signals);
+    const double tail = options.selection.search.tail;
+    diagnosis.unexplained = remainder_of(evidence, explained, tail);
+    double trust = trust_in(typical_floors(evidence.windows(), explained.mean_squares));
+    std::optional<Doubt> doubt;
+    if (diagnosis.unexplained) {
+        doubt = doubt_of(evidence, selection, *diagnosis.unexplained, trust, tail);
+        trust = doubt->trust;
+    }
     diagnosis.effects = found_effects(evidence, selection, fitted);
-    const double trust = trust_in(typical_floors(evidence.windows(), explained.mean_squares));
     for (FoundEffect& effect : diagnosis.effects) effect.probability *= trust;
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, trust);
-    const double tail = options.selection.search.tail;
-    diagnosis.unexplained = remainder_of(evidence, explained, tail);
-    if (diagnosis.unexplained) {
-        diagnosis.verdict = selection.choices.empty() ? Verdict::unexplained : Verdict::partly_explained;
-        accuse(diagnosis.where, accused(evidence, selection, *diagnosis.unexplained, trust, tail),
-               selection.choices.empty() ? 1.0 : 1.0 - trust);
-    } else {
-        diagnosis.verdict = selection.choices.empty() ? Verdict::no_gap : Verdict::explained;
-    }
+    if (doubt) accuse(diagnosis.where, doubt->block, 1.0 - trust);
+    if (selection.choices.empty())
+        diagnosis.verdict = doubt ? Verdict::unexplained : Verdict::no_gap;
+    else
+        diagnosis.verdict = doubt ? Verdict::partly_explained : Verdict::explained;
     for (const Omission& omission : evidence.omissions())
         diagnosis.notes.push_back(fmt::format("{}: {}", omission.recording, omission.text));
     return diagnosis;

@@ -1,8 +1,10 @@
 #include "gap/period_search.h"
 
+#include "gap/carriage_forces.h"
+
 #include <algorithm>
 #include <cmath>
-#include <complex>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -13,88 +15,138 @@ namespace fidservo::gap {
 namespace {
 
 constexpr double shortest_mm = 0.8, longest_mm = 50.0;
-constexpr std::size_t every = 4;  ///< rows that are compared; the carriage is followed through all
+constexpr std::size_t every = 2;  ///< supports that are looked at
 
-using Rows = Eigen::Index;
-
-/// A window's rows, ready for waves of any period.
-struct Stretch {
-    std::vector<float> position_mm;
-    std::vector<char> moves;
-    std::vector<Rows> compared;
-    Eigen::MatrixXd start;   ///< orthonormal: what an unknown state at the start adds
-    Eigen::VectorXd errors;  ///< without that
+/// What the supports of one window lack, and where they begin in the rows.
+struct Lacking {
+    std::vector<std::size_t> first;
+    Eigen::VectorXd of_support;
     double weight = 0.0;
-    std::vector<std::complex<float>> wave, turn;  ///< exp(i k y) and its change from one k to the next
 };
 
-Stretch stretch_of(const Evidence& evidence, const Window& window, const Errors& errors) {
-    const Course& course = evidence.course(window.run);
-    const double decay = evidence.rig().macro.velocity_pole;
-    Stretch stretch;
-    double way = 0.0, velocity = 1.0;
-    std::vector<double> ways, values;
-    for (std::size_t k = 0; k < window.rows; ++k) {
-        const std::size_t row = window.first_row + k;
-        stretch.position_mm.push_back(course.position_mm[row]);
-        stretch.moves.push_back(std::abs(course.velocity_mm_per_s[row]) > moving_mm_per_s);
-        const float error = errors[window.begin + k];
-        if (k % every == 0 && !std::isnan(error)) {
-            stretch.compared.push_back(static_cast<Rows>(k));
-            ways.push_back(way);
-            values.push_back(error);
+std::vector<Lacking> by_window(const Evidence& evidence, const CarriageForces& forces) {
+    std::vector<Lacking> all;
+    std::vector<double> values;
+    const auto close = [&] {
+        if (values.empty()) return;
+        Lacking& last = all.back();
+        last.of_support = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+        last.weight = 1.0 / (static_cast<double>(values.size()) + last.of_support.squaredNorm());
+        values.clear();
+    };
+    std::size_t w = 0, of_last = evidence.windows().size();
+    for (std::size_t k = 0; k < forces.supports().size(); k += every) {
+        const CarriageForces::Support& support = forces.supports()[k];
+        while (support.slot >= evidence.windows()[w].end) ++w;
+        if (w != of_last) {
+            close();
+            all.emplace_back();
+            of_last = w;
         }
-        velocity *= decay;
-        way += velocity;
+        all.back().first.push_back(support.first);
+        values.push_back(forces.lacking()[support.slot]);
     }
-    const auto height = static_cast<Rows>(values.size());
-    if (height < 8 || std::ranges::count(stretch.moves, 1) == 0) return {};
-    Eigen::MatrixXd start(height, 2);
-    start.col(0).setOnes();
-    start.col(1) = Eigen::Map<const Eigen::VectorXd>(ways.data(), height);
-    stretch.start =
-        Eigen::HouseholderQR<Eigen::MatrixXd>(start).householderQ() * Eigen::MatrixXd::Identity(height, 2);
-    const Eigen::Map<const Eigen::VectorXd> all(values.data(), height);
-    stretch.errors = all - stretch.start * (stretch.start.transpose() * all);
-    stretch.weight = 1.0 / (static_cast<double>(height) + all.squaredNorm());
-    return stretch;
+    close();
+    return all;
 }
 
-/// Sums of weighted least squares of four columns.
-struct Normal {
-    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+/// Cosine and sine of the rows' places.
+class Waves {
+  public:
+    explicit Waves(std::span<const SlidingRow> rows)
+        : rows_(rows),
+          cosine_(rows.size()),
+          sine_(rows.size()),
+          passed_cosine_(rows.size()),
+          passed_sine_(rows.size()) {}
+
+    void set(double per_mm) {
+        const auto wave_number = static_cast<float>(2.0 * std::numbers::pi * per_mm);
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            const float angle = wave_number * static_cast<float>(rows_[k].position_mm);
+            const auto passed = static_cast<float>(rows_[k].passed);
+            cosine_[k] = std::cos(angle);
+            sine_[k] = std::sin(angle);
+            passed_cosine_[k] = passed * cosine_[k];
+            passed_sine_[k] = passed * sine_[k];
+        }
+    }
+
+    /// Cosine and sine as readings and as forces, over a support.
+    Eigen::RowVector4d over(std::size_t first, const Eigen::VectorXf& reading_weights,
+                            const Eigen::VectorXf& force_weights) const {
+        const auto sum = [&](const Eigen::VectorXf& weights, const std::vector<float>& values) {
+            return weights.dot(Eigen::Map<const Eigen::VectorXf>(&values[first], weights.size()));
+        };
+        return {sum(reading_weights, cosine_), sum(reading_weights, sine_),
+                sum(force_weights, passed_cosine_), sum(force_weights, passed_sine_)};
+    }
+
+  private:
+    std::span<const SlidingRow> rows_;
+    std::vector<float> cosine_, sine_;
+    std::vector<float> passed_cosine_, passed_sine_;  ///< behind the dead zone
 };
-
-/// Of a column's way, that numbers are of one size: in ticks of the velocity that the force would sustain.
-constexpr double way_unit = 1e-2;
-
-/// Sine and cosine of the position, as readings and as what they do as forces.
-void add(Normal& normal, const Stretch& stretch, double decay) {
-    const auto height = static_cast<Rows>(stretch.compared.size());
-    Eigen::Matrix<double, Eigen::Dynamic, 4> columns(height, 4);
-    std::complex<double> velocity = 0.0, way = 0.0;
-    Rows next = 0;
-    for (std::size_t k = 0; k < stretch.wave.size() && next < height; ++k) {
-        const std::complex<double> wave(stretch.wave[k]);
-        if (static_cast<Rows>(k) == stretch.compared[static_cast<std::size_t>(next)])
-            columns.row(next++) << wave.real(), wave.imag(), way.real(), way.imag();
-        velocity = stretch.moves[k] != 0 ? decay * velocity + (1.0 - decay) * wave : 0.0;
-        way += way_unit * velocity;
-    }
-    columns -= stretch.start * (stretch.start.transpose() * columns);
-    normal.matrix += stretch.weight * columns.transpose() * columns;
-    normal.right += stretch.weight * columns.transpose() * stretch.errors;
-}
 
 /// The wave whose lack leaves errors of these shares of cosine and sine.
-Wave wave_of(const Eigen::Vector2d& cosine_sine, double unit) {
-    return {unit * cosine_sine.norm(), std::atan2(-cosine_sine.x(), -cosine_sine.y())};
+Wave wave_of(const Eigen::Vector2d& cosine_sine) {
+    return {cosine_sine.norm(), std::atan2(-cosine_sine.x(), -cosine_sine.y())};
 }
+
+class Periodogram {
+  public:
+    Periodogram(const Evidence& evidence, const CarriageForces& forces)
+        : windows_(by_window(evidence, forces)),
+          reading_weights_(in_floats(forces.reading_weights())),
+          force_weights_(in_floats(forces.force_weights())),
+          waves_(forces.rows()) {
+        for (const Lacking& window : windows_) squares_ += window.weight * window.of_support.squaredNorm();
+    }
+
+    PositionPeriod at(double per_mm) {
+        waves_.set(per_mm);
+        Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+        Eigen::Vector4d right = Eigen::Vector4d::Zero();
+        for (const Lacking& window : windows_) {
+            Eigen::Matrix<double, Eigen::Dynamic, 4> columns(std::ssize(window.first), 4);
+            for (std::size_t k = 0; k < window.first.size(); ++k)
+                columns.row(static_cast<Eigen::Index>(k)) =
+                    waves_.over(window.first[k], reading_weights_, force_weights_);
+            matrix += window.weight * columns.transpose() * columns;
+            right += window.weight * columns.transpose() * window.of_support;
+        }
+        const Eigen::Vector4d found = matrix.completeOrthogonalDecomposition().solve(right);
+        return {1.0 / per_mm, found.dot(right) / squares_, wave_of(found.tail<2>()),
+                wave_of(found.head<2>())};
+    }
+
+    /// The highest place within a step to each side, by thirds.
+    PositionPeriod climbed(PositionPeriod from, double step_per_mm) {
+        constexpr int rounds = 12;
+        for (int round = 0; round < rounds; ++round, step_per_mm *= 2.0 / 3.0)
+            for (const double side : {-0.5, 0.5}) {
+                const PositionPeriod there = at(1.0 / from.period_mm + side * step_per_mm);
+                if (there.share <= from.share) continue;
+                from = there;
+                break;
+            }
+        return from;
+    }
+
+  private:
+    static Eigen::VectorXf in_floats(const std::vector<double>& weights) {
+        return Eigen::Map<const Eigen::VectorXd>(weights.data(), std::ssize(weights)).cast<float>();
+    }
+
+    std::vector<Lacking> windows_;
+    Eigen::VectorXf reading_weights_, force_weights_;
+    Waves waves_;
+    double squares_ = 0.0;
+};
 
 /// The highest of a periodogram, none beside a higher one.
 std::vector<PositionPeriod> peaks(std::span<const PositionPeriod> all) {
-    constexpr std::size_t most = 6, apart = 3;
+    constexpr std::size_t most = 3, apart = 3;
     std::vector<std::size_t> order(all.size()), chosen;
     std::iota(order.begin(), order.end(), 0);
     std::ranges::sort(order, std::greater{}, [&](std::size_t k) { return all[k].share; });
@@ -109,46 +161,33 @@ std::vector<PositionPeriod> peaks(std::span<const PositionPeriod> all) {
     return found;
 }
 
+/// @param half_support  gap/carriage_forces.h
+std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Errors& errors,
+                                              std::size_t half_support) {
+    const CarriageForces forces(evidence, errors, half_support);
+    if (forces.supports().empty()) return {};
+    const auto [low, high] = std::ranges::minmax_element(forces.rows(), {}, &SlidingRow::position_mm);
+    const double range_mm = high->position_mm - low->position_mm;
+    if (range_mm < 2.0 * shortest_mm) return {};
+    Periodogram periodogram(evidence, forces);
+    const double step_per_mm = 0.5 / range_mm;
+    std::vector<PositionPeriod> all;
+    for (double per_mm = 1.0 / std::min(longest_mm, range_mm); per_mm <= 1.0 / shortest_mm;
+         per_mm += step_per_mm)
+        all.push_back(periodogram.at(per_mm));
+    std::vector<PositionPeriod> strongest = peaks(all);
+    for (PositionPeriod& period : strongest) period = periodogram.climbed(period, step_per_mm);
+    return strongest;
+}
+
 }  // namespace
 
-std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Errors& errors,
-                                              const Wanted& wanted) {
-    std::vector<Stretch> stretches;
-    double squares = 0.0, low_mm = 1e9, high_mm = -1e9;
-    for (std::size_t w = 0; w < evidence.windows().size(); ++w) {
-        const Window& window = evidence.windows()[w];
-        if (wanted[w] == 0 || window.signal != Signal::encoder) continue;
-        Stretch stretch = stretch_of(evidence, window, errors);
-        if (stretch.compared.empty()) continue;
-        squares += stretch.weight * stretch.errors.squaredNorm();
-        const auto [low, high] = std::ranges::minmax(stretch.position_mm);
-        low_mm = std::min<double>(low_mm, low);
-        high_mm = std::max<double>(high_mm, high);
-        stretches.push_back(std::move(stretch));
-    }
-    if (stretches.empty() || high_mm - low_mm < 2.0 * shortest_mm) return {};
-    const double first = 1.0 / std::min(longest_mm, high_mm - low_mm), step = 0.5 / (high_mm - low_mm);
-    for (Stretch& stretch : stretches)
-        for (const float position_mm : stretch.position_mm) {
-            const double angle = 2.0 * std::numbers::pi * position_mm;
-            stretch.wave.emplace_back(std::polar(1.0, angle * first));
-            stretch.turn.emplace_back(std::polar(1.0, angle * step));
-        }
-    const MacroParameters& macro = evidence.rig().macro;
-    const double floor_mm = evidence.floor(Signal::encoder) * macro.encoder_resolution_mm;
-    const double push_V = way_unit * floor_mm / (macro.velocity_gain_mm_per_s_per_V * evidence.rig().tick_s);
+std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Errors& errors) {
     std::vector<PositionPeriod> all;
-    for (double per_mm = first; per_mm <= 1.0 / shortest_mm; per_mm += step) {
-        Normal normal;
-        for (Stretch& stretch : stretches) {
-            add(normal, stretch, macro.velocity_pole);
-            for (std::size_t k = 0; k < stretch.wave.size(); ++k) stretch.wave[k] *= stretch.turn[k];
-        }
-        const Eigen::Vector4d found = normal.matrix.completeOrthogonalDecomposition().solve(normal.right);
-        all.push_back({1.0 / per_mm, found.dot(normal.right) / squares, wave_of(found.tail<2>(), push_V),
-                       wave_of(found.head<2>(), floor_mm), step, 0.5 * (low_mm + high_mm)});
-    }
-    return peaks(all);
+    for (const std::size_t half_support : {12, 25})
+        std::ranges::copy(strongest_periods(evidence, errors, half_support), std::back_inserter(all));
+    std::ranges::sort(all, std::greater{}, &PositionPeriod::share);
+    return all;
 }
 
 }  // namespace fidservo::gap

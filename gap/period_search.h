@@ -6,30 +6,25 @@
 
 namespace fidservo::gap {
 
-/// Slower than this the carriage may be held, and no force shows.
-inline constexpr double moving_mm_per_s = 1.0;
-
 /// A sin(2 pi y / p + phase) of the place y on the rail.
 struct Wave {
     double amplitude = 0.0, phase_rad = 0.0;
 };
 
-/// A period, and the waves of it that take most of the errors together: of a force along the rail, passed
-/// through the nominal carriage, and of the reading itself. What is found has the opposite sign of the
-/// errors.
+/// A period, and the waves of it that take most of what is lacking: of a force along the rail, and of the
+/// reading itself. What is found has the opposite sign of what is lacking.
 struct PositionPeriod {
     double period_mm = 0.0;
     double share = 0.0;  ///< of the weighted squares, 0 .. 1
     Wave force_V{}, reading_mm{};
-    double step_per_mm = 0.0;  ///< of the search, in 1 / period
-    double middle_mm = 0.0;    ///< of the places that were met
 };
 
-/// Linear periodogram over 0.8 mm to 50 mm (Lomb, Scargle: least squares of sine and cosine), with the state
-/// at each window's start as nuisance, windows weighted as in gap/score.h.
-/// @param wanted  windows looked at
-/// @return the strongest first, at most six, none within two steps of the search from a stronger one
-std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Errors& errors,
-                                              const Wanted& wanted);
+/// Linear periodogram over 0.8 mm to 50 mm (Lomb, Scargle: least squares of sine and cosine), windows
+/// weighted as in gap/score.h; once by forces over 25 rows, in which a carriage at 100 mm/s covers half a
+/// wave of 5 mm, and once over 51, which show weaker forces.
+/// @param errors  of the encoder are used where they are not NaN
+/// @return the strongest three of either, none within two steps of the search from a stronger one; strongest
+/// first
+std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Errors& errors);
 
 }  // namespace fidservo::gap

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include <opencv2/core/optim.hpp>
@@ -44,14 +43,10 @@ class LossOfLast : public cv::MinProblemSolver::Function {
     }
 
   private:
-    /// Turns the phase with the period so that the wave keeps its place in the middle of the rail: along the
-    /// ends period and phase would have to be changed together.
+    /// Turns the phase with the period.
     void keep_in_step(std::vector<double>& values) const {
-        constexpr double middle_mm = 100.0;
-        const double period_at_start_mm = start_.values[wave_->period];
-        const double turned_rad =
-            2.0 * std::numbers::pi * middle_mm * (1.0 / values[wave_->period] - 1.0 / period_at_start_mm);
-        values[wave_->phase] = std::remainder(values[wave_->phase] - turned_rad, 2.0 * std::numbers::pi);
+        values[wave_->phase] =
+            phase_in_step(values[wave_->phase], start_.values[wave_->period], values[wave_->period]);
     }
 
     const Predict& predict_;

@@ -1,6 +1,7 @@
 #include "gap/remainder.h"
 
 #include "gap/accusation.h"
+#include "gap/carriage_forces.h"
 #include "gap/gap_size.h"
 #include "gap/halves.h"
 #include "gap/surrogate.h"
@@ -31,24 +32,31 @@ Errors held_out_errors(const Evidence& evidence, const CrossFit& explained,
     return errors;
 }
 
-Surrogate surrogate_of(const Evidence& evidence, Signal signal, const Errors& errors) {
-    if (signal == Signal::encoder) return carriage_surrogate(evidence, errors);
-    return signal == Signal::hall ? platform_surrogate(evidence) : tag_surrogate(evidence, errors);
-}
-
 /// Groups of the signal's surrogate that predict what was not fitted, and the surrogate's period.
 struct Dependences {
     std::vector<int> groups;
     double period_mm = 0.0;
 };
 
+Surrogate surrogate_of(const Evidence& evidence, Signal signal, const Errors& errors, double edge_V) {
+    if (signal == Signal::encoder) return carriage_surrogate(evidence, errors, edge_V);
+    return signal == Signal::hall ? platform_surrogate(evidence) : tag_surrogate(evidence, errors);
+}
+
 Dependences dependences(const Evidence& evidence, Signal signal, const Errors& errors,
                         std::span<const std::uint8_t> half, double tail) {
     if (signal == Signal::macro_command || signal == Signal::micro_command) return {};
-    const Surrogate surrogate = surrogate_of(evidence, signal, errors);
-    const Regression regression(evidence.windows(), signal, errors, surrogate.columns, surrogate.nuisances,
-                                half);
-    return {regression.significant_groups(tail, surrogate.as_good), surrogate.period_mm};
+    // What friction does where the carriage hardly moves shows at the edge of the dead zone only: it is
+    // looked for there where nothing is found elsewhere.
+    for (const double edge_V : {usual_edge_V, 0.0}) {
+        const Surrogate surrogate = surrogate_of(evidence, signal, errors, edge_V);
+        const Regression regression(evidence.windows(), signal,
+                                    surrogate.errors.empty() ? errors : surrogate.errors, surrogate.columns,
+                                    surrogate.nuisances, half);
+        const std::vector<int> groups = regression.significant_groups(tail, surrogate.as_good);
+        if (!groups.empty() || signal != Signal::encoder) return {groups, surrogate.period_mm};
+    }
+    return {};
 }
 
 Remainder remainder_of_signal(const SignalGap& gap, const Pattern& pattern, const Dependences& found) {

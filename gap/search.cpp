@@ -154,8 +154,8 @@ void Search::look_at(const CrossFit& base, std::span<Contender> contenders) {
     const Errors base_errors = fitter_.evidence().errors(base.of_half[0], looked_at);
     std::vector<PositionPeriod> periods;
     if (std::ranges::any_of(fresh, [](const Contender* c) { return c->trial.candidate->wave.has_value(); })) {
-        const Wanted all = fitter_.half(0);
-        periods = strongest_periods(fitter_.evidence(), fitter_.evidence().errors(base.of_half[0], all), all);
+        const Evidence& evidence = fitter_.evidence();
+        periods = strongest_periods(evidence, evidence.errors(base.of_half[0], fitter_.half(0)));
     }
     std::map<Places, Surroundings> beside;
     for (const Contender* contender : fresh)

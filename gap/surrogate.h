@@ -1,11 +1,8 @@
 #pragma once
 // Flexible models of what may be wrong with a stretch of the signal chain, without a name for it: any
 // function of velocity, any function of position, any periodic function of position, and so on, each a group
-// of columns for gap/regression.h. What acts as a force is passed through the nominal carriage first
-//
-//     tau dv/dt = K f - v,   dy/dt = v
-//
-// so that no recorded position is differentiated. What acts on the image is a pattern of corners.
+// of columns for gap/regression.h. What acts on the carriage is compared with the forces that its prediction
+// lacks (gap/carriage_forces.h). What acts on the image is a pattern of corners.
 #include "gap/evidence.h"
 #include "gap/regression.h"
 
@@ -42,14 +39,15 @@ struct Surrogate {
     Signal signal;
     std::vector<Column> columns;    ///< group: a Dependence
     std::vector<Column> nuisances;  ///< of the state at a window's start
+    Errors errors{};                ///< that the columns are to explain, where they are not the signal's
     double period_mm = 0.0;         ///< of Dependence::position_period and reading_period
     /// Groups that add this share of what the best one adds are as good, and of those the one of fewest
     /// columns is preferred.
     double as_good = 0.8;
 };
 
-/// Of the encoder's errors. @param errors  that the period is looked for in
-Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors);
+/// Of the forces that the encoder's errors lack. @param edge_V  gap/carriage_forces.h
+Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, double edge_V);
 
 /// Of the Hall reading's errors.
 Surrogate platform_surrogate(const Evidence& evidence);

@@ -1,6 +1,8 @@
 #include "gap/wave.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace fidservo::gap {
 
@@ -14,6 +16,13 @@ std::optional<WaveParameters> wave_of(const plant::Effect& effect) {
     const auto phase = std::ranges::find(all, "rad", &plant::EffectParameter::unit);
     if (amplitude == all.end() || period == all.end() || phase == all.end()) return {};
     return WaveParameters{place(amplitude), place(period), place(phase)};
+}
+
+double phase_in_step(double phase_rad, double from_period_mm, double to_period_mm) {
+    constexpr double middle_mm = 100.0;
+    const double turned_rad =
+        2.0 * std::numbers::pi * middle_mm * (1.0 / to_period_mm - 1.0 / from_period_mm);
+    return std::remainder(phase_rad - turned_rad, 2.0 * std::numbers::pi);
 }
 
 }  // namespace fidservo::gap

@@ -15,4 +15,8 @@ struct WaveParameters {
 /// Of an effect periodic in position: it has a size, a phase, and its only shape in mm is the period.
 std::optional<WaveParameters> wave_of(const plant::Effect& effect);
 
+/// The phase with which a wave of another period is in step with the first in the middle of the rail: along
+/// the ends period and phase have to be changed together.
+double phase_in_step(double phase_rad, double from_period_mm, double to_period_mm);
+
 }  // namespace fidservo::gap

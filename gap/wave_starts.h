@@ -5,10 +5,8 @@
 
 namespace fidservo::gap {
 
-/// What at_first_sight is to other candidates, for one that has a wave: friction holds a weak force and lets
-/// go of a strong one, so that errors do not change in proportion to the amplitude. Begins with the waves
-/// that the errors show, tries larger ones, and the periods beside those that promise most, in step at the
-/// middle of the rail.
+/// What at_first_sight is to other candidates, for one that has a wave: the waves that the forces lacking
+/// show (gap/period_search.h), those that promise most first.
 std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<const Window> windows,
                                           const Wanted& counted, const Surroundings& beside,
                                           const Candidate& candidate,

@@ -7,6 +7,7 @@
 #include "src/simulation/experiments.h"
 #include "src/simulation/simulate.h"
 #include "tests/diagnose/well_formed.h"
+#include "tests/gap/effects.h"
 #include "tests/gap/root_mean_square.h"
 
 #include <algorithm>

@@ -2,8 +2,7 @@
 #include "gap/coupling.h"
 
 #include "gap/search_memory.h"
-#include "plant/effects/catalogue.h"
-#include "tests/gap/root_mean_square.h"
+#include "tests/gap/effects.h"
 
 #include <gtest/gtest.h>
 

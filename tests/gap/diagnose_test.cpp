@@ -2,15 +2,10 @@
 #include "gap/diagnose.h"
 
 #include "gap/search.h"
-#include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
-#include "src/simulation/experiments.h"
-#include "src/simulation/simulate.h"
-#include "tests/gap/root_mean_square.h"
+#include "tests/gap/simulated_campaign.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <string>
 
@@ -22,24 +17,9 @@ namespace fidservo {
 namespace {
 
 using namespace gap;
+using testing::campaign;
 using testing::effects;
-
-const Rig& reference_rig() {
-    static const Rig rig = load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
-    return rig;
-}
-
-/// Two runs of each kind.
-Evidence campaign(const Hypothesis& truth, std::initializer_list<std::string_view> kinds) {
-    std::vector<Recording> recordings;
-    for (const std::string_view kind : kinds)
-        for (const std::uint64_t seed : {21, 22}) {
-            const std::string name = std::string(kind) + "-" + std::to_string(seed);
-            recordings.push_back(simulate(reference_rig(), truth,
-                                          make_experiment(kind, reference_rig(), seed, name), name, seed));
-        }
-    return {reference_rig(), std::move(recordings)};
-}
+using testing::reference_rig;
 
 std::vector<std::string> names(const Diagnosis& diagnosis) {
     std::vector<std::string> found;

@@ -3,6 +3,7 @@
 #include "gap/evidence.h"
 #include "src/config/rig_file.h"
 #include "tests/campaign.h"
+#include "tests/gap/effects.h"
 #include "tests/gap/root_mean_square.h"
 
 #include <filesystem>

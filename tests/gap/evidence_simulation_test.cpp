@@ -4,6 +4,7 @@
 #include "src/config/rig_file.h"
 #include "src/simulation/experiments.h"
 #include "src/simulation/simulate.h"
+#include "tests/gap/effects.h"
 #include "tests/gap/root_mean_square.h"
 
 #include <filesystem>

@@ -1,11 +1,8 @@
 #pragma once
 #include "gap/evidence.h"
-#include "plant/effects/catalogue.h"
 
 #include <cmath>
-#include <initializer_list>
 #include <optional>
-#include <string_view>
 
 namespace fidservo::testing {
 
@@ -23,12 +20,6 @@ inline double rms(const gap::Evidence& evidence, const gap::Errors& errors, gap:
         }
     }
     return std::sqrt(sum / static_cast<double>(count));
-}
-
-inline gap::Hypothesis effects(std::initializer_list<std::string_view> texts) {
-    gap::Hypothesis hypothesis;
-    for (const std::string_view text : texts) hypothesis.push_back(plant::parse_effect(text));
-    return hypothesis;
 }
 
 }  // namespace fidservo::testing

@@ -1,11 +1,7 @@
 // What a remainder depends on, and which block that accuses, where the effect is withheld.
 #include "gap/diagnose.h"
-#include "src/config/rig_file.h"
-#include "src/simulation/experiments.h"
-#include "src/simulation/simulate.h"
-#include "tests/gap/root_mean_square.h"
+#include "tests/gap/simulated_campaign.h"
 
-#include <filesystem>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -17,23 +13,13 @@ namespace {
 
 using namespace gap;
 using ::testing::HasSubstr;
+using testing::reference_rig;
 
-Rig reference_rig() {
-    return load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
-}
-
-/// Two runs of each kind, with no effect to try that could explain them.
+/// With no effect to try that could explain what is recorded.
 Diagnosis unnamed(const Rig& true_rig, const Hypothesis& truth, std::initializer_list<std::string_view> kinds,
                   const std::string& tried) {
-    std::vector<Recording> recordings;
-    for (const std::string_view kind : kinds)
-        for (const std::uint64_t seed : {31, 32}) {
-            const std::string name = std::string(kind) + "-" + std::to_string(seed);
-            recordings.push_back(
-                simulate(true_rig, truth, make_experiment(kind, true_rig, seed, name), name, seed));
-        }
-    const Evidence evidence(reference_rig(), std::move(recordings));
-    return diagnose(evidence, {.only = {tried}, .without = {}, .selection = {}});
+    return diagnose(testing::campaign(truth, kinds, true_rig),
+                    {.only = {tried}, .without = {}, .selection = {}});
 }
 
 std::string first_dependence(const Diagnosis& diagnosis) {
@@ -70,6 +56,28 @@ TEST(Surrogate, PeriodOfTheReading_IsToldFromThatOfAForce) {
         unnamed(reference_rig(), testing::effects({"cogging:amplitude_V=0.02,period_mm=8,phase_rad=1"}),
                 {"macro-sweep", "macro-pulses", "macro-square"}, "clock_skew");
     EXPECT_EQ(force.where.front().block, "macro.mechanics") << first_dependence(force);
+}
+
+/// Strong ones among them, which let the carriage go by jumps.
+TEST(Surrogate, ForcesOnTheCarriage_AccuseTheirBlock) {
+    struct Case {
+        std::string_view effect, block, dependence;
+    };
+    for (const Case& it :
+         {Case{"cable_force", "macro.mechanics", "position"},
+          Case{"cogging", "macro.mechanics", "position, periodic"},
+          Case{"payload", "macro.mechanics", "acceleration"},
+          Case{"drive_delay", "macro.drive", "changes of the command"},
+          Case{"drive_gain", "macro.drive", "command"}, Case{"drive_offset", "macro.drive", "nothing"},
+          Case{"viscous_friction", "macro.friction", "velocity"},
+          Case{"rail_patch", "macro.friction", "position, against the motion"},
+          Case{"coulomb_friction", "macro.friction", "direction"}}) {
+        const Diagnosis found = unnamed(reference_rig(), testing::effects({it.effect}),
+                                        {"macro-sweep", "macro-pulses", "macro-square"}, "clock_skew");
+        ASSERT_FALSE(found.where.empty()) << it.effect;
+        EXPECT_EQ(found.where.front().block, it.block) << it.effect;
+        EXPECT_THAT(first_dependence(found), HasSubstr(std::string(it.dependence))) << it.effect;
+    }
 }
 
 TEST(Surrogate, BodyThatStoresHeat_AccusesTheHeater) {

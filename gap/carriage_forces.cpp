@@ -1,0 +1,145 @@
+#include "gap/carriage_forces.h"
+
+#include "gap/carriage_run.h"
+#include "plant/dead_zone.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <Eigen/Dense>
+
+namespace fidservo::gap {
+namespace {
+
+constexpr std::size_t half_smoothing = 8;  ///< rows
+constexpr double sliding_mm_per_s = 2.0;   ///< three standard deviations of the smoothed velocity
+
+/// phi = c (1 - s^2)^4, s = t / h, and its derivatives over t.
+struct Modulating {
+    double value, first, second;
+};
+
+Modulating modulating(double s, double h_s) {
+    const double rest = std::max(0.0, 1.0 - s * s), unit = 315.0 / (256.0 * h_s);
+    return {unit * std::pow(rest, 4), -unit * 8.0 * s * std::pow(rest, 3) / h_s,
+            unit * (48.0 * s * s * std::pow(rest, 2) - 8.0 * std::pow(rest, 3)) / (h_s * h_s)};
+}
+
+/// Place, velocity and half the acceleration, per rows, in the middle of a parabola through readings.
+class Smoothing {
+  public:
+    Smoothing() {
+        constexpr auto rows = static_cast<Eigen::Index>(2 * half_smoothing + 1);
+        Eigen::Matrix<double, rows, 3> powers;
+        for (Eigen::Index k = 0; k < rows; ++k) {
+            const double x = static_cast<double>(k) - static_cast<double>(half_smoothing);
+            powers.row(k) << 1.0, x, x * x;
+        }
+        weights_ = (powers.transpose() * powers).ldlt().solve(powers.transpose());
+    }
+
+    Eigen::Vector3d at(const double* middle) const {
+        return weights_ * Eigen::Map<const Eigen::VectorXd>(middle - half_smoothing, weights_.cols());
+    }
+
+  private:
+    Eigen::Matrix<double, 3, Eigen::Dynamic> weights_;
+};
+
+}  // namespace
+
+CarriageForces::CarriageForces(const Evidence& evidence, const Errors& errors, std::size_t half_support,
+                               double edge_V)
+    : lacking_(errors.size(), std::numeric_limits<float>::quiet_NaN()) {
+    const MacroParameters& macro = evidence.rig().macro;
+    const double tick_s = evidence.rig().tick_s, tau_s = -tick_s / std::log(macro.velocity_pole);
+    const double floor_mm = evidence.floor(Signal::encoder) * macro.encoder_resolution_mm;
+    const std::size_t support_rows = 2 * half_support + 1, every = half_support / 2;
+    const double h_s = (static_cast<double>(half_support) + 1.0) * tick_s;
+    double square = 0.0;
+    for (std::size_t i = 0; i < support_rows; ++i) {
+        const double ticks = static_cast<double>(i) - static_cast<double>(half_support);
+        const Modulating at = modulating(ticks * tick_s / h_s, h_s);
+        of_reading_.push_back(tick_s * (tau_s * at.second - at.first) / macro.velocity_gain_mm_per_s_per_V);
+        // A command acts from its row to the next.
+        of_force_.push_back(tick_s * modulating((ticks + 0.5) * tick_s / h_s, h_s).value);
+        square += std::pow(floor_mm * of_reading_.back(), 2);
+    }
+    const double std_V = std::sqrt(square);
+    for (double& weight : of_reading_) weight /= std_V;
+    for (double& weight : of_force_) weight /= std_V;
+
+    std::vector<std::vector<double>> reading_mm;
+    for (const Recording& recording : evidence.recordings()) {
+        std::vector<double>& of_run = reading_mm.emplace_back();
+        for (const StageRow& row : recording.rows)
+            of_run.push_back(macro.encoder_resolution_mm * reading_count(row, macro));
+    }
+    const Smoothing smoothing;
+    for (const Window& window : evidence.windows()) {
+        if (window.signal != Signal::encoder) continue;
+        const std::vector<StageRow>& recorded = evidence.recordings()[window.run].rows;
+        const TimeNs start_ns = recorded.front().time_ns;
+        std::size_t sliding = 0;  // rows up to this one
+        for (std::size_t k = 0; k < window.rows; ++k) {
+            const std::size_t row = window.first_row + k;
+            if (row < half_smoothing || row + half_smoothing >= reading_mm[window.run].size()) continue;
+            const Eigen::Vector3d smooth = smoothing.at(&reading_mm[window.run][row]);
+            const double velocity = smooth(1) / tick_s;
+            const double command_V = recorded[row].macro_command_V;
+            const plant::DeadZoneBranch branch = plant::dead_zone_branch(macro.dead_zone, command_V);
+            const double predicted_mm = smooth(0) + floor_mm * static_cast<double>(errors[window.begin + k]);
+            const bool is_free = predicted_mm > macro.low_mm + macro.encoder_resolution_mm &&
+                                 predicted_mm < macro.high_mm - macro.encoder_resolution_mm;
+            if (!is_free || !(std::abs(velocity) > sliding_mm_per_s) ||
+                !(std::abs(plant::dead_zone_slack_V(macro.dead_zone, branch, command_V)) > edge_V)) {
+                sliding = 0;
+                continue;
+            }
+            if (sliding > 0 && rows_.back().direction * velocity < 0.0) sliding = 0;
+            rows_.push_back({smooth(0), velocity, 2.0 * smooth(2) / (tick_s * tick_s),
+                             std::copysign(1.0, velocity), command_V,
+                             branch == plant::DeadZoneBranch::inside ? 0.0 : macro.dead_zone.slope,
+                             seconds(recorded[row].time_ns - start_ns), window.run, row});
+            if (++sliding < support_rows || (sliding - support_rows) % every != 0) continue;
+            const Support support{window.begin + k - half_support, rows_.size() - support_rows};
+            double sum = 0.0;
+            for (std::size_t i = 0; i < support_rows; ++i)
+                sum += of_reading_[i] * static_cast<double>(errors[support.slot - half_support + i]);
+            lacking_[support.slot] = static_cast<float>(sum * floor_mm);
+            supports_.push_back(support);
+        }
+    }
+}
+
+Column CarriageForces::column(int group, const std::vector<double>& weights,
+                              const std::function<double(const SlidingRow&)>& quantity) const {
+    std::vector<double> values(rows_.size());
+    std::ranges::transform(rows_, values.begin(), quantity);
+    Column column{group, std::vector<float>(lacking_.size(), 0.0F)};
+    for (const Support& support : supports_)
+        column.values[support.slot] = static_cast<float>(
+            std::inner_product(weights.begin(), weights.end(),
+                               values.begin() + static_cast<std::ptrdiff_t>(support.first), 0.0));
+    return column;
+}
+
+Column CarriageForces::of_force(int group, const std::function<double(const SlidingRow&)>& force_V) const {
+    return column(group, of_force_, force_V);
+}
+
+Column CarriageForces::of_reading(int group, const std::function<double(const SlidingRow&)>& error_mm) const {
+    return column(group, of_reading_, error_mm);
+}
+
+std::vector<float> CarriageForces::values(const std::function<double(const SlidingRow&)>& quantity) const {
+    constexpr std::size_t step = 7;
+    std::vector<float> found;
+    for (std::size_t k = 0; k < rows_.size(); k += step)
+        found.push_back(static_cast<float>(quantity(rows_[k])));
+    return found;
+}
+
+}  // namespace fidservo::gap

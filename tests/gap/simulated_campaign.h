@@ -1,0 +1,36 @@
+#pragma once
+#include "gap/evidence.h"
+#include "src/config/rig_file.h"
+#include "src/simulation/experiments.h"
+#include "src/simulation/simulate.h"
+#include "tests/gap/effects.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace fidservo::testing {
+
+inline const Rig& reference_rig() {
+    static const Rig rig = load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
+    return rig;
+}
+
+/// What a rig with effects records, two runs of each experiment, beside the reference rig's file.
+inline gap::Evidence campaign(const gap::Hypothesis& truth, std::initializer_list<std::string_view> kinds,
+                              const Rig& true_rig = reference_rig()) {
+    std::vector<Recording> recordings;
+    for (const std::string_view kind : kinds)
+        for (const std::uint64_t seed : {21, 22}) {
+            const std::string name = std::string(kind) + "-" + std::to_string(seed);
+            recordings.push_back(
+                simulate(true_rig, truth, make_experiment(kind, true_rig, seed, name), name, seed));
+        }
+    return {reference_rig(), std::move(recordings)};
+}
+
+}  // namespace fidservo::testing
