@@ -48,61 +48,72 @@ class Smoothing {
     Eigen::Matrix<double, 3, Eigen::Dynamic> weights_;
 };
 
+SlidingRow row_of(const Evidence& evidence, std::size_t run, std::size_t row, const Eigen::Vector3d& smooth) {
+    const std::vector<StageRow>& rows = evidence.recordings()[run].rows;
+    const double tick_s = evidence.rig().tick_s, velocity = smooth(1) / tick_s;
+    const double command_V = rows[row].macro_command_V;
+    const DeadZone& zone = evidence.rig().macro.dead_zone;
+    const bool pushes = plant::dead_zone_branch(zone, command_V) != plant::DeadZoneBranch::inside;
+    return {smooth(0),
+            velocity,
+            2.0 * smooth(2) / (tick_s * tick_s),
+            std::copysign(1.0, velocity),
+            command_V,
+            pushes ? zone.slope : 0.0,
+            seconds(rows[row].time_ns - rows.front().time_ns),
+            run,
+            row};
+}
+
+bool is_free(const MacroParameters& macro, double predicted_mm) {
+    return predicted_mm > macro.low_mm + macro.encoder_resolution_mm &&
+           predicted_mm < macro.high_mm - macro.encoder_resolution_mm;
+}
+
+bool slides(const MacroParameters& macro, const SlidingRow& row, double edge_V) {
+    const plant::DeadZoneBranch branch = plant::dead_zone_branch(macro.dead_zone, row.command_V);
+    return std::abs(row.velocity_mm_per_s) > sliding_mm_per_s &&
+           std::abs(plant::dead_zone_slack_V(macro.dead_zone, branch, row.command_V)) > edge_V;
+}
+
+/// Recorded places row by row, mm.
+std::vector<double> readings_mm(const Recording& recording, const MacroParameters& macro) {
+    std::vector<double> all;
+    all.reserve(recording.rows.size());
+    for (const StageRow& row : recording.rows)
+        all.push_back(macro.encoder_resolution_mm * reading_count(row, macro));
+    return all;
+}
+
 }  // namespace
 
 CarriageForces::CarriageForces(const Evidence& evidence, const Errors& errors, std::size_t half_support,
                                double edge_V)
     : lacking_(errors.size(), std::numeric_limits<float>::quiet_NaN()) {
     const MacroParameters& macro = evidence.rig().macro;
-    const double tick_s = evidence.rig().tick_s, tau_s = -tick_s / std::log(macro.velocity_pole);
     const double floor_mm = evidence.floor(Signal::encoder) * macro.encoder_resolution_mm;
-    const std::size_t support_rows = 2 * half_support + 1, every = half_support / 2;
-    const double h_s = (static_cast<double>(half_support) + 1.0) * tick_s;
-    double square = 0.0;
-    for (std::size_t i = 0; i < support_rows; ++i) {
-        const double ticks = static_cast<double>(i) - static_cast<double>(half_support);
-        const Modulating at = modulating(ticks * tick_s / h_s, h_s);
-        of_reading_.push_back(tick_s * (tau_s * at.second - at.first) / macro.velocity_gain_mm_per_s_per_V);
-        // A command acts from its row to the next.
-        of_force_.push_back(tick_s * modulating((ticks + 0.5) * tick_s / h_s, h_s).value);
-        square += std::pow(floor_mm * of_reading_.back(), 2);
-    }
-    const double std_V = std::sqrt(square);
-    for (double& weight : of_reading_) weight /= std_V;
-    for (double& weight : of_force_) weight /= std_V;
-
-    std::vector<std::vector<double>> reading_mm;
-    for (const Recording& recording : evidence.recordings()) {
-        std::vector<double>& of_run = reading_mm.emplace_back();
-        for (const StageRow& row : recording.rows)
-            of_run.push_back(macro.encoder_resolution_mm * reading_count(row, macro));
-    }
+    find_weights(evidence.rig(), floor_mm, half_support);
+    std::vector<std::vector<double>> of_run;
+    for (const Recording& recording : evidence.recordings()) of_run.push_back(readings_mm(recording, macro));
     const Smoothing smoothing;
+    const std::size_t support_rows = 2 * half_support + 1, every = half_support / 2;
     for (const Window& window : evidence.windows()) {
         if (window.signal != Signal::encoder) continue;
-        const std::vector<StageRow>& recorded = evidence.recordings()[window.run].rows;
-        const TimeNs start_ns = recorded.front().time_ns;
-        std::size_t sliding = 0;  // rows up to this one
+        std::size_t sliding = 0;  // rows without a break, up to this one
         for (std::size_t k = 0; k < window.rows; ++k) {
             const std::size_t row = window.first_row + k;
-            if (row < half_smoothing || row + half_smoothing >= reading_mm[window.run].size()) continue;
-            const Eigen::Vector3d smooth = smoothing.at(&reading_mm[window.run][row]);
-            const double velocity = smooth(1) / tick_s;
-            const double command_V = recorded[row].macro_command_V;
-            const plant::DeadZoneBranch branch = plant::dead_zone_branch(macro.dead_zone, command_V);
-            const double predicted_mm = smooth(0) + floor_mm * static_cast<double>(errors[window.begin + k]);
-            const bool is_free = predicted_mm > macro.low_mm + macro.encoder_resolution_mm &&
-                                 predicted_mm < macro.high_mm - macro.encoder_resolution_mm;
-            if (!is_free || !(std::abs(velocity) > sliding_mm_per_s) ||
-                !(std::abs(plant::dead_zone_slack_V(macro.dead_zone, branch, command_V)) > edge_V)) {
+            const std::vector<double>& reading_mm = of_run[window.run];
+            if (row < half_smoothing || row + half_smoothing >= reading_mm.size()) continue;
+            const float error = errors[window.begin + k];
+            const Eigen::Vector3d smooth = smoothing.at(&reading_mm[row]);
+            const SlidingRow here = row_of(evidence, window.run, row, smooth);
+            if (!is_free(macro, here.position_mm + floor_mm * static_cast<double>(error)) ||
+                !slides(macro, here, edge_V)) {
                 sliding = 0;
                 continue;
             }
-            if (sliding > 0 && rows_.back().direction * velocity < 0.0) sliding = 0;
-            rows_.push_back({smooth(0), velocity, 2.0 * smooth(2) / (tick_s * tick_s),
-                             std::copysign(1.0, velocity), command_V,
-                             branch == plant::DeadZoneBranch::inside ? 0.0 : macro.dead_zone.slope,
-                             seconds(recorded[row].time_ns - start_ns), window.run, row});
+            if (sliding > 0 && rows_.back().direction != here.direction) sliding = 0;
+            rows_.push_back(here);
             if (++sliding < support_rows || (sliding - support_rows) % every != 0) continue;
             const Support support{window.begin + k - half_support, rows_.size() - support_rows};
             double sum = 0.0;
@@ -112,6 +123,23 @@ CarriageForces::CarriageForces(const Evidence& evidence, const Errors& errors, s
             supports_.push_back(support);
         }
     }
+}
+
+void CarriageForces::find_weights(const Rig& rig, double floor_mm, std::size_t half_support) {
+    const double tau_s = -rig.tick_s / std::log(rig.macro.velocity_pole);
+    const double h_s = (static_cast<double>(half_support) + 1.0) * rig.tick_s;
+    double variance = 0.0;
+    for (std::size_t i = 0; i < 2 * half_support + 1; ++i) {
+        const double ticks = static_cast<double>(i) - static_cast<double>(half_support);
+        const Modulating at = modulating(ticks * rig.tick_s / h_s, h_s);
+        of_reading_.push_back(rig.tick_s * (tau_s * at.second - at.first) /
+                              rig.macro.velocity_gain_mm_per_s_per_V);
+        // A command acts from its row to the next.
+        of_force_.push_back(rig.tick_s * modulating((ticks + 0.5) * rig.tick_s / h_s, h_s).value);
+        variance += std::pow(floor_mm * of_reading_.back(), 2);
+    }
+    for (double& weight : of_reading_) weight /= std::sqrt(variance);
+    for (double& weight : of_force_) weight /= std::sqrt(variance);
 }
 
 Column CarriageForces::column(int group, const std::vector<double>& weights,

@@ -36,9 +36,8 @@ inline constexpr double usual_edge_V = 0.15;
 class CarriageForces {
   public:
     /// @param errors  of a hypothesis; windows of the encoder that are not NaN are used
-    /// @param half_support  rows to either side of a support's middle: long ones see weaker forces, short
-    /// ones those
-    ///                      that change faster
+    /// @param half_support  rows to either side of a support's middle: long supports see weaker forces, short
+    ///                      ones those that change faster
     /// @param edge_V  commands that are nearer to the dead zone's edge than this are left out
     CarriageForces(const Evidence& evidence, const Errors& errors, std::size_t half_support,
                    double edge_V = usual_edge_V);
@@ -56,7 +55,6 @@ class CarriageForces {
     /// All values of a quantity.
     std::vector<float> values(const std::function<double(const SlidingRow&)>& quantity) const;
 
-    /// Supports in terms of slide rows.
     struct Support {
         std::size_t slot;   ///< of its middle in Errors
         std::size_t first;  ///< of its rows in rows()
@@ -68,6 +66,7 @@ class CarriageForces {
     const std::vector<double>& reading_weights() const { return of_reading_; }
 
   private:
+    void find_weights(const Rig& rig, double floor_mm, std::size_t half_support);
     Column column(int group, const std::vector<double>& weights,
                   const std::function<double(const SlidingRow&)>& quantity) const;
 
