@@ -15,7 +15,6 @@ namespace fidservo::gap {
 namespace {
 
 constexpr double shortest_mm = 0.8, longest_mm = 50.0;
-constexpr std::size_t every = 2;  ///< supports that are looked at
 
 /// What the supports of one window lack, and where they begin in the rows.
 struct Lacking {
@@ -35,7 +34,7 @@ std::vector<Lacking> by_window(const Evidence& evidence, const CarriageForces& f
         values.clear();
     };
     std::size_t w = 0, of_last = evidence.windows().size();
-    for (std::size_t k = 0; k < forces.supports().size(); k += every) {
+    for (std::size_t k = 0; k < forces.supports().size(); ++k) {
         const CarriageForces::Support& support = forces.supports()[k];
         while (support.slot >= evidence.windows()[w].end) ++w;
         if (w != of_last) {
@@ -146,7 +145,7 @@ class Periodogram {
 
 /// The highest of a periodogram, none beside a higher one.
 std::vector<PositionPeriod> peaks(std::span<const PositionPeriod> all) {
-    constexpr std::size_t most = 3, apart = 3;
+    constexpr std::size_t most = 4, apart = 3;
     std::vector<std::size_t> order(all.size()), chosen;
     std::iota(order.begin(), order.end(), 0);
     std::ranges::sort(order, std::greater{}, [&](std::size_t k) { return all[k].share; });

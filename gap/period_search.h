@@ -23,7 +23,7 @@ struct PositionPeriod {
 /// weighted as in gap/score.h; once by forces over 25 rows, in which a carriage at 100 mm/s covers half a
 /// wave of 5 mm, and once over 51, which show weaker forces.
 /// @param errors  of the encoder are used where they are not NaN
-/// @return the strongest three of either, none within two steps of the search from a stronger one; strongest
+/// @return the strongest four of either, none within two steps of the search from a stronger one; strongest
 /// first
 std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Errors& errors);
 

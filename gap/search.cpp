@@ -232,7 +232,9 @@ void Search::fit_second_half(const CrossFit& base, Contender& contender) const {
 void Search::fit_closer(const CrossFit& base, Contender& contender) const {
     const bool is_wave = contender.trial.candidate->wave.has_value();
     constexpr int most_times = 3;
+    constexpr double worth_a_simplex = 0.5;  // of what a signal exceeds its floor by
     Finding& finding = *contender.finding;
+    if (is_wave && !clears_a_signal(base, contender.trial.fitted, worth_a_simplex)) return;
     for (int time = 0; time < most_times && !finding.is_close; ++time) {
         if (!meet(off(contender.trial.fitted), contender.teachers())) return;
         Contender closer = contender;

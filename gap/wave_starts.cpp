@@ -57,6 +57,7 @@ std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<cons
                                           std::span<const PositionPeriod> periods) {
     constexpr std::size_t most_climbed = 3;
     constexpr int rounds = 4;
+    constexpr double worth_a_climb = 0.2;  // of the loss
     const std::vector<double> base_squares = mean_squares(windows, beside.errors);
     const auto promise = [&](plant::EffectSetting setting) {
         Hypothesis part = part_of(beside.base, beside.places);
@@ -68,7 +69,9 @@ std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<cons
     std::vector<Promise> promises;
     for (const PositionPeriod& period : periods) promises.push_back(promise(setting_of(candidate, period)));
     std::ranges::sort(promises, std::greater{}, &Promise::gain);
+    const double enough = worth_a_climb * total_loss(windows, counted, beside.errors);
     for (Promise& best : std::span(promises).first(std::min(most_climbed, promises.size()))) {
+        if (best.gain < enough) break;
         Steps steps;
         for (int round = 0; round < rounds; ++round, steps = steps.halved())
             for (plant::EffectSetting& neighbour : neighbours(best.start.back(), *candidate.wave, steps)) {

@@ -81,6 +81,7 @@ TEST(CarriageForces, StateAtAWindowsStart_IsNoForce) {
         EXPECT_NEAR(after.lacking()[support.slot], before.lacking()[support.slot], 0.05);
 }
 
+/// As well as a fit needs it to begin: a fifth of the amplitude, a tenth of a wave over half the rail.
 TEST(PeriodSearch, ForceThatLetsTheCarriageGoByJumps_ComesBackWithPeriodAmplitudeAndPhase) {
     struct Truth {
         double amplitude_V, period_mm, phase_rad;
@@ -93,9 +94,9 @@ TEST(PeriodSearch, ForceThatLetsTheCarriageGoByJumps_ComesBackWithPeriodAmplitud
         const auto periods = strongest_periods(evidence, evidence.errors({}, everything(evidence)));
         ASSERT_FALSE(periods.empty());
         const PositionPeriod& found = periods.front();
-        EXPECT_NEAR(found.force_V.amplitude, truth.amplitude_V, 0.1 * truth.amplitude_V) << truth.period_mm;
+        EXPECT_NEAR(found.force_V.amplitude, truth.amplitude_V, 0.2 * truth.amplitude_V) << truth.period_mm;
         constexpr double middle_mm = 100.0;
-        EXPECT_NEAR(middle_mm / found.period_mm, middle_mm / truth.period_mm, 0.05) << truth.period_mm;
+        EXPECT_NEAR(middle_mm / found.period_mm, middle_mm / truth.period_mm, 0.1) << truth.period_mm;
         const auto there = [&](double period_mm, double phase_rad) {
             return 2.0 * std::numbers::pi * middle_mm / period_mm + phase_rad;
         };
