@@ -125,13 +125,25 @@ Guardian::~Guardian() {
 }
 
 void Guardian::apply(const StageCommand& command) noexcept {
-    memory_->command.store(packed(command), std::memory_order_release);
+    hand_over(stopped_ ? StageCommand{} : command);
+    // stop() may have come in between, its zero before this command: whoever is last has to write zero.
+    if (stopped_) hand_over({});
+}
+
+void Guardian::stop() noexcept {
+    stopped_ = true;
+    hand_over({});
+}
+
+void Guardian::hand_over(const StageCommand& command) noexcept {
+    memory_->command.store(packed(command));
     if (options_.heartbeat == Heartbeat::process) return;
     memory_->beats.fetch_add(1, std::memory_order_release);
     wake(wake_fd_);
 }
 
 std::optional<std::string> Guardian::tripped() const {
+    if (stopped_) return "stopped by the user: motor and heater switched off";
     switch (memory_->trip.load(std::memory_order_relaxed)) {
         case Trip::none:
             return std::nullopt;

@@ -7,6 +7,7 @@
 // switched the outputs off stays so until the run ends: the program has to start anew.
 #include "control/output_board.h"
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -49,6 +50,10 @@ class Guardian {
     /// time, and commands that are replaced sooner never show on it.
     void apply(const StageCommand& command) noexcept;
 
+    /// Outputs to zero, for good: apply() has no effect from then on, also one that is under way. For any
+    /// thread, while the program's own is busy. Lock-free.
+    void stop() noexcept;
+
     /// Why the outputs were set to zero, once that has happened. From then on apply() has no effect: end the
     /// run with Reason::stopped. Cheap enough for every tick.
     std::optional<std::string> tripped() const;
@@ -61,6 +66,7 @@ class Guardian {
 
   private:
     void start();
+    void hand_over(const StageCommand& command) noexcept;
     void watch(const std::stop_token& stop);
     void take_over() noexcept;
 
@@ -72,6 +78,7 @@ class Guardian {
     BoardFactory open_board_;
     std::unique_ptr<GuardianMemory, Unmap> memory_;
     int wake_fd_ = -1;  ///< eventfd that ends the guardian's sleep
+    std::atomic<bool> stopped_ = false;
     pid_t process_ = -1;
     int process_fd_ = -1;
     bool off_after_loss_ = false;  ///< the board confirmed zero after the guardian process was lost

@@ -42,6 +42,11 @@ bool interrupt_requested() noexcept {
     return first_signal.load(std::memory_order_relaxed) != 0;
 }
 
+void request_interrupt() noexcept {
+    int none = 0;
+    first_signal.compare_exchange_strong(none, SIGINT);
+}
+
 const char* interrupt_name() noexcept {
     switch (first_signal.load(std::memory_order_relaxed)) {
         case SIGINT:

@@ -13,6 +13,9 @@ void watch_for_interrupts();
 /// True once one of these signals came. Cheap enough for every tick.
 bool interrupt_requested() noexcept;
 
+/// The same as if the user had pressed Ctrl-C once; any thread may ask.
+void request_interrupt() noexcept;
+
 /// The name of the signal that asked for the end, e.g. "SIGINT"; empty before that.
 const char* interrupt_name() noexcept;
 

@@ -5,6 +5,8 @@
 #include "src/inspect/output.h"
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -13,6 +15,8 @@
 namespace fidservo {
 
 namespace {
+
+constexpr int default_live_port = 8731;
 
 int run_inspect(const inspect::InspectionOptions& options) {
     const inspect::Counts counts = inspect::run_inspection(options);
@@ -36,6 +40,27 @@ void add_inspect(CLI::App& app, int& exit_code) {
         ->required();
     command->add_flag("--resume", options->resume,
                       "Go on with a run that was interrupted, in the same folder");
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--live",
+            [options](const std::vector<std::string>& port) {
+                const bool given = !port.empty() && !port.front().empty();
+                options->live_port = given ? std::stoi(port.front()) : default_live_port;
+            },
+            fmt::format("A page that shows the run and can pause and stop it, at this port of 127.0.0.1 ({})",
+                        default_live_port))
+        ->expected(0, 1)
+        ->check(
+            [](const std::string& port) { return port.empty() ? std::string() : CLI::Range(0, 65535)(port); })
+        ->type_name("[PORT]");
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--fault",
+            [options](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) options->session.faults.push_back(parse_fault(text));
+            },
+            "A drill: lets a device fail (docs/faults.md)")
+        ->type_name("KIND[:from_s=S,for_s=S]");
     add_example(*command, "fidservo inspect assets/demo/recipe.yaml --out out/demo");
     command->callback([options, command, &exit_code] {
         if (command->count("--seed") > 0) options->seed = options->session.seed;

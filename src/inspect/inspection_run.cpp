@@ -6,10 +6,12 @@
 #include "src/inspect/identity.h"
 #include "src/inspect/inspection_report.h"
 #include "src/inspect/journal.h"
+#include "src/inspect/live_progress.h"
 #include "src/inspect/nominal_drawing.h"
 #include "src/inspect/reference_check.h"
 #include "src/inspect/run_json.h"
 #include "src/inspect/site_visit.h"
+#include "src/live/live_server.h"
 #include "src/session/camera_choice.h"
 
 #include <algorithm>
@@ -60,6 +62,58 @@ void demand_reference_images(const Recipe& recipe, const CameraParameters& camer
                     (void)load_reference(*reference->image, camera, recipe.nominal, site.tag_id);
 }
 
+/// A run under way.
+struct Run {
+    const Recipe& recipe;
+    const Rig& rig;
+    const OutputFolder& output;
+    Session& session;
+    Journal& journal;
+    JournalContent& content;
+    LiveProgress& progress;
+    bool simulated;
+};
+
+void pause_if_asked(Session& session, LiveProgress& progress) {
+    if (!progress.pause_is_asked()) return;
+    progress.is_at("paused");
+    const auto waited = session.wait_while([&] { return progress.pause_is_asked(); });
+    if (!waited) throw RunFault(fmt::format("paused: {}; --resume goes on from here", waited.error().text));
+}
+
+/// Homes the rig, or takes up where the journal ends.
+void begin(const Run& run) {
+    const JournalContent& content = run.content;
+    const bool all_done = content.checkpoint && !next_visit(run.recipe.sites, content.visits);
+    if (content.checkpoint && (run.simulated || all_done)) {
+        if (run.simulated) run.session.restore(*content.checkpoint);
+    } else {
+        fmt::print("homing\n");
+        run.progress.is_at("homing");
+        home(run.session, run.output);
+        run.journal.homed(run.session.checkpoint());
+    }
+    run.progress.has_visited(content.visits);
+}
+
+void visit_all(const Run& run) {
+    std::vector<Visit>& visits = run.content.visits;
+    const DrawNominal draw_nominal = nominal_drawing(*run.rig.camera, run.recipe.nominal);
+    vision::TagDetector detector;
+    const VisitContext context{run.recipe, *run.rig.camera, run.output, draw_nominal, run.session, detector};
+    while (const auto next = next_visit(run.recipe.sites, visits)) {
+        pause_if_asked(run.session, run.progress);
+        run.progress.goes_to(*next);
+        const Visit visit = visit_site(context, *next);
+        run.journal.ended(visit, run.session.checkpoint());
+        visits.push_back(visit);
+        run.progress.has_visited(visits);
+        fmt::print("{:>3} of {}  {}\n", visits.size(), run.recipe.sites.size() + deferred(visits),
+                   one_line(visit));
+        std::fflush(stdout);
+    }
+}
+
 }  // namespace
 
 Counts run_inspection(const InspectionOptions& options) {
@@ -90,29 +144,27 @@ Counts run_inspection(const InspectionOptions& options) {
     std::filesystem::create_directories(output.root / "images");
     std::filesystem::create_directories(output.root / "recordings");
 
-    const bool simulated = session_options.stage == "sim" && camera_is_simulated(session_options);
-    const bool all_done = content.checkpoint && !next_visit(recipe.sites, content.visits);
-    if (content.checkpoint && (simulated || all_done)) {
-        if (simulated) session.restore(*content.checkpoint);
-    } else {
-        fmt::print("homing\n");
-        home(session, output);
-        journal->homed(session.checkpoint());
-    }
-    const DrawNominal draw_nominal = nominal_drawing(*rig.camera, recipe.nominal);
-    vision::TagDetector detector;
-    const VisitContext context{recipe, *rig.camera, output, draw_nominal, session, detector};
-    while (const auto next = next_visit(recipe.sites, content.visits)) {
-        const Visit visit = visit_site(context, *next);
-        journal->ended(visit, session.checkpoint());
-        content.visits.push_back(visit);
-        fmt::print("{:>3} of {}  {}\n", content.visits.size(), recipe.sites.size() + deferred(content.visits),
-                   one_line(visit));
+    LiveProgress progress(options.live_port ? std::make_shared<LiveFeed>() : nullptr, recipe);
+    std::optional<LiveServer> page;
+    if (options.live_port) {
+        session.show_to(progress.feed());
+        page.emplace(*options.live_port, progress.feed(), rig, [&session] { session.stop_now(); });
+        fmt::print("live: {}\n", page->url());
         std::fflush(stdout);
+    }
+    const bool simulated = session_options.stage == "sim" && camera_is_simulated(session_options);
+    const Run run{recipe, rig, output, session, *journal, content, progress, simulated};
+    try {
+        begin(run);
+        visit_all(run);
+    } catch (const RunFault& fault) {
+        progress.is_at("stopped", fault.what());
+        throw;
     }
     write_results(output.results(), content.visits);
     write_run_json(output.run_json(), recipe, content);
     write_inspection_report(output, recipe, rig, content);
+    progress.is_at("done");
     return count(content.visits);
 }
 

@@ -14,6 +14,7 @@ struct InspectionOptions {
     std::optional<std::uint64_t> seed;
     std::filesystem::path out;
     bool resume = false;
+    std::optional<int> live_port;  ///< of the live page (src/live/live_server.h); 0: any; empty: no page
 };
 
 /// Runs it, and leaves results.csv, run.json, report.html, images and recordings in the output folder.

@@ -31,6 +31,12 @@ Result<Snapshot> take_snapshot(const VisitContext& context, const Site& site, co
     return read_snapshot(*frame, context.camera, context.recipe.nominal, site.tag_id, context.detector);
 }
 
+/// What may be the rig's doing: then it has to show that it answers before a site is given up.
+bool is_of_the_rig(Reason reason) {
+    return reason == Reason::timeout || reason == Reason::no_convergence || reason == Reason::not_at_rest ||
+           reason == Reason::out_of_reach;
+}
+
 /// Takes the pictures that are still missing. Fails with the first view's failure.
 Status take_missing(const VisitContext& context, const Site& site, Snapshots& snapshots, Visit& visit) {
     for (std::size_t k = 0; k < site.views.size(); ++k) {
@@ -100,7 +106,11 @@ Visit visit_site(const VisitContext& context, const NextVisit& next) {
 
     Snapshots snapshots(site.views.size());
     visit.end = Visit::End::measured;
-    while (!take_missing(context, site, snapshots, visit)) {
+    while (true) {
+        const Status taken = take_missing(context, site, snapshots, visit);
+        if (taken) break;
+        if (is_of_the_rig(taken.error().reason) || context.session.camera_is_in_doubt())
+            if (const auto well = context.session.check_rig(); !well) stop_run(site, well.error());
         const Remedy remedy =
             remedy_for(site.on_failure, static_cast<int>(visit.failures.size()), next.again);
         if (remedy == Remedy::retry) continue;

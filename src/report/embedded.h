@@ -1,5 +1,5 @@
 #pragma once
-// Text that is compiled into the program: style sheets and scripts of the reports.
+// Text that is compiled into the program: style sheets and scripts of the reports and of the live page.
 #include <string_view>
 
 namespace fidservo::embedded {
@@ -8,5 +8,8 @@ std::string_view uplot_js();  ///< uPlot, a plotting library (MIT licence)
 std::string_view uplot_css();
 std::string_view report_css();  ///< src/web/report.css
 std::string_view report_js();   ///< src/web/report.js
+std::string_view live_html();   ///< src/web/live.html
+std::string_view live_css();    ///< src/web/live.css
+std::string_view live_js();     ///< src/web/live.js
 
 }  // namespace fidservo::embedded

@@ -2,6 +2,7 @@
 
 #include "src/config/rig_file.h"
 #include "src/session/camera_choice.h"
+#include "src/session/faulty_devices.h"
 #include "src/session/paced_stage.h"
 
 #include <fmt/format.h>
@@ -72,6 +73,10 @@ RigDevices make_devices(const SessionOptions& options, const Rig& rig, const Pla
     } else {
         devices.stage = std::make_shared<PacedStage>(devices.stage);
         devices.camera = open_camera(options, rig.camera.value());
+    }
+    if (!options.faults.empty()) {
+        devices.stage = std::make_shared<FaultyStage>(devices.stage, options.faults);
+        devices.camera = std::make_shared<FaultyCamera>(devices.camera, options.faults);
     }
     return devices;
 }

@@ -1,9 +1,11 @@
 #include "src/session/home.h"
 
 #include "src/session/motion_params.h"
+#include "src/session/rig_check.h"
 #include "src/session/tuning_sweep.h"
 #include "vision/tag_choice.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -31,6 +33,7 @@ Status seek_end_stop(Pilot& pilot) {
     }
     pilot.count_zero_mm =
         pilot.rig.macro.low_mm - static_cast<double>(seeking.stop_count) * pilot.params.count_mm;
+    pilot.registered = false;
     pilot.state.macro.last_count = seeking.stop_count;
     return {};
 }
@@ -91,9 +94,26 @@ Result<SweepRecord> sweep(Pilot& pilot) {
     return record;
 }
 
+/// A sweep in which the Hall sensor saw nothing move shows a fault, not a rig.
+Status demand_answer(const Pilot& pilot, const SweepRecord& record) {
+    constexpr double least_share = 0.2;  // of the stroke; the sweep is to go over 88 %
+    const auto [low, high] = std::ranges::minmax(
+        record.hall.adc, {}, [&](double adc) { return platform_position_mm(pilot.params.micro.model, adc); });
+    const double hall_mm = std::abs(platform_position_mm(pilot.params.micro.model, high) -
+                                    platform_position_mm(pilot.params.micro.model, low));
+    if (hall_mm >= least_share * pilot.params.micro.model.fod->stroke_mm()) return {};
+    double camera_mm = NAN;
+    if (!record.sights.empty()) {
+        const auto [from, to] = std::ranges::minmax(record.sights, {}, &calib::CameraSight::s_mm);
+        camera_mm = to.s_mm - from.s_mm;
+    }
+    return tl::make_unexpected(unmoved_platform(hall_mm, camera_mm));
+}
+
 Status tune_by_sweep(Pilot& pilot) {
     const auto record = sweep(pilot);
     if (!record) return forward(record.error());
+    if (auto answered = demand_answer(pilot, *record); !answered) return answered;
     const auto tuning =
         tune(pilot.params.micro.model, *record, pilot.rig.tick_s, pilot.rig.camera->exposure_s);
     if (tuning) {

@@ -1,6 +1,9 @@
 #include "src/session/machine.h"
 
 #include "src/interrupt.h"
+#include "src/live/live_feed.h"
+
+#include <utility>
 
 namespace fidservo {
 
@@ -12,6 +15,7 @@ Result<control::StageSample> Machine::begin_tick() {
     if (interrupt_requested()) return failure(Reason::stopped, "stopped by the user");
     auto sample = devices_.stage->read();
     if (!sample) return sample;
+    sample_ = *sample;
     now_ns_ = sample->time_ns;
     if (!first_ns_) first_ns_ = now_ns_;
     return sample;
@@ -20,7 +24,7 @@ Result<control::StageSample> Machine::begin_tick() {
 Status Machine::end_tick(const control::StageSample& sample, const control::StageCommand& command,
                          const Setpoints& setpoints) {
     if (auto written = devices_.stage->write(command); !written) return written;
-    if (!recorder_) return {};
+    if (!recorder_ && !feed_) return {};
     StageRow row;
     row.time_ns = sample.time_ns;
     row.macro_setpoint_mm = setpoints.macro_mm;
@@ -29,14 +33,20 @@ Status Machine::end_tick(const control::StageSample& sample, const control::Stag
     row.micro_setpoint_mm = setpoints.micro_mm;
     row.micro_command_V = command.micro_V;
     row.hall_adc = sample.hall_adc;
-    return recorder_->add(row);
+    if (feed_) feed_->tick(row);
+    return recorder_ ? recorder_->add(row) : Status();
 }
 
 Result<std::optional<vision::Frame>> Machine::poll_camera() {
-    return devices_.camera->poll(now_ns_);
+    auto frame = devices_.camera->poll(now_ns_);
+    if (!frame) return frame;
+    auto admitted = camera_watch_.admit(std::move(*frame), sample_);
+    if (feed_ && admitted && *admitted) feed_->saw(**admitted);
+    return admitted;
 }
 
 Status Machine::keep(const std::vector<TagDetection>& detections) {
+    if (feed_) feed_->found(detections);
     if (!recorder_) return {};
     for (const TagDetection& detection : detections)
         if (auto kept = recorder_->add(detection); !kept) return kept;

@@ -4,6 +4,7 @@
 #include "core/recording.h"
 #include "core/rig.h"
 #include "src/recording/writer.h"
+#include "src/session/camera_watch.h"
 #include "vision/camera.h"
 
 #include <concepts>
@@ -18,6 +19,8 @@ struct Devices {
     std::shared_ptr<vision::Camera> camera;
 };
 
+class LiveFeed;
+
 /// Set points to be recorded beside a command; NaN: not in force.
 struct Setpoints {
     double macro_mm = not_in_force;
@@ -26,7 +29,8 @@ struct Setpoints {
 
 class Machine {
   public:
-    explicit Machine(Devices devices) : devices_(std::move(devices)) {}
+    Machine(Devices devices, const CameraWatchParams& watch)
+        : devices_(std::move(devices)), camera_watch_(watch) {}
     /// Leaves both commands at zero.
     ~Machine();
     Machine(const Machine&) = delete;
@@ -41,8 +45,11 @@ class Machine {
         return end_tick(*sample, control(*sample), setpoints);
     }
 
-    /// The newest frame, if a new one has arrived by the last tick.
+    /// The newest frame, if a new one has arrived by the last tick. Fails with Reason::device where the
+    /// camera does, or where what it gives cannot be an image taken now (camera_watch.h).
     Result<std::optional<vision::Frame>> poll_camera();
+    /// Whether something was wrong with its last frame; not for long enough to be a fault.
+    bool camera_is_in_doubt() const { return camera_watch_.is_in_doubt(); }
     /// Keeps detections in the recording.
     Status keep(const std::vector<TagDetection>& detections);
     /// Keeps a frame in the recording, which must be one that keeps frames.
@@ -53,6 +60,9 @@ class Machine {
     void record_to(std::unique_ptr<RecordingWriter> recorder) { recorder_ = std::move(recorder); }
     /// Closes the recording; all of it is on the disk then.
     Status end_recording();
+
+    /// All that happens from now on is shown there too.
+    void show_to(std::shared_ptr<LiveFeed> feed) { feed_ = std::move(feed); }
 
     TimeNs now_ns() const { return now_ns_; }
     void set_now(TimeNs now_ns) { now_ns_ = now_ns; }
@@ -68,7 +78,10 @@ class Machine {
                     const Setpoints& setpoints);
 
     Devices devices_;
+    CameraWatch camera_watch_;
+    control::StageSample sample_;  ///< of the last tick
     std::unique_ptr<RecordingWriter> recorder_;
+    std::shared_ptr<LiveFeed> feed_;
     TimeNs now_ns_ = 0;
     std::optional<TimeNs> first_ns_;
 };

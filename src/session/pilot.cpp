@@ -5,19 +5,29 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace fidservo {
 
 namespace {
 
 constexpr double frame_timeout_s = 0.5;
+constexpr double most_drift_mm = 0.5;  ///< of the registration between two looks
+
+CameraWatchParams watch_params(const Rig& rig, double camera_reconnect_s) {
+    CameraWatchParams params{1.0 / rig.camera.value().frame_rate_hz};
+    params.reconnect_s = camera_reconnect_s;
+    params.count_mm = rig.macro.encoder_resolution_mm;
+    return params;
+}
 
 }  // namespace
 
-Pilot::Pilot(const Rig& of, const Plate& plate, const control::PositionerParams& positioning, Devices devices)
+Pilot::Pilot(const Rig& of, const Plate& plate, const control::PositionerParams& positioning, Devices devices,
+             double camera_reconnect_s)
     : rig(of),
       nominal(plate),
-      machine(std::move(devices)),
+      machine(std::move(devices), watch_params(of, camera_reconnect_s)),
       sight(of.camera.value(), plate),
       params(positioning),
       state(control::positioner_start(params)) {}
@@ -25,6 +35,17 @@ Pilot::Pilot(const Rig& of, const Plate& plate, const control::PositionerParams&
 double Pilot::believed_s_mm() const {
     const auto count = static_cast<double>(state.macro.last_count.value_or(0));
     return count_zero_mm + count * params.count_mm + state.micro.average_mm;
+}
+
+void Pilot::register_at(double s_mm) {
+    const double change_mm = s_mm - believed_s_mm();
+    count_zero_mm += change_mm;
+    if (registered && std::abs(change_mm) > most_drift_mm)
+        spdlog::warn(
+            "the camera is {:.3f} mm from where the encoder says: registered anew; did the encoder miss "
+            "counts, or was the carriage pushed?",
+            change_mm);
+    registered = true;
 }
 
 Status Pilot::step(const std::optional<control::TargetOffset>& seen) {

@@ -24,12 +24,15 @@ inline tl::unexpected<Failure> forward(Failure why) {
 class Pilot {
   public:
     /// The rig must have all that `params` were made of (motion_params.h).
-    Pilot(const Rig& rig, const Plate& nominal, const control::PositionerParams& params, Devices devices);
+    /// @param camera_reconnect_s  a camera that is lost is waited for so long
+    Pilot(const Rig& rig, const Plate& nominal, const control::PositionerParams& params, Devices devices,
+          double camera_reconnect_s = 0.0);
 
     /// Where the registration believes the camera to be, plate x, mm.
     double believed_s_mm() const;
-    /// What a frame has just shown moves the registration, not the rig.
-    void register_at(double s_mm) { count_zero_mm += s_mm - believed_s_mm(); }
+    /// What a frame has just shown moves the registration, not the rig. Much of a move is logged: counts were
+    /// lost, or the carriage was pushed.
+    void register_at(double s_mm);
 
     /// One tick of the positioner.
     Status step(const std::optional<control::TargetOffset>& seen = {});
@@ -65,6 +68,7 @@ class Pilot {
     control::PositionerParams params;
     control::PositionerState state;
     double count_zero_mm = 0.0;  ///< carriage position at count 0, by the registration
+    bool registered = false;     ///< against a tag; before that, by the end stop alone
     double camera_delay_s = 0.0;
     Eigen::Vector2d camera_mm{0.0, 0.0};
     Setpoints setpoints;

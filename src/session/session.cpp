@@ -1,16 +1,20 @@
 #include "src/session/session.h"
 
 #include "core/units.h"
+#include "src/interrupt.h"
 #include "src/session/camera_choice.h"
 #include "src/session/devices.h"
 #include "src/session/home.h"
 #include "src/session/motion_params.h"
+#include "src/session/rig_check.h"
 #include "src/session/simulated_rig.h"
 #include "src/session/state_json.h"
 #include "vision/tag_choice.h"
 
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,12 +26,17 @@ namespace fidservo {
 namespace {
 
 constexpr double still_mm = 0.002;  ///< of the platform, by the Hall sensor, while a frame is taken
+constexpr double misplaced_mm =
+    0.3;  ///< a camera that is where it should be sees another tag: the plate's fault
 
 }  // namespace
 
 struct Session::Impl {
-    Impl(const Rig& rig, const Plate& nominal, const control::PositionerParams& params, Devices devices)
-        : pilot(rig, nominal, params, std::move(devices)) {}
+    Impl(const SessionOptions& options, const Rig& rig, const Plate& nominal, Devices devices)
+        : pilot(rig, nominal, positioner_params(rig, mm_from_um(options.tolerance_um)), std::move(devices),
+                options.camera_reconnect_s) {}
+
+    Status drive_or_search(double target_s_mm, int tag_id);
 
     Pilot pilot;
     std::shared_ptr<SimulatedRig> simulated;
@@ -35,14 +44,35 @@ struct Session::Impl {
     KeepFrames keep_frames = KeepFrames::no;
 };
 
+/// Where the fiducial is not found, or another one is in its place, the camera looks about; what it sees
+/// there corrects the registration.
+Status Session::Impl::drive_or_search(double target_s_mm, int tag_id) {
+    Status driven = pilot.drive_to(target_s_mm, tag_id);
+    for (const double offset_mm : search_offsets_mm) {
+        const bool lost = !driven && (driven.error().reason == Reason::no_tag ||
+                                      driven.error().reason == Reason::wrong_tag);
+        if (!lost) break;
+        if (offset_mm != 0.0)
+            if (auto carried = pilot.carry_to(target_s_mm + offset_mm); !carried) return carried;
+        const auto fit = pilot.look_anywhere();
+        if (!fit && (fit.error().reason == Reason::device || fit.error().reason == Reason::stopped))
+            return forward(fit.error());
+        if (!fit) continue;
+        const double wrong_mm = fit->position.s_mm - pilot.believed_s_mm();
+        if (driven.error().reason == Reason::wrong_tag && std::abs(wrong_mm) < misplaced_mm) break;
+        pilot.register_at(fit->position.s_mm);
+        driven = pilot.drive_to(target_s_mm, tag_id);
+    }
+    return driven;
+}
+
 Session::Session(const SessionOptions& options, const Rig& rig, const Plate& nominal, Devices devices)
-    : impl_(std::make_unique<Impl>(rig, nominal, positioner_params(rig, mm_from_um(options.tolerance_um)),
-                                   std::move(devices))) {}
+    : impl_(std::make_unique<Impl>(options, rig, nominal, std::move(devices))) {}
 
 Session::Session(const SessionOptions& options, const Rig& rig, const Plate& nominal, const Plate& printed) {
-    const auto params = positioner_params(rig, mm_from_um(options.tolerance_um));
+    (void)positioner_params(rig, mm_from_um(options.tolerance_um));  // before devices are touched
     RigDevices devices = make_devices(options, rig, printed);
-    impl_ = std::make_unique<Impl>(rig, nominal, params, Devices{devices.stage, devices.camera});
+    impl_ = std::make_unique<Impl>(options, rig, nominal, Devices{devices.stage, devices.camera});
     impl_->simulated = std::move(devices.simulated);
     impl_->guardian = std::move(devices.guardian);
 }
@@ -86,20 +116,7 @@ Result<Arrival> Session::go_to(int tag_id, double dx_mm) {
     const CameraTravel travel = camera_travel(pilot.rig);
     if (target_s_mm < travel.low_mm || target_s_mm > travel.high_mm)
         return failure(Reason::out_of_reach, fmt::format("{:.3f} mm is out of travel", target_s_mm));
-    Status driven = failure(Reason::no_tag, "");
-    for (const double offset_mm : search_offsets_mm) {
-        if (offset_mm != 0.0) {
-            // Elsewhere the fiducial may be in view; what is seen there corrects the registration.
-            if (auto carried = pilot.carry_to(target_s_mm + offset_mm); !carried)
-                return forward(carried.error());
-            const auto fit = pilot.look_anywhere();
-            if (!fit) continue;
-            pilot.register_at(fit->position.s_mm);
-        }
-        driven = pilot.drive_to(target_s_mm, tag_id);
-        if (driven || driven.error().reason != Reason::no_tag) break;
-    }
-    if (!driven) return forward(driven.error());
+    if (auto driven = impl_->drive_or_search(target_s_mm, tag_id); !driven) return forward(driven.error());
     const control::PositionerState& state = pilot.state;
     Arrival arrival;
     arrival.tag_id = tag_id;
@@ -112,6 +129,14 @@ Result<Arrival> Session::go_to(int tag_id, double dx_mm) {
     arrival.micro_moves = state.moves;
     arrival.within_tolerance = std::abs(state.reached.needed_mm) <= pilot.params.tolerance_mm;
     return arrival;
+}
+
+bool Session::camera_is_in_doubt() const {
+    return impl_->pilot.machine.camera_is_in_doubt();
+}
+
+Status Session::check_rig() {
+    return fidservo::check_rig(impl_->pilot);
 }
 
 Result<vision::Frame> Session::capture() {
@@ -145,6 +170,28 @@ Status Session::observe(double duration_s) {
         if (auto kept = pilot.machine.keep(pilot.sight.found()); !kept) return kept;
         if (impl_->keep_frames == KeepFrames::yes)
             if (auto kept = pilot.machine.keep(**frame); !kept) return kept;
+    }
+    return {};
+}
+
+void Session::show_to(std::shared_ptr<LiveFeed> feed) {
+    impl_->pilot.machine.show_to(std::move(feed));
+}
+
+void Session::stop_now() noexcept {
+    if (impl_->guardian) impl_->guardian->stop();
+    request_interrupt();
+}
+
+Status Session::wait_while(const std::function<bool()>& condition) {
+    constexpr double nap_s = 0.01;
+    while (condition()) {
+        if (interrupt_requested()) return failure(Reason::stopped, "stopped by the user");
+        if (impl_->simulated) {
+            std::this_thread::sleep_for(std::chrono::duration<double>(nap_s));
+        } else if (auto held = hold(nap_s); !held) {
+            return held;
+        }
     }
     return {};
 }
@@ -201,6 +248,7 @@ void Session::restore(const std::string& checkpoint) {
     json.at("hall_correction").get_to(pilot.params.micro.model.hall_correction);
     read_json(json.at("positioner"), pilot.state);
     pilot.count_zero_mm = json.at("count_zero_mm");
+    pilot.registered = true;
     pilot.camera_delay_s = json.at("camera_delay_s");
     pilot.camera_mm =
         Eigen::Vector2d(json.at("camera_mm").at(0).get<double>(), json.at("camera_mm").at(1).get<double>());

@@ -4,16 +4,20 @@
 #include "core/failure.h"
 #include "core/plate.h"
 #include "core/rig.h"
+#include "src/session/faults.h"
 #include "src/session/machine.h"
 #include "vision/camera.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace fidservo {
 
+class LiveFeed;
 class Pilot;
 
 /// What a motion to a fiducial-relative target reached, as the camera measured it at rest.
@@ -40,6 +44,7 @@ struct SessionOptions {
     std::uint64_t seed = 1;           ///< of the simulated rig's noise
     double tolerance_um = 1.0;        ///< of a motion's arrival
     double camera_reconnect_s = 0.0;  ///< a camera that is lost is waited for so long
+    std::vector<Fault> faults;        ///< put into stage and camera: a drill
     /// What the guardian's board file and log are called: FOLDER/stage-outputs, FOLDER/guardian.log. Empty: a
     /// temporary folder.
     std::filesystem::path guardian_folder;
@@ -71,12 +76,25 @@ class Session {
     Status home();
     /// Brings the camera's axis to tag + dx along the stage axis, and confirms it at rest.
     Result<Arrival> go_to(int tag_id, double dx_mm);
+    /// Whether something is wrong with the images, so that a fiducial that is not found need not be missing.
+    bool camera_is_in_doubt() const;
+    /// Whether the rig still answers, for when a motion did not end as it should (rig_check.h).
+    Status check_rig();
     /// A frame taken at rest, with the stage confirmed at rest before and after the exposure.
     Result<vision::Frame> capture();
     /// Holds the position for a while.
     Status hold(double duration_s);
     /// The same, and keeps what every frame shows in the recording; the frames too, if they are to be kept.
     Status observe(double duration_s);
+
+    /// All that happens from now on is shown there too.
+    void show_to(std::shared_ptr<LiveFeed> feed);
+    /// Switches motor and heater off at once and ends the run at its next tick. Any thread may call it, also
+    /// while the session is busy, but not after its end.
+    void stop_now() noexcept;
+    /// Waits, at rest and holding its place, until the condition is gone or the user stops the run. A stage
+    /// in virtual time stands still meanwhile.
+    Status wait_while(const std::function<bool()>& condition);
 
     /// The rig under way, for commands that move it in ways of their own.
     Pilot& pilot();

@@ -3,6 +3,10 @@
 #include "core/camera_slopes.h"
 #include "vision/tag_choice.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include <fmt/format.h>
 
 namespace fidservo {
@@ -56,18 +60,41 @@ vision::ServoMove Sight::move_to(const vision::PositionFit& seen, double target_
         law, {seen.tag.detection.corners_px, seen.tag.covariance_px2, vision::corners_mm(tag)}, target_s_mm);
 }
 
+Result<std::optional<int>> Sight::tag_that_others_confirm() const {
+    constexpr double agreement_mm = 0.2;
+    struct Candidate {
+        int id;
+        double s_mm, way_px;
+    };
+    std::vector<Candidate> candidates;
+    for (const TagDetection& tag : found_)
+        if (const auto known = vision::find_tag(nominal_, tag.tag_id))
+            candidates.push_back({tag.tag_id,
+                                  vision::fit_position(camera_, *known, vision::unrefined(tag)).position.s_mm,
+                                  (vision::centre_px(tag) - camera_.principal_point_px).norm()});
+    if (candidates.empty()) return std::nullopt;
+    const auto votes = [&](const Candidate& one) {
+        return std::ranges::count_if(candidates, [&](const Candidate& other) {
+            return std::abs(other.s_mm - one.s_mm) <= agreement_mm;
+        });
+    };
+    const Candidate best = *std::ranges::max_element(candidates, [&](const Candidate& a, const Candidate& b) {
+        return std::pair(votes(a), -a.way_px) < std::pair(votes(b), -b.way_px);
+    });
+    if (candidates.size() > 1 && votes(best) == 1)
+        return failure(
+            Reason::wrong_tag,
+            fmt::format("tags {} and {} contradict each other: one of them is not where the plate has it",
+                        candidates[0].id, candidates[1].id));
+    return best.id;
+}
+
 Result<vision::PositionFit> Sight::locate_anywhere(const vision::Frame& frame) {
     look_for(frame, {});
-    const auto way_px = [&](const TagDetection& tag) {
-        return (vision::centre_px(tag) - camera_.principal_point_px).norm();
-    };
-    const TagDetection* nearest = nullptr;
-    for (const TagDetection& tag : found_)
-        if (vision::find_tag(nominal_, tag.tag_id) && (nearest == nullptr || way_px(tag) < way_px(*nearest)))
-            nearest = &tag;
-    if (nearest != nullptr) {
-        auto fit =
-            vision::locate_camera(camera_, nominal_, frame, found_, nearest->tag_id, {.noise = noise_});
+    const auto chosen = tag_that_others_confirm();
+    if (!chosen) return tl::make_unexpected(chosen.error());
+    if (*chosen) {
+        auto fit = vision::locate_camera(camera_, nominal_, frame, found_, **chosen, {.noise = noise_});
         keep_refined(fit);
         return fit;
     }

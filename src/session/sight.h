@@ -27,6 +27,7 @@ class Sight {
     /// corners.
     vision::ServoMove move_to(const vision::PositionFit& seen, double target_s_mm) const;
     /// Where the camera was, by the plate's tag nearest to the image's middle: for a camera that is lost.
+    /// Where several tags are in view, by one that others confirm; fails with wrong_tag if none does.
     Result<vision::PositionFit> locate_anywhere(const vision::Frame& frame);
 
     /// What was found in the last frame; the tag that it was located by with refined corners.
@@ -35,6 +36,8 @@ class Sight {
   private:
     vision::ExpectedTag expected(const PlateTag& tag, double s_mm) const;
     void look_for(const vision::Frame& frame, const std::vector<vision::ExpectedTag>& expected);
+    /// Id of the tag to locate the camera by; empty if none in view is of the plate.
+    Result<std::optional<int>> tag_that_others_confirm() const;
     void keep_refined(const Result<vision::PositionFit>& fit);
 
     CameraGeometry camera_;

@@ -166,6 +166,15 @@ Findings machine_paths(const SourceFile& file) {
     return findings;
 }
 
+Findings wall_clocks(const SourceFile& file) {
+    static const std::regex pattern(R"re((system_clock|CLOCK_REALTIME|gettimeofday|\btime\())re");
+    if (!arrows().contains(room_of(file.path)) || file.path == "control/guardian_process.cpp") return {};
+    Findings findings;
+    for (const auto& clock : matches(file.text, pattern))
+        findings.push_back(file.path + ": wall clock " + clock);
+    return findings;
+}
+
 Findings notes_to_self(const SourceFile& file) {
     static const std::regex pattern(R"re(((?:\b(?:TO)(?:DO)\b|\b(?:FIX)(?:ME)\b|\bXX(?:X)\b|#if[ ]0\b)))re");
     Findings findings;

@@ -30,6 +30,8 @@ Findings unguarded_header(const SourceFile& file);
 Findings too_long(const SourceFile& file);
 /// Paths that only exist on somebody's machine.
 Findings machine_paths(const SourceFile& file);
+/// Rooms that look at the wall clock, which may be set at any moment; a log line's date excepted.
+Findings wall_clocks(const SourceFile& file);
 /// Work that is left to somebody, and code that is switched off.
 Findings notes_to_self(const SourceFile& file);
 

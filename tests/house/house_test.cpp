@@ -81,6 +81,12 @@ TEST(House, Files_NameNoMachine) {
     EXPECT_THAT(in_the_house(machine_paths), IsEmpty());
 }
 
+TEST(House, Rooms_DoNotLookAtTheWallClock) {
+    EXPECT_THAT(wall_clocks({"src/a.cpp", "std::chrono::system_clock::now()"}), SizeIs(1));
+    EXPECT_THAT(wall_clocks({"control/a.cpp", "std::time(nullptr)"}), SizeIs(1));
+    EXPECT_THAT(in_the_house(wall_clocks), IsEmpty());
+}
+
 TEST(House, Files_HoldNoNotesToSelf) {
     EXPECT_THAT(notes_to_self({"core/a.cpp", std::string("// TO") + "DO: later"}), Not(IsEmpty()));
     EXPECT_THAT(in_the_house(notes_to_self), IsEmpty());

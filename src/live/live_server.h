@@ -1,0 +1,38 @@
+#pragma once
+// The live page: a small web server on this machine's loopback interface that shows a run and can pause and
+// stop it.
+//
+// The run's thread only fills the feed (live_feed.h); threads of the server's own empty it, encode the
+// picture and serve the page, so that a slow or a dead browser costs the run nothing. Requests that were not
+// made by this page in a browser on this machine, by their Host and Origin, are refused: no other site can
+// stop a run, nor look at it.
+#include "core/rig.h"
+#include "src/live/live_feed.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace fidservo {
+
+class LiveServer {
+  public:
+    /// Listens at 127.0.0.1. Throws RunFault if the port cannot be had.
+    /// @param port  0: any that is free
+    /// @param stop  what "stop" does; called by a thread of the server, at once
+    LiveServer(int port, std::shared_ptr<LiveFeed> feed, const Rig& rig, std::function<void()> stop);
+    /// Sends what the feed still holds and ends.
+    ~LiveServer();
+    LiveServer(const LiveServer&) = delete;
+    LiveServer& operator=(const LiveServer&) = delete;
+
+    int port() const;
+    /// "http://127.0.0.1:8731/".
+    std::string url() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fidservo

@@ -1,0 +1,52 @@
+#pragma once
+// What goes wrong with devices, on purpose: a drill for the program and for those who run it.
+#include "core/time.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace fidservo {
+
+enum class FaultKind {
+    frames_dropped,     ///< two frames of three are lost
+    frames_late,        ///< every frame arrives 100 ms later than it should
+    camera_silent,      ///< no frame comes
+    image_frozen,       ///< the same picture in every frame
+    image_dark,         ///< the light is off: a fiftieth of the grey level
+    image_bright,       ///< over-exposed twentyfold
+    tag_hidden,         ///< a bar of dirt across the middle of the image, the fiducials with it
+    camera_clock_step,  ///< the frames' time stamps are 2 s ahead
+    stage_clock_step,   ///< the stage's clock goes 2 s ahead; the camera's does not
+    encoder_jump,       ///< 400 counts that were no motion
+    hall_stuck,         ///< the Hall sensor reads the same whatever happens
+    heater_dead,        ///< the wire gets no current
+    macro_jammed,       ///< the carriage does not move
+};
+
+/// A fault and when it is there, in session time.
+struct Fault {
+    FaultKind kind;
+    double from_s = 0.0;
+    double for_s = 1e9;
+
+    bool is_on(TimeNs now_ns) const {
+        return now_ns >= nanoseconds(from_s) && now_ns < nanoseconds(from_s + for_s);
+    }
+};
+
+/// "hall_stuck".
+std::string_view name_of(FaultKind kind);
+
+/// All of them, in the order of the enumeration.
+inline constexpr std::array fault_kinds{
+    FaultKind::frames_dropped, FaultKind::frames_late,       FaultKind::camera_silent,
+    FaultKind::image_frozen,   FaultKind::image_dark,        FaultKind::image_bright,
+    FaultKind::tag_hidden,     FaultKind::camera_clock_step, FaultKind::stage_clock_step,
+    FaultKind::encoder_jump,   FaultKind::hall_stuck,        FaultKind::heater_dead,
+    FaultKind::macro_jammed};
+
+/// Reads "KIND[:from_s=40][,for_s=2]". Throws InputError that names what is allowed.
+Fault parse_fault(const std::string& text);
+
+}  // namespace fidservo

@@ -1,0 +1,57 @@
+#pragma once
+// Devices with faults in them: decorators of the boundaries to stage and camera. What stands behind the
+// boundary does not know of them, nor what stands before it.
+#include "control/stage.h"
+#include "src/session/faults.h"
+#include "vision/camera.h"
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace fidservo {
+
+class FaultyStage final : public control::Stage {
+  public:
+    FaultyStage(std::shared_ptr<control::Stage> stage, std::vector<Fault> faults)
+        : stage_(std::move(stage)), faults_(std::move(faults)) {}
+
+    Result<control::StageSample> read() override;
+    Status write(const control::StageCommand& command) override;
+
+  private:
+    bool is_on(FaultKind kind) const;
+
+    std::shared_ptr<control::Stage> stage_;
+    std::vector<Fault> faults_;
+    TimeNs now_ns_ = 0;  ///< of the stage behind
+    std::optional<int> stuck_adc_;
+};
+
+class FaultyCamera final : public vision::Camera {
+  public:
+    FaultyCamera(std::shared_ptr<vision::Camera> camera, std::vector<Fault> faults)
+        : camera_(std::move(camera)), faults_(std::move(faults)) {}
+
+    Result<std::optional<vision::Frame>> poll(TimeNs now_ns) override;
+    vision::FrameCounts counts() const override;
+
+  private:
+    struct Late {
+        TimeNs due_ns;
+        vision::Frame frame;
+    };
+
+    bool is_on(FaultKind kind, TimeNs now_ns) const;
+    std::optional<vision::Frame> spoilt(vision::Frame frame, TimeNs now_ns);
+    std::optional<vision::Frame> newest_due(TimeNs now_ns);
+
+    std::shared_ptr<vision::Camera> camera_;
+    std::vector<Fault> faults_;
+    std::deque<Late> late_;
+    cv::Mat frozen_;
+    std::uint64_t lost_ = 0, handed_out_ = 0;
+};
+
+}  // namespace fidservo

@@ -1,0 +1,58 @@
+#pragma once
+// A small inspection on the simulated rig in which something fails on purpose, and what is left of it.
+#include "src/inspect/inspection_run.h"
+#include "src/session/faults.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fidservo::testing {
+
+/// A measured row of results.csv, by "site,view,check,feature".
+struct MeasuredRow {
+    std::optional<double> value, uncertainty;
+    std::string verdict;
+};
+
+struct DrillEnd {
+    bool stopped = false;       ///< by a RunFault
+    std::string text;           ///< the fault's words, the log and the journal
+    bool outputs_zero = false;  ///< what the board puts out after the end
+};
+
+/// Three sites, the second of which the faults are for.
+class Drill {
+  public:
+    /// Runs once without faults. The folder is made new.
+    explicit Drill(const std::filesystem::path& folder);
+
+    /// Session time at which the second site's visit begins, s.
+    double second_visit_s() const { return second_visit_s_; }
+    const std::filesystem::path& whole() const { return whole_; }
+
+    /// Goes on from the homed rig with faults. @param name  of the run's folder
+    DrillEnd run(const std::string& name, const std::vector<Fault>& faults) const;
+    /// Goes on with that run without them.
+    DrillEnd resume(const std::string& name) const;
+
+    /// A run from the start on another printed plate: the tags 52 and 80 have changed places.
+    DrillEnd run_with_wrong_tag(const std::string& name) const;
+
+    std::filesystem::path out(const std::string& name) const { return folder_ / name; }
+
+  private:
+    inspect::InspectionOptions options(const std::filesystem::path& out) const;
+    DrillEnd go_on(const std::string& name, const std::vector<Fault>& faults) const;
+    DrillEnd end_of(const inspect::InspectionOptions& options) const;
+
+    std::filesystem::path folder_, whole_;
+    double second_visit_s_ = 0.0;
+};
+
+std::map<std::string, MeasuredRow> measured_rows(const std::filesystem::path& results_csv);
+std::string text_of_file(const std::filesystem::path& file);
+
+}  // namespace fidservo::testing
