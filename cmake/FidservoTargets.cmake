@@ -25,6 +25,11 @@ if(FIDSERVO_SANITIZE)
   target_link_options(fidservo_compile_options INTERFACE -fsanitize=${FIDSERVO_SANITIZE})
 endif()
 
+option(FIDSERVO_FUZZ "The fuzzers, of clang's libFuzzer, too" OFF)
+if(FIDSERVO_FUZZ)
+  target_compile_options(fidservo_compile_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
 # fidservo_precompiled_headers(TARGET): takes part in the precompiled headers, if there are any.
 function(fidservo_precompiled_headers target)
   if(TARGET fidservo_precompiled)

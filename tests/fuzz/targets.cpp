@@ -1,0 +1,115 @@
+#include "tests/fuzz/targets.h"
+
+#include "src/config/camera_info.h"
+#include "src/config/fod_file.h"
+#include "src/config/plate_file.h"
+#include "src/config/rig_file.h"
+#include "src/identify/text_table.h"
+#include "src/inspect/journal.h"
+#include "src/inspect/recipe.h"
+#include "src/recording/reader.h"
+#include "tests/inspect/small_recipe.h"
+#include "vision/image_sequence.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+namespace fidservo::fuzz {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of this process, gone with it.
+class Folder {
+  public:
+    Folder() : path_(fs::temp_directory_path() / ("fidservo-fuzz-" + std::to_string(::getpid()))) {
+        fs::create_directories(path_ / "recording/stage0");
+        fs::create_directories(path_ / "recording/cam0");
+        fs::copy_file(FIDSERVO_FUZZ_CORPUS "/fod.csv", path_ / "fod.csv",
+                      fs::copy_options::overwrite_existing);
+    }
+    ~Folder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    fs::path write(const fs::path& name, std::string_view bytes) const {
+        std::ofstream stream(path_ / name, std::ios::binary | std::ios::trunc);
+        stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        return path_ / name;
+    }
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+const Folder& folder() {
+    static const Folder only;
+    return only;
+}
+
+void answered(const auto& reader) {
+    try {
+        reader();
+    } catch (const InputError&) {
+    }
+}
+
+}  // namespace
+
+void read_rig(std::string_view bytes) {
+    const fs::path file = folder().write("rig.yaml", bytes);
+    answered([&] { (void)load_rig(file); });
+}
+
+void read_recipe(std::string_view bytes) {
+    static const Rig rig = inspect::small_rig();
+    answered([&] { (void)inspect::parse_recipe(std::string(bytes), folder().path() / "recipe.yaml", rig); });
+}
+
+void read_plate(std::string_view bytes) {
+    const fs::path file = folder().write("plate.yaml", bytes);
+    answered([&] { (void)load_plate(file); });
+}
+
+void read_recording(std::string_view bytes) {
+    constexpr std::string_view cut = "%%%\n";
+    for (const char* name : {"recording.yaml", "stage0/data.csv", "cam0/data.csv", "cam0/detections.csv"}) {
+        const std::size_t end = bytes.find(cut);
+        folder().write(fs::path("recording") / name, bytes.substr(0, end));
+        bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + cut.size());
+    }
+    answered([] { (void)fidservo::read_recording(folder().path() / "recording"); });
+}
+
+void read_camera_info(std::string_view bytes) {
+    const fs::path file = folder().write("camera.yaml", bytes);
+    answered([&] { (void)load_camera_info(file); });
+}
+
+void read_image(std::string_view bytes) {
+    const fs::path file = folder().write("image.png", bytes);
+    (void)vision::load_frame({file, 0, false, 0});
+}
+
+void read_table(std::string_view bytes) {
+    const fs::path file = folder().write("table.csv", bytes);
+    answered([&] { (void)read_text_table(file, {{"input", "1", ""}, {"output", "y", ""}}); });
+    answered([&] { (void)load_fod(file); });
+}
+
+void read_journal(std::string_view bytes) {
+    const fs::path file = folder().write("journal.jsonl", bytes);
+    answered([&] { (void)inspect::killed_before_it_began(file); });
+    answered([&] { (void)inspect::Journal::resume(file, inspect::RunIdentity{}); });
+}
+
+}  // namespace fidservo::fuzz

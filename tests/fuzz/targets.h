@@ -1,0 +1,39 @@
+#pragma once
+// Everything that reads a file, as functions of the file's bytes: for a fuzzer, and for the corpus in a plain
+// test.
+#include <array>
+#include <string_view>
+
+namespace fidservo::fuzz {
+
+/// Lets one reader read the bytes as a file. InputError is an answer; any other exception goes through.
+using Target = void (*)(std::string_view bytes);
+
+void read_rig(std::string_view bytes);
+void read_recipe(std::string_view bytes);
+void read_plate(std::string_view bytes);
+/// recording.yaml, stage0/data.csv, cam0/data.csv and cam0/detections.csv, between lines "%%%".
+void read_recording(std::string_view bytes);
+void read_camera_info(std::string_view bytes);
+void read_image(std::string_view bytes);
+/// A text table as `identify --table` reads it, and a table of first-order descending curves.
+void read_table(std::string_view bytes);
+void read_journal(std::string_view bytes);
+
+struct NamedTarget {
+    std::string_view name;  ///< of the fuzzer, and of its folder in corpus/
+    Target target;
+};
+
+inline constexpr std::array targets{
+    NamedTarget{"rig", read_rig},
+    NamedTarget{"recipe", read_recipe},
+    NamedTarget{"plate", read_plate},
+    NamedTarget{"recording", read_recording},
+    NamedTarget{"camera_info", read_camera_info},
+    NamedTarget{"image", read_image},
+    NamedTarget{"table", read_table},
+    NamedTarget{"journal", read_journal},
+};
+
+}  // namespace fidservo::fuzz
