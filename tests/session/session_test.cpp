@@ -1,7 +1,12 @@
+#include "src/session/faulty_devices.h"
+#include "src/session/pilot.h"
 #include "tests/session/watched_rig.h"
 #include "tests/src/temporary_folder.h"
 
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -79,6 +84,34 @@ TEST(Session, PlateWithoutTheTag_FailsWithAReasonAndStaysSafe) {
     EXPECT_TRUE(arrival.error().reason == Reason::no_tag || arrival.error().reason == Reason::wrong_tag)
         << arrival.error().text;
     EXPECT_TRUE(rig.session.go_to(10, 0.0));
+}
+
+TEST(Session, TagsThatChangedPlaces_LeadTheCameraNotAstray) {
+    Plate printed = reference_plate();
+    std::swap(printed.tags[30].id, printed.tags[80].id);
+    WatchedRig rig(reference_physics(), printed, 5);
+    ASSERT_TRUE(rig.session.home());
+    const auto arrival = rig.session.go_to(30, 0.0);
+    ASSERT_FALSE(arrival);
+    EXPECT_EQ(arrival.error().reason, Reason::wrong_tag) << arrival.error().text;
+    EXPECT_NEAR(rig.session.pilot().believed_s_mm(), plant::camera_position_mm(rig.rig->truth()), 0.1);
+    EXPECT_TRUE(rig.session.go_to(32, 0.0));
+}
+
+TEST(Session, CountsThatWereNoMotion_AreFoundOutByTheTags) {
+    const auto rig = std::make_shared<SimulatedRig>(
+        reference_physics(), load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml").camera.value(), reference_plate(), 5);
+    const auto stage = std::make_shared<FaultyStage>(std::make_shared<SimulatedStage>(rig, nullptr),
+                                                     std::vector<Fault>{{FaultKind::encoder_jump, 9.0}});
+    Session session(SessionOptions{}, load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), reference_plate(),
+                    Devices{stage, std::make_shared<SimulatedCamera>(rig)});
+    ASSERT_TRUE(session.home());
+    ASSERT_LT(session.now_s(), 9.0) << "the counts jump after homing";
+    ASSERT_TRUE(session.hold(1.0));
+    const auto arrival = session.go_to(40, 0.25);
+    ASSERT_TRUE(arrival) << arrival.error().text;
+    EXPECT_NEAR(plant::camera_position_mm(rig->truth()), 80.25, 0.002);
+    EXPECT_TRUE(session.check_rig());
 }
 
 TEST(Session, TagOutOfTravelOrNotOnThePlate_IsRefused) {
