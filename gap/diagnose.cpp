@@ -124,32 +124,50 @@ std::vector<BlockProbability> blocks_of(const Selection& selection, double trust
     return where;
 }
 
-/// Whether what is named for the carriage stands in for something else: the gap as a whole accuses a block of
-/// the carriage that none of the names has. (The forces that a carriage lacks tell its blocks apart well.)
-bool has_stand_in(const Selection& selection, const Remainder& whole) {
+/// Whether what is named for the carriage stands in for something else: the gap as a whole depends on what
+/// accuses a block of the carriage that none of the names has. (The forces that a carriage lacks tell its
+/// blocks apart well.)
+/// @param least_names  of the carriage's, below which they are believed
+bool has_stand_in(const Selection& selection, const Remainder& whole, std::ptrdiff_t least_names) {
     const auto block_of = [](const Choice& choice) {
         return std::string_view(choice.candidate->effect->block);
     };
     const auto is_of_carriage = [&](const Choice& choice) { return block_of(choice).starts_with("macro."); };
-    return whole.block.starts_with("macro.") && std::ranges::any_of(selection.choices, is_of_carriage) &&
+    return whole.block.starts_with("macro.") && !whole.depends_on.empty() &&
+           std::ranges::count_if(selection.choices, is_of_carriage) >= least_names &&
            std::ranges::none_of(selection.choices,
                                 [&](const Choice& choice) { return block_of(choice) == whole.block; });
 }
 
-/// How far the names of a part of an explanation are to be trusted, and which block what is missing accuses.
+/// How far the names of an explanation are to be trusted, and what is missing beside them.
 struct Doubt {
     double trust;
-    std::string block;
+    Remainder missing;
 };
 
-Doubt doubt_of(const Evidence& evidence, const Selection& selection, const Remainder& remainder, double trust,
+constexpr double trust_in_stand_in = 0.3;
+
+/// Of an explanation that leaves something.
+Doubt doubt_of(const Evidence& evidence, const Selection& selection, Remainder remainder, double trust,
                double tail) {
-    constexpr double trust_in_stand_in = 0.3;
-    if (selection.choices.empty()) return {0.0, remainder.block};
+    if (selection.choices.empty()) return {0.0, std::move(remainder)};
     const std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
-    if (!whole) return {trust, remainder.block};
-    if (has_stand_in(selection, *whole)) return {std::min(trust, trust_in_stand_in), whole->block};
-    return {trust, trust > 0.5 ? remainder.block : whole->block};
+    const bool stands_in = whole && has_stand_in(selection, *whole, 1);
+    if (stands_in) trust = std::min(trust, trust_in_stand_in);
+    if (whole && (stands_in || trust <= 0.5)) remainder.block = whole->block;
+    return {trust, std::move(remainder)};
+}
+
+/// Of an explanation that leaves nothing: two causes of the carriage together can do what a third one does.
+std::optional<Doubt> doubt_of(const Evidence& evidence, const Selection& selection, double tail) {
+    if (selection.choices.size() < 2) return {};
+    std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
+    if (!whole || !has_stand_in(selection, *whole, 2)) return {};
+    whole->text = fmt::format(
+        "encoder: what is named predicts it, but its errors depend on {}: that is of {}, where nothing is "
+        "named",
+        whole->depends_on.front(), whole->block);
+    return Doubt{trust_in_stand_in, std::move(*whole)};
 }
 
 void accuse(std::vector<BlockProbability>& where, const std::string& block, double probability) {
@@ -174,18 +192,20 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
     diagnosis.signals = signal_gaps(evidence, nothing.mean_squares, explained.mean_squares);
     diagnosis.gap = total_gap(diagnosis.signals);
     const double tail = options.selection.search.tail;
-    diagnosis.unexplained = remainder_of(evidence, explained, tail);
     double trust = trust_in(typical_floors(evidence.windows(), explained.mean_squares));
-    std::optional<Doubt> doubt;
-    if (diagnosis.unexplained) {
-        doubt = doubt_of(evidence, selection, *diagnosis.unexplained, trust, tail);
+    std::optional<Remainder> remainder = remainder_of(evidence, explained, tail);
+    const std::optional<Doubt> doubt = remainder
+                                           ? doubt_of(evidence, selection, std::move(*remainder), trust, tail)
+                                           : doubt_of(evidence, selection, tail);
+    if (doubt) {
         trust = doubt->trust;
+        diagnosis.unexplained = doubt->missing;
     }
     diagnosis.effects = found_effects(evidence, selection, fitted);
     for (FoundEffect& effect : diagnosis.effects) effect.probability *= trust;
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, trust);
-    if (doubt) accuse(diagnosis.where, doubt->block, 1.0 - trust);
+    if (doubt) accuse(diagnosis.where, doubt->missing.block, 1.0 - trust);
     if (selection.choices.empty())
         diagnosis.verdict = doubt ? Verdict::unexplained : Verdict::no_gap;
     else
