@@ -102,6 +102,35 @@ bool parse_all(std::string_view text, T& value) {
     return error == std::errc() && end == text.data() + text.size();
 }
 
+/// How many bytes the UTF-8 character that begins here has; 0 if it is none that a text holds. (RFC 3629;
+/// control characters but for tab and line ends are none either.)
+std::size_t character_at(std::string_view text) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+    const unsigned char first = byte(0);
+    if (first < 0x80) return first >= ' ' || first == '\t' || first == '\n' || first == '\r' ? 1 : 0;
+    const std::size_t length = first >= 0xc2 && first < 0xe0   ? 2
+                               : first >= 0xe0 && first < 0xf0 ? 3
+                               : first >= 0xf0 && first < 0xf5 ? 4
+                                                               : 0;
+    if (length == 0 || text.size() < length) return 0;
+    for (std::size_t k = 1; k < length; ++k)
+        if ((byte(k) & 0xc0) != 0x80) return 0;
+    const bool too_long = (first == 0xe0 && byte(1) < 0xa0) || (first == 0xf0 && byte(1) < 0x90);
+    const bool no_character = (first == 0xed && byte(1) >= 0xa0) || (first == 0xf4 && byte(1) >= 0x90);
+    return too_long || no_character ? 0 : length;
+}
+
+/// The YAML library never returns from some bytes that are no text.
+void demand_text(std::string_view text, const std::filesystem::path& file) {
+    int line = 1;
+    while (!text.empty()) {
+        const std::size_t length = character_at(text);
+        if (length == 0) fail_at(file, line, "holds bytes that are not text in UTF-8");
+        line += text.front() == '\n';
+        text.remove_prefix(length);
+    }
+}
+
 /// A plain scalar; quotes make text of a number.
 bool is_plain_scalar(const YAML::Node& node) {
     return node.IsScalar() && node.Tag() != "!";
@@ -120,6 +149,7 @@ YamlValue YamlValue::load(const std::filesystem::path& file) {
 }
 
 YamlValue YamlValue::parse(const std::string& text, const std::filesystem::path& file) {
+    demand_text(text, file);
     try {
         const std::vector<YAML::Node> documents = YAML::LoadAll(text);
         if (documents.size() != 1 || !documents.front().IsMap())

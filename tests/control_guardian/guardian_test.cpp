@@ -7,6 +7,7 @@
 #include "tests/control_guardian/child_process.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -253,6 +254,33 @@ TEST(Guardian, TwoInOneProgram_EachHasItsBoard) {
     EXPECT_TRUE(is_zero(first_run.outputs()));
     EXPECT_EQ(second_run.outputs().macro_V, 2.0);
     EXPECT_TRUE(second.finish());
+}
+
+/// Over and over, so that a stop falls between any two steps of a command.
+TEST(Guardian, StopWhileAnotherThreadCommands_OutputsZeroForGood) {
+    for (int round = 0; round < 20; ++round) {
+        const GuardedRun run;
+        Guardian guardian({.heartbeat = Heartbeat::process, .log_file = {}},
+                          [&] { return std::make_unique<SimulatedBoard>(run.registers()); });
+        std::atomic<bool> over = false;
+        std::thread loop([&] {
+            while (!over) guardian.apply({4.5, 1.75});
+        });
+        const auto start = steady_clock::now();
+        while (is_zero(run.outputs()) && steady_clock::now() - start < 10s) std::this_thread::yield();
+        EXPECT_FALSE(guardian.tripped());
+        guardian.stop();
+        run.time_to_zero();
+        ASSERT_TRUE(is_zero(run.outputs()));
+        for (int look = 0; look < 20; ++look) {
+            ASSERT_TRUE(is_zero(run.outputs()));
+            std::this_thread::sleep_for(1ms);
+        }
+        EXPECT_NE(guardian.tripped().value_or("").find("stopped by the user"), std::string::npos);
+        over = true;
+        loop.join();
+        EXPECT_TRUE(guardian.finish());
+    }
 }
 
 TEST(GuardianMemory, CommandPacked_ComesBackWithFloatResolution) {

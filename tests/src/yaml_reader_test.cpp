@@ -100,6 +100,16 @@ TEST(YamlReader, AliasesThatGrowOrNeverEnd_AreRefused) {
     EXPECT_THROW(parse("a: " + std::string(5000, '[') + std::string(5000, ']')), InputError);
 }
 
+TEST(YamlReader, BytesThatAreNoText_AreRefusedWithTheirLine) {
+    EXPECT_EQ(message_of([] { parse("a: 1\nb: \xff\n"); }),
+              "rig.yaml:2: holds bytes that are not text in UTF-8");
+    for (const char* bytes : {"\x04", "\x1b", "\x80", "\xc0\x80", "\xc3", "\xe0\x80\x80", "\xed\xa0\x80",
+                              "\xf5\x80\x80\x80", "\xf4\x90\x80\x80", "\xe2\x82"})
+        EXPECT_THROW(parse(std::string("a: ") + bytes), InputError) << bytes;
+    for (const char* text : {"\xc2\xb5", "\xe2\x82\xac", "\xf0\x9f\x93\xb7", "\xef\xbf\xbd", "\t"})
+        EXPECT_NO_THROW(parse(std::string("a: 'x") + text + "'")) << text;
+}
+
 TEST(YamlReader, File_ThatIsNotThere_IsNamed) {
     EXPECT_EQ(message_of([] { YamlValue::load("no-such.yaml"); }), "no-such.yaml: cannot be opened");
     EXPECT_THROW(YamlValue::load(std::filesystem::temp_directory_path()), InputError);
