@@ -44,7 +44,7 @@ class ShownRun {
                     (folder_ / "out").string() + (live ? "' --live 0" : "'")}) {
         if (!live) return;
         const std::string mark = "live: http://127.0.0.1:";
-        if (!run_.prints("homing", 60s)) throw std::runtime_error(run_.output());
+        if (!run_.prints("/\n", 60s)) throw std::runtime_error(run_.output());
         port_ = std::stoi(run_.output().substr(run_.output().find(mark) + mark.size()));
     }
 
@@ -71,7 +71,7 @@ double stop_ms(int turn) {
     ShownRun run(true);
     run.keep_board();
     while (run.is_off()) std::this_thread::sleep_for(1ms);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100 + 137 * (turn % 20)));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100 + 37 * (turn % 20)));
     while (run.is_off()) std::this_thread::sleep_for(1ms);
     auto client = run.client();
     const auto start = steady_clock::now();
@@ -103,8 +103,10 @@ void bench(int stops, int turns) {
     std::vector<double> times_ms;
     for (int k = 0; k < stops; ++k) times_ms.push_back(stop_ms(k));
     std::ranges::sort(times_ms);
-    std::printf("stop, ms:      median %.1f   p90 %.1f   worst %.1f   of %d; limit 50\n",
-                times_ms[times_ms.size() / 2], times_ms[times_ms.size() * 9 / 10], times_ms.back(), stops);
+    if (stops > 0)
+        std::printf("stop, ms:      median %.1f   p90 %.1f   worst %.1f   of %d; limit 50\n",
+                    times_ms[times_ms.size() / 2], times_ms[times_ms.size() * 9 / 10], times_ms.back(),
+                    stops);
     for (int k = 0; k < turns; ++k)
         std::printf("a whole run, s: %.2f alone   %.2f watched\n", 1e-3 * run_ms(false), 1e-3 * run_ms(true));
 }
