@@ -159,10 +159,11 @@ Doubt doubt_of(const Evidence& evidence, const Selection& selection, Remainder r
 }
 
 /// Of an explanation that leaves nothing: two causes of the carriage together can do what a third one does.
+/// Then one dependence is enough, of another block.
 std::optional<Doubt> doubt_of(const Evidence& evidence, const Selection& selection, double tail) {
     if (selection.choices.size() < 2) return {};
     std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
-    if (!whole || !has_stand_in(selection, *whole, 2)) return {};
+    if (!whole || whole->depends_on.size() > 1 || !has_stand_in(selection, *whole, 2)) return {};
     whole->text = fmt::format(
         "encoder: what is named predicts it, but its errors depend on {}: that is of {}, where nothing is "
         "named",
