@@ -227,6 +227,7 @@ Status StageSurvey::travel(StageMove move, int stands, double phase) {
 }
 
 Status StageSurvey::move_platform(double to_mm) {
+    if (auto caught = pilot_.catch_up(); !caught) return caught;
     control::micro_begin_move(pilot_.params.micro, pilot_.state.micro, to_mm);
     const double timeout_s = pilot_.params.micro.shaping.timeout_s + 1.0;
     return pilot_.step_until([&] { return pilot_.state.micro.phase != control::MicroPhase::approach; },
@@ -235,6 +236,7 @@ Status StageSurvey::move_platform(double to_mm) {
 
 Status StageSurvey::relax() {
     constexpr double longest_s = 20.0, look_s = 0.4, still_mm = 0.001;
+    if (auto caught = pilot_.catch_up(); !caught) return caught;
     control::micro_switch_off(pilot_.state.micro);
     double before_mm = pilot_.state.micro.average_mm;
     int still = 0;

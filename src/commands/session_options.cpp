@@ -13,7 +13,9 @@ namespace fidservo {
 
 void add_session_options(CLI::App& command, SessionOptions& options) {
     add_rig_option(command, options.rig_file);
-    command.add_option("--stage", options.stage, "Stage: sim")->type_name("STAGE")->capture_default_str();
+    command.add_option("--stage", options.stage, "Stage: sim or comedi:/dev/comedi0")
+        ->type_name("STAGE")
+        ->capture_default_str();
     command
         .add_option("--camera", options.camera,
                     "Camera: sim or v4l2:/dev/video0 (fidservo cameras lists them)")

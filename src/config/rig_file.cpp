@@ -4,6 +4,7 @@
 #include "plant/effects/catalogue.h"
 #include "src/config/fod_file.h"
 #include "src/config/rig_camera.h"
+#include "src/config/stage_keys.h"
 #include "src/config/yaml_reader.h"
 
 #include <algorithm>
@@ -194,7 +195,9 @@ std::vector<StatedEffect> read_effects(const YamlValue& list) {
 
 Rig load_rig(const std::filesystem::path& file) {
     const YamlValue root = YamlValue::load(file);
-    root.allow_only({"name", "tick_s", "macro", "micro", "camera", "fiducials", "effects", "identified"});
+    root.allow_only(
+        {"name", "tick_s", "macro", "micro", "camera", "fiducials", "stage", "effects", "identified"});
+    if (const auto stage = root.find("stage")) (void)read_stage_keys(*stage);
     const double tick_s = root.at("tick_s").number({0.0, 1.0, true});
     return {.name = root.at("name").text(),
             .tick_s = tick_s,

@@ -1,6 +1,7 @@
 #include "src/inspect/inspection_report.h"
 
 #include "src/inspect/durable.h"
+#include "src/inspect/loop_report.h"
 #include "src/inspect/report_sections.h"
 #include "src/inspect/report_traces.h"
 
@@ -24,7 +25,8 @@ std::string headline(std::size_t sites, std::size_t failed, std::size_t unsure) 
 }  // namespace
 
 void write_inspection_report(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
-                             const JournalContent& content) {
+                             const JournalContent& content,
+                             const std::optional<control::LoopStatistics>& loop) {
     const std::vector<Visit>& visits = content.visits;
     const Counts counts = count(visits);
     std::size_t failed = 0, unsure = 0;
@@ -56,6 +58,7 @@ void write_inspection_report(const OutputFolder& output, const Recipe& recipe, c
     page.body += report::section("sites", "Sites", sites_html(output, camera, visits));
     page.body += report::section("errors", "Deviations", histogram_html(visits));
     page.body += report::section("traces", "Stage", traces_html(output, rig, visits));
+    if (loop) page.body += report::section("loop", "Control loop", loop_html(*loop));
     page.body += report::section("checks", "All checks", checks_html(visits));
     page.footer = footer_html(content);
     replace_file(output.report(), report::render(page));

@@ -162,8 +162,8 @@ Counts run_inspection(const InspectionOptions& options) {
         throw;
     }
     write_results(output.results(), content.visits);
-    write_run_json(output.run_json(), recipe, content);
-    write_inspection_report(output, recipe, rig, content);
+    write_run_json(output.run_json(), recipe, content, session.loop_statistics());
+    write_inspection_report(output, recipe, rig, content, session.loop_statistics());
     progress.is_at("done");
     return count(content.visits);
 }

@@ -1,6 +1,7 @@
 #include "src/inspect/run_json.h"
 
 #include "src/inspect/durable.h"
+#include "src/inspect/loop_report.h"
 
 #include <nlohmann/json.hpp>
 
@@ -29,34 +30,36 @@ ordered_json json_of_visit(const Visit& visit) {
 
 }  // namespace
 
-void write_run_json(const std::filesystem::path& file, const Recipe& recipe, const JournalContent& content) {
+void write_run_json(const std::filesystem::path& file, const Recipe& recipe, const JournalContent& content,
+                    const std::optional<control::LoopStatistics>& loop) {
     const RunIdentity& id = content.identity;
     const Counts counts = count(content.visits);
     ordered_json visits = ordered_json::array();
     for (const Visit& visit : content.visits) visits.push_back(json_of_visit(visit));
-    const ordered_json json{{"format", "fidservo-inspection/1"},
-                            {"recipe", recipe.name},
-                            {"version", id.version},
-                            {"stage", id.stage},
-                            {"camera", id.camera},
-                            {"seed", id.seed},
-                            {"sha256",
-                             {{"recipe", id.recipe_sha256},
-                              {"rig", id.rig_sha256},
-                              {"plate", id.plate_sha256},
-                              {"printed_plate", id.printed_sha256.empty() ? ordered_json(nullptr)
-                                                                          : ordered_json(id.printed_sha256)},
-                              {"calibration", id.calibration_sha256}}},
-                            {"verdict", counts.pass == counts.total() ? "pass" : "fail"},
-                            {"checks",
-                             {{"total", counts.total()},
-                              {"pass", counts.pass},
-                              {"fail", counts.fail},
-                              {"not_decidable", counts.not_decidable},
-                              {"not_measured", counts.not_measured}}},
-                            {"resumed", content.resumed},
-                            {"rig_time_s", content.visits.empty() ? 0.0 : content.visits.back().to_s},
-                            {"visits", visits}};
+    ordered_json json{{"format", "fidservo-inspection/1"},
+                      {"recipe", recipe.name},
+                      {"version", id.version},
+                      {"stage", id.stage},
+                      {"camera", id.camera},
+                      {"seed", id.seed},
+                      {"sha256",
+                       {{"recipe", id.recipe_sha256},
+                        {"rig", id.rig_sha256},
+                        {"plate", id.plate_sha256},
+                        {"printed_plate",
+                         id.printed_sha256.empty() ? ordered_json(nullptr) : ordered_json(id.printed_sha256)},
+                        {"calibration", id.calibration_sha256}}},
+                      {"verdict", counts.pass == counts.total() ? "pass" : "fail"},
+                      {"checks",
+                       {{"total", counts.total()},
+                        {"pass", counts.pass},
+                        {"fail", counts.fail},
+                        {"not_decidable", counts.not_decidable},
+                        {"not_measured", counts.not_measured}}},
+                      {"resumed", content.resumed},
+                      {"rig_time_s", content.visits.empty() ? 0.0 : content.visits.back().to_s},
+                      {"visits", visits}};
+    if (loop) json["control_loop"] = ordered_json::parse(loop_json(*loop));
     replace_file(file, json.dump(2) + "\n");
 }
 

@@ -1,8 +1,8 @@
 #include "src/recording/writer.h"
 
+#include "core/spsc_ring.h"
 #include "src/recording/durable_file.h"
 #include "src/recording/row_format.h"
-#include "src/recording/spsc_ring.h"
 
 #include <atomic>
 #include <chrono>

@@ -1,9 +1,10 @@
 #include "src/session/devices.h"
 
 #include "src/config/rig_file.h"
+#include "src/interrupt.h"
 #include "src/session/camera_choice.h"
 #include "src/session/faulty_devices.h"
-#include "src/session/paced_stage.h"
+#include "src/session/stage_choice.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -38,8 +39,12 @@ class GuardianFolder {
 };
 
 /// A guardian process and its folder, which outlives it.
-struct SimulationGuardian {
-    explicit SimulationGuardian(const SessionOptions& options)
+struct GuardianInFolder {
+    GuardianInFolder(const SessionOptions& options, control::Heartbeat heartbeat,
+                     std::chrono::milliseconds patience, const control::BoardFactory& board)
+        : folder(options),
+          guardian({.heartbeat = heartbeat, .timeout = patience, .log_file = folder.log_file()}, board) {}
+    explicit GuardianInFolder(const SessionOptions& options)
         : folder(options),
           guardian({.heartbeat = control::Heartbeat::process, .log_file = folder.log_file()},
                    [file = folder.board_file()] { return std::make_unique<control::SimulatedBoard>(file); }) {
@@ -49,35 +54,52 @@ struct SimulationGuardian {
     control::Guardian guardian;
 };
 
-void demand_simulated_stage(const std::string& stage) {
-    if (stage != "sim") throw InputError(fmt::format("--stage {}: no such device; allowed: sim", stage));
+std::shared_ptr<control::Guardian> in_folder(std::shared_ptr<GuardianInFolder> both) {
+    return {both, &both->guardian};
+}
+
+RigDevices real_devices(const SessionOptions& options, const Rig& rig) {
+    if (camera_is_simulated(options))
+        throw InputError(fmt::format(
+            "--camera {}: does not see the stage {}; allowed beside it: v4l2:NODE (fidservo cameras)",
+            options.camera, options.stage));
+    const ComediChoice board(options, rig);
+    RigDevices devices;
+    devices.guardian = in_folder(std::make_shared<GuardianInFolder>(options, control::Heartbeat::loop,
+                                                                    board.patience(), board.outputs()));
+    devices.camera = open_camera(options, rig.camera.value());
+    devices.loop = std::make_shared<control::StageLoop>(
+        board.stage(devices.guardian),
+        control::LoopOptions{
+            .tick_s = rig.tick_s, .watchdog = board.watchdog(), .stop_requested = interrupt_requested});
+    return devices;
 }
 
 }  // namespace
 
 RigDevices make_devices(const SessionOptions& options, const Rig& rig, const Plate& printed) {
-    demand_simulated_stage(options.stage);
+    if (!stage_is_simulated(options)) return real_devices(options, rig);
     const Rig truth = options.sim_rig_file.empty() ? rig : load_rig(options.sim_rig_file);
     if (!truth.camera || !truth.micro)
         throw InputError(fmt::format("{}: {}: missing; the simulated rig needs it",
                                      options.sim_rig_file.string(), truth.camera ? "micro" : "camera"));
     RigDevices devices;
-    const auto guarding = std::make_shared<SimulationGuardian>(options);
-    devices.guardian = std::shared_ptr<control::Guardian>(guarding, &guarding->guardian);
+    devices.guardian = in_folder(std::make_shared<GuardianInFolder>(options));
     const auto simulated =
         std::make_shared<SimulatedRig>(plant::plant_parameters(truth), *truth.camera, printed, options.seed);
     devices.stage = std::make_shared<SimulatedStage>(simulated, devices.guardian);
+    if (!options.faults.empty()) devices.stage = std::make_shared<FaultyStage>(devices.stage, options.faults);
     if (camera_is_simulated(options)) {
         devices.simulated = simulated;
         devices.camera = std::make_shared<SimulatedCamera>(simulated);
     } else {
-        devices.stage = std::make_shared<PacedStage>(devices.stage);
         devices.camera = open_camera(options, rig.camera.value());
+        devices.loop = std::make_shared<control::StageLoop>(
+            devices.stage, control::LoopOptions{
+                               .tick_s = rig.tick_s, .watchdog = {}, .stop_requested = interrupt_requested});
     }
-    if (!options.faults.empty()) {
-        devices.stage = std::make_shared<FaultyStage>(devices.stage, options.faults);
+    if (!options.faults.empty())
         devices.camera = std::make_shared<FaultyCamera>(devices.camera, options.faults);
-    }
     return devices;
 }
 

@@ -11,6 +11,7 @@ struct RigDevices {
     std::shared_ptr<SimulatedRig> simulated;  ///< where stage and camera are both simulated
     std::shared_ptr<control::Guardian> guardian;
     std::shared_ptr<control::Stage> stage;
+    std::shared_ptr<control::StageLoop> loop;  ///< where stage or camera are real: ticks in real time
     std::shared_ptr<vision::Camera> camera;
 };
 

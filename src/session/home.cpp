@@ -21,16 +21,17 @@ constexpr double registration_lead_mm =
 Status seek_end_stop(Pilot& pilot) {
     const control::HomingParams homing = homing_params(pilot.rig);
     control::HomingState seeking;
-    while (seeking.phase == control::HomingPhase::seeking ||
-           !control::macro_is_quiet(homing.macro, seeking.macro)) {
-        auto ticked = pilot.machine.tick([&](const control::StageSample& sample) -> control::StageCommand {
-            return {control::homing_update(homing, seeking, sample.encoder_count), 0.0};
-        });
-        if (!ticked) return ticked;
-        if (seeking.phase == control::HomingPhase::failed)
-            return failure(Reason::no_convergence,
-                           "homing: the end stop was not found over the whole travel");
-    }
+    const auto command = [&](const control::StageSample& sample) -> control::StageCommand {
+        return {control::homing_update(homing, seeking, sample.encoder_count), 0.0};
+    };
+    const auto ended = [&] {
+        if (seeking.phase == control::HomingPhase::seeking) return false;
+        return seeking.phase == control::HomingPhase::failed ||
+               control::macro_is_quiet(homing.macro, seeking.macro);
+    };
+    if (auto sought = pilot.machine.run(command, ended); !sought) return sought;
+    if (seeking.phase == control::HomingPhase::failed)
+        return failure(Reason::no_convergence, "homing: the end stop was not found over the whole travel");
     pilot.count_zero_mm =
         pilot.rig.macro.low_mm - static_cast<double>(seeking.stop_count) * pilot.params.count_mm;
     pilot.registered = false;
@@ -68,29 +69,44 @@ Status register_by_tag(Pilot& pilot) {
                                            nearest->centre_mm.x(), why.text));
 }
 
+/// What the camera sees of the sweep while it goes on.
+Status watch_sweep(Pilot& pilot, std::vector<calib::CameraSight>& sights) {
+    const auto frame = pilot.machine.poll_camera();
+    if (!frame) return forward(frame.error());
+    if (!*frame) return {};
+    const auto fit = pilot.sight.locate_anywhere(**frame);
+    if (fit) sights.push_back({(*frame)->time_ns, fit->position.s_mm, fit->position.s_std_mm});
+    return pilot.machine.keep(pilot.sight.found());
+}
+
 Result<SweepRecord> sweep(Pilot& pilot) {
     SweepRecord record;
     SweepProfile profile(pilot.params.micro.model);
-    record.hall.tick_ns = nanoseconds(pilot.rig.tick_s);
-    for (bool over = false; !over;) {
-        auto ticked = pilot.machine.tick([&](const control::StageSample& sample) -> control::StageCommand {
-            const auto command_V = profile.next(sample.hall_adc);
-            over = !command_V.has_value();
-            if (record.command_V.empty()) record.hall.start_ns = sample.time_ns;
-            record.hall.adc.push_back(sample.hall_adc);
-            record.command_V.push_back(command_V.value_or(pilot.params.micro.model.heater.onset_V));
-            pilot.state.micro.position_mm = pilot.state.micro.average_mm =
-                platform_position_mm(pilot.params.micro.model, sample.hall_adc);
-            return {0.0, record.command_V.back()};
-        });
-        if (!ticked) return forward(ticked.error());
-        auto frame = pilot.machine.poll_camera();
-        if (!frame) return forward(frame.error());
-        if (!*frame) continue;
-        const auto fit = pilot.sight.locate_anywhere(**frame);
-        if (fit) record.sights.push_back({(*frame)->time_ns, fit->position.s_mm, fit->position.s_std_mm});
-        if (auto kept = pilot.machine.keep(pilot.sight.found()); !kept) return forward(kept.error());
-    }
+    const TimeNs tick_ns = nanoseconds(pilot.rig.tick_s);
+    record.hall.tick_ns = tick_ns;
+    record.hall.adc.reserve(SweepProfile::most_ticks);
+    record.command_V.reserve(SweepProfile::most_ticks);
+    bool over = false;
+    const auto command = [&](const control::StageSample& sample) -> control::StageCommand {
+        if (record.command_V.empty()) record.hall.start_ns = sample.time_ns;
+        // Ticks that a late loop left out: the command went on, and so did the platform.
+        const auto due = (sample.time_ns - record.hall.start_ns + tick_ns / 2) / tick_ns;
+        while (!record.hall.adc.empty() && static_cast<TimeNs>(record.hall.adc.size()) < due &&
+               record.hall.adc.size() < SweepProfile::most_ticks) {
+            record.hall.adc.push_back(record.hall.adc.back());
+            record.command_V.push_back(record.command_V.back());
+        }
+        const auto command_V = profile.next(sample.hall_adc);
+        over = !command_V.has_value();
+        record.hall.adc.push_back(sample.hall_adc);
+        record.command_V.push_back(command_V.value_or(pilot.params.micro.model.heater.onset_V));
+        pilot.state.micro.position_mm = pilot.state.micro.average_mm =
+            platform_position_mm(pilot.params.micro.model, sample.hall_adc);
+        return {0.0, record.command_V.back()};
+    };
+    auto swept = pilot.machine.run(
+        command, [&] { return over; }, {}, [&] { return watch_sweep(pilot, record.sights); });
+    if (!swept) return forward(swept.error());
     return record;
 }
 
@@ -127,6 +143,7 @@ Status tune_by_sweep(Pilot& pilot) {
     pilot.state.macro.last_count = count;
     pilot.state.micro.wire = wire_after(pilot.params.micro.model, record->command_V, pilot.rig.tick_s);
     pilot.state.micro.average_mm = platform_position_mm(pilot.params.micro.model, record->hall.adc.back());
+    if (auto caught = pilot.catch_up(); !caught) return caught;
     control::micro_begin_move(pilot.params.micro, pilot.state.micro,
                               0.5 * (pilot.params.park_low_mm + pilot.params.park_high_mm));
     return pilot.step_until([&] { return pilot.state.micro.phase != control::MicroPhase::approach; },
@@ -139,6 +156,7 @@ Status tune_by_sweep(Pilot& pilot) {
 Status home(Pilot& pilot) {
     if (auto done = seek_end_stop(pilot); !done) return done;
     if (auto done = register_by_tag(pilot); !done) return done;
+    pilot.machine.set_travel(pilot.carriage_travel());
     return tune_by_sweep(pilot);
 }
 

@@ -3,6 +3,7 @@
 #include "src/interrupt.h"
 #include "src/live/live_feed.h"
 
+#include <chrono>
 #include <utility>
 
 namespace fidservo {
@@ -15,15 +16,21 @@ Result<control::StageSample> Machine::begin_tick() {
     if (interrupt_requested()) return failure(Reason::stopped, "stopped by the user");
     auto sample = devices_.stage->read();
     if (!sample) return sample;
-    sample_ = *sample;
     now_ns_ = sample->time_ns;
-    if (!first_ns_) first_ns_ = now_ns_;
     return sample;
 }
 
 Status Machine::end_tick(const control::StageSample& sample, const control::StageCommand& command,
                          const Setpoints& setpoints) {
     if (auto written = devices_.stage->write(command); !written) return written;
+    return record(sample, command, setpoints);
+}
+
+Status Machine::record(const control::StageSample& sample, const control::StageCommand& command,
+                       const Setpoints& setpoints) {
+    sample_ = sample;
+    now_ns_ = sample.time_ns;
+    if (!first_ns_) first_ns_ = now_ns_;
     if (!recorder_ && !feed_) return {};
     StageRow row;
     row.time_ns = sample.time_ns;
@@ -35,6 +42,28 @@ Status Machine::end_tick(const control::StageSample& sample, const control::Stag
     row.hall_adc = sample.hall_adc;
     if (feed_) feed_->tick(row);
     return recorder_ ? recorder_->add(row) : Status();
+}
+
+void Machine::wait_for_ticks() {
+    constexpr std::chrono::milliseconds a_few_ticks{2};
+    devices_.loop->wait(a_few_ticks);
+}
+
+Status Machine::record_ticks(bool& was_last) {
+    while (!was_last) {
+        const auto record = devices_.loop->next();
+        if (!record) return {};
+        was_last = record->step.done;
+        const Setpoints setpoints{record->step.macro_setpoint_mm, record->step.micro_setpoint_mm};
+        if (auto kept = this->record(record->sample, record->step.command, setpoints); !kept) return kept;
+    }
+    return {};
+}
+
+Status Machine::skip_held() {
+    while (const auto held = devices_.loop->next())
+        if (auto kept = record(held->sample, held->step.command, {}); !kept) return kept;
+    return {};
 }
 
 Result<std::optional<vision::Frame>> Machine::poll_camera() {
@@ -63,8 +92,17 @@ Status Machine::end_recording() {
     return recorder->close();
 }
 
+void Machine::set_travel(const control::CarriageTravel& travel) {
+    if (devices_.loop) devices_.loop->set_travel(travel);
+}
+
+std::optional<control::LoopStatistics> Machine::loop_statistics() const {
+    if (!devices_.loop) return std::nullopt;
+    return devices_.loop->statistics();
+}
+
 Status Machine::switch_off() {
-    return devices_.stage->write({});
+    return devices_.loop ? devices_.loop->stop() : devices_.stage->write({});
 }
 
 }  // namespace fidservo

@@ -1,22 +1,31 @@
 #pragma once
 // The one loop: sample, control, write, record; a tick at a time.
+//
+// In virtual time the calling thread ticks the stage itself. In real time a StageLoop does, in a thread of
+// its own (control/stage_loop.h): controllers run there, the rows are recorded here, and ticks that went by
+// while nobody controlled are made up for: their samples can be shown to a controller, whose answer comes too
+// late.
 #include "control/stage.h"
+#include "control/stage_loop.h"
 #include "core/recording.h"
 #include "core/rig.h"
 #include "src/recording/writer.h"
 #include "src/session/camera_watch.h"
 #include "vision/camera.h"
 
+#include <atomic>
 #include <concepts>
 #include <memory>
 #include <optional>
+#include <type_traits>
 
 namespace fidservo {
 
 /// The hardware, or what stands for it.
 struct Devices {
-    std::shared_ptr<control::Stage> stage;
+    std::shared_ptr<control::Stage> stage;  ///< ticked by the machine; unused where there is a loop
     std::shared_ptr<vision::Camera> camera;
+    std::shared_ptr<control::StageLoop> loop = nullptr;  ///< ticks in real time; null in virtual time
 };
 
 class LiveFeed;
@@ -37,12 +46,48 @@ class Machine {
     Machine& operator=(const Machine&) = delete;
 
     /// One tick: control(sample) gives the command. Fails with Reason::stopped if the user interrupts, with
-    /// Reason::device if stage or recorder fail; the commands are then zero.
+    /// Reason::device if stage or recorder fail; the commands are then zero. In real time, a tick that went
+    /// by while nobody controlled comes first.
     template <std::invocable<const control::StageSample&> Control>
     Status tick(Control&& control, const Setpoints& setpoints = {}) {
+        if (devices_.loop) {
+            if (const auto held = devices_.loop->next()) return make_up(*held, control, setpoints);
+            return run_in_loop(
+                control, [] { return true; }, setpoints, no_meanwhile);
+        }
         const auto sample = begin_tick();
         if (!sample) return tl::make_unexpected(sample.error());
         return end_tick(*sample, control(*sample), setpoints);
+    }
+
+    /// Ticks until done(). In real time control and done are called in the loop's thread, which has what they
+    /// work on to itself meanwhile: they must not wait, lock or allocate. meanwhile() is called in this
+    /// thread, now and then (in virtual time after each tick); its failure ends the ticks.
+    template <std::invocable<const control::StageSample&> Control, std::predicate Done,
+              std::invocable Meanwhile>
+    Status run(Control&& control, Done&& done, const Setpoints& setpoints, Meanwhile&& meanwhile) {
+        if (devices_.loop) {
+            if (auto skipped = skip_held(); !skipped) return skipped;
+            return done() ? Status() : run_in_loop(control, done, setpoints, meanwhile);
+        }
+        while (!done()) {
+            if (auto ticked = tick(control, setpoints); !ticked) return ticked;
+            if (auto seen = meanwhile(); !seen) return seen;
+        }
+        return {};
+    }
+    template <std::invocable<const control::StageSample&> Control, std::predicate Done>
+    Status run(Control&& control, Done&& done, const Setpoints& setpoints = {}) {
+        return run(control, done, setpoints, no_meanwhile);
+    }
+
+    /// Shows a controller all ticks that went by while nobody controlled; none in virtual time.
+    template <std::invocable<const control::StageSample&> Control>
+    Status catch_up(Control&& control, const Setpoints& setpoints = {}) {
+        if (!devices_.loop) return {};
+        while (const auto held = devices_.loop->next())
+            if (auto made = make_up(*held, control, setpoints); !made) return made;
+        return {};
     }
 
     /// The newest frame, if a new one has arrived by the last tick. Fails with Reason::device where the
@@ -69,13 +114,70 @@ class Machine {
     /// From the first tick to the last.
     TimeNs elapsed_ns() const { return first_ns_ ? now_ns_ - *first_ns_ : 0; }
 
-    /// Both commands to zero.
+    /// The travel's ends in encoder counts, for who watches the stage.
+    void set_travel(const control::CarriageTravel& travel);
+    /// How punctual the loop is; empty in virtual time.
+    std::optional<control::LoopStatistics> loop_statistics() const;
+
+    /// Both commands to zero, for good.
     Status switch_off();
 
   private:
+    static Status no_meanwhile() { return {}; }
+
     Result<control::StageSample> begin_tick();
     Status end_tick(const control::StageSample& sample, const control::StageCommand& command,
                     const Setpoints& setpoints);
+
+    /// What the loop is given to run.
+    template <class Control, class Done>
+    struct Call {
+        Control& control;
+        Done& done;
+        const Setpoints& setpoints;
+        std::atomic<bool> abandoned{false};
+
+        static control::LoopStep tick(void* self, const control::StageSample& sample) {
+            auto& call = *static_cast<Call*>(self);
+            const control::StageCommand command = call.control(sample);
+            const bool done = call.done() || call.abandoned.load(std::memory_order_relaxed);
+            return {command, call.setpoints.macro_mm, call.setpoints.micro_mm, done};
+        }
+    };
+
+    template <class Control, class Done, class Meanwhile>
+    Status run_in_loop(Control& control, Done&& done, const Setpoints& setpoints, Meanwhile& meanwhile) {
+        Call<Control, std::remove_reference_t<Done>> call{control, done, setpoints};
+        devices_.loop->start({&call, call.tick});
+        Status went;
+        for (bool was_last = false; !was_last;) {
+            const bool ended = devices_.loop->ended().has_value();
+            if (!ended) wait_for_ticks();
+            Status now = record_ticks(was_last);
+            if (now && !was_last) now = meanwhile();
+            if (!now && went) {
+                went = now;
+                call.abandoned.store(true, std::memory_order_relaxed);
+            }
+            if (ended) break;
+        }
+        if (const auto why = devices_.loop->ended()) return tl::make_unexpected(*why);
+        return went;
+    }
+
+    /// Shows a controller a tick that went by while nobody controlled. What it answers comes too late.
+    template <class Control>
+    Status make_up(const control::TickRecord& held, Control& control, const Setpoints& setpoints) {
+        (void)control(held.sample);
+        return record(held.sample, held.step.command, setpoints);
+    }
+
+    void wait_for_ticks();
+    /// Records ticks as they were, up to a program's last.
+    Status record_ticks(bool& was_last);
+    Status skip_held();
+    Status record(const control::StageSample& sample, const control::StageCommand& command,
+                  const Setpoints& setpoints);
 
     Devices devices_;
     CameraWatch camera_watch_;

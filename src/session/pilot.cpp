@@ -48,14 +48,26 @@ void Pilot::register_at(double s_mm) {
     registered = true;
 }
 
-Status Pilot::step(const std::optional<control::TargetOffset>& seen) {
-    return machine.tick(
-        [&](const control::StageSample& sample) {
-            const auto out = control::positioner_update(params, state, sample, seen);
-            wants_frames_ = out.wants_frames;
-            return out.command;
-        },
-        setpoints);
+control::StageCommand Pilot::command_for(const control::StageSample& sample,
+                                         const std::optional<control::TargetOffset>& seen) {
+    const auto out = control::positioner_update(params, state, sample, seen);
+    wants_frames_ = out.wants_frames;
+    return out.command;
+}
+
+Status Pilot::catch_up() {
+    return machine.catch_up([&](const control::StageSample& sample) { return command_for(sample, {}); },
+                            setpoints);
+}
+
+Status Pilot::step() {
+    return machine.tick([&](const control::StageSample& sample) { return command_for(sample, {}); },
+                        setpoints);
+}
+
+control::CarriageTravel Pilot::carriage_travel() const {
+    return {std::ceil((rig.macro.low_mm - count_zero_mm) / params.count_mm),
+            std::floor((rig.macro.high_mm - count_zero_mm) / params.count_mm)};
 }
 
 Result<vision::Frame> Pilot::next_frame(TimeNs after_ns) {
@@ -75,6 +87,7 @@ TimeNs Pilot::exposed_at(const vision::Frame& frame) const {
 }
 
 Status Pilot::carry_to(double s_mm) {
+    if (auto caught = catch_up(); !caught) return caught;
     const double carriage = std::clamp(s_mm - state.micro.average_mm, rig.macro.low_mm, rig.macro.high_mm);
     control::macro_go_to(state.macro, (carriage - count_zero_mm) / params.count_mm);
     setpoints.macro_mm = carriage;
@@ -112,19 +125,23 @@ Result<std::optional<control::TargetOffset>> Pilot::watch(double target_s_mm, in
 }
 
 Status Pilot::drive_to(double target_s_mm, int tag_id) {
+    if (auto caught = catch_up(); !caught) return caught;
     std::optional<Failure> trouble;
-    control::positioner_begin(params, state, target_s_mm - believed_s_mm(),
-                              {std::ceil((rig.macro.low_mm - count_zero_mm) / params.count_mm),
-                               std::floor((rig.macro.high_mm - count_zero_mm) / params.count_mm)});
+    control::positioner_begin(params, state, target_s_mm - believed_s_mm(), carriage_travel());
     setpoints.macro_mm = target_s_mm - state.micro.average_mm;
     std::optional<control::TargetOffset> seen;
     while (!control::positioner_is_done(state)) {
-        setpoints.micro_mm =
-            state.micro.phase == control::MicroPhase::approach ? state.micro.target_mm : setpoints.micro_mm;
-        if (auto stepped = step(std::exchange(seen, std::nullopt)); !stepped) return stepped;
+        bool ticked = false;
+        const auto until_it_looks = [&] {
+            if (state.micro.phase == control::MicroPhase::approach)
+                setpoints.micro_mm = state.micro.target_mm;
+            return control::positioner_is_done(state) || (std::exchange(ticked, true) && wants_frames_);
+        };
+        if (auto moved = move(until_it_looks, std::exchange(seen, std::nullopt)); !moved) return moved;
         if (!wants_frames_) continue;
         auto watched = watch(target_s_mm, tag_id, trouble);
         if (!watched) return forward(watched.error());
+        if (auto caught = catch_up(); !caught) return caught;
         seen = *watched;
     }
     if (state.phase == control::PositionerPhase::arrived) {

@@ -8,6 +8,7 @@
 #include "src/session/sight.h"
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <optional>
 #include <utility>
@@ -34,16 +35,22 @@ class Pilot {
     /// lost, or the carriage was pushed.
     void register_at(double s_mm);
 
+    /// The carriage's travel in encoder counts, by the registration.
+    control::CarriageTravel carriage_travel() const;
+
     /// One tick of the positioner.
-    Status step(const std::optional<control::TargetOffset>& seen = {});
+    Status step();
+    /// The positioner sees what went by while nobody controlled: before a motion begins. Nothing in virtual
+    /// time.
+    Status catch_up();
 
     /// Ticks until a condition holds. Fails with Reason::timeout.
     Status step_until(const std::predicate auto& condition, double timeout_s, const char* what) {
-        for (const TimeNs end = machine.now_ns() + nanoseconds(timeout_s); !condition();) {
-            if (machine.now_ns() > end) return failure(Reason::timeout, what);
-            if (auto stepped = step(); !stepped) return stepped;
-        }
-        return {};
+        const long most = std::lround(timeout_s / rig.tick_s);
+        long ticks = 0;
+        auto ended = move([&] { return condition() || ticks++ > most; });
+        if (ended && !condition()) return failure(Reason::timeout, what);
+        return ended;
     }
 
     /// The next frame exposed wholly after a time, in true exposure time. Fails with Reason::timeout.
@@ -74,6 +81,17 @@ class Pilot {
     Setpoints setpoints;
 
   private:
+    /// The positioner's answer to a sample.
+    control::StageCommand command_for(const control::StageSample& sample,
+                                      const std::optional<control::TargetOffset>& seen);
+    /// The positioner's ticks until done(), which is asked before the first one too.
+    Status move(const std::predicate auto& done, std::optional<control::TargetOffset> seen = {}) {
+        return machine.run(
+            [&](const control::StageSample& sample) {
+                return command_for(sample, std::exchange(seen, std::nullopt));
+            },
+            done, setpoints);
+    }
     Result<std::optional<control::TargetOffset>> watch(double target_s_mm, int tag_id,
                                                        std::optional<Failure>& trouble);
 

@@ -30,6 +30,7 @@ Status check_camera(Pilot& pilot) {
 }
 
 Status check_carriage(Pilot& pilot) {
+    if (auto caught = pilot.catch_up(); !caught) return caught;
     const auto start_count = static_cast<double>(pilot.state.macro.last_count.value_or(0));
     const double start_mm = pilot.count_zero_mm + start_count * pilot.params.count_mm;
     const double middle_mm = 0.5 * (pilot.rig.macro.low_mm + pilot.rig.macro.high_mm);
@@ -64,6 +65,7 @@ Status find_the_fault(Pilot& pilot, double start_mm, const std::optional<double>
     double hall_mm = 0.0, camera_mm = start_s_mm ? 0.0 : NAN;
     for (const double rise_degC : {heating_degC, 0.0}) {
         const double command_V = rise_degC > 0.0 ? heater.onset_V + rise_degC / heater.gain_degC_per_V : 0.0;
+        if (auto caught = pilot.catch_up(); !caught) return caught;
         control::micro_open_loop(pilot.state.micro, command_V);
         for (auto ticks = std::lround(blind_s / pilot.rig.tick_s); ticks > 0; --ticks)
             if (auto stepped = pilot.step(); !stepped) return stepped;
@@ -80,6 +82,7 @@ Status find_the_fault(Pilot& pilot, double start_mm, const std::optional<double>
 Status check_platform(Pilot& pilot) {
     const auto before = seen_s_mm(pilot);
     if (!before) return forward(before.error());
+    if (auto caught = pilot.catch_up(); !caught) return caught;
     const double start_mm = pilot.state.micro.average_mm;
     const double middle_mm = 0.5 * (pilot.params.park_low_mm + pilot.params.park_high_mm);
     const double way_mm = start_mm < middle_mm ? platform_way_mm : -platform_way_mm;

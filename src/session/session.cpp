@@ -8,6 +8,8 @@
 #include "src/session/motion_params.h"
 #include "src/session/rig_check.h"
 #include "src/session/simulated_rig.h"
+#include "src/session/stage_choice.h"
+#include "src/session/stage_start.h"
 #include "src/session/state_json.h"
 #include "vision/tag_choice.h"
 
@@ -72,15 +74,18 @@ Session::Session(const SessionOptions& options, const Rig& rig, const Plate& nom
 Session::Session(const SessionOptions& options, const Rig& rig, const Plate& nominal, const Plate& printed) {
     (void)positioner_params(rig, mm_from_um(options.tolerance_um));  // before devices are touched
     RigDevices devices = make_devices(options, rig, printed);
-    impl_ = std::make_unique<Impl>(options, rig, nominal, Devices{devices.stage, devices.camera});
+    impl_ =
+        std::make_unique<Impl>(options, rig, nominal, Devices{devices.stage, devices.camera, devices.loop});
     impl_->simulated = std::move(devices.simulated);
     impl_->guardian = std::move(devices.guardian);
+    if (!stage_is_simulated(options)) check_stage(impl_->pilot);
 }
 
 Session::~Session() {
     (void)impl_->pilot.machine.switch_off();
     const vision::FrameCounts frames = frame_counts();
     if (frames.lost + frames.damaged + frames.reconnects > 0) spdlog::warn("camera: {}", text_of(frames));
+    if (const auto loop = loop_statistics()) spdlog::info("control loop: {}", text_of(*loop));
     if (!impl_->guardian) return;
     if (const auto off = impl_->guardian->finish(); !off) spdlog::error("{}", off.error().text);
 }
@@ -96,7 +101,7 @@ void Session::record_to(const std::filesystem::path& folder, const std::string& 
     recording.columns = columns_of(impl_->pilot.rig);
     recording.camera = impl_->pilot.rig.camera;
     recording.frames = keep_frames == KeepFrames::yes;
-    recording.when_full = impl_->simulated ? WhenFull::wait : WhenFull::fail;
+    recording.when_full = loop_statistics() || impl_->simulated ? WhenFull::wait : WhenFull::fail;
     impl_->pilot.machine.record_to(std::make_unique<RecordingWriter>(folder, recording));
 }
 
@@ -206,6 +211,10 @@ Eigen::Vector2d Session::camera_mm() const {
 
 vision::FrameCounts Session::frame_counts() const {
     return impl_->pilot.machine.frame_counts();
+}
+
+std::optional<control::LoopStatistics> Session::loop_statistics() const {
+    return impl_->pilot.machine.loop_statistics();
 }
 
 double Session::now_s() const {

@@ -103,6 +103,8 @@ class Session {
     Eigen::Vector2d camera_mm() const;
     /// What became of the camera's frames so far.
     vision::FrameCounts frame_counts() const;
+    /// How punctual the control loop is; empty in simulated time.
+    std::optional<control::LoopStatistics> loop_statistics() const;
     /// Session time on the rig's clock.
     double now_s() const;
     /// The same since the first tick.

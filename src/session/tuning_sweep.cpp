@@ -11,7 +11,7 @@ namespace {
 constexpr double heat_rise_degC =
     78.0;  ///< carries the wire over its whole transformation within two seconds
 constexpr double contracted = 0.94, extended = 0.06;  ///< of the stroke: where the sweep turns and ends
-constexpr int longest_heat_ticks = 3000, longest_ticks = 9000;
+constexpr int longest_heat_ticks = 3000;
 
 }  // namespace
 

@@ -21,6 +21,9 @@ class SweepProfile {
   public:
     explicit SweepProfile(const MicroModel& model) : model_(model) {}
     static constexpr int rest_ticks = 100;
+    static constexpr int longest_ticks = 9000;
+    /// That a sweep has, those left out by a late loop included.
+    static constexpr std::size_t most_ticks = 2 * longest_ticks;
 
     /// The command from this tick on, V; empty when the sweep is over.
     std::optional<double> next(double hall_adc);

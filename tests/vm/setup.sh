@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # setup.sh DIR: the virtual machine for the device tests. Downloads Debian's kernel without installing it, builds
-# v4l2loopback for it, and leaves DIR/vmlinux and DIR/initrd.gz. Does nothing if they are there for this kernel already.
+# v4l2loopback and Comedi's multiq3 driver for it, and leaves DIR/vmlinux and DIR/initrd.gz. Does nothing if they are
+# there for this kernel already.
 # Needs: busybox-static, cpio, kmod, python3, gcc, make.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -19,9 +20,12 @@ fetch() {
     local base=${release%-amd64}
     cd "$dir/download"
     apt-get download -q -o APT::Sandbox::User="$(id -un)" "$image" "linux-headers-$base-amd64" \
-        "linux-headers-$base-common" "linux-kbuild-${base%%.0-*}" v4l2loopback-dkms >"$dir/setup.log"
+        "linux-headers-$base-common" "linux-kbuild-${base%%.0-*}" "linux-source-${base%%.0-*}" \
+        v4l2loopback-dkms >"$dir/setup.log"
     dpkg -x linux-image-*.deb "$dir/kernel"
-    for package in linux-headers-*.deb linux-kbuild-*.deb v4l2loopback-dkms*.deb; do dpkg -x "$package" "$dir/source"; done
+    for package in linux-headers-*.deb linux-kbuild-*.deb linux-source-*.deb v4l2loopback-dkms*.deb; do
+        dpkg -x "$package" "$dir/source"
+    done
     cd "$dir"
     rm -rf "$dir/download"
 }
@@ -33,6 +37,15 @@ build_module() {
     make -s -C "$headers" M="$2" KERNELRELEASE="$release" modules >>"$dir/setup.log" 2>&1
     mkdir -p "$dir/kernel/lib/modules/$release/extra"
     cp "$2/$1.ko" "$dir/kernel/lib/modules/$release/extra/"
+}
+
+# A driver of the kernel's that Debian does not build: that of the board with which the stage was published.
+unpack_multiq3() {
+    mkdir -p "$dir/source/multiq3"
+    tar -xJf "$dir"/source/usr/src/linux-source-*.tar.xz -C "$dir/source/multiq3" --strip-components=4 \
+        --wildcards '*/drivers/comedi/drivers/multiq3.c'
+    echo 'obj-m := multiq3.o' >"$dir/source/multiq3/Makefile"
+    rm "$dir"/source/usr/src/linux-source-*
 }
 
 # qemu starts an unpacked kernel sooner than one that unpacks itself in emulation.
@@ -69,6 +82,8 @@ make_initrd() {
 
 fetch
 build_module v4l2loopback "$(echo "$dir"/source/usr/src/v4l2loopback-*)"
+unpack_multiq3
+build_module multiq3 "$dir/source/multiq3"
 unpack_kernel
-make_initrd virtio_pci 9pnet_virtio 9p overlay vivid v4l2loopback comedi_test
+make_initrd virtio_pci 9pnet_virtio 9p overlay vivid v4l2loopback comedi_test multiq3
 echo "$stamp" >"$dir/ready"

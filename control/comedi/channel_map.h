@@ -1,0 +1,36 @@
+#pragma once
+// Which of a board's channels the stage is wired to.
+#include "control/comedi/board_link.h"
+
+#include <optional>
+
+namespace fidservo::control::comedi {
+
+struct ChannelChoice {
+    int subdevice = 0;
+    int channel = 0;
+    std::optional<VoltageRange> range;  ///< empty: the narrowest of the board's that suffices
+};
+
+struct MacroChannel {
+    ChannelChoice output;
+    bool reversed = false;  ///< a positive voltage drives the carriage towards lower positions
+    /// A line that gives the direction: high for a positive command. The output then has the amount only.
+    std::optional<ChannelChoice> direction;
+};
+
+/// A counter; or, with mm_per_V, an analogue input that shows the position.
+struct EncoderChannel {
+    ChannelChoice input;
+    bool reversed = false;  ///< counts fall where the position rises
+    std::optional<double> mm_per_V;
+};
+
+struct ChannelMap {
+    MacroChannel macro;
+    ChannelChoice micro;  ///< CTRL of the wire's driver
+    ChannelChoice hall;
+    EncoderChannel encoder;
+};
+
+}  // namespace fidservo::control::comedi
