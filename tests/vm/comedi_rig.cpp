@@ -46,7 +46,7 @@ void drive(LiveRig& rig, const Rig& file, BoardLink& board, const std::stop_toke
         if (!board.write(channel(1, 2).at, number_of(channel(1, 2), position_V)) ||
             !board.write(channel(1, 3).at, number_of(channel(1, 3), reading.hall_adc * lsb_V)))
             std::abort();
-        std::this_thread::sleep_for(std::chrono::microseconds(400));
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
 }
 
