@@ -4,8 +4,8 @@
 // lost.
 #include "core/detection.h"
 #include "core/recording.h"
+#include "core/spsc_ring.h"
 #include "src/live/mailbox.h"
-#include "src/recording/spsc_ring.h"
 #include "vision/camera.h"
 
 #include <atomic>
