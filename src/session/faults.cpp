@@ -72,6 +72,7 @@ Fault parse_fault(const std::string& text) {
     const auto* kind = std::ranges::find(fault_kinds, name, [](FaultKind k) { return name_of(k); });
     if (kind == fault_kinds.end()) {
         std::vector<std::string_view> names;
+        names.reserve(fault_kinds.size());
         for (const FaultKind one : fault_kinds) names.push_back(name_of(one));
         refuse(text, fmt::format("no such fault; allowed: {}", fmt::join(names, ", ")));
     }
