@@ -45,7 +45,8 @@ TEST(CalibrateStageCommand, WhatIsWrong_IsSaidInALineAndNothingIsMade) {
     expect_refusal({}, folder, {"--out", "missing"});
     expect_refusal({"--out", "o", "--write-rig", "./o"}, folder, {"--out, --write-rig", "one name"});
     expect_refusal({"--check", "--write-rig", "new.yaml"}, folder, {"--check, --write-rig"});
-    expect_refusal({"--out", "o", "--stage", "comedi:/dev/comedi0"}, folder, {"--stage", "allowed: sim"});
+    expect_refusal({"--out", "o", "--stage", "comedi:/dev/comedi0"}, folder,
+                   {"--camera sim", "allowed beside it: v4l2"});
     EXPECT_FALSE(std::filesystem::exists(folder / "o"));
     std::filesystem::create_directory(folder / "there");
     expect_refusal({"--out", "there"}, folder, {"there", "exists already"});
