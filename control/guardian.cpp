@@ -11,7 +11,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -54,11 +53,6 @@ bool readable_within(int fd, int limit_ms) {
     return ready > 0;
 }
 
-void wake(int wake_fd) noexcept {
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const ssize_t written = ::write(wake_fd, &one, sizeof one);
-}
-
 /// What the guardian process says once its board is open, or why it is not.
 std::string first_words(int ready_fd) {
     std::array<char, 512> text{};
@@ -81,20 +75,11 @@ void Guardian::Unmap::operator()(GuardianMemory* memory) const {
 }
 
 Guardian::Guardian(GuardianOptions options, BoardFactory open_board)
-    : options_(std::move(options)),
-      open_board_(std::move(open_board)),
-      memory_(map_shared()),
-      wake_fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-    if (wake_fd_ < 0) fail("eventfd");
+    : options_(std::move(options)), open_board_(std::move(open_board)), memory_(map_shared()) {
     options_.log_file = options_.log_file.empty() ? "" : std::filesystem::absolute(options_.log_file);
-    try {
-        start();
-        const SignalsBlocked no_signals;
-        watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
-    } catch (...) {
-        ::close(wake_fd_);
-        throw;
-    }
+    start();
+    const SignalsBlocked no_signals;
+    watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }
 
 void Guardian::start() {
@@ -104,7 +89,7 @@ void Guardian::start() {
         const SignalsBlocked no_signals;
         const pid_t program = ::getpid();
         process_ = ::fork();
-        if (process_ == 0) be_guardian(*memory_, options_, open_board_, {ready[1], wake_fd_}, program);
+        if (process_ == 0) be_guardian(*memory_, options_, open_board_, {ready[1], wake_.fd()}, program);
     }
     const int fork_error = errno;
     ::close(ready[1]);
@@ -121,7 +106,6 @@ void Guardian::start() {
 
 Guardian::~Guardian() {
     [[maybe_unused]] const Status confirmed = finish();
-    ::close(wake_fd_);
 }
 
 void Guardian::apply(const StageCommand& command) noexcept {
@@ -139,7 +123,7 @@ void Guardian::hand_over(const StageCommand& command) noexcept {
     memory_->command.store(packed(command));
     if (options_.heartbeat == Heartbeat::process) return;
     memory_->beats.fetch_add(1, std::memory_order_release);
-    wake(wake_fd_);
+    wake_.raise();
 }
 
 std::optional<std::string> Guardian::tripped() const {
@@ -186,7 +170,7 @@ Status Guardian::finish() {
     if (watcher_.joinable()) watcher_.join();
     if (memory_->trip.load() != Trip::guardian_lost) {
         memory_->finish.store(true);
-        wake(wake_fd_);
+        wake_.raise();
         if (!readable_within(process_fd_, finish_limit_ms)) take_over();
     }
     int exit_status = 0;

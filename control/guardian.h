@@ -6,6 +6,7 @@
 // The program hands its commands over in shared memory and never touches the board. A guardian that has
 // switched the outputs off stays so until the run ends: the program has to start anew.
 #include "control/output_board.h"
+#include "core/wake_signal.h"
 
 #include <atomic>
 #include <chrono>
@@ -77,7 +78,7 @@ class Guardian {
     GuardianOptions options_;
     BoardFactory open_board_;
     std::unique_ptr<GuardianMemory, Unmap> memory_;
-    int wake_fd_ = -1;  ///< eventfd that ends the guardian's sleep
+    WakeSignal wake_;  ///< ends the guardian's sleep
     std::atomic<bool> stopped_ = false;
     pid_t process_ = -1;
     int process_fd_ = -1;

@@ -1,6 +1,7 @@
 #include "control/stage_check.h"
 
 #include "control/watchdog.h"
+#include "core/dead_zone.h"
 
 #include <array>
 #include <cmath>
@@ -40,8 +41,9 @@ Push push_of(const StageCheckParams& params, int attempt) {
     const double strength = pushes[static_cast<std::size_t>(attempt)];
     const DeadZone& zone = params.macro.dead_zone;
     const double above_V = std::abs(strength) * (params.macro.command_limit_V - zone.threshold_V);
-    const double speed = (zone.offset_V + zone.slope * above_V) * params.macro.velocity_gain_mm_per_s_per_V;
-    return {std::copysign(zone.threshold_V + above_V, strength), params.move_mm / speed};
+    const double amount_V = zone.threshold_V + above_V;
+    const double speed = dead_zone_V(zone, amount_V) * params.macro.velocity_gain_mm_per_s_per_V;
+    return {std::copysign(amount_V, strength), params.move_mm / speed};
 }
 
 double moved_mm(const StageCheckParams& params, const StageCheckState& state, const StageSample& sample) {

@@ -6,14 +6,10 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <ctime>
 #include <limits>
 
-#include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/mman.h>
-#include <unistd.h>
 
 namespace fidservo::control {
 
@@ -57,9 +53,7 @@ StageLoop::StageLoop(std::shared_ptr<Stage> stage, const LoopOptions& options)
     : stage_(std::move(stage)),
       options_(options),
       ring_(static_cast<std::size_t>(std::ceil(options.ring_s / options.tick_s))),
-      wake_fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       counters_(std::make_unique<Shared>()) {
-    if (wake_fd_ < 0) throw RunFault(std::string("the control loop: eventfd: ") + std::strerror(errno));
     if (options_.watchdog) watchdog_ = watchdog_start(*options_.watchdog);
     counters_->memory_locked = lock_memory();
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -67,7 +61,6 @@ StageLoop::StageLoop(std::shared_ptr<Stage> stage, const LoopOptions& options)
 
 StageLoop::~StageLoop() {
     [[maybe_unused]] const Status off = stop();
-    ::close(wake_fd_);
 }
 
 Status StageLoop::stop() {
@@ -80,8 +73,7 @@ Status StageLoop::stop() {
 
 void StageLoop::start(const LoopProgram& program) {
     FIDSERVO_DEMAND(!running());
-    std::uint64_t old = 0;
-    [[maybe_unused]] const ssize_t emptied = ::read(wake_fd_, &old, sizeof old);
+    wake_.clear();
     if (ended_.load(std::memory_order_acquire)) return;
     program_ = program;
     running_.store(true, std::memory_order_release);
@@ -90,9 +82,7 @@ void StageLoop::start(const LoopProgram& program) {
 }
 
 void StageLoop::wait(std::chrono::milliseconds limit) const {
-    if (!running()) return;
-    pollfd event{wake_fd_, POLLIN, 0};
-    ::poll(&event, 1, static_cast<int>(limit.count()));
+    if (running()) wake_.wait(limit.count() * ns_per_ms);
 }
 
 std::optional<TickRecord> StageLoop::next() {
@@ -181,8 +171,7 @@ bool StageLoop::tick(int ticks_late) {
                false;
     if (step.done) {
         running_.store(false, std::memory_order_release);
-        const std::uint64_t one = 1;
-        [[maybe_unused]] const ssize_t woken = ::write(wake_fd_, &one, sizeof one);
+        wake_.raise();
     }
     return true;
 }
@@ -199,8 +188,7 @@ void StageLoop::end(Failure why) {
     why_ = std::move(why);
     ended_.store(true, std::memory_order_seq_cst);
     running_.store(false, std::memory_order_release);
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const ssize_t woken = ::write(wake_fd_, &one, sizeof one);
+    wake_.raise();
 }
 
 }  // namespace fidservo::control

@@ -14,6 +14,7 @@
 #include "control/stage.h"
 #include "control/watchdog.h"
 #include "core/spsc_ring.h"
+#include "core/wake_signal.h"
 
 #include <atomic>
 #include <chrono>
@@ -96,7 +97,7 @@ class StageLoop {
     std::shared_ptr<Stage> stage_;
     LoopOptions options_;
     SpscRing<TickRecord> ring_;
-    int wake_fd_;
+    WakeSignal wake_;  ///< the program has ended
     // Handed to the loop: the program before running_, the travel before its flag.
     LoopProgram program_;
     std::atomic<bool> running_{false};

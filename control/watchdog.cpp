@@ -1,5 +1,6 @@
 #include "control/watchdog.h"
 
+#include "core/dead_zone.h"
 #include "core/micro_model.h"
 
 #include <algorithm>
@@ -14,19 +15,13 @@ namespace {
 constexpr double beside_travel = 0.1;      ///< of the platform's travel, to either side
 constexpr double above_table_degC = 15.0;  ///< that the wire may be
 
-double driven_mm_per_s(const MacroParameters& macro, double command_V) {
-    const double above_V = std::abs(command_V) - macro.dead_zone.threshold_V;
-    if (command_V == 0.0 || above_V < 0.0) return 0.0;
-    return std::copysign(macro.dead_zone.offset_V + macro.dead_zone.slope * above_V, command_V) *
-           macro.velocity_gain_mm_per_s_per_V;
-}
-
 void follow_carriage(const WatchdogParams& params, WatchdogState& state, const WatchdogInput& input) {
     const std::int64_t count = input.sample.encoder_count;
     const double moved_mm =
         static_cast<double>(count - state.last_count.value_or(count)) * params.macro.encoder_resolution_mm;
     state.last_count = count;
-    const double driven = driven_mm_per_s(params.macro, input.command.macro_V);
+    const double driven = dead_zone_V(params.macro.dead_zone, input.command.macro_V) *
+                          params.macro.velocity_gain_mm_per_s_per_V;
     for (int tick = 0; tick <= input.ticks_late; ++tick) {
         state.lead_mm += state.speed_mm_per_s * params.tick_s;
         state.speed_mm_per_s += (1.0 - params.macro.velocity_pole) * (driven - state.speed_mm_per_s);

@@ -29,6 +29,11 @@ enum class Reason {
 /// The word that stands for a reason in result files, e.g. "no_tag".
 std::string_view name_of(Reason reason);
 
+/// Whether nothing is worth trying after it: a device failed, or the run was stopped.
+constexpr bool ends_the_run(Reason reason) {
+    return reason == Reason::device || reason == Reason::stopped;
+}
+
 struct Failure {
     Reason reason;
     std::string text;  ///< one line for people, without the reason's name

@@ -13,6 +13,10 @@ constexpr double seconds(TimeNs t_ns) {
     return static_cast<double>(t_ns) * 1e-9;
 }
 
+constexpr double microseconds(TimeNs t_ns) {
+    return 1e-3 * static_cast<double>(t_ns);
+}
+
 /// Nearest nanosecond to a duration in seconds.
 constexpr TimeNs nanoseconds(double t_s) {
     return static_cast<TimeNs>(t_s * 1e9 + (t_s < 0 ? -0.5 : 0.5));

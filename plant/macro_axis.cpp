@@ -1,7 +1,7 @@
 #include "plant/macro_axis.h"
 
+#include "core/dead_zone.h"
 #include "core/failure.h"
-#include "plant/dead_zone.h"
 
 #include <algorithm>
 #include <cmath>
@@ -152,8 +152,7 @@ double drive_voltage_V(const MacroAxisParameters& parameters, double command_V) 
 
 double effective_voltage_V(const MacroAxisParameters& parameters, double command_V) {
     const double drive_V = drive_voltage_V(parameters, command_V) + parameters.drive_bias_V;
-    return dead_zone_V(parameters.dead_zone, dead_zone_branch(parameters.dead_zone, drive_V), drive_V,
-                       parameters.dead_zone_on_motion);
+    return dead_zone_V(parameters.dead_zone, drive_V, parameters.dead_zone_on_motion);
 }
 
 void advance(const MacroAxis& axis, MacroAxisState& state, double command_V) {

@@ -1,6 +1,6 @@
 #include "plant/mechanism.h"
 
-#include "plant/dead_zone.h"
+#include "core/dead_zone.h"
 #include "plant/dormand_prince.h"
 #include "plant/macro_axis.h"
 

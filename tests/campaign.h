@@ -22,6 +22,13 @@ inline std::vector<std::filesystem::path> campaign(std::string_view name) {
     return {};
 }
 
+inline std::vector<Recording> read_all(const std::vector<std::filesystem::path>& folders) {
+    std::vector<Recording> recordings;
+    recordings.reserve(folders.size());
+    for (const auto& folder : folders) recordings.push_back(read_recording(folder));
+    return recordings;
+}
+
 /// Mean and variance of (reading - mean reading)^2 in LSB^2.
 struct SquareStatistics {
     double mean = 0.0;

@@ -162,8 +162,9 @@ Counts run_inspection(const InspectionOptions& options) {
         throw;
     }
     write_results(output.results(), content.visits);
-    write_run_json(output.run_json(), recipe, content, session.loop_statistics());
-    write_inspection_report(output, recipe, rig, content, session.loop_statistics());
+    const auto loop = session.loop_statistics();
+    write_run_json(output.run_json(), recipe, content, loop);
+    write_inspection_report(output, recipe, rig, content, loop);
     progress.is_at("done");
     return count(content.visits);
 }

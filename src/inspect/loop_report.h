@@ -1,5 +1,5 @@
 #pragma once
-// How punctual the control loop was, for people and for scripts.
+// How punctual the control loop was, for people.
 #include "control/loop_statistics.h"
 
 #include <string>
@@ -8,9 +8,5 @@ namespace fidservo::inspect {
 
 /// Table and histogram.
 std::string loop_html(const control::LoopStatistics& loop);
-
-/// The same as JSON text: ticks, overruns, held ticks, quantiles in us, the histogram as pairs [up to us,
-/// ticks] without its empty bins, and whether real-time priority and locked memory were permitted.
-std::string loop_json(const control::LoopStatistics& loop);
 
 }  // namespace fidservo::inspect

@@ -44,7 +44,7 @@ Status take_missing(const VisitContext& context, const Site& site, Snapshots& sn
         auto taken = take_snapshot(context, site, site.views[k], visit);
         if (!taken) {
             const Reason reason = taken.error().reason;
-            if (reason == Reason::stopped || reason == Reason::device) stop_run(site, taken.error());
+            if (ends_the_run(reason)) stop_run(site, taken.error());
             visit.failures.push_back({site.views[k].name, std::string(name_of(reason)), taken.error().text});
             return tl::make_unexpected(taken.error());
         }

@@ -15,15 +15,11 @@ constexpr double platform_way_mm = 0.6, platform_limit_s = 4.0;
 constexpr double heating_degC = 60.0, blind_s = 1.2;
 constexpr double share = 0.5;  ///< of the way: enough of an answer
 
-bool ends_the_run(const Failure& why) {
-    return why.reason == Reason::device || why.reason == Reason::stopped;
-}
-
 Status check_camera(Pilot& pilot) {
     do {
         const auto frame = pilot.next_frame(pilot.machine.now_ns());
         if (frame) continue;
-        if (ends_the_run(frame.error())) return forward(frame.error());
+        if (ends_the_run(frame.error().reason)) return forward(frame.error());
         return failure(Reason::device, frame.error().text);
     } while (pilot.machine.camera_is_in_doubt());
     return {};
@@ -55,7 +51,7 @@ Status check_carriage(Pilot& pilot) {
 Result<std::optional<double>> seen_s_mm(Pilot& pilot) {
     const auto fit = pilot.look_anywhere();
     if (fit) return fit->position.s_mm;
-    if (ends_the_run(fit.error())) return forward(fit.error());
+    if (ends_the_run(fit.error().reason)) return forward(fit.error());
     return std::nullopt;
 }
 
@@ -116,7 +112,7 @@ Status check_rig(Pilot& pilot) {
     if (auto well = check_platform(pilot); !well) return well;
     const auto fit = pilot.look_anywhere();
     if (fit) pilot.register_at(fit->position.s_mm);
-    if (!fit && ends_the_run(fit.error())) return forward(fit.error());
+    if (!fit && ends_the_run(fit.error().reason)) return forward(fit.error());
     return {};
 }
 

@@ -24,9 +24,7 @@ void check_stage(Pilot& pilot) {
 }
 
 std::string text_of(const control::LoopStatistics& loop) {
-    const auto us = [&](double share) {
-        return 1e-3 * static_cast<double>(loop.lateness.quantile_ns(share));
-    };
+    const auto us = [&](double share) { return microseconds(loop.lateness.quantile_ns(share)); };
     std::string text = fmt::format(
         "{} ticks, late by {:.0f} us (median), {:.0f} us (99 %), {:.0f} us at most; {} overruns, {} held",
         loop.ticks, us(0.5), us(0.99), us(1.0), loop.overruns, loop.held);

@@ -15,7 +15,7 @@ TEST(FodCurves, KilnCycles_GiveCurvesTableAndPredictionOfOtherProfiles) {
     constexpr std::uint64_t wire = 1;
     const HysteresisTrace other = record_wire(ramps(25.0, random_turns(9, 60), 0.1), wire, 0.0, 0.0);
     for (const double noise_degC : {0.0, 0.2}) {
-        SCOPED_TRACE(testing::Message() << "noise " << noise_degC << " degC");
+        SCOPED_TRACE(::testing::Message() << "noise " << noise_degC << " degC");
         const auto fod =
             identify_fod(record_wire(ramps(25.0, kiln_turns(), 0.1), wire, noise_degC, encoder_mm));
         ASSERT_TRUE(fod) << fod.error().text;

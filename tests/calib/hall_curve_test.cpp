@@ -142,7 +142,7 @@ TEST(HallCurve, UselessData_AreRefused) {
 
 TEST(HallCurve, RandomData_NeverBreakIt) {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        SCOPED_TRACE(::testing::Message() << "seed " << seed);
         NoiseStream draw(seed, "robustness");
         std::vector<HallSample> samples(static_cast<std::size_t>(80.0 * draw.uniform()));
         for (HallSample& sample : samples)

@@ -25,7 +25,7 @@ double worst_error_mm(const MicroModel& model, const HallParameters& true_hall) 
 TEST(HallMap, SensorThatDiffersFromItsFile_IsRecoveredOverTheTravel) {
     for (const double gain : {0.95, 1.0, 1.02}) {
         for (const double delay_s : {0.0, 0.03}) {
-            SCOPED_TRACE(testing::Message() << "seed 7, gain " << gain << ", delay " << delay_s << " s");
+            SCOPED_TRACE(::testing::Message() << "seed 7, gain " << gain << ", delay " << delay_s << " s");
             const Rig rig = reference_rig();
             plant::PlantParameters physics = plant::plant_parameters(rig);
             physics.micro->hall.span_V *= gain;

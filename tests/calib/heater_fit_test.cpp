@@ -238,7 +238,7 @@ TEST(HeaterFit, UselessData_AreRefused) {
 TEST(HeaterFit, RandomData_NeverBreakIt) {
     const MicroModel model = nominal_micro_model(*reference_rig().micro);
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        SCOPED_TRACE(::testing::Message() << "seed " << seed);
         NoiseStream draw(seed, "robustness");
         const auto n = static_cast<std::size_t>(150.0 * draw.uniform());
         HeaterRun run{.tick_s = 0.01, .command = {}, .reading = {}};

@@ -160,7 +160,7 @@ TEST(MacroIdentification, DegenerateRecordings_AreRefusedWithoutACrash) {
 TEST(MacroIdentification, NoiseInPlaceOfARecording_NeitherCrashesNorYieldsNonsense) {
     const Rig rig = macro_rig();
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        SCOPED_TRACE(::testing::Message() << "seed " << seed);
         NoiseStream noise(seed, "garbage");
         MacroTrace trace{"garbage", 0.001, {}, {}};
         const double scale_mm = std::pow(10.0, 2.0 * noise.normal());

@@ -18,7 +18,7 @@ class Score {
     }
     /// 99.8 % of a chi-square law with 60 degrees of freedom, over 60.
     void expect_true(const std::string& name) const {
-        testing::Test::RecordProperty(name, std::to_string(squares_));
+        ::testing::Test::RecordProperty(name, std::to_string(squares_));
         EXPECT_GT(squares_, 0.53) << name;
         EXPECT_LT(squares_, 1.66) << name;
     }

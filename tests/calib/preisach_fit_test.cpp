@@ -66,7 +66,7 @@ TEST(PreisachFit, WireOfRelays_IsPredictedOnProfilesItWasNotFittedTo) {
     constexpr std::uint64_t wire = 1;
     const HysteresisTrace other = record_wire(ramps(25.0, random_turns(9, 60), 0.1), wire, 0.0, 0.0);
     for (const double noise_degC : {0.0, 0.2}) {
-        SCOPED_TRACE(testing::Message() << "noise " << noise_degC << " degC");
+        SCOPED_TRACE(::testing::Message() << "noise " << noise_degC << " degC");
         const auto fit = fit_preisach(
             record_wire(ramps(25.0, random_turns(3, 80), 0.1), wire, noise_degC, encoder_mm), {.nodes = 31});
         ASSERT_TRUE(fit) << fit.error().text;
@@ -185,7 +185,7 @@ TEST(PreisachFit, UselessData_AreRefusedWithTheReason) {
 
 TEST(PreisachFit, RandomData_NeverBreakIt) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        SCOPED_TRACE(::testing::Message() << "seed " << seed);
         NoiseStream draw(seed, "robustness");
         HysteresisTrace trace;
         const auto n = static_cast<std::size_t>(200.0 * draw.uniform());

@@ -3,16 +3,12 @@
 #include "calib/hall_map.h"
 #include "core/random.h"
 #include "plant/stage_plant.h"
-#include "src/config/rig_file.h"
+#include "tests/reference_rig.h"
 
 #include <functional>
 #include <vector>
 
 namespace fidservo::calib {
-
-inline Rig reference_rig() {
-    return load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
-}
 
 struct Sweep {
     HallTrace hall;

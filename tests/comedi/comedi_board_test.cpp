@@ -1,8 +1,8 @@
 // Volts and counts through a board in memory.
 #include "control/comedi/comedi_board.h"
 
-#include "src/config/rig_file.h"
 #include "tests/comedi/fake_board.h"
+#include "tests/reference_rig.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,14 +10,9 @@
 namespace fidservo::control::comedi {
 namespace {
 
-const Rig& rig() {
-    static const Rig reference = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
-    return reference;
-}
-
 struct Bench {
     explicit Bench(const ChannelMap& map, std::vector<FakeSubdevice> subdevices = multiq3())
-        : parts(std::move(subdevices)), wiring(wire(map, FakeBoard(parts, registers), rig())) {}
+        : parts(std::move(subdevices)), wiring(wire(map, FakeBoard(parts, registers), reference_rig())) {}
 
     std::unique_ptr<FakeBoard> board() const { return std::make_unique<FakeBoard>(parts, registers); }
     std::uint32_t value(int subdevice, int channel) const { return registers->values[{subdevice, channel}]; }

@@ -2,8 +2,8 @@
 #include "control/comedi/wiring.h"
 
 #include "core/failure.h"
-#include "src/config/rig_file.h"
 #include "tests/comedi/fake_board.h"
+#include "tests/reference_rig.h"
 
 #include <string>
 
@@ -16,14 +16,9 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-const Rig& rig() {
-    static const Rig reference = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
-    return reference;
-}
-
 std::string refusal(const ChannelMap& map, const std::vector<FakeSubdevice>& board) {
     try {
-        (void)wire(map, FakeBoard(board, std::make_shared<FakeRegisters>()), rig());
+        (void)wire(map, FakeBoard(board, std::make_shared<FakeRegisters>()), reference_rig());
     } catch (const InputError& error) {
         return error.what();
     }
@@ -31,7 +26,7 @@ std::string refusal(const ChannelMap& map, const std::vector<FakeSubdevice>& boa
 }
 
 Wiring wired(const ChannelMap& map, const std::vector<FakeSubdevice>& board) {
-    return wire(map, FakeBoard(board, std::make_shared<FakeRegisters>()), rig());
+    return wire(map, FakeBoard(board, std::make_shared<FakeRegisters>()), reference_rig());
 }
 
 TEST(Wiring, NumberOfVolts_EndsAndMiddleOfTheRange) {

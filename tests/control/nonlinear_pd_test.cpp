@@ -28,10 +28,10 @@ TEST(NonlinearPd, LargeError_IsSaturated) {
 
 /// Reference-rig.md: within one count of a 50 mm step in 0.4 s, two counts of overshoot at most.
 TEST(NonlinearPd, FiftyMillimetreStepOnThePlant_SettlesAsPublished) {
-    const Rig rig = plant::reference_rig();
+    const Rig rig = reference_rig();
     const plant::StagePlant stage = plant::make_stage_plant(rig);
     for (double sub_count = 0.0; sub_count < 1.0; sub_count += 0.1) {
-        SCOPED_TRACE(testing::Message() << "start within the count: " << sub_count);
+        SCOPED_TRACE(::testing::Message() << "start within the count: " << sub_count);
         plant::StageState truth = plant::start(stage, 100.0 + 0.05 * sub_count, 1);
         PdState pd;
         double highest = 0.0, late_error = 0.0, last_error = 0.0;
@@ -59,7 +59,7 @@ TEST(Pid, OneTick_FollowsTheEquation) {
 /// The published benchmark: without a friction inverse the carriage sticks while the integral ramps, breaks
 /// away, overshoots and sticks again.
 TEST(Pid, OnThePlant_FallsIntoAStickSlipLimitCycle) {
-    const Rig rig = plant::reference_rig();
+    const Rig rig = reference_rig();
     const plant::StagePlant stage = plant::make_stage_plant(rig);
     for (const double step_count : {400.0, 777.0, 1000.0}) {
         SCOPED_TRACE(step_count);

@@ -70,7 +70,7 @@ class Bench {
 };
 
 TEST(Positioner, RandomTargetsOverThePlate_EndWithinToleranceAndStay) {
-    const Rig rig = plant::reference_rig();
+    const Rig rig = reference_rig();
     const PositionerParams params = positioner_params(rig);
     Bench bench(rig, 1, 20.0);
     PositionerState state = positioner_start(params);
@@ -78,7 +78,7 @@ TEST(Positioner, RandomTargetsOverThePlate_EndWithinToleranceAndStay) {
     double squares = 0.0;
     constexpr int n = 100;
     for (int i = 0; i < n; ++i) {
-        SCOPED_TRACE(testing::Message() << "seed 1, target " << i);
+        SCOPED_TRACE(::testing::Message() << "seed 1, target " << i);
         const double target_mm = i % 3 == 0 ? bench.position_mm() + 0.2 * (targets.uniform() - 0.5)
                                             : 4.0 + 192.0 * targets.uniform();
         positioner_begin(params, state, target_mm - bench.position_mm() + 0.02 * targets.normal(), anywhere);
@@ -122,13 +122,13 @@ double unrest_mm(const Rig& rig, bool published_pi_alone) {
 }
 
 TEST(MicroController, ReversingSteps_EndTheHuntingOfThePublishedPi) {
-    const Rig rig = plant::reference_rig();
+    const Rig rig = reference_rig();
     EXPECT_GT(unrest_mm(rig, true), 0.020);
     EXPECT_LT(unrest_mm(rig, false), 0.001);
 }
 
 TEST(Positioner, MicroStageMovesOnlyAfterTheMacroStageHasSettled) {
-    const Rig rig = plant::reference_rig();
+    const Rig rig = reference_rig();
     const PositionerParams params = positioner_params(rig);
     Bench bench(rig, 2, 20.0);
     PositionerState state = positioner_start(params);
@@ -149,7 +149,7 @@ TEST(Positioner, MicroStageMovesOnlyAfterTheMacroStageHasSettled) {
 }
 
 TEST(Positioner, FramesExposedBeforeTheRest_AreNotUsed) {
-    const Rig rig = plant::reference_rig();
+    const Rig rig = reference_rig();
     const PositionerParams params = positioner_params(rig);
     PositionerState state = positioner_start(params);
     positioner_begin(params, state, 0.5, anywhere);
@@ -165,7 +165,7 @@ TEST(Positioner, FramesExposedBeforeTheRest_AreNotUsed) {
 }
 
 TEST(Positioner, FramesThatDisagree_NeverConfirmARest) {
-    const Rig rig = plant::reference_rig();
+    const Rig rig = reference_rig();
     const PositionerParams params = positioner_params(rig);
     PositionerState state = positioner_start(params);
     positioner_begin(params, state, 0.5, anywhere);
@@ -200,7 +200,7 @@ TEST(Positioner, LooksOfKnownNoise_ClaimWhatTheyAreWrongBy) {
     constexpr std::uint64_t seed = 31;
     NoiseStream noise(seed, "looks");
     for (const double shake_mm : {0.0, 0.00005}) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed << ", shake " << shake_mm);
+        SCOPED_TRACE(::testing::Message() << "seed " << seed << ", shake " << shake_mm);
         double squares = 0.0;
         constexpr int draws = 20'000;
         for (int k = 0; k < draws; ++k) {
@@ -219,7 +219,7 @@ TEST(Positioner, LooksOfKnownNoise_ClaimWhatTheyAreWrongBy) {
 }
 
 TEST(Positioner, NoTagInView_FailsWithinItsTime) {
-    const Rig rig = plant::reference_rig();
+    const Rig rig = reference_rig();
     const PositionerParams params = positioner_params(rig);
     PositionerState state = positioner_start(params);
     positioner_begin(params, state, 0.5, anywhere);

@@ -1,8 +1,8 @@
-#include "src/config/rig_file.h"
 #include "src/diagnose/chain_drawing.h"
 #include "src/diagnose/waterfall.h"
 #include "src/diagnose/words.h"
 #include "tests/diagnose/well_formed.h"
+#include "tests/reference_rig.h"
 
 #include <cmath>
 #include <filesystem>
@@ -16,10 +16,6 @@ namespace {
 using ::fidservo::testing::nesting_fault;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-Rig reference_rig() {
-    return load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
-}
 
 gap::Diagnosis two_effects() {
     gap::Diagnosis diagnosis;

@@ -2,8 +2,8 @@
 #include "src/diagnose/next_experiment.h"
 
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
 #include "src/simulation/experiments.h"
+#include "tests/reference_rig.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -13,11 +13,6 @@
 namespace fidservo {
 
 namespace {
-
-const Rig& reference_rig() {
-    static const Rig rig = load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
-    return rig;
-}
 
 /// One effect found, tied with another.
 gap::Diagnosis tied(const std::string& found, const std::string& rival) {

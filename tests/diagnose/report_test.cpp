@@ -2,13 +2,13 @@
 #include "src/diagnose/report.h"
 
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
 #include "src/diagnose/predictions.h"
 #include "src/simulation/experiments.h"
 #include "src/simulation/simulate.h"
 #include "tests/diagnose/well_formed.h"
 #include "tests/gap/effects.h"
 #include "tests/gap/root_mean_square.h"
+#include "tests/reference_rig.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,11 +31,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 constexpr std::uint64_t seed = 5;
-
-const Rig& reference_rig() {
-    static const Rig rig = load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
-    return rig;
-}
 
 std::vector<Recording> simulated(const Rig& rig, const gap::Hypothesis& truth,
                                  std::initializer_list<std::string_view> kinds) {

@@ -19,7 +19,6 @@ namespace {
 using namespace gap;
 using testing::campaign;
 using testing::effects;
-using testing::reference_rig;
 
 std::vector<std::string> names(const Diagnosis& diagnosis) {
     std::vector<std::string> found;

@@ -5,6 +5,7 @@
 #include "tests/campaign.h"
 #include "tests/gap/effects.h"
 #include "tests/gap/root_mean_square.h"
+#include "tests/reference_rig.h"
 
 #include <filesystem>
 #include <string>
@@ -17,18 +18,8 @@ namespace {
 
 using namespace gap;
 using testing::effects;
+using testing::read_all;
 using testing::rms;
-
-Rig reference_rig() {
-    return load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
-}
-
-std::vector<Recording> read_all(const std::vector<std::filesystem::path>& folders) {
-    std::vector<Recording> recordings;
-    recordings.reserve(folders.size());
-    for (const auto& folder : folders) recordings.push_back(read_recording(folder));
-    return recordings;
-}
 
 class Campaign : public ::testing::Test {
   protected:

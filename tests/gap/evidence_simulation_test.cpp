@@ -1,11 +1,11 @@
 // What recordings of the simulated rig say about the effect that it has.
 #include "core/random.h"
 #include "gap/evidence.h"
-#include "src/config/rig_file.h"
 #include "src/simulation/experiments.h"
 #include "src/simulation/simulate.h"
 #include "tests/gap/effects.h"
 #include "tests/gap/root_mean_square.h"
+#include "tests/reference_rig.h"
 
 #include <filesystem>
 #include <limits>
@@ -20,11 +20,6 @@ namespace {
 using namespace gap;
 using testing::effects;
 using testing::rms;
-
-const Rig& reference_rig() {
-    static const Rig rig = load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
-    return rig;
-}
 
 std::vector<Recording> simulated(const Hypothesis& truth, std::initializer_list<std::string_view> kinds,
                                  std::uint64_t seed) {

@@ -1,9 +1,9 @@
 #pragma once
 #include "gap/evidence.h"
-#include "src/config/rig_file.h"
 #include "src/simulation/experiments.h"
 #include "src/simulation/simulate.h"
 #include "tests/gap/effects.h"
+#include "tests/reference_rig.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -14,11 +14,6 @@
 #include <vector>
 
 namespace fidservo::testing {
-
-inline const Rig& reference_rig() {
-    static const Rig rig = load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
-    return rig;
-}
 
 /// What a rig with effects records, two runs of each experiment, beside the reference rig's file.
 inline gap::Evidence campaign(const gap::Hypothesis& truth, std::initializer_list<std::string_view> kinds,

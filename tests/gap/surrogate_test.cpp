@@ -13,7 +13,6 @@ namespace {
 
 using namespace gap;
 using ::testing::HasSubstr;
-using testing::reference_rig;
 
 /// With no effect to try that could explain what is recorded.
 Diagnosis unnamed(const Rig& true_rig, const Hypothesis& truth, std::initializer_list<std::string_view> kinds,

@@ -68,7 +68,7 @@ TEST(LiveFeed, Tags_BelongToTheFrameBefore) {
 
 TEST(LiveBoard, News_AreToldOnceToEverybody) {
     const auto feed = std::make_shared<LiveFeed>();
-    LiveBoard board(feed, testing::reference_rig());
+    LiveBoard board(feed, reference_rig());
     LiveBoard::Told one, other;
     EXPECT_EQ(board.news(one, 0.0), "");
     testing::show_run(*feed);

@@ -18,7 +18,7 @@ namespace {
 class LivePage : public ::testing::Test {
   protected:
     LivePage() {
-        server_.emplace(0, feed_, testing::reference_rig(), [this] { ++stops_; });
+        server_.emplace(0, feed_, reference_rig(), [this] { ++stops_; });
     }
 
     std::string host() const { return "127.0.0.1:" + std::to_string(server_->port()); }
@@ -69,7 +69,7 @@ TEST_F(LivePage, OtherSites_AreRefused) {
 }
 
 TEST_F(LivePage, PortThatIsTaken_IsRefused) {
-    EXPECT_THROW(LiveServer(server_->port(), feed_, testing::reference_rig(), [] {}), RunFault);
+    EXPECT_THROW(LiveServer(server_->port(), feed_, reference_rig(), [] {}), RunFault);
 }
 
 TEST_F(LivePage, Events_TellWhatTheRunShowsAndItsEnd) {

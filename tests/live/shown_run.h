@@ -1,8 +1,8 @@
 #pragma once
 // A feed as a run fills it.
 #include "core/rig.h"
-#include "src/config/rig_file.h"
 #include "src/live/live_feed.h"
+#include "tests/reference_rig.h"
 
 #include <cmath>
 #include <vector>
@@ -10,10 +10,6 @@
 #include <opencv2/imgproc.hpp>
 
 namespace fidservo::testing {
-
-inline Rig reference_rig() {
-    return load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
-}
 
 /// A dark square where the tag is said to be.
 inline vision::Frame frame_with_square(TimeNs time_ns) {

@@ -54,7 +54,7 @@ TEST_P(Positioning, TwoHundredRandomTargets_WithinFiveMicrometresInBangBangTime)
     NoiseStream draw(seed, "targets");
     double squares = 0.0, worst_mm = 0.0, worst_late_s = -1.0, worst_camera_um = 0.0, normalised = 0.0;
     for (int i = 0; i < targets; ++i) {
-        SCOPED_TRACE(testing::Message() << GetParam().name << ", seed " << seed << ", target " << i);
+        SCOPED_TRACE(::testing::Message() << GetParam().name << ", seed " << seed << ", target " << i);
         const int tag = 1 + static_cast<int>(99.0 * draw.uniform());
         const double dx_mm = 3.0 * (draw.uniform() - 0.5);
         const double target_mm = 2.0 * tag + dx_mm;

@@ -2,10 +2,10 @@
 // detector must tell the same story, whatever the camera is like.
 #include "core/failure.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
 #include "src/recording/reader.h"
 #include "src/simulation/filmed_recording.h"
 #include "src/simulation/simulate.h"
+#include "tests/reference_rig.h"
 #include "tests/src/temporary_folder.h"
 
 #include <algorithm>
@@ -19,10 +19,6 @@
 
 namespace fidservo {
 namespace {
-
-Rig reference_rig() {
-    return load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
-}
 
 /// The wire heats up: the camera moves at some mm/s, evenly but for the table's cells.
 Experiment heating() {

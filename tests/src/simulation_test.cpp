@@ -1,17 +1,13 @@
 #include "core/failure.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
 #include "src/recording/row_format.h"
 #include "src/simulation/simulate.h"
+#include "tests/reference_rig.h"
 
 #include <gtest/gtest.h>
 
 namespace fidservo {
 namespace {
-
-Rig reference_rig() {
-    return load_rig(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
-}
 
 Recording run(const Rig& rig, std::string_view kind, std::uint64_t seed, const std::string& effect = "") {
     std::vector<plant::EffectSetting> effects;

@@ -2,7 +2,7 @@
 #include "control/stage_check.h"
 
 #include "plant/stage_plant.h"
-#include "src/config/rig_file.h"
+#include "tests/reference_rig.h"
 
 #include <cmath>
 
@@ -13,11 +13,6 @@ namespace fidservo::control {
 namespace {
 
 using ::testing::HasSubstr;
-
-const Rig& rig() {
-    static const Rig reference = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
-    return reference;
-}
 
 /// What is wrong between the program and the stage.
 struct Fault {
@@ -37,9 +32,9 @@ struct Outcome {
 };
 
 Outcome check(const Fault& fault, double carriage_mm = 100.0) {
-    const plant::StagePlant plant = plant::make_stage_plant(rig());
+    const plant::StagePlant plant = plant::make_stage_plant(reference_rig());
     plant::StageState stage = plant::start(plant, carriage_mm, 3);
-    const StageCheckParams params = stage_check_params(rig());
+    const StageCheckParams params = stage_check_params(reference_rig());
     Outcome outcome;
     const plant::StageReading first = plant::sample(plant, stage);
     while (!stage_check_is_done(outcome.state) && outcome.ticks++ < 30'000) {
@@ -89,7 +84,7 @@ TEST(StageCheck, WhatDoesNotAnswer_IsNamed) {
 }
 
 TEST(StageCheck, EncoderThatMovesAtRest_IsNotTrusted) {
-    const StageCheckParams params = stage_check_params(rig());
+    const StageCheckParams params = stage_check_params(reference_rig());
     StageCheckState state;
     for (int tick = 0; tick < 100 && !stage_check_is_done(state); ++tick) {
         const StageCommand command = stage_check_update(params, state, {tick * ns_per_ms, tick, 2048});

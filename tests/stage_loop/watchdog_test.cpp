@@ -2,7 +2,7 @@
 #include "control/watchdog.h"
 
 #include "plant/stage_plant.h"
-#include "src/config/rig_file.h"
+#include "tests/reference_rig.h"
 
 #include <cmath>
 #include <numbers>
@@ -15,16 +15,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const Rig& rig() {
-    static const Rig reference = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
-    return reference;
-}
-
 constexpr int middle_adc = 2048;
 
 /// Ticks the same input until an alarm; the number of ticks that it took.
 struct Watched {
-    WatchdogParams params = watchdog_params(rig());
+    WatchdogParams params = watchdog_params(reference_rig());
     WatchdogState state = watchdog_start(params);
     WatchdogInput input{{0, 0, middle_adc}, {}, 0, true, {}};
     Alarm alarm = Alarm::none;
@@ -42,9 +37,9 @@ struct Watched {
 
 /// A stage that is driven to and fro and heated up and down, near the limits.
 TEST(Watchdog, HealthyStage_NoAlarm) {
-    const plant::StagePlant plant = plant::make_stage_plant(rig());
+    const plant::StagePlant plant = plant::make_stage_plant(reference_rig());
     plant::StageState stage = plant::start(plant, 100.0, 1);
-    const WatchdogParams params = watchdog_params(rig());
+    const WatchdogParams params = watchdog_params(reference_rig());
     WatchdogState state = watchdog_start(params);
     StageCommand command;
     for (int tick = 0; tick < 60'000; ++tick) {

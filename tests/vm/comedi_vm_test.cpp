@@ -4,9 +4,9 @@
 #include "control/comedi/libcomedi_link.h"
 #include "control/stage_check.h"
 #include "control/stage_loop.h"
-#include "src/config/rig_file.h"
 #include "src/session/stage_start.h"
 #include "tests/comedi/fake_board.h"
+#include "tests/reference_rig.h"
 
 #include <cmath>
 #include <iostream>
@@ -23,11 +23,6 @@ using ::testing::HasSubstr;
 
 constexpr const char* multiq3_node = "/dev/comedi0";
 constexpr const char* loopback_node = "/dev/comedi1";
-
-const Rig& rig() {
-    static const Rig reference = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
-    return reference;
-}
 
 /// Motor and heater outputs read back as position and Hall sensor.
 ChannelMap looped_back() {
@@ -47,7 +42,7 @@ TEST(ComediTest, OutputsComeBackAtTheInputs) {
     const auto board = open_board(loopback_node);
     std::cout << board->name() << '\n';
     EXPECT_THAT(board->name(), HasSubstr("comedi_test"));
-    const Wiring wiring = wire(looped_back(), *board, rig());
+    const Wiring wiring = wire(looped_back(), *board, reference_rig());
     EXPECT_EQ(wiring.macro.range, (VoltageRange{-5.0, 5.0}));
     EXPECT_EQ(wiring.macro.max_value, 0xffffU);
     for (std::uint32_t number = 0; number <= 0xffff; number += 257) {
@@ -60,7 +55,7 @@ TEST(ComediTest, OutputsComeBackAtTheInputs) {
 
 /// Every command of a loop at 1 kHz comes back through guardian process and kernel, in order.
 TEST(ComediTest, Loop_CommandsComeBackAsSamples) {
-    const Wiring wiring = wire(looped_back(), *open_board(loopback_node), rig());
+    const Wiring wiring = wire(looped_back(), *open_board(loopback_node), reference_rig());
     GuardianOptions options;
     options.timeout = 1000ms;  // an emulated machine stands still at times
     const auto guardian = std::make_shared<Guardian>(
@@ -115,18 +110,18 @@ TEST(MultiQ3, DriverSaysWhatTheMapsExampleExpects) {
         }
     }
     EXPECT_EQ(board->kind(static_cast<int>(expected.size())), SubdeviceKind::none);
-    EXPECT_NO_THROW((void)wire(multiq3_map(), *board, rig()));
+    EXPECT_NO_THROW((void)wire(multiq3_map(), *board, reference_rig()));
 }
 
 /// The driver attaches and answers although there is no board: the stage's check is not taken in.
 TEST(MultiQ3, NoBoard_TheStageDoesNotPassItsCheck) {
-    const Wiring wiring = wire(multiq3_map(), *open_board(multiq3_node), rig());
+    const Wiring wiring = wire(multiq3_map(), *open_board(multiq3_node), reference_rig());
     GuardianOptions options;
     options.timeout = 1000ms;
     const auto guardian = std::make_shared<Guardian>(
         options, [&] { return std::make_unique<ComediOutputs>(open_board(multiq3_node), wiring); });
     ComediStage stage(open_board(multiq3_node), wiring, guardian);
-    const StageCheckParams params = stage_check_params(rig());
+    const StageCheckParams params = stage_check_params(reference_rig());
     StageCheckState state;
     for (int tick = 0; tick < 30'000 && !stage_check_is_done(state); ++tick) {
         const auto sample = stage.read();

@@ -1,13 +1,13 @@
 #include "vision/v4l2/v4l2_camera.h"
 
 #include "core/monotonic_clock.h"
+#include "core/wake_signal.h"
 #include "vision/v4l2/camera_list.h"
 #include "vision/v4l2/frame_slot.h"
 #include "vision/v4l2/grey_image.h"
 #include "vision/v4l2/leased_image.h"
 #include "vision/v4l2/sequence.h"
 #include "vision/v4l2/stream.h"
-#include "vision/v4l2/wake_signal.h"
 
 #include <cmath>
 #include <stop_token>

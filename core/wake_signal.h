@@ -1,10 +1,10 @@
 #pragma once
 #include "core/time.h"
 
-namespace fidservo::vision::v4l2 {
+namespace fidservo {
 
-/// A descriptor that becomes readable when it is raised, and stays so: it ends a thread's waiting. Raised
-/// from any thread.
+/// A descriptor that becomes readable when it is raised, and stays so until it is cleared: it ends the
+/// waiting of a thread, or of a child process. Raised from any thread; neither call waits.
 class WakeSignal {
   public:
     /// Throws RunFault.
@@ -14,6 +14,7 @@ class WakeSignal {
     WakeSignal& operator=(const WakeSignal&) = delete;
 
     void raise() const noexcept;
+    void clear() const noexcept;
     void wait(TimeNs at_most_ns) const noexcept;
     int fd() const { return fd_; }
 
@@ -21,4 +22,4 @@ class WakeSignal {
     int fd_;
 };
 
-}  // namespace fidservo::vision::v4l2
+}  // namespace fidservo

@@ -16,7 +16,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fidservo::plant {
+namespace fidservo {
 
 enum class DeadZoneBranch { left = -1, inside = 0, right = 1 };
 
@@ -43,6 +43,11 @@ inline double dead_zone_V(const DeadZone& zone, DeadZoneBranch branch, double dr
            (1.0 - on_motion) * side * (zone.offset_V + zone.slope * (side * drive_V - zone.threshold_V));
 }
 
+/// V of a voltage w, by its branch.
+inline double dead_zone_V(const DeadZone& zone, double drive_V, double on_motion = 0.0) {
+    return dead_zone_V(zone, dead_zone_branch(zone, drive_V), drive_V, on_motion);
+}
+
 /// How far w is from the nearest edge of a branch, in V; negative beyond it. Infinite on a straight line.
 inline double dead_zone_slack_V(const DeadZone& zone, DeadZoneBranch branch, double drive_V) {
     if (is_straight(zone)) return std::numeric_limits<double>::infinity();
@@ -50,4 +55,4 @@ inline double dead_zone_slack_V(const DeadZone& zone, DeadZoneBranch branch, dou
     return (branch == DeadZoneBranch::left ? -drive_V : drive_V) - zone.threshold_V;
 }
 
-}  // namespace fidservo::plant
+}  // namespace fidservo

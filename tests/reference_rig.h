@@ -1,0 +1,13 @@
+#pragma once
+#include "core/rig.h"
+#include "src/config/rig_file.h"
+
+namespace fidservo {
+
+/// The rig of assets/rig.yaml.
+inline const Rig& reference_rig() {
+    static const Rig rig = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
+    return rig;
+}
+
+}  // namespace fidservo
