@@ -1,7 +1,7 @@
 #include "gap/carriage_forces.h"
 
+#include "core/dead_zone.h"
 #include "gap/carriage_run.h"
-#include "plant/dead_zone.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,14 +17,8 @@ constexpr std::size_t half_smoothing = 8;  ///< rows
 constexpr double sliding_mm_per_s = 2.0;   ///< three standard deviations of the smoothed velocity
 
 /// phi = c (1 - s^2)^4, s = t / h, and its derivatives over t.
-struct Modulating {
-    double value, first, second;
-};
-
-Modulating modulating(double s, double h_s) {
-    const double rest = std::max(0.0, 1.0 - s * s), unit = 315.0 / (256.0 * h_s);
-    return {unit * std::pow(rest, 4), -unit * 8.0 * s * std::pow(rest, 3) / h_s,
-            unit * (48.0 * s * s * std::pow(rest, 2) - 8.0 * std::pow(rest, 3)) / (h_s * h_s)};
+double modulating(double s, double h_s) {
+    return 315.0 / (256.0 * h_s) * std::pow(std::max(0.0, 1.0 - s * s), 4);
 }
 
 /// Place, velocity and half the acceleration, per rows, in the middle of a parabola through readings.
@@ -53,7 +47,7 @@ SlidingRow row_of(const Evidence& evidence, std::size_t run, std::size_t row, co
     const double tick_s = evidence.rig().tick_s, velocity = smooth(1) / tick_s;
     const double command_V = rows[row].macro_command_V;
     const DeadZone& zone = evidence.rig().macro.dead_zone;
-    const bool pushes = plant::dead_zone_branch(zone, command_V) != plant::DeadZoneBranch::inside;
+    const bool pushes = dead_zone_branch(zone, command_V) != DeadZoneBranch::inside;
     return {smooth(0),
             velocity,
             2.0 * smooth(2) / (tick_s * tick_s),
@@ -71,9 +65,9 @@ bool is_free(const MacroParameters& macro, double predicted_mm) {
 }
 
 bool slides(const MacroParameters& macro, const SlidingRow& row, double edge_V) {
-    const plant::DeadZoneBranch branch = plant::dead_zone_branch(macro.dead_zone, row.command_V);
+    const DeadZoneBranch branch = dead_zone_branch(macro.dead_zone, row.command_V);
     return std::abs(row.velocity_mm_per_s) > sliding_mm_per_s &&
-           std::abs(plant::dead_zone_slack_V(macro.dead_zone, branch, row.command_V)) > edge_V;
+           std::abs(dead_zone_slack_V(macro.dead_zone, branch, row.command_V)) > edge_V;
 }
 
 /// Recorded places row by row, mm.
@@ -127,15 +121,18 @@ CarriageForces::CarriageForces(const Evidence& evidence, const Errors& errors, s
 
 void CarriageForces::find_weights(const Rig& rig, double floor_mm, std::size_t half_support) {
     const double tau_s = -rig.tick_s / std::log(rig.macro.velocity_pole);
-    const double h_s = (static_cast<double>(half_support) + 1.0) * rig.tick_s;
+    const double tick_s = rig.tick_s, h_s = static_cast<double>(half_support) * tick_s;
+    const auto phi = [&](double ticks) { return modulating(ticks * tick_s / h_s, h_s); };
     double variance = 0.0;
     for (std::size_t i = 0; i < 2 * half_support + 1; ++i) {
         const double ticks = static_cast<double>(i) - static_cast<double>(half_support);
-        const Modulating at = modulating(ticks * rig.tick_s / h_s, h_s);
-        of_reading_.push_back(rig.tick_s * (tau_s * at.second - at.first) /
-                              rig.macro.velocity_gain_mm_per_s_per_V);
+        // Differences: however few the rows are, an error that is constant or grows evenly has no part in
+        // the second one, which stands for a large number.
+        const double first = (phi(ticks + 1.0) - phi(ticks - 1.0)) / (2.0 * tick_s);
+        const double second = (phi(ticks + 1.0) - 2.0 * phi(ticks) + phi(ticks - 1.0)) / (tick_s * tick_s);
+        of_reading_.push_back(tick_s * (tau_s * second - first) / rig.macro.velocity_gain_mm_per_s_per_V);
         // A command acts from its row to the next.
-        of_force_.push_back(rig.tick_s * modulating((ticks + 0.5) * rig.tick_s / h_s, h_s).value);
+        of_force_.push_back(tick_s * phi(ticks + 0.5));
         variance += std::pow(floor_mm * of_reading_.back(), 2);
     }
     for (double& weight : of_reading_) weight /= std::sqrt(variance);

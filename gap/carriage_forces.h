@@ -30,6 +30,10 @@ struct SlidingRow {
     std::size_t run, row;
 };
 
+/// Rows to either side of a support's middle: the long one about a time constant of a carriage, the short one
+/// for what changes faster.
+inline constexpr std::size_t short_half_support = 12, long_half_support = 25;
+
 /// How near to the edge of the dead zone forces of a tenth of a volt may be misjudged.
 inline constexpr double usual_edge_V = 0.15;
 

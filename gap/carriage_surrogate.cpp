@@ -1,9 +1,9 @@
+#include "core/dead_zone.h"
 #include "gap/carriage_forces.h"
 #include "gap/hat_functions.h"
-#include "gap/period_search.h"
 #include "gap/surrogate.h"
-#include "plant/dead_zone.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -11,6 +11,9 @@
 
 namespace fidservo::gap {
 namespace {
+
+/// Of the squares of what is lacking, from which on a period is one.
+constexpr double least_share_of_wave = 0.05;
 
 /// By how much commands may be late.
 constexpr std::array<std::size_t, 2> late_ticks{2, 8};
@@ -24,9 +27,7 @@ std::vector<std::vector<double>> effective_V(const Evidence& evidence) {
     for (const Recording& recording : evidence.recordings()) {
         std::vector<double>& of_run = all.emplace_back();
         of_run.reserve(recording.rows.size());
-        for (const StageRow& row : recording.rows)
-            of_run.push_back(plant::dead_zone_V(zone, plant::dead_zone_branch(zone, row.macro_command_V),
-                                                row.macro_command_V));
+        for (const StageRow& row : recording.rows) of_run.push_back(dead_zone_V(zone, row.macro_command_V));
     }
     return all;
 }
@@ -58,11 +59,15 @@ void add_hats(
 }
 
 /// A force may be a sine; graduations err in harmonics too.
-void add_waves(std::vector<Column>& columns, const CarriageForces& forces, double period_mm) {
+/// @param is_meant  rows that the wave passes through
+void add_waves(std::vector<Column>& columns, const CarriageForces& forces, double period_mm,
+               const std::function<bool(const SlidingRow&)>& is_meant) {
     for (const double phase : {0.0, 0.5 * std::numbers::pi}) {
-        const auto wave = [=](double waves_in_period) {
+        const auto wave = [&](double waves_in_period) {
             const double per_mm = 2.0 * std::numbers::pi * waves_in_period / period_mm;
-            return [=](const SlidingRow& at) { return std::sin(per_mm * at.position_mm + phase); };
+            return [=](const SlidingRow& at) {
+                return is_meant(at) ? std::sin(per_mm * at.position_mm + phase) : 0.0;
+            };
         };
         columns.push_back(force(forces, Dependence::position_period, passed(wave(1.0))));
         columns.push_back(reading(forces, Dependence::reading_period, wave(1.0)));
@@ -72,8 +77,17 @@ void add_waves(std::vector<Column>& columns, const CarriageForces& forces, doubl
 
 }  // namespace
 
-Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, double edge_V) {
-    constexpr std::size_t half_support = 25;  // rows: about a time constant of the carriage
+bool has_own_zeros(const Evidence& evidence) {
+    return std::ranges::any_of(evidence.recordings(),
+                               [](const Recording& recording) { return recording.columns.position; });
+}
+
+Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, double edge_V,
+                             const PositionPeriod& period) {
+    // A wave that a long support spans is averaged away.
+    const bool is_wave = period.share > least_share_of_wave;
+    const std::size_t half_support = is_wave ? period.half_support : long_half_support;
+    const double period_mm = period.period_mm;
     const CarriageForces forces(evidence, errors, half_support, edge_V);
     Surrogate surrogate{Signal::encoder, {}, {}};
     surrogate.errors = forces.lacking();
@@ -102,9 +116,14 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, dou
         }));
     add_hats(
         columns, forces, Dependence::time, 6, [](const SlidingRow& at) { return at.time_s; }, share_passed);
-    const auto periods = strongest_periods(evidence, errors);
-    if (!periods.empty()) surrogate.period_mm = periods.front().period_mm;
-    if (surrogate.period_mm > 0.0) add_waves(columns, forces, surrogate.period_mm);
+    surrogate.period_mm = period_mm;
+    if (period_mm <= 0.0) return surrogate;
+    if (!has_own_zeros(evidence)) {
+        add_waves(columns, forces, period_mm, [](const SlidingRow&) { return true; });
+        return surrogate;
+    }
+    for (std::size_t run = 0; run < evidence.recordings().size(); ++run)
+        add_waves(columns, forces, period_mm, [=](const SlidingRow& at) { return at.run == run; });
     return surrogate;
 }
 

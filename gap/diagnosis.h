@@ -68,7 +68,7 @@ struct Diagnosis {
     Verdict verdict = Verdict::no_gap;
     std::vector<SignalGap> signals;
     std::vector<BlockProbability> where;  ///< most likely first
-    std::vector<FoundEffect> effects;     ///< in the order taken in
+    std::vector<FoundEffect> effects;     ///< what the rest can least do without first
     std::vector<TriedEffect> candidates;  ///< most likely first
     TotalGap gap{1.0, 1.0};
     std::optional<Remainder> unexplained;

@@ -7,15 +7,11 @@
 
 namespace fidservo::gap {
 
-std::vector<std::uint8_t> halves(const Evidence& evidence) {
+namespace {
+
+/// @param half_of_run  -1: by stretches
+std::vector<std::uint8_t> halves(const Evidence& evidence, std::span<const int> half_of_run) {
     constexpr std::size_t windows_in_stretch = 4;
-    std::map<std::string, std::vector<std::size_t>> runs_of;
-    for (std::size_t run = 0; run < evidence.recordings().size(); ++run)
-        runs_of[evidence.recordings()[run].experiment].push_back(run);
-    std::vector<int> half_of_run(evidence.recordings().size(), -1);
-    for (const auto& [experiment, runs] : runs_of)
-        if (runs.size() > 1)
-            for (std::size_t k = 0; k < runs.size(); ++k) half_of_run[runs[k]] = static_cast<int>(k % 2);
     const std::vector<Window>& windows = evidence.windows();
     std::vector<std::uint8_t> half(windows.size());
     std::size_t in_run = 0;
@@ -28,6 +24,23 @@ std::vector<std::uint8_t> halves(const Evidence& evidence) {
                                                         : in_run / windows_in_stretch % 2);
     }
     return half;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> halves(const Evidence& evidence) {
+    std::map<std::string, std::vector<std::size_t>> runs_of;
+    for (std::size_t run = 0; run < evidence.recordings().size(); ++run)
+        runs_of[evidence.recordings()[run].experiment].push_back(run);
+    std::vector<int> half_of_run(evidence.recordings().size(), -1);
+    for (const auto& [experiment, runs] : runs_of)
+        if (runs.size() > 1)
+            for (std::size_t k = 0; k < runs.size(); ++k) half_of_run[runs[k]] = static_cast<int>(k % 2);
+    return halves(evidence, half_of_run);
+}
+
+std::vector<std::uint8_t> halves_of_each_run(const Evidence& evidence) {
+    return halves(evidence, std::vector<int>(evidence.recordings().size(), -1));
 }
 
 Wanted instructive(std::span<const Window> windows, const Wanted& eligible,

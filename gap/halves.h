@@ -13,6 +13,9 @@ namespace fidservo::gap {
 /// four windows do.
 std::vector<std::uint8_t> halves(const Evidence& evidence);
 
+/// The same by stretches of every run: for what has a value of its own in each run.
+std::vector<std::uint8_t> halves_of_each_run(const Evidence& evidence);
+
 /// Windows from which a fit learns most, of those eligible: of each signal at most `most`, half of them
 /// of all sizes of error above the median (the largest ones are beyond what a fit can follow at first), the
 /// others evenly spread in time.

@@ -98,6 +98,7 @@ class Periodogram {
         : windows_(by_window(evidence, forces)),
           reading_weights_(in_floats(forces.reading_weights())),
           force_weights_(in_floats(forces.force_weights())),
+          half_support_(forces.force_weights().size() / 2),
           waves_(forces.rows()) {
         for (const Lacking& window : windows_) squares_ += window.weight * window.of_support.squaredNorm();
     }
@@ -115,7 +116,7 @@ class Periodogram {
             right += window.weight * columns.transpose() * window.of_support;
         }
         const Eigen::Vector4d found = matrix.completeOrthogonalDecomposition().solve(right);
-        return {1.0 / per_mm, found.dot(right) / squares_, wave_of(found.tail<2>()),
+        return {1.0 / per_mm, found.dot(right) / squares_, half_support_, wave_of(found.tail<2>()),
                 wave_of(found.head<2>())};
     }
 
@@ -139,6 +140,7 @@ class Periodogram {
 
     std::vector<Lacking> windows_;
     Eigen::VectorXf reading_weights_, force_weights_;
+    std::size_t half_support_;
     Waves waves_;
     double squares_ = 0.0;
 };
@@ -183,7 +185,7 @@ std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Er
 
 std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Errors& errors) {
     std::vector<PositionPeriod> all;
-    for (const std::size_t half_support : {12, 25})
+    for (const std::size_t half_support : {short_half_support, long_half_support})
         std::ranges::copy(strongest_periods(evidence, errors, half_support), std::back_inserter(all));
     std::ranges::sort(all, std::greater{}, &PositionPeriod::share);
     return all;

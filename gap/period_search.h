@@ -2,6 +2,7 @@
 // The periods in position that errors of the encoder show, if any.
 #include "gap/evidence.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace fidservo::gap {
@@ -15,7 +16,8 @@ struct Wave {
 /// reading itself. What is found has the opposite sign of what is lacking.
 struct PositionPeriod {
     double period_mm = 0.0;
-    double share = 0.0;  ///< of the weighted squares, 0 .. 1
+    double share = 0.0;            ///< of the weighted squares, 0 .. 1
+    std::size_t half_support = 0;  ///< over which it shows, rows (gap/carriage_forces.h)
     Wave force_V{}, reading_mm{};
 };
 

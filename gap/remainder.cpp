@@ -4,6 +4,7 @@
 #include "gap/carriage_forces.h"
 #include "gap/gap_size.h"
 #include "gap/halves.h"
+#include "gap/period_search.h"
 #include "gap/surrogate.h"
 
 #include <algorithm>
@@ -38,23 +39,43 @@ struct Dependences {
     double period_mm = 0.0;
 };
 
-Surrogate surrogate_of(const Evidence& evidence, Signal signal, const Errors& errors, double edge_V) {
-    if (signal == Signal::encoder) return carriage_surrogate(evidence, errors, edge_V);
-    return signal == Signal::hall ? platform_surrogate(evidence) : tag_surrogate(evidence, errors);
+Dependences dependences(const Evidence& evidence, Signal signal, const Surrogate& surrogate,
+                        const Errors& errors, std::span<const std::uint8_t> half, double tail) {
+    const Regression regression(evidence.windows(), signal, errors, surrogate.columns, surrogate.nuisances,
+                                half);
+    return {regression.significant_groups(tail, surrogate.as_good), surrogate.period_mm};
+}
+
+/// What friction does where the carriage hardly moves shows at the edge of the dead zone only: it is looked
+/// for there where nothing is found elsewhere.
+Dependences dependences_of_carriage(const Evidence& evidence, const Errors& errors,
+                                    std::span<const std::uint8_t> usual_half, double tail) {
+    const std::vector<std::uint8_t> of_each_run =
+        has_own_zeros(evidence) ? halves_of_each_run(evidence) : std::vector<std::uint8_t>{};
+    const std::span half = of_each_run.empty() ? usual_half : std::span(of_each_run);
+    const std::vector<PositionPeriod> periods = strongest_periods(evidence, errors);
+    const PositionPeriod period = periods.empty() ? PositionPeriod{} : periods.front();
+    Dependences found;
+    for (const double edge_V : {usual_edge_V, 0.0}) {
+        const Surrogate surrogate = carriage_surrogate(evidence, errors, edge_V, period);
+        found = dependences(evidence, Signal::encoder, surrogate, surrogate.errors, half, tail);
+        if (!found.groups.empty()) break;
+    }
+    return found;
 }
 
 Dependences dependences(const Evidence& evidence, Signal signal, const Errors& errors,
                         std::span<const std::uint8_t> half, double tail) {
-    if (signal == Signal::macro_command || signal == Signal::micro_command) return {};
-    // What friction does where the carriage hardly moves shows at the edge of the dead zone only: it is
-    // looked for there where nothing is found elsewhere.
-    for (const double edge_V : {usual_edge_V, 0.0}) {
-        const Surrogate surrogate = surrogate_of(evidence, signal, errors, edge_V);
-        const Regression regression(evidence.windows(), signal,
-                                    surrogate.errors.empty() ? errors : surrogate.errors, surrogate.columns,
-                                    surrogate.nuisances, half);
-        const std::vector<int> groups = regression.significant_groups(tail, surrogate.as_good);
-        if (!groups.empty() || signal != Signal::encoder) return {groups, surrogate.period_mm};
+    switch (signal) {
+        case Signal::encoder:
+            return dependences_of_carriage(evidence, errors, half, tail);
+        case Signal::hall:
+            return dependences(evidence, signal, platform_surrogate(evidence), errors, half, tail);
+        case Signal::tag:
+            return dependences(evidence, signal, tag_surrogate(evidence, errors), errors, half, tail);
+        case Signal::macro_command:
+        case Signal::micro_command:
+            break;
     }
     return {};
 }

@@ -3,6 +3,8 @@
 #include "gap/search.h"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 namespace fidservo::gap {
 namespace {
@@ -149,6 +151,23 @@ Chain nameable(const Search& search, Chain chain) {
     return chain;
 }
 
+/// The chain with that first which the rest can least do without.
+Chain weightiest_first(const Search& search, Chain chain) {
+    const std::size_t count = chain.choices.size();
+    if (count < 2) return chain;
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t k = 0; k < count; ++k) order.emplace_back(without(search, chain, k).fitted.loss, k);
+    std::ranges::stable_sort(order, std::greater{}, &std::pair<double, std::size_t>::first);
+    const auto in_order = [&](auto& values) {
+        auto sorted = values;
+        for (std::size_t k = 0; k < count; ++k) sorted[k] = std::move(values[order[k].second]);
+        values = std::move(sorted);
+    };
+    in_order(chain.choices);
+    for (Hypothesis& hypothesis : chain.fitted.of_half) in_order(hypothesis);
+    return chain;
+}
+
 /// The first `count` effects of a chain alone.
 CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
     CrossFit fitted = chain.fitted;
@@ -178,7 +197,7 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     grow(search, chain, options.most_effects, &selection.alone);
     const bool is_paired = pair_up(search, chain, options.most_effects);
     if (exchange(search, chain, is_paired)) grow(search, chain, options.most_effects, nullptr);
-    chain = nameable(search, std::move(chain));
+    chain = weightiest_first(search, nameable(search, std::move(chain)));
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     for (std::size_t k = 1; k < chain.choices.size(); ++k)
         selection.steps.push_back(first_of(search, chain, k));

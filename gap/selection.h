@@ -18,7 +18,7 @@ struct Choice {
 };
 
 struct Selection {
-    std::vector<Choice> choices;  ///< in the order taken in
+    std::vector<Choice> choices;  ///< what the rest can least do without first
     std::vector<CrossFit> steps;  ///< with the first 0, 1, 2 ... of them
     std::vector<Trial> alone;     ///< what was tried first, alone, best first
 };

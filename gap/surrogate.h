@@ -4,6 +4,7 @@
 // of columns for gap/regression.h. What acts on the carriage is compared with the forces that its prediction
 // lacks (gap/carriage_forces.h). What acts on the image is a pattern of corners.
 #include "gap/evidence.h"
+#include "gap/period_search.h"
 #include "gap/regression.h"
 
 #include <string_view>
@@ -46,8 +47,16 @@ struct Surrogate {
     double as_good = 0.8;
 };
 
-/// Of the forces that the encoder's errors lack. @param edge_V  gap/carriage_forces.h
-Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, double edge_V);
+/// Whether each recording may count places from a zero of its own, as where positions were recorded in place
+/// of counts from an end stop.
+bool has_own_zeros(const Evidence& evidence);
+
+/// Of the forces that the encoder's errors lack. Waves have a phase in each recording where zeros differ: a
+/// half must then have stretches of each run.
+/// @param edge_V  gap/carriage_forces.h
+/// @param period  that position may have; of 0 mm: none
+Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, double edge_V,
+                             const PositionPeriod& period);
 
 /// Of the Hall reading's errors.
 Surrogate platform_surrogate(const Evidence& evidence);
