@@ -34,14 +34,10 @@ struct Posed {
 };
 
 Posed posed(const CameraGeometry& intrinsics, const MapNumbers& v, double middle_mm) {
-    CameraGeometry camera = intrinsics;
-    camera.rotation_rad = v(map_rotation);
-    camera.tilt_rad = {v(map_tilt_u), v(map_tilt_v)};
-    camera.axis_rad = {v(map_axis_y), v(map_axis_z)};
-    camera.distortion.k1 = v(map_k1);
-    const double length = std::sqrt(1.0 + camera.axis_rad.squaredNorm());
-    camera.distance_mm = v(map_distance) + middle_mm * v(map_axis_z) / length;
-    return {camera, v(map_y) - middle_mm * v(map_axis_y) / length};
+    const double length = std::sqrt(1.0 + std::pow(v(map_axis_y), 2.0) + std::pow(v(map_axis_z), 2.0));
+    CameraNumbers numbers = v.head<camera_numbers>();
+    numbers(camera_distance) += middle_mm * v(map_axis_z) / length;
+    return {with_numbers(intrinsics, numbers), v(map_y) - middle_mm * v(map_axis_y) / length};
 }
 
 std::array<Eigen::Vector2d, 4> shown_corners(const CameraGeometry& camera, const PlateTag& tag, double s_mm) {
@@ -301,10 +297,9 @@ Result<StageMap> fit_stage_map(const CameraGeometry& nominal, std::span<const St
         map.s_std_mm.push_back(std::sqrt(widening / normal.own[i] +
                                          propagated(map.covariance, normal.coupling[i].transpose())(0, 0) /
                                              (normal.own[i] * normal.own[i])));
-    MapNumbers to_distance = MapNumbers::Zero();
-    to_distance(map_distance) = 1.0;
-    to_distance(map_axis_z) = at.middle_mm;
-    map.distance_std_mm = std::sqrt(propagated(map.covariance, to_distance.transpose())(0, 0));
+    auto camera_by_map = Eigen::Matrix<double, camera_numbers, map_values>::Identity().eval();
+    camera_by_map(camera_distance, map_axis_z) = at.middle_mm;
+    map.camera_covariance = propagated(map.covariance, camera_by_map);
     return map;
 }
 

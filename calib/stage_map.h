@@ -11,6 +11,7 @@
 // the lens and the lateral offset y, all at once with their covariance. Distance and focal length act as one
 // (their ratio is the scale), so the rig file's focal length is kept. The scale is that of the plate's pitch:
 // no encoder enters.
+#include "core/camera_covariance.h"
 #include "core/camera_geometry.h"
 #include "core/failure.h"
 #include "core/plate.h"
@@ -38,7 +39,8 @@ struct SeenTag {
 /// The tags of one frame taken at rest.
 using StageView = std::vector<SeenTag>;
 
-/// The map's numbers, in the order of its covariance.
+/// The map's numbers, in the order of its covariance: the camera's (core/camera_covariance.h), with the
+/// distance where the views are, and where its foot is across the row.
 enum MapValue : int {
     map_distance,  ///< mm, camera to plate, at the middle of the views
     map_rotation,  ///< rad, of the picture against the plate
@@ -59,8 +61,8 @@ struct StageMap {
     double middle_mm = 0.0;
     MapNumbers values = MapNumbers::Zero();
     MapCovariance covariance = MapCovariance::Zero();
-    double distance_std_mm = 0.0;  ///< of camera.distance_mm
-    std::vector<double> s_mm;      ///< of each view
+    CameraCovariance camera_covariance = CameraCovariance::Zero();  ///< of camera's numbers
+    std::vector<double> s_mm;                                       ///< of each view
     std::vector<double> s_std_mm;
     double misfit = 1.0;   ///< chi-square over its degrees of freedom
     double freedom = 0.0;  ///< degrees of freedom

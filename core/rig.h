@@ -1,6 +1,7 @@
 #pragma once
 // What a rig is: the numbers of a rig file (assets/rig.yaml), checked, in memory. Parts that a rig does not
 // have are empty. docs/notation.md states the equations that the numbers enter.
+#include "core/camera_covariance.h"
 #include "core/camera_geometry.h"
 #include "core/hall.h"
 #include "core/preisach.h"
@@ -85,6 +86,8 @@ struct CameraParameters {
     double corner_noise_px;     ///< of recorded detections that were not made from images
     double max_speed_mm_per_s;  ///< likewise: no tag is seen above it
     double gain_spread = 0.0;   ///< standard deviation of the pixels' gains: a fixed pattern of noise
+    /// Of the geometry, as its calibration states it; zero: known to be exact, or not stated.
+    CameraCovariance geometry_covariance = CameraCovariance::Zero();
 };
 
 /// The grid of fiducials printed on the plate that the rig file describes: tag first_id + column +

@@ -28,6 +28,13 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> middle_of(const calib::SeenTag& tag)
     return {middle, (mean * tag.covariance_px2 * mean.transpose()).diagonal().cwiseSqrt()};
 }
 
+std::vector<double> lower_triangle(const CameraCovariance& covariance) {
+    std::vector<double> numbers;
+    for (int row = 0; row < camera_numbers; ++row)
+        for (int column = 0; column <= row; ++column) numbers.push_back(covariance(row, column));
+    return numbers;
+}
+
 std::string stands_csv(const StageCalibration& calibration) {
     std::string csv =
         "stand,move,time [s],encoder [count],hall [adc],tag,u [px],v [px],u std [px],v std [px],s [mm]\n";
@@ -130,6 +137,7 @@ void write_stage_rig(const std::filesystem::path& file, const std::filesystem::p
     edit.set("camera.rotation_rad", camera.rotation_rad);
     edit.set("camera.tilt_rad", std::array{camera.tilt_rad.x(), camera.tilt_rad.y()});
     edit.set("camera.axis_rad", std::array{camera.axis_rad.x(), camera.axis_rad.y()});
+    edit.set("camera.geometry_covariance", lower_triangle(numbers.map.camera_covariance));
     edit.set("macro.encoder_resolution_mm", numbers.encoder.resolution_mm);
     edit.set("micro.hall.mid_V", hall.mid_V);
     edit.set("micro.hall.span_V", hall.span_V);

@@ -16,7 +16,8 @@ std::vector<StageValue> stage_values(const Rig& rig, const StageNumbers& numbers
     const double scale = map.scale_px_per_mm();
     return {
         {"scale", "px/mm", scale, scale * map.relative_scale_std(), false, 0.0},
-        {"camera.distance_mm", "mm", camera.distance_mm, map.distance_std_mm, true, file.distance_mm},
+        {"camera.distance_mm", "mm", camera.distance_mm,
+         std::sqrt(map.camera_covariance(camera_distance, camera_distance)), true, file.distance_mm},
         {"camera.rotation_rad", "rad", camera.rotation_rad, map.std(calib::map_rotation), true,
          file.rotation_rad},
         {"camera.tilt_rad[0]", "rad", camera.tilt_rad.x(), map.std(calib::map_tilt_u), true,

@@ -46,6 +46,18 @@ CameraGeometry read_ros_intrinsics(const YamlValue& map, const YamlValue& info) 
     return with_intrinsics({0, 0, 0.0, Eigen::Vector2d::Zero(), 0.0}, load_camera_info(info.file()));
 }
 
+/// Lower triangle, row by row.
+CameraCovariance read_covariance(const YamlValue& value) {
+    const std::vector<double> numbers = value.numbers(camera_numbers * (camera_numbers + 1) / 2);
+    CameraCovariance covariance;
+    auto number = numbers.begin();
+    for (int row = 0; row < camera_numbers; ++row)
+        for (int column = 0; column <= row; ++column)
+            covariance(row, column) = covariance(column, row) = *number++;
+    if (!is_covariance(covariance)) value.fail("must be the lower triangle of a covariance matrix");
+    return covariance;
+}
+
 CameraGeometry read_geometry(const YamlValue& map) {
     const auto info = map.find("camera_info");
     CameraGeometry camera = info ? read_ros_intrinsics(map, *info) : read_own_intrinsics(map);
@@ -73,7 +85,7 @@ CameraParameters read_rig_camera(const YamlValue& map) {
                     "rotation_rad", "tilt_rad",           "axis_rad",        "frame_rate_hz",
                     "exposure_s",   "full_well_e",        "read_noise_e",    "gain_spread",
                     "blur_px",      "latency_s",          "corner_noise_px", "max_speed_mm_per_s",
-                    "capture"});
+                    "capture",      "geometry_covariance"});
     CameraParameters camera{.geometry = read_geometry(map),
                             .frame_rate_hz = map.at("frame_rate_hz").number({0.0, 1e5, true}),
                             .exposure_s = map.at("exposure_s").number(positive),
@@ -84,6 +96,8 @@ CameraParameters read_rig_camera(const YamlValue& map) {
                             .corner_noise_px = map.at("corner_noise_px").number(not_negative),
                             .max_speed_mm_per_s = map.at("max_speed_mm_per_s").number(positive)};
     if (const auto capture = map.find("capture")) (void)read_capture_keys(*capture);
+    if (const auto covariance = map.find("geometry_covariance"))
+        camera.geometry_covariance = read_covariance(*covariance);
     if (const auto spread = map.find("gain_spread")) camera.gain_spread = spread->number({0.0, 1.0});
     if (camera.exposure_s * camera.frame_rate_hz > 1.0)
         map.at("exposure_s")

@@ -103,7 +103,10 @@ struct RigEdit::Impl {
     std::shared_ptr<const FodTable> fod;
 
     void set(std::string_view key, const YAML::Node& value) {
-        if (is_intrinsic(key) && root["camera"]["camera_info"]) copy_camera_info(root["camera"], source);
+        if (is_intrinsic(key)) {
+            root["camera"].remove("geometry_covariance");  // said of other intrinsics
+            if (root["camera"]["camera_info"]) copy_camera_info(root["camera"], source);
+        }
         set_below(root, key, value);
     }
 };

@@ -13,7 +13,8 @@ Result<Snapshot> read_snapshot(const vision::Frame& frame, const CameraParameter
     Snapshot snapshot{{frame.image,
                        camera,
                        {fit->position.s_mm, fit->position.y_mm},
-                       {fit->position.s_std_mm, fit->y_std_mm}},
+                       {fit->position.s_std_mm, fit->y_std_mm},
+                       fit->tag.centre_px},
                       {}};
     for (const TagDetection& tag : found) {
         const PlateTag* known = find_tag(nominal, tag.tag_id);

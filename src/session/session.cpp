@@ -1,5 +1,6 @@
 #include "src/session/session.h"
 
+#include "core/camera_covariance.h"
 #include "core/units.h"
 #include "src/interrupt.h"
 #include "src/session/camera_choice.h"
@@ -31,12 +32,21 @@ constexpr double still_mm = 0.002;  ///< of the platform, by the Hall sensor, wh
 constexpr double misplaced_mm =
     0.3;  ///< a camera that is where it should be sees another tag: the plate's fault
 
+/// What the camera's calibration leaves of its way from above a fiducial to dx beside it.
+double calibration_std_mm(const CameraParameters& camera, double dx_mm) {
+    const auto seen_from = [&](double s_mm) {
+        return project(camera.geometry, Eigen::Vector2d::Zero(), s_mm);
+    };
+    return std::sqrt(vector_covariance_mm2(camera.geometry, camera.geometry_covariance, seen_from(0.0),
+                                           seen_from(dx_mm), 0.0)(0, 0));
+}
+
 }  // namespace
 
 struct Session::Impl {
-    Impl(const SessionOptions& options, const Rig& rig, const Plate& nominal, Devices devices)
-        : pilot(rig, nominal, positioner_params(rig, mm_from_um(options.tolerance_um)), std::move(devices),
-                options.camera_reconnect_s) {}
+    Impl(const SessionOptions& options, const Rig& rig, const Plate& nominal,
+         const control::PositionerParams& params, Devices devices)
+        : pilot(rig, nominal, params, std::move(devices), options.camera_reconnect_s) {}
 
     Status drive_or_search(double target_s_mm, int tag_id);
 
@@ -57,8 +67,7 @@ Status Session::Impl::drive_or_search(double target_s_mm, int tag_id) {
         if (offset_mm != 0.0)
             if (auto carried = pilot.carry_to(target_s_mm + offset_mm); !carried) return carried;
         const auto fit = pilot.look_anywhere();
-        if (!fit && (fit.error().reason == Reason::device || fit.error().reason == Reason::stopped))
-            return forward(fit.error());
+        if (!fit && ends_the_run(fit.error().reason)) return forward(fit.error());
         if (!fit) continue;
         const double wrong_mm = fit->position.s_mm - pilot.believed_s_mm();
         if (driven.error().reason == Reason::wrong_tag && std::abs(wrong_mm) < misplaced_mm) break;
@@ -69,13 +78,16 @@ Status Session::Impl::drive_or_search(double target_s_mm, int tag_id) {
 }
 
 Session::Session(const SessionOptions& options, const Rig& rig, const Plate& nominal, Devices devices)
-    : impl_(std::make_unique<Impl>(options, rig, nominal, std::move(devices))) {}
+    : impl_(std::make_unique<Impl>(options, rig, nominal,
+                                   positioner_params(rig, mm_from_um(options.tolerance_um)),
+                                   std::move(devices))) {}
 
 Session::Session(const SessionOptions& options, const Rig& rig, const Plate& nominal, const Plate& printed) {
-    (void)positioner_params(rig, mm_from_um(options.tolerance_um));  // before devices are touched
+    const auto params =
+        positioner_params(rig, mm_from_um(options.tolerance_um));  // refuses before devices are touched
     RigDevices devices = make_devices(options, rig, printed);
-    impl_ =
-        std::make_unique<Impl>(options, rig, nominal, Devices{devices.stage, devices.camera, devices.loop});
+    impl_ = std::make_unique<Impl>(options, rig, nominal, params,
+                                   Devices{devices.stage, devices.camera, devices.loop});
     impl_->simulated = std::move(devices.simulated);
     impl_->guardian = std::move(devices.guardian);
     if (!stage_is_simulated(options)) check_stage(impl_->pilot);
@@ -127,7 +139,8 @@ Result<Arrival> Session::go_to(int tag_id, double dx_mm) {
     arrival.tag_id = tag_id;
     arrival.target_dx_um = um_from_mm(dx_mm);
     arrival.reached_dx_um = um_from_mm(dx_mm - state.reached.needed_mm);
-    arrival.reached_std_um = um_from_mm(state.reached.std_mm);
+    arrival.reached_std_um =
+        um_from_mm(std::hypot(state.reached.std_mm, calibration_std_mm(*pilot.rig.camera, dx_mm)));
     arrival.reached_dy_um = um_from_mm(pilot.camera_mm.y() - tag->centre_mm.y());
     arrival.macro_time_s = state.macro_s;
     arrival.micro_time_s = state.micro_s;

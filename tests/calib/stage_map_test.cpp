@@ -65,13 +65,21 @@ TEST(StageMap, LargeRotation_NeedsNoGuess) {
 TEST(StageMap, ErrorsOverSeeds_AreAsLargeAsTheirCovarianceSays) {
     const Truth truth;
     constexpr int seeds = 60;
-    double squares = 0.0, positions = 0.0, misfit = 0.0, freedom = 0.0;
+    const Eigen::Vector2d from_px(150.0, 120.0), to_px(1100.0, 700.0);
+    const auto vector_mm = [&](const CameraGeometry& camera) {
+        return (back_project(camera, to_px, 100.0) - back_project(camera, from_px, 100.0)).eval();
+    };
+    double squares = 0.0, positions = 0.0, lengths = 0.0, misfit = 0.0, freedom = 0.0;
     for (int seed = 1; seed <= seeds; ++seed) {
         const auto map = fit_stage_map(straight_camera(), truth.views(static_cast<std::uint64_t>(seed)));
         ASSERT_TRUE(map) << "seed " << seed << ": " << map.error().text;
         const MapNumbers error = map->values - truth.numbers(map->middle_mm);
         const double widening = map->fits ? 1.0 : map->misfit;
         squares += error.dot((map->covariance / widening).ldlt().solve(error));
+        const Eigen::Vector2d missed = vector_mm(map->camera) - vector_mm(truth.camera);
+        const Eigen::Matrix2d covariance =
+            vector_covariance_mm2(map->camera, map->camera_covariance / widening, from_px, to_px, 100.0);
+        lengths += missed.dot(covariance.ldlt().solve(missed));
         const double s_error = (map->s_mm[3] - truth.s_mm[3]) / map->s_std_mm[3];
         positions += s_error * s_error;
         misfit += map->misfit * map->freedom;
@@ -81,6 +89,8 @@ TEST(StageMap, ErrorsOverSeeds_AreAsLargeAsTheirCovarianceSays) {
     const double n = seeds * map_values;
     EXPECT_LT(squares, chi_square_bound(n, tail));
     EXPECT_GT(squares, n - (chi_square_bound(n, tail) - n));
+    EXPECT_LT(lengths, chi_square_bound(2.0 * seeds, tail));
+    EXPECT_GT(lengths, 2.0 * seeds - (chi_square_bound(2.0 * seeds, tail) - 2.0 * seeds));
     EXPECT_LT(positions, chi_square_bound(seeds, tail));
     EXPECT_GT(positions, seeds - (chi_square_bound(seeds, tail) - seeds));
     EXPECT_NEAR(misfit / freedom, 1.0, 5.0 * std::sqrt(2.0 / freedom));

@@ -1,7 +1,10 @@
 // fidservo calibrate stage as a user meets it, on the real executable.
+#include "core/camera_covariance.h"
+#include "src/config/rig_file.h"
 #include "tests/src/run_program.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -74,6 +77,11 @@ TEST(SlowCalibrateStageCommand, CalibratedRigFile_IsHealthyAndItsDriftIsFound) {
     for (const char* file : {"calibrated/report.html", "calibrated/stage.json", "calibrated/stands.csv",
                              "calibrated/recording/stage0/data.csv", "calibrated.yaml"})
         EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+    const CameraParameters camera = load_rig(folder / "calibrated.yaml").camera.value();
+    const double scale_std =
+        std::sqrt(camera.geometry_covariance(camera_distance, camera_distance)) / camera.geometry.distance_mm;
+    EXPECT_GT(scale_std, 1e-8);
+    EXPECT_LT(scale_std, 1e-4);
     const auto healthy = run_program(
         {"calibrate", "stage", "--check", "--rig", "calibrated.yaml", "--sim-rig", truth, "--seed", "5"},
         folder.path());

@@ -77,6 +77,20 @@ TEST(Placement, ScaleError_CancelsBetweenBothSides) {
     EXPECT_GT(placement->disagreement_um.x(), 7.0);
 }
 
+TEST(Placement, ScaleUnknown_CountsWhereOneSideIsSeen) {
+    constexpr double scale_std = 1e-3;
+    std::vector<Snapshot> snapshots = views_of({{{0, 0}, {0, 0}, {0, 0}}});
+    for (Snapshot& snapshot : snapshots)
+        snapshot.image.camera.geometry_covariance(camera_distance, camera_distance) =
+            std::pow(scale_std * snapshot.image.camera.geometry.distance_mm, 2.0);
+    const auto both_sides = measure_placement(snapshots, plate_of_three(), 1);
+    const auto one_side = measure_placement(snapshots, plate_of_three(), 0);
+    ASSERT_TRUE(both_sides && one_side);
+    EXPECT_LT(both_sides->x_um.std, 0.03);
+    EXPECT_NEAR(one_side->x_um.std, 2000.0 * scale_std, 0.03);
+    EXPECT_LT(one_side->y_um.std, 0.06);
+}
+
 TEST(Placement, NoNeighbourInView_Fails) {
     auto snapshots = views_of({{{0, 0}, {0, 0}, {0, 0}}});
     for (Snapshot& snapshot : snapshots)

@@ -95,6 +95,14 @@ TEST(RigFile, ValuesThatCannotBe_AreRefused) {
               std::string::npos);
 }
 
+TEST(RigFile, CovarianceOfTheCamera_IsALowerTriangle) {
+    std::string zeros = "[1e-10";
+    for (int i = 1; i < 28; ++i) zeros += i == 1 ? ", 2e-5" : i == 2 ? ", 1e-10" : ", 0";
+    EXPECT_NE(message_with("blur_px: 0.8", "geometry_covariance: " + zeros + "]\n  blur_px: 0.8")
+                  .find("must be the lower triangle of a covariance"),
+              std::string::npos);
+}
+
 TEST(RigFile, NumeratorThatContradictsTheGain_IsRefused) {
     EXPECT_NE(message_with("0.16572\n", "0.17\n").find("contradicts"), std::string::npos);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Does a stated uncertainty describe the errors? Over many independent trials the normalised squared errors
 // follow a chi-square law.
+#include "core/failure.h"
 #include "vision/features/rest_image.h"
 
 #include <cmath>

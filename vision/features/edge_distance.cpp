@@ -202,7 +202,10 @@ Result<EdgeDistance> measure_edge_distance(const RestImage& image, const Nominal
         return bend_std_um(image, edge.middle_px, 0.5 * edge.length_px * edge.along);
     };
     const double bends_um = std::hypot(bend_um(fit_a->shape), bend_um(fit_b->shape));
-    return EdgeDistance{{distance_um, std::hypot(noise_um, 2.0 * options.edge_allowance_um, bends_um)},
+    const double calibration_um =
+        calibration_std_um(image, between + to_a.value * direction, between + to_b.value * direction);
+    const double measured_um = std::hypot(noise_um, 2.0 * options.edge_allowance_um, bends_um);
+    return EdgeDistance{{distance_um, std::hypot(measured_um, calibration_um)},
                         {angle_between(outward_a, -outward_b),
                          std::sqrt(fit_a->covariance_px2(1, 1) + fit_b->covariance_px2(1, 1))},
                         on_a_mm,

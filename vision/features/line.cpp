@@ -253,11 +253,12 @@ LineMeasurement state(const RestImage& image, const Line& nominal, const LineFit
     const double bend_um = bend_std_um(image, middle_px, 0.5 * (fit.track.to_px - fit.track.from_px));
     const double offset_std_um =
         std::hypot(std::sqrt(fit.centre.covariance(0, 0)) * widened * um_per_px, bend_um);
-    const Eigen::Vector2d axis_std_um = image.axis_std_mm * um_per_mm;
+    const Eigen::Matrix2d around_mm2 = around_covariance_mm2(image, middle_px);
 
     const Eigen::Vector2d nominal_along = (nominal.to_mm - nominal.from_mm).normalized();
     const Eigen::Vector2d nominal_normal(-nominal_along.y(), nominal_along.x());
-    const double across_std_um = std::hypot(offset_std_um, nominal_normal.cwiseProduct(axis_std_um).norm());
+    const double across_std_um =
+        std::hypot(offset_std_um, um_from_mm(std::sqrt(nominal_normal.dot(around_mm2 * nominal_normal))));
     const Eigen::Vector2d along = fit.track.along();
 
     const Measured width_px = mean_width_px(fit.strips);
@@ -266,15 +267,19 @@ LineMeasurement state(const RestImage& image, const Line& nominal, const LineFit
     const Measured least_px = narrowest_width_px(fit.strips, width_px);
 
     LineMeasurement line;
-    line.width_um = {width_px.value * um_per_px, std::hypot(width_px.std * um_per_px, both_edges_um)};
-    line.narrowest_um = {least_px.value * um_per_px, std::hypot(least_px.std * um_per_px, both_edges_um)};
+    const Eigen::Vector2d arm = 0.5 * width_px.value * normal;
+    const double calibration_um = calibration_std_um(image, middle_px - arm, middle_px + arm);
+    line.width_um = {width_px.value * um_per_px,
+                     std::hypot(width_px.std * um_per_px, both_edges_um, calibration_um)};
+    line.narrowest_um = {least_px.value * um_per_px,
+                         std::hypot(least_px.std * um_per_px, both_edges_um, calibration_um)};
     line.narrowest_mm = to_plate(image, 0.5 * (fit.track.from_px + fit.track.to_px) +
                                             narrowest.way_px * along + narrowest.strip.centre_px * normal);
     line.offset_um = {um_from_mm((middle_mm - nominal.from_mm).dot(nominal_normal)), across_std_um};
     line.x_um = {um_from_mm(middle_mm.x()), std::abs(nominal_normal.x()) * offset_std_um};
     line.y_um = {um_from_mm(middle_mm.y()), std::abs(nominal_normal.y()) * offset_std_um};
-    line.x_um.std = std::hypot(line.x_um.std, axis_std_um.x());
-    line.y_um.std = std::hypot(line.y_um.std, axis_std_um.y());
+    line.x_um.std = std::hypot(line.x_um.std, um_from_mm(std::sqrt(around_mm2(0, 0))));
+    line.y_um.std = std::hypot(line.y_um.std, um_from_mm(std::sqrt(around_mm2(1, 1))));
     const Eigen::Vector2d along_mm = picture.plate_by_image * (along + fit.centre.correction[1] * normal);
     line.angle_rad = {std::atan2(along_mm.y(), along_mm.x()),
                       std::sqrt(fit.centre.covariance(1, 1)) * widened};

@@ -91,19 +91,18 @@ Result<DotMeasurement> measure_dot(const RestImage& image, const Dot& nominal, c
 
     const double seen_px = fit->shape.radius_px;
     const double radius_px = seen_px + curvature_shift_px(seen_px, edge_sigma_px(fit->quality.blur_px));
-    const Eigen::Vector2d centre_um = to_plate(image, fit->shape.centre_px) * um_per_mm;
-    const Eigen::Vector2d axis_std_um = image.axis_std_mm * um_per_mm;
-    const LocalPicture picture = picture_around(image, fit->shape.centre_px);
-    const Eigen::Vector2d centre_std_um = plate_std_um(picture, fit->covariance_px2.topLeftCorner<2, 2>());
-    const double um_per_px = um_from_mm(picture.mm_per_px);
+    const Eigen::Vector2d& centre_px = fit->shape.centre_px;
+    const double um_per_px = um_from_mm(picture_around(image, centre_px).mm_per_px);
     const double radius_std_um = std::sqrt(fit->covariance_px2(2, 2)) * um_per_px;
-    const double bend_um =
-        bend_std_um(image, fit->shape.centre_px, Eigen::Vector2d::Constant(fit->shape.radius_px));
-    return DotMeasurement{
-        {centre_um.x(), std::hypot(centre_std_um.x(), axis_std_um.x(), bend_um)},
-        {centre_um.y(), std::hypot(centre_std_um.y(), axis_std_um.y(), bend_um)},
-        {2.0 * radius_px * um_per_px, 2.0 * std::hypot(radius_std_um, options.edge_allowance_um, bend_um)},
-        fit->quality};
+    const double bend_um = bend_std_um(image, centre_px, Eigen::Vector2d::Constant(fit->shape.radius_px));
+    const auto [x_um, y_um] = place_um(image, centre_px, fit->covariance_px2.topLeftCorner<2, 2>(), bend_um);
+    const Eigen::Vector2d arm(fit->shape.radius_px, 0.0);
+    const double edges_um = 2.0 * std::hypot(radius_std_um, options.edge_allowance_um, bend_um);
+    return DotMeasurement{x_um,
+                          y_um,
+                          {2.0 * radius_px * um_per_px,
+                           std::hypot(edges_um, calibration_std_um(image, centre_px - arm, centre_px + arm))},
+                          fit->quality};
 }
 
 }  // namespace fidservo::vision

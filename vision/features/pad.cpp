@@ -141,18 +141,23 @@ Result<PadMeasurement> measure_pad(const RestImage& image, const Pad& nominal, c
     const LocalPicture picture = picture_around(image, pad.centre_px);
     const Eigen::Vector2d um_per_px(um_from_mm(picture.mm_per_px_along(pad.direction(0))),
                                     um_from_mm(picture.mm_per_px_along(pad.direction(1))));
-    const Eigen::Vector2d centre_std_um = plate_std_um(picture, fit->covariance_px2.topLeftCorner<2, 2>());
-    const Eigen::Vector2d centre_um = to_plate(image, pad.centre_px) * um_per_mm;
-    const Eigen::Vector2d axis_std_um = image.axis_std_mm * um_per_mm;
     const Eigen::Matrix<double, 5, 1> std = fit->covariance_px2.diagonal().cwiseSqrt();
     const double both_edges_um = 2.0 * options.edge_allowance_um;
     const double bend_um = bend_std_um(image, pad.centre_px, 0.5 * pad.size_px);
     const Eigen::Vector2d size_um = pad.size_px.cwiseProduct(um_per_px);
     const Eigen::Vector2d size_std_um = std.segment<2>(2).cwiseProduct(um_per_px);
-    return PadMeasurement{{centre_um.x(), std::hypot(centre_std_um.x(), axis_std_um.x(), bend_um)},
-                          {centre_um.y(), std::hypot(centre_std_um.y(), axis_std_um.y(), bend_um)},
-                          {size_um.x(), std::hypot(size_std_um.x(), both_edges_um, bend_um)},
-                          {size_um.y(), std::hypot(size_std_um.y(), both_edges_um, bend_um)},
+    const auto [x_um, y_um] =
+        place_um(image, pad.centre_px, fit->covariance_px2.topLeftCorner<2, 2>(), bend_um);
+    const auto size = [&](int side) {
+        const Eigen::Vector2d arm = 0.5 * pad.size_px(side) * pad.direction(side);
+        const double calibration_um = calibration_std_um(image, pad.centre_px - arm, pad.centre_px + arm);
+        return Measured{size_um(side),
+                        std::hypot(std::hypot(size_std_um(side), both_edges_um), bend_um, calibration_um)};
+    };
+    return PadMeasurement{x_um,
+                          y_um,
+                          size(0),
+                          size(1),
                           {angle_of(picture.plate_by_image * pad.direction(0)),
                            std::hypot(std[4], bend_um / size_um.maxCoeff())},
                           fit->quality};

@@ -3,6 +3,8 @@
 // stated: a value with its standard uncertainty.
 #include "core/rig.h"
 
+#include <array>
+
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 
@@ -17,10 +19,11 @@ struct Measured {
 /// One grey image, seen from a measured camera position. The uncertainty of that position enters every place
 /// on the plate, and no size.
 struct RestImage {
-    cv::Mat grey;                 ///< CV_8UC1, of the camera's width and height
-    CameraParameters camera;      ///< geometry, blur and noise
-    Eigen::Vector2d axis_mm;      ///< camera position: (s, y)
-    Eigen::Vector2d axis_std_mm;  ///< one standard deviation of it
+    cv::Mat grey;                                         ///< CV_8UC1, of the camera's width and height
+    CameraParameters camera;                              ///< geometry, blur and noise
+    Eigen::Vector2d axis_mm;                              ///< camera position: (s, y)
+    Eigen::Vector2d axis_std_mm;                          ///< one standard deviation of it
+    Eigen::Vector2d anchor_px = Eigen::Vector2d::Zero();  ///< where the fiducial was seen that told it
 };
 
 /// Where to look for a printed feature and what counts as finding it.
@@ -72,6 +75,20 @@ double bend_std_um(const RestImage& image, const Eigen::Vector2d& image_px,
 /// Standard deviations along plate x and y, um, of an image point whose covariance is known, without the
 /// camera's own position.
 Eigen::Vector2d plate_std_um(const LocalPicture& picture, const Eigen::Matrix2d& covariance_px2);
+
+/// What the camera's calibration leaves of the length from one image point to another: standard deviation,
+/// um.
+double calibration_std_um(const RestImage& image, const Eigen::Vector2d& from_px,
+                          const Eigen::Vector2d& to_px);
+
+/// What the camera's position, and its calibration from the fiducial to here, leave of an image point's place
+/// on the plate, mm^2.
+Eigen::Matrix2d around_covariance_mm2(const RestImage& image, const Eigen::Vector2d& image_px);
+
+/// An image point on the plate: x and y, um, with what its covariance, around_covariance_mm2() and `extra_um`
+/// leave.
+std::array<Measured, 2> place_um(const RestImage& image, const Eigen::Vector2d& image_px,
+                                 const Eigen::Matrix2d& covariance_px2, double extra_um);
 
 /// Image point in px of a plate point in mm.
 inline Eigen::Vector2d to_image(const RestImage& image, const Eigen::Vector2d& plate_mm) {
