@@ -18,14 +18,26 @@ bool is_in_image(const CameraGeometry& image, const Eigen::Vector2d& point_px) {
     return from_edge.minCoeff() >= 0.0 && from_edge.x() < image.width_px && from_edge.y() < image.height_px;
 }
 
+/// Direction in which a plate point is seen, before the lens bends it: tangents to the axis.
+Eigen::Vector2d direction_of(const CameraModel& model, const Eigen::Vector2d& plate_mm, double s_mm) {
+    const double across_mm = plate_mm.x() - s_mm;
+    const double tilt_rad = model.departures.tilt_rad;
+    const double depth_mm = model.camera.geometry.distance_mm + std::sin(tilt_rad) * across_mm;
+    return {std::cos(tilt_rad) * across_mm / depth_mm, plate_mm.y() / depth_mm};
+}
+
+/// Whether r (1 + k1 r^2) still grows there. Beyond, the formula of a barrel folds what is far outside back
+/// into the image; no lens does.
+bool lens_reaches(const CameraModel& model, const Eigen::Vector2d& direction) {
+    return 1.0 + 3.0 * model.departures.distortion * direction.squaredNorm() > 0.0;
+}
+
 }  // namespace
 
 Eigen::Vector2d image_of(const CameraModel& model, const Eigen::Vector2d& plate_mm, double s_mm) {
     const CameraGeometry& geometry = model.camera.geometry;
     const CameraDepartures& askew = model.departures;
-    const double across_mm = plate_mm.x() - s_mm;
-    const double depth_mm = geometry.distance_mm + std::sin(askew.tilt_rad) * across_mm;
-    const Eigen::Vector2d straight(std::cos(askew.tilt_rad) * across_mm / depth_mm, plate_mm.y() / depth_mm);
+    const Eigen::Vector2d straight = direction_of(model, plate_mm, s_mm);
     const double c = std::cos(askew.rotation_rad), s = std::sin(askew.rotation_rad);
     const Eigen::Vector2d turned(c * straight.x() - s * straight.y(), s * straight.x() + c * straight.y());
     const double bulge = 1.0 + askew.distortion * straight.squaredNorm();
@@ -45,6 +57,7 @@ std::optional<TagDetection> see(const CameraModel& model, double s_mm, double sp
     for (int row = 0; row < grid.rows; ++row) {
         for (int column = 0; column < grid.columns; ++column) {
             const Eigen::Vector2d centre_mm(grid.pitch_x_mm * column, grid.pitch_y_mm * row);
+            if (!lens_reaches(model, direction_of(model, centre_mm, s_mm))) continue;
             const double away_px = (image_of(model, centre_mm, s_mm) - image_centre_px).norm();
             if (away_px >= nearest_px) continue;
             nearest_px = away_px;

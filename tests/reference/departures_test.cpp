@@ -392,5 +392,15 @@ TEST(Camera, Departures_MoveImagePointsAsAPinholeDoes) {
     EXPECT_NEAR(image_of(model, {2.0, 0.0}, 0.0).x(), 639.5 + 500.0 * 1.02, 1e-9);
 }
 
+TEST(Camera, BarrelLens_ShowsTheTagInFrontOfIt) {
+    // x (1 - 0.0392 x^2) comes back to the axis at x = -5.05: there stands tag 0.
+    CameraModel model{*rig().camera, *rig().fiducials, {.distortion = -0.0392}};
+    model.camera.corner_noise_px = 0.0;
+    NoiseStream noise(1, "corners");
+    const auto seen = see(model, 100.9, 0.0, noise);
+    ASSERT_TRUE(seen);
+    EXPECT_EQ(seen->tag_id, 50);
+}
+
 }  // namespace
 }  // namespace fidservo::reference
