@@ -136,7 +136,10 @@ struct LiveServer::Impl {
         port = wanted == 0 ? server.bind_to_any_port(loopback)
                            : (server.bind_to_port(loopback, wanted) ? wanted : -1);
         if (port <= 0) throw RunFault(fmt::format("--live {}: the port cannot be had", wanted));
-        listener = std::jthread([this] { server.listen_after_bind(); });
+        listener = std::jthread([this] {
+            server.listen_after_bind();
+            has_listened = true;
+        });
         collector = std::jthread([this](const std::stop_token& end) {
             while (!end.stop_requested()) {
                 board.collect();
@@ -151,6 +154,8 @@ struct LiveServer::Impl {
         collector.join();
         ending = true;
         for (int k = 0; k < 30 && viewers > 0; ++k) std::this_thread::sleep_for(collect_period);
+        // The library forgets a stop that comes before it listens.
+        while (!server.is_running() && !has_listened) std::this_thread::sleep_for(1ms);
         server.stop();
     }
 
@@ -159,7 +164,7 @@ struct LiveServer::Impl {
     std::function<void()> stop;
     int port = 0;
     std::atomic<int> viewers = 0;
-    std::atomic<bool> ending = false;
+    std::atomic<bool> ending = false, has_listened = false;
     httplib::Server server;
     std::jthread listener, collector;
 };

@@ -72,6 +72,10 @@ TEST_F(LivePage, PortThatIsTaken_IsRefused) {
     EXPECT_THROW(LiveServer(server_->port(), feed_, reference_rig(), [] {}), RunFault);
 }
 
+TEST_F(LivePage, ServerThatEndsAtOnce_Ends) {
+    for (int k = 0; k < 300; ++k) LiveServer(0, feed_, reference_rig(), [] {});
+}
+
 TEST_F(LivePage, Events_TellWhatTheRunShowsAndItsEnd) {
     testing::show_run(*feed_);
     std::string text;
