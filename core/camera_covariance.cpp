@@ -35,6 +35,22 @@ bool is_covariance(const CameraCovariance& matrix) {
     return solver.eigenvalues().minCoeff() >= -rounding;
 }
 
+std::vector<double> lower_triangle(const CameraCovariance& matrix) {
+    std::vector<double> numbers;
+    numbers.reserve(camera_triangle_numbers);
+    for (int row = 0; row < camera_numbers; ++row)
+        for (int column = 0; column <= row; ++column) numbers.push_back(matrix(row, column));
+    return numbers;
+}
+
+CameraCovariance from_lower_triangle(std::span<const double, camera_triangle_numbers> numbers) {
+    CameraCovariance matrix;
+    auto number = numbers.begin();
+    for (int row = 0; row < camera_numbers; ++row)
+        for (int column = 0; column <= row; ++column) matrix(row, column) = matrix(column, row) = *number++;
+    return matrix;
+}
+
 VectorByCamera vector_by_camera(const CameraGeometry& camera, const Eigen::Vector2d& from_px,
                                 const Eigen::Vector2d& to_px, double s_mm) {
     const CameraNumbers numbers = numbers_of(camera);
@@ -52,12 +68,17 @@ VectorByCamera vector_by_camera(const CameraGeometry& camera, const Eigen::Vecto
     return slopes;
 }
 
+Eigen::Matrix2d vector_covariance_mm2(const VectorByCamera& slopes, const CameraCovariance& covariance) {
+    Eigen::Matrix2d squares_mm2 = slopes * covariance * slopes.transpose();
+    squares_mm2.diagonal() = squares_mm2.diagonal().cwiseMax(0.0);
+    return squares_mm2;
+}
+
 Eigen::Matrix2d vector_covariance_mm2(const CameraGeometry& camera, const CameraCovariance& covariance,
                                       const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px,
                                       double s_mm) {
     if (covariance.isZero(0.0)) return Eigen::Matrix2d::Zero();
-    const VectorByCamera slopes = vector_by_camera(camera, from_px, to_px, s_mm);
-    return slopes * covariance * slopes.transpose();
+    return vector_covariance_mm2(vector_by_camera(camera, from_px, to_px, s_mm), covariance);
 }
 
 }  // namespace fidservo

@@ -28,13 +28,6 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> middle_of(const calib::SeenTag& tag)
     return {middle, (mean * tag.covariance_px2 * mean.transpose()).diagonal().cwiseSqrt()};
 }
 
-std::vector<double> lower_triangle(const CameraCovariance& covariance) {
-    std::vector<double> numbers;
-    for (int row = 0; row < camera_numbers; ++row)
-        for (int column = 0; column <= row; ++column) numbers.push_back(covariance(row, column));
-    return numbers;
-}
-
 std::string stands_csv(const StageCalibration& calibration) {
     std::string csv =
         "stand,move,time [s],encoder [count],hall [adc],tag,u [px],v [px],u std [px],v std [px],s [mm]\n";

@@ -46,14 +46,10 @@ CameraGeometry read_ros_intrinsics(const YamlValue& map, const YamlValue& info) 
     return with_intrinsics({0, 0, 0.0, Eigen::Vector2d::Zero(), 0.0}, load_camera_info(info.file()));
 }
 
-/// Lower triangle, row by row.
 CameraCovariance read_covariance(const YamlValue& value) {
-    const std::vector<double> numbers = value.numbers(camera_numbers * (camera_numbers + 1) / 2);
-    CameraCovariance covariance;
-    auto number = numbers.begin();
-    for (int row = 0; row < camera_numbers; ++row)
-        for (int column = 0; column <= row; ++column)
-            covariance(row, column) = covariance(column, row) = *number++;
+    const std::vector<double> numbers = value.numbers(camera_triangle_numbers);
+    const CameraCovariance covariance =
+        from_lower_triangle(std::span<const double, camera_triangle_numbers>(numbers));
     if (!is_covariance(covariance)) value.fail("must be the lower triangle of a covariance matrix");
     return covariance;
 }

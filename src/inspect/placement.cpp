@@ -77,7 +77,7 @@ Result<Placement> measure_placement(const std::vector<Snapshot>& snapshots, cons
             spread += (difference.mean_um() - mean).square() / (n - 1.0);
     const CameraCovariance& calibration = snapshots.front().image.camera.geometry_covariance;
     const Eigen::Array2d calibration_um2 =
-        (by_camera * calibration * by_camera.transpose()).diagonal().array() * um_per_mm * um_per_mm;
+        vector_covariance_mm2(by_camera, calibration).diagonal().array() * um_per_mm * um_per_mm;
     const Eigen::Array2d std = (variance + spread / n + calibration_um2).sqrt();
     placement.x_um = {mean.x(), std.x()};
     placement.y_um = {mean.y(), std.y()};
