@@ -78,7 +78,7 @@ class Pass {
 
   private:
     /// A stage whose wire was heated from cold to where the first readings are; cold if they say so, or if
-    /// heat could not explain them.
+    /// what follows does: a sensor that reads high at a cold wire goes on to, a warm wire cools.
     plant::MicroStageState first_state() const {
         constexpr std::size_t glance = 20;
         constexpr double clear = 5.0, least_lsb = 1.0, resolution_degC = 1e-3;
@@ -108,7 +108,24 @@ class Pass {
             const double middle = 0.5 * (low + high);
             (mean_reading_lsb(model_.stage, heated(middle)) < goal_lsb ? low : high) = middle;
         }
-        return heated(low);
+        const plant::MicroStageState warm = heated(low);
+        return squares_while_cooling(warm) < squares_while_cooling(cold) ? warm : cold;
+    }
+
+    /// Sum of squared errors, LSB^2, from a first state on until a warm wire would have cooled.
+    double squares_while_cooling(plant::MicroStageState state) const {
+        constexpr double taus = 3.0;
+        const double enough_s = taus * model_.stage.heater.parameters.cooling_tau_s;
+        double squares = 0.0, passed_s = 0.0;
+        for (std::size_t k = 0; k < run_.hall_adc.size() && passed_s < enough_s; ++k) {
+            if (std::isfinite(run_.hall_adc[k])) {
+                const double error_lsb = mean_reading_lsb(model_.stage, state) - run_.hall_adc[k];
+                squares += error_lsb * error_lsb;
+            }
+            step(state, k);
+            passed_s += run_.ticks[k] * run_.tick_s;
+        }
+        return squares;
     }
 
     void step(plant::MicroStageState& state, std::size_t k) const {

@@ -70,6 +70,15 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"rolling_shutter", Signal::tag, 1.2}, Case{"pixel_scale", Signal::tag, 5.0},
                       Case{"camera_tilt", Signal::tag, 5.0}));
 
+TEST(Evidence, SensorThatWouldReadHighAtAColdWire_IsNoWarmWire) {
+    const Evidence evidence(reference_rig(), simulated({}, {"micro-steps"}, 9));
+    const auto rms_with = [&](std::string_view effect) {
+        return rms(evidence, evidence.errors(effects({effect}), everything(evidence)), Signal::hall);
+    };
+    // Cold, the second one reads an LSB and a half less than was recorded.
+    EXPECT_LT(rms_with("hall_gain:factor=1.005"), 2.2 * rms_with("hall_gain:factor=1.0025"));
+}
+
 TEST(Evidence, RecordingThatBeginsWarm_IsFollowed) {
     auto recordings = simulated({}, {"micro-steps"}, 9);
     Recording& recording = recordings.front();
