@@ -128,13 +128,15 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
     std::vector<Promise> starts;
     for (std::size_t p = 0; p < std::min(places.size(), most_places); ++p) {
         Promise best{{}, -std::numeric_limits<double>::infinity()};
-        for (const double part : {1.0, 0.4, 2.5}) {
-            Hypothesis there = moved(beside, part * places[p].steps.head(moving),
-                                     sized(candidate, places[p].shape, part * places[p].steps.tail(width)));
+        const Eigen::VectorXd with_rest = places[p].steps.head(moving), sizes = places[p].steps.tail(width);
+        const auto look = [&](const Eigen::VectorXd& rest, double part) {
+            Hypothesis there = moved(beside, rest, sized(candidate, places[p].shape, part * sizes));
             const double gain =
                 gained(windows, counted, base_squares, predict(extended(beside.base, beside.places, there)));
             if (best.start.empty() || gain > best.gain) best = {std::move(there), gain};
-        }
+        };
+        for (const double part : {1.0, 0.4, 2.5}) look(part * with_rest, part);
+        if (moving > 0) look(unmoved, 1.0);
         starts.push_back(best);
     }
     std::ranges::sort(starts, std::greater{}, &Promise::gain);

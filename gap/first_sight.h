@@ -28,7 +28,8 @@ struct Promise {
 
 /// Along each shape of the grid the sizes that fit best, together with what moves, if errors changed in
 /// proportion to both: weighted least squares of the base's errors. (A base that was fitted without the
-/// candidate has taken over what it can of it.) Of the shapes that promise most by that at most four, best
+/// candidate has taken over what it can of it. Where that misleads, as with a base of which only a product is
+/// well known, the candidate alone is tried.) Of the shapes that promise most by that at most four, best
 /// first; `gain` is what it really saves.
 std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
                                     const Wanted& counted, const Surroundings& beside,

@@ -18,8 +18,13 @@ namespace {
 /// Errors and their derivatives at one point, computed once for all windows.
 class Linearised : public ceres::EvaluationCallback {
   public:
-    Linearised(const Predict& predict, const ScaledParameters& parameters, Threads threads)
-        : predict_(predict), parameters_(parameters), threads_(threads) {}
+    Linearised(const Predict& predict, const ScaledParameters& parameters, std::span<const Window> windows,
+               const Wanted& counted, Threads threads)
+        : predict_(predict),
+          parameters_(parameters),
+          windows_(windows),
+          counted_(counted),
+          threads_(threads) {}
 
     void PrepareForEvaluation(bool with_derivatives, bool at_new_point) override {
         if (at_new_point && parameters_.values != values_) {
@@ -36,6 +41,8 @@ class Linearised : public ceres::EvaluationCallback {
             for (std::size_t k = 0; k < parameters_.size(); ++k) differentiate(k);
         else
             parallel_for(parameters_.size(), differentiate);
+        for (std::size_t k = 0; k < parameters_.size(); ++k)
+            if (is_held(k)) std::ranges::fill(by_parameter[k], 0.0F);
         has_derivatives_ = true;
     }
 
@@ -43,8 +50,31 @@ class Linearised : public ceres::EvaluationCallback {
     std::vector<Errors> by_parameter;
 
   private:
+    /// Whether a parameter is at a bound and the loss falls beyond it: there the others are fitted as if it
+    /// were known.
+    bool is_held(std::size_t k) const {
+        if (!parameters_.at_bound(k)) return false;
+        double slope_of_loss = 0.0;
+        for (std::size_t w = 0; w < windows_.size(); ++w) {
+            if (counted_[w] == 0) continue;
+            double squares = 0.0, product = 0.0, count = 0.0;
+            for (std::size_t row = windows_[w].begin; row < windows_[w].end; ++row) {
+                const double error = errors[row], change = by_parameter[k][row];
+                if (std::isnan(error) || !std::isfinite(change)) continue;
+                squares += error * error;
+                product += error * change;
+                count += 1.0;
+            }
+            if (count > 0.0) slope_of_loss += product / (count + squares);
+        }
+        const bool is_low = parameters_.values[k] <= parameters_.low(k);
+        return is_low ? slope_of_loss > 0.0 : slope_of_loss < 0.0;
+    }
+
     const Predict& predict_;
     const ScaledParameters& parameters_;
+    std::span<const Window> windows_;
+    const Wanted& counted_;
     Threads threads_;
     std::vector<double> values_;  ///< that errors are of
     bool has_derivatives_ = false;
@@ -135,7 +165,7 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
         const Hypothesis& start, const FitOptions& options) {
     ScaledParameters parameters(start);
     const std::vector<double> values_at_start = parameters.values;
-    Linearised linearised(predict, parameters, options.threads);
+    Linearised linearised(predict, parameters, windows, counted, options.threads);
     linearised.PrepareForEvaluation(false, true);
     const auto size = static_cast<Eigen::Index>(parameters.size());
     Fit result{start, total_loss(windows, counted, linearised.errors), Eigen::MatrixXd::Zero(size, size)};
@@ -154,11 +184,16 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
             parameters.values.data());
     }
     if (problem.NumResidualBlocks() == 0) return result;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+        problem.SetParameterLowerBound(parameters.values.data(), static_cast<int>(k), parameters.low(k));
+        problem.SetParameterUpperBound(parameters.values.data(), static_cast<int>(k), parameters.high(k));
+    }
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     solver.max_num_iterations = options.most_iterations;
     solver.function_tolerance = options.tolerance;
     solver.parameter_tolerance = options.tolerance;
+    solver.max_num_line_search_step_size_iterations = 0;  // a step beyond a bound is cut, no more
     solver.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);

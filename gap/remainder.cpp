@@ -50,9 +50,9 @@ Dependences dependences(const Evidence& evidence, Signal signal, const Surrogate
 /// for there where nothing is found elsewhere.
 Dependences dependences_of_carriage(const Evidence& evidence, const Errors& errors,
                                     std::span<const std::uint8_t> usual_half, double tail) {
-    const std::vector<std::uint8_t> of_each_run =
-        has_own_zeros(evidence) ? halves_of_each_run(evidence) : std::vector<std::uint8_t>{};
-    const std::span half = of_each_run.empty() ? usual_half : std::span(of_each_run);
+    const std::vector<std::uint8_t> half = has_own_zeros(evidence)
+                                               ? halves_of_each_run(evidence)
+                                               : std::vector(usual_half.begin(), usual_half.end());
     const std::vector<PositionPeriod> periods = strongest_periods(evidence, errors);
     const PositionPeriod period = periods.empty() ? PositionPeriod{} : periods.front();
     Dependences found;

@@ -231,18 +231,23 @@ void Search::fit_second_half(const CrossFit& base, Contender& contender) const {
 
 void Search::fit_closer(const CrossFit& base, Contender& contender) const {
     const bool is_wave = contender.trial.candidate->wave.has_value();
+    const bool is_of_camera = contender.trial.candidate->effect->block.starts_with("camera.");
     constexpr int most_times = 3;
     constexpr double worth_a_simplex = 0.5;  // of what a signal exceeds its floor by
     Finding& finding = *contender.finding;
     if (is_wave && !clears_a_signal(base, contender.trial.fitted, worth_a_simplex)) return;
     for (int time = 0; time < most_times && !finding.is_close; ++time) {
         if (!meet(off(contender.trial.fitted), contender.teachers())) return;
-        Contender closer = contender;
-        parallel_for(2, [&](std::size_t side) {
-            closer.trial.fitted.of_half[side] =
-                is_wave ? polished(contender, side) : fitted_from_there(base, contender, side);
-        });
-        judge_both_halves(base, closer);
+        const auto fitted_by = [&](const auto& fit_side) {
+            Contender closer = contender;
+            parallel_for(2, [&](std::size_t side) { closer.trial.fitted.of_half[side] = fit_side(side); });
+            judge_both_halves(base, closer);
+            return closer;
+        };
+        const auto by_simplex = [&](std::size_t side) { return polished(contender, side); };
+        const auto by_slopes = [&](std::size_t side) { return fitted_from_there(base, contender, side); };
+        Contender closer = is_wave ? fitted_by(by_simplex) : fitted_by(by_slopes);
+        if (is_of_camera && closer.gain() < contender.gain() + least_gain) closer = fitted_by(by_simplex);
         finding.is_close = closer.gain() < contender.gain() + least_gain;
         if (closer.gain() <= contender.gain()) return;
         for (std::size_t side = 0; side < 2; ++side)

@@ -60,6 +60,20 @@ TEST(Fit, ValueBeyondItsBound_EndsAtTheBound_WithoutAnError) {
     EXPECT_EQ(found.covariance(0, 0), 0.0);
 }
 
+TEST(Fit, StepBeyondABound_IsCutThere_AndTheWayBackIsFound) {
+    // From 0.9 on a line leads to 5.7, far beyond the bound of 1.5.
+    const Predict bent = [](const Hypothesis& hypothesis) {
+        Errors errors(windows_count * values);
+        const double lacks = std::atan(20.0 * (hypothesis.front().values.front() - 1.3));
+        for (std::size_t k = 0; k < errors.size(); ++k)
+            errors[k] = static_cast<float>(lacks * std::sin(0.05 * static_cast<double>(k)));
+        return errors;
+    };
+    const Fit found =
+        fit(bent, windows, Wanted(windows_count, 1), {plant::parse_effect("drive_gain:factor=0.9")});
+    EXPECT_NEAR(found.hypothesis.front().values.front(), 1.3, 1e-3);
+}
+
 TEST(Fit, RefusedHypothesis_IsGivenBackAsItIs) {
     const Predict refuses = [](const Hypothesis&) { return Errors{}; };
     const Fit found =
