@@ -50,8 +50,8 @@ std::vector<double> grid_of(const plant::EffectParameter& parameter, const Trave
     if (parameter.unit == "Hz") {
         constexpr double ratio = 1.15;  // of neighbours: half the width of a resonance of damping ratio 0.07
         for (double value = parameter.low; value < parameter.high; value *= ratio) grid.push_back(value);
-    } else if (parameter.unit == "deg") {
-        for (const double angle_deg : {0.0, 90.0}) grid.push_back(within(angle_deg));
+    } else if (parameter.unit == "mm/s" && parameter.low == 0.0) {
+        grid = {parameter.low, 0.1 * parameter.high};
     } else if (parameter.unit == "mm" && parameter.low < 0.0) {
         constexpr int places = 12;
         for (int k = 0; k < places; ++k)

@@ -1,7 +1,6 @@
 #include "gap/tag_link.h"
 
 #include "core/failure.h"
-#include "plant/actual_camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -104,17 +103,17 @@ class CameraPlace {
 };
 
 /// Where a camera sees a tag's corners from s.
-CornerValues seen(const CameraGeometry& camera, const Eigen::Vector2d& centre_mm, double side_mm,
+CornerValues seen(const plant::ActualCamera& camera, const Eigen::Vector2d& centre_mm, double side_mm,
                   double s_mm) {
     CornerValues corners;
     for (int c = 0; c < 4; ++c)
         corners.segment<2>(2 * c) =
-            project(camera, centre_mm + 0.5 * side_mm * tag_corners[static_cast<std::size_t>(c)], s_mm);
+            camera.image_px(centre_mm + 0.5 * side_mm * tag_corners[static_cast<std::size_t>(c)], s_mm);
     return corners;
 }
 
 /// d corners / ds, px per mm.
-CornerValues seen_slope(const CameraGeometry& camera, const Eigen::Vector2d& centre_mm, double side_mm,
+CornerValues seen_slope(const plant::ActualCamera& camera, const Eigen::Vector2d& centre_mm, double side_mm,
                         double s_mm) {
     constexpr double step_mm = 0.01;
     return (seen(camera, centre_mm, side_mm, s_mm + step_mm) -
@@ -132,12 +131,12 @@ CornerValues predicted(const TagModel& model, const TagRun& run, const CameraPla
     constexpr int rounds = 2;
     for (int round = 0; round < rounds; ++round)
         for (int c = 0; c < 4; ++c) {
-            const double v_px = std::clamp(corners[2 * c + 1], 0.0, model.camera.height_px - 1.0);
-            const double late_s = plant::row_delay_s(model.camera, model.deviation, v_px);
+            const double v_px = std::clamp(corners[2 * c + 1], 0.0, model.camera.geometry.height_px - 1.0);
+            const double late_s = plant::row_delay_s(model.camera.geometry, model.deviation, v_px);
             const Eigen::Vector2d corner_mm =
                 sighting.centre_mm + 0.5 * run.side_mm * tag_corners[static_cast<std::size_t>(c)];
             corners.segment<2>(2 * c) =
-                project(model.camera, corner_mm, place.seen_s_mm(true_s + late_s) + offset_mm);
+                model.camera.image_px(corner_mm, place.seen_s_mm(true_s + late_s) + offset_mm);
         }
     return corners;
 }
@@ -181,7 +180,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
     TagRun run;
     if (recording.rows.empty() || recording.detections.empty()) return run;
     const FiducialParameters& plate = *rig.fiducials;
-    const CameraGeometry& camera = rig.camera->geometry;
+    const plant::ActualCamera camera{rig.camera->geometry};
     run.side_mm = plate.side_mm;
     run.tick_s = recording.tick_s;
     const TimeNs start_ns = recording.rows.front().time_ns;

@@ -18,6 +18,7 @@
 #include "gap/carriage_link.h"
 #include "gap/evidence.h"
 #include "gap/hall_smoothing.h"
+#include "plant/actual_camera.h"
 
 #include <array>
 #include <cstddef>
@@ -61,7 +62,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
 
 /// The camera and the sensors by which it is known where it is.
 struct TagModel {
-    CameraGeometry camera;
+    plant::ActualCamera camera;
     plant::CameraDeviation deviation;
     double exposure_s;
     double resolution_mm;

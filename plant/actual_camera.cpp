@@ -1,6 +1,7 @@
 #include "plant/actual_camera.h"
 
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -15,17 +16,35 @@ void set_rotation(CameraGeometry& camera, const Eigen::Quaterniond& turn) {
     camera.tilt_rad = tilt.angle() * tilt.axis().head<2>();
 }
 
+/// d.
+Eigen::Vector3d aside_mm(const CameraDeviation& deviation) {
+    const auto [u_mm, v_mm] = std::pair(deviation.aside_mm.x(), deviation.aside_mm.y());
+    const double angle = deviation.tilt_rad.norm();
+    if (angle == 0.0) return {u_mm, v_mm, 0.0};
+    const Eigen::Vector2d across = Eigen::Vector2d(deviation.tilt_rad.y(), -deviation.tilt_rad.x()) / angle;
+    return {u_mm, v_mm, std::tan(0.5 * angle) * across.dot(deviation.aside_mm)};
+}
+
 }  // namespace
 
-CameraGeometry actual_camera(const CameraGeometry& nominal, const CameraDeviation& deviation) {
-    CameraGeometry actual = nominal;
-    actual.focal_px *= deviation.pixel_scale;
-    actual.distortion.k1 += deviation.distortion;
-    if (deviation.rotation_rad == 0.0 && deviation.tilt_rad.isZero(0.0)) return actual;
-    actual.rotation_rad = deviation.rotation_rad;
-    actual.tilt_rad = deviation.tilt_rad;
+ActualCamera actual_camera(const CameraGeometry& nominal, const CameraDeviation& deviation) {
+    ActualCamera actual{nominal};
+    CameraGeometry& camera = actual.geometry;
+    camera.focal_px *= deviation.pixel_scale;
+    camera.distortion.k1 += deviation.distortion;
+    if (deviation.rotation_rad == 0.0 && deviation.tilt_rad.isZero(0.0) && deviation.aside_mm.isZero(0.0))
+        return actual;
+    camera.rotation_rad = 0.0;
+    camera.tilt_rad = deviation.tilt_rad;
+    const Eigen::Matrix3d tilt = camera_from_plate(camera);
+    camera.rotation_rad = deviation.rotation_rad;
     if (nominal.rotation_rad != 0.0 || !nominal.tilt_rad.isZero(0.0))
-        set_rotation(actual, Eigen::Quaterniond(camera_from_plate(actual) * camera_from_plate(nominal)));
+        set_rotation(camera, Eigen::Quaterniond(camera_from_plate(camera) * camera_from_plate(nominal)));
+    const Eigen::Vector3d to_plate_mm(0.0, 0.0, nominal.distance_mm);
+    const Eigen::Vector3d way_mm =
+        camera_from_plate(camera).transpose() * (tilt * (to_plate_mm + aside_mm(deviation)) - to_plate_mm);
+    actual.foot_mm = way_mm.head<2>();
+    camera.distance_mm -= way_mm.z();
     return actual;
 }
 

@@ -20,10 +20,15 @@ bool is_in_image(const CameraGeometry& image, const Eigen::Vector2d& point_px) {
 
 /// Direction in which a plate point is seen, before the lens bends it: tangents to the axis.
 Eigen::Vector2d direction_of(const CameraModel& model, const Eigen::Vector2d& plate_mm, double s_mm) {
-    const double across_mm = plate_mm.x() - s_mm;
-    const double tilt_rad = model.departures.tilt_rad;
-    const double depth_mm = model.camera.geometry.distance_mm + std::sin(tilt_rad) * across_mm;
-    return {std::cos(tilt_rad) * across_mm / depth_mm, plate_mm.y() / depth_mm};
+    const CameraDepartures& askew = model.departures;
+    const Eigen::Vector2d from_s_mm(plate_mm.x() - s_mm, plate_mm.y());
+    const Eigen::Vector2d along(std::cos(askew.tilt_axis_rad), std::sin(askew.tilt_axis_rad));
+    const Eigen::Vector2d across(along.y(), -along.x());
+    const double c = std::cos(askew.tilt_rad), s = std::sin(askew.tilt_rad);
+    const double distance_mm = model.camera.geometry.distance_mm;
+    const double b_mm = across.dot(from_s_mm), h_mm = askew.tilt_height * distance_mm;
+    const double depth_mm = distance_mm + s * b_mm - h_mm * (1.0 - c);
+    return (along.dot(from_s_mm) * along + (c * b_mm - s * h_mm) * across) / depth_mm;
 }
 
 /// Whether r (1 + k1 r^2) still grows there. Beyond, the formula of a barrel folds what is far outside back

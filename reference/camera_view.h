@@ -15,12 +15,14 @@ struct CameraModel {
     CameraDepartures departures;
 };
 
-/// Image of a plate point, seen from camera position s: the point on the plate under the optical axis, at the
-/// rig's distance along the axis. In px, pixel centres at integers. The camera is tilted by theta about its v
-/// axis, its image turned by rho:
+/// Image of a plate point, seen from camera position s: the point on the plate under the optical axis of a
+/// camera that is not tilted, at the rig's distance along the axis. In px, pixel centres at integers. With a
+/// along the tilt's axis and b across it from there, h the axis's height over the plate, theta the tilt:
 ///
-///     x = cos theta (X - s) / (Z + sin theta (X - s)),   y = Y / (Z + sin theta (X - s))
+///     depth = Z + b sin theta - h (1 - cos theta),   (a, b)' = (a, b cos theta - h sin theta) / depth
 ///     (u, v) = (u0, v0) + scale f diag(1, aspect) R(rho) (x, y) (1 + k1 (x^2 + y^2))
+///
+/// (x, y) is (a, b)' along u and v; the image is turned by rho.
 Eigen::Vector2d image_of(const CameraModel& model, const Eigen::Vector2d& plate_mm, double s_mm);
 
 /// The tag nearest to the image centre, if all of it is in the image and the camera is not too fast.

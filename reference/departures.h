@@ -108,13 +108,15 @@ struct HallDepartures {
 };
 
 struct CameraDepartures {
-    double scale = 1.0;         ///< pixels a pixel of the rig file
-    double aspect = 1.0;        ///< a pixel's width over its height
-    double rotation_rad = 0.0;  ///< of the image about the optical axis, from u towards v
-    double tilt_rad = 0.0;      ///< of the camera about its v axis; the axis still meets the plate at s
-    double distortion = 0.0;    ///< radial, k1 of x (1 + k1 r^2) in normalised coordinates
-    double latency_s = 0.0;     ///< by which frames are stamped late
-    double clock_skew = 0.0;    ///< the camera's clock gains this share
+    double scale = 1.0;          ///< pixels a pixel of the rig file
+    double aspect = 1.0;         ///< a pixel's width over its height
+    double rotation_rad = 0.0;   ///< of the image about the optical axis, from u towards v
+    double tilt_rad = 0.0;       ///< of the camera about an axis parallel to the image
+    double tilt_axis_rad = 0.0;  ///< that axis's direction, from u towards v
+    double tilt_height = 0.0;    ///< of that axis over the plate, as a share of the camera's
+    double distortion = 0.0;     ///< radial, k1 of x (1 + k1 r^2) in normalised coordinates
+    double latency_s = 0.0;      ///< by which frames are stamped late
+    double clock_skew = 0.0;     ///< the camera's clock gains this share
 };
 
 struct Departures {

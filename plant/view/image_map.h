@@ -13,8 +13,10 @@ namespace fidservo::plant::view {
 /// the image: what the camera would see of the plate if it looked straight at it.
 class ImageMap {
   public:
-    explicit ImageMap(const CameraGeometry& camera)
+    /// @param foot_mm  plate point beneath the camera's centre at s = 0
+    ImageMap(const CameraGeometry& camera, const Eigen::Vector2d& foot_mm)
         : camera_(camera),
+          foot_mm_(foot_mm),
           px_per_mm_(1.0 / mm_per_px(camera)),
           straight_(looks_straight(camera)),
           axis_(Eigen::Vector3d(1.0, camera.axis_rad.x(), camera.axis_rad.y()).normalized()) {
@@ -29,8 +31,8 @@ class ImageMap {
     }
     /// Centre in the picture, px, of a plate point seen from camera position s.
     Eigen::Vector2d place(const Eigen::Vector2d& plate_mm, double s_mm) const {
-        if (straight_) return project(camera_, plate_mm, s_mm);
-        const Eigen::Vector2d from_foot = plate_mm - s_mm * axis_.head<2>();
+        if (straight_) return project(camera_, plate_mm - foot_mm_, s_mm);
+        const Eigen::Vector2d from_foot = plate_mm - foot_mm_ - s_mm * axis_.head<2>();
         return camera_.principal_point_px + displacement_px(from_foot * growth(s_mm));
     }
     /// Where a ray from the camera at s = 0 meets the picture; x and y per z in the plate's frame.
@@ -57,6 +59,7 @@ class ImageMap {
 
   private:
     CameraGeometry camera_;
+    Eigen::Vector2d foot_mm_;
     double px_per_mm_;
     bool straight_;
     Eigen::Vector3d axis_;

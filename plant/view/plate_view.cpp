@@ -29,8 +29,9 @@ ViewOptions seen_through(ViewOptions options, const CameraParameters& camera,
     return options;
 }
 
-view::Picture picture_of(const CameraGeometry& camera, const Plate& plate, const ViewOptions& options) {
-    const view::ImageMap map(camera);
+view::Picture picture_of(const ActualCamera& actual, const Plate& plate, const ViewOptions& options) {
+    const CameraGeometry& camera = actual.geometry;
+    const view::ImageMap map(camera, actual.foot_mm);
     return {camera.width_px,
             camera.height_px,
             static_cast<float>(plate.paper_reflectance),
@@ -47,9 +48,9 @@ struct PlateView::Impl {
         : camera(camera_parameters),
           deviation(camera_deviation),
           options(seen_through(view_options, camera, deviation)),
-          geometry(actual_camera(camera.geometry, deviation)),
-          picture(picture_of(geometry, plate, options)),
-          pixels(geometry, picture.map),
+          actual(actual_camera(camera.geometry, deviation)),
+          picture(picture_of(actual, plate, options)),
+          pixels(actual.geometry, picture.map),
           white_grey(view::light_field(picture.width, picture.height, options)),
           sensor(camera.full_well_e, std::hypot(camera.read_noise_e, deviation.extra_read_noise_e)) {}
 
@@ -91,7 +92,7 @@ struct PlateView::Impl {
     CameraParameters camera;
     CameraDeviation deviation;
     ViewOptions options;
-    CameraGeometry geometry;  ///< the actual one
+    ActualCamera actual;
     view::Picture picture;
     view::PixelMap pixels;
     std::vector<float> white_grey;  ///< light field

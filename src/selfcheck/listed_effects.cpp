@@ -166,6 +166,9 @@ void camera_rotation(Departures& rig, double size_rad, NoiseStream& draw) {
 }
 void camera_tilt(Departures& rig, double size_rad, NoiseStream& draw) {
     rig.camera.tilt_rad = random_sign(draw) * size_rad;
+    rig.camera.tilt_axis_rad = phase_rad(draw);
+    // A third each about the plate, about the camera, and between.
+    rig.camera.tilt_height = std::clamp(between(draw, -1.0, 2.0), 0.0, 1.0);
 }
 void lens_distortion(Departures& rig, double size, NoiseStream& draw) {
     rig.camera.distortion = random_sign(draw) * size;

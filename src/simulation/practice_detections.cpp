@@ -1,7 +1,5 @@
 #include "src/simulation/practice_detections.h"
 
-#include "plant/actual_camera.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -59,13 +57,13 @@ double PracticeDetector::seen_s_mm(const Path& s_mm, double after_s) const {
 /// The row decides when, and when decides the row: in a turned picture only, and the camera moves by far less
 /// than a row while a row is read out, so that each round gains several digits.
 Eigen::Vector2d PracticeDetector::corner_px(const Eigen::Vector2d& corner_mm, const Path& s_mm) const {
-    Eigen::Vector2d corner = project(actual_, corner_mm, seen_s_mm(s_mm, 0.0));
+    Eigen::Vector2d corner = actual_.image_px(corner_mm, seen_s_mm(s_mm, 0.0));
     if (deviation_.readout_s == 0.0) return corner;
     constexpr int rounds = 4;
     for (int k = 0; k < rounds; ++k) {
         const double after_s = plant::row_delay_s(
             camera_.geometry, deviation_, std::clamp(corner.y(), 0.0, camera_.geometry.height_px - 1.0));
-        corner = project(actual_, corner_mm, seen_s_mm(s_mm, after_s));
+        corner = actual_.image_px(corner_mm, seen_s_mm(s_mm, after_s));
     }
     return corner;
 }
@@ -73,7 +71,7 @@ Eigen::Vector2d PracticeDetector::corner_px(const Eigen::Vector2d& corner_mm, co
 std::optional<TagDetection> PracticeDetector::detect(TimeNs stamp_ns, const Path& s_mm,
                                                      double speed_mm_per_s) {
     if (std::abs(speed_mm_per_s) > max_speed_mm_per_s_) return std::nullopt;
-    const Eigen::Vector2d middle_mm = back_project(actual_, camera_.geometry.principal_point_px, s_mm(0.0));
+    const Eigen::Vector2d middle_mm = actual_.plate_mm(camera_.geometry.principal_point_px, s_mm(0.0));
     const int column = nearest_index(middle_mm.x(), fiducials_.pitch_x_mm, fiducials_.columns);
     const int row = nearest_index(middle_mm.y(), fiducials_.pitch_y_mm, fiducials_.rows);
     const Eigen::Vector2d centre_mm(column * fiducials_.pitch_x_mm, row * fiducials_.pitch_y_mm);

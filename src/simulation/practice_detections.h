@@ -4,7 +4,7 @@
 #include "core/detection.h"
 #include "core/random.h"
 #include "core/rig.h"
-#include "plant/camera.h"
+#include "plant/actual_camera.h"
 
 #include <cstdint>
 #include <functional>
@@ -39,7 +39,7 @@ class PracticeDetector {
 
     CameraParameters camera_;
     plant::CameraDeviation deviation_;
-    CameraGeometry actual_;
+    plant::ActualCamera actual_;
     double max_speed_mm_per_s_;
     FiducialParameters fiducials_;
     NoiseStream noise_;

@@ -33,6 +33,7 @@ std::vector<Case> geometries() {
             {"rotation", {.rotation_rad = 3.0 * deg}},
             {"tilt_about_u", {.tilt_rad = {1.0 * deg, 0.0}}},
             {"tilt_about_v", {.tilt_rad = {0.0, -2.0 * deg}}},
+            {"tilt_about_the_camera", {.tilt_rad = {1.0 * deg, 0.0}, .aside_mm = {0.0, 0.349}}},
             {"barrel", {.distortion = -0.5}},
             {"pincushion", {.distortion = 0.5}},
             {"all",
@@ -59,7 +60,7 @@ class Geometry : public testing::TestWithParam<Case> {};
 
 TEST_P(Geometry, DotsAllOverTheImage_AreWhereTheyProject) {
     const CameraParameters camera = reference_camera();
-    const CameraGeometry actual = actual_camera(camera.geometry, GetParam().deviation);
+    const ActualCamera actual = actual_camera(camera.geometry, GetParam().deviation);
     Plate plate = dark_plate();
     for (int i = -3; i <= 3; ++i)
         for (int j = -2; j <= 2; ++j)
@@ -68,7 +69,7 @@ TEST_P(Geometry, DotsAllOverTheImage_AreWhereTheyProject) {
     const cv::Mat image = render_at({camera, plate, ideal_view(), GetParam().deviation}, s_mm);
     int seen = 0;
     for (const Feature& feature : plate.features) {
-        const Eigen::Vector2d place = project(actual, std::get<Dot>(feature.shape).centre_mm, s_mm);
+        const Eigen::Vector2d place = actual.image_px(std::get<Dot>(feature.shape).centre_mm, s_mm);
         constexpr int half = 24;
         const cv::Rect box(static_cast<int>(std::lround(place.x())) - half,
                            static_cast<int>(std::lround(place.y())) - half, 2 * half + 1, 2 * half + 1);
@@ -84,14 +85,14 @@ TEST_P(Geometry, DotsAllOverTheImage_AreWhereTheyProject) {
 
 TEST_P(Geometry, TagsFoundInTheImage_AreWhereTheyProject) {
     const CameraParameters camera = reference_camera();
-    const CameraGeometry actual = actual_camera(camera.geometry, GetParam().deviation);
+    const ActualCamera actual = actual_camera(camera.geometry, GetParam().deviation);
     Plate plate;
     for (int k = -1; k <= 1; ++k)
         plate.tags.push_back({.id = k + 5, .centre_mm = {1.9 * k, 0.2 * k}, .side_mm = 1.2});
     const PlateView view(camera, plate, ideal_view(), GetParam().deviation);
     vision::TagDetector detector;
     vision::RefinementOptions calibrated;
-    calibrated.camera = actual;
+    calibrated.camera = actual.geometry;
     int seen = 0;
     double worst_corner_px = 0.0, worst_centre_px = 0.0;
     for (const double s_mm : {-0.8, -0.1234, 0.4}) {
@@ -105,9 +106,9 @@ TEST_P(Geometry, TagsFoundInTheImage_AreWhereTheyProject) {
             for (std::size_t c = 0; c < 4; ++c)
                 worst_corner_px = std::max(
                     worst_corner_px,
-                    (refined->detection.corners_px[c] - project(actual, corners_mm[c], s_mm)).norm());
+                    (refined->detection.corners_px[c] - actual.image_px(corners_mm[c], s_mm)).norm());
             worst_centre_px = std::max(
-                worst_centre_px, (refined->centre_px - project(actual, nominal.centre_mm, s_mm)).norm());
+                worst_centre_px, (refined->centre_px - actual.image_px(nominal.centre_mm, s_mm)).norm());
         }
     }
     EXPECT_GE(seen, 4);

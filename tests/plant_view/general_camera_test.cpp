@@ -42,19 +42,22 @@ std::vector<Case> cameras() {
         change(camera);
         return camera;
     };
-    return {
-        {"straight", reference_camera().geometry, {}},
-        {"turned", straight_but([](CameraGeometry& c) { c.rotation_rad = 0.7 * deg; }), {}},
-        {"oblong_pixels", straight_but([](CameraGeometry& c) { c.focal_ratio = 0.99; }), {}},
-        {"oblique_axis",
-         straight_but([](CameraGeometry& c) {
-             c.axis_rad = {0.0005, 0.001};
-         }),
-         {}},
-        {"general", general_camera(), {}},
-        {"general_and_deviating",
-         general_camera(),
-         {.pixel_scale = 1.01, .rotation_rad = -2.0 * deg, .tilt_rad = {0.0, 0.5 * deg}, .distortion = 0.1}}};
+    return {{"straight", reference_camera().geometry, {}},
+            {"turned", straight_but([](CameraGeometry& c) { c.rotation_rad = 0.7 * deg; }), {}},
+            {"oblong_pixels", straight_but([](CameraGeometry& c) { c.focal_ratio = 0.99; }), {}},
+            {"oblique_axis",
+             straight_but([](CameraGeometry& c) {
+                 c.axis_rad = {0.0005, 0.001};
+             }),
+             {}},
+            {"general", general_camera(), {}},
+            {"general_and_deviating",
+             general_camera(),
+             {.pixel_scale = 1.01,
+              .rotation_rad = -2.0 * deg,
+              .tilt_rad = {0.0, 0.5 * deg},
+              .aside_mm = {0.1, -0.05},
+              .distortion = 0.1}}};
 }
 
 class GeneralCamera : public testing::TestWithParam<Case> {
@@ -64,13 +67,13 @@ class GeneralCamera : public testing::TestWithParam<Case> {
         parameters.geometry = GetParam().camera;
         return parameters;
     }
-    CameraGeometry actual() const { return actual_camera(GetParam().camera, GetParam().deviation); }
+    ActualCamera actual() const { return actual_camera(GetParam().camera, GetParam().deviation); }
     /// Plate point seen in the image's middle.
-    Eigen::Vector2d middle_mm() const { return back_project(actual(), {639.5, 479.5}, s_mm); }
+    Eigen::Vector2d middle_mm() const { return actual().plate_mm({639.5, 479.5}, s_mm); }
 };
 
 /// Centre of the area that a disc covers in the image; the image of its centre lies beside it.
-Eigen::Vector2d centre_of_disc(const CameraGeometry& camera, const Dot& dot) {
+Eigen::Vector2d centre_of_disc(const ActualCamera& camera, const Dot& dot) {
     constexpr int rings = 12, sectors = 48;
     Eigen::Vector2d moment = Eigen::Vector2d::Zero();
     double area = 0.0;
@@ -79,8 +82,8 @@ Eigen::Vector2d centre_of_disc(const CameraGeometry& camera, const Dot& dot) {
             const double r = 0.5 * dot.diameter_mm * std::sqrt((i + 0.5) / rings);  // equal areas
             const double angle = 2.0 * std::numbers::pi * (k + 0.5) / sectors;
             const Eigen::Vector2d place =
-                project(camera, dot.centre_mm + r * Eigen::Vector2d(std::cos(angle), std::sin(angle)), s_mm);
-            const double weight = 1.0 / plate_by_image(camera, place, s_mm).determinant();
+                camera.image_px(dot.centre_mm + r * Eigen::Vector2d(std::cos(angle), std::sin(angle)), s_mm);
+            const double weight = 1.0 / plate_by_image(camera.geometry, place, s_mm).determinant();
             moment += weight * place;
             area += weight;
         }
@@ -114,13 +117,13 @@ TEST_P(GeneralCamera, Dots_CoverTheImageWhereTheyProject) {
 }
 
 /// Where row v of the image crosses the straight piece of plate from a to b, u in px.
-double crossing_px(const CameraGeometry& camera, Eigen::Vector2d a, Eigen::Vector2d b, int v) {
+double crossing_px(const ActualCamera& camera, Eigen::Vector2d a, Eigen::Vector2d b, int v) {
     for (int k = 0; k < 50; ++k) {
         const Eigen::Vector2d middle = 0.5 * (a + b);
-        const bool below = (project(camera, middle, s_mm).y() - v) * (project(camera, b, s_mm).y() - v) < 0.0;
+        const bool below = (camera.image_px(middle, s_mm).y() - v) * (camera.image_px(b, s_mm).y() - v) < 0.0;
         (below ? a : b) = middle;
     }
-    return project(camera, a, s_mm).x();
+    return camera.image_px(a, s_mm).x();
 }
 
 TEST_P(GeneralCamera, TagsBorders_LieWhereTheyProject) {
@@ -135,7 +138,7 @@ TEST_P(GeneralCamera, TagsBorders_LieWhereTheyProject) {
         const Eigen::Vector2d x(std::cos(tag.angle_rad), std::sin(tag.angle_rad));
         const Eigen::Vector2d y(-x.y(), x.x());
         const Eigen::Vector2d left = tag.centre_mm - 0.5 * tag.side_mm * x;
-        const Eigen::Vector2d middle = project(actual(), left, s_mm);
+        const Eigen::Vector2d middle = actual().image_px(left, s_mm);
         const int inside_px = static_cast<int>(std::lround(middle.x())) + 18;
         double sum_px = 0.0;
         int rows = 0;

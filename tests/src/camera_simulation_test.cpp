@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
     Effects, CameraOfARecording,
     ::testing::Values(std::vector<std::string>{}, std::vector<std::string>{"pixel_scale:factor=0.97"},
                       std::vector<std::string>{"camera_rotation:angle_deg=2"},
-                      std::vector<std::string>{"camera_tilt:angle_deg=1,axis_deg=30"},
+                      std::vector<std::string>{"camera_tilt:about_u_deg=0.87,about_v_deg=0.5"},
                       std::vector<std::string>{"lens_distortion:k1=-0.1"},
                       std::vector<std::string>{"clock_skew:skew_ppm=3000", "camera_latency:delay_ms=12"},
                       std::vector<std::string>{"motion_blur:extra_exposure_ms=8"},

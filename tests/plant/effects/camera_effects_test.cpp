@@ -27,12 +27,12 @@ TEST(CameraEffects, Units_AreThoseOfTheirNames) {
     EXPECT_DOUBLE_EQ(deviation_of("rolling_shutter:readout_ms=-8").readout_s, -0.008);
 }
 
-TEST(CameraEffects, Tilt_IsAboutTheAxisInTheImage) {
+TEST(CameraEffects, Tilt_IsARotationVectorInTheImage) {
     constexpr double deg = std::numbers::pi / 180.0;
-    const Eigen::Vector2d about_u = deviation_of("camera_tilt:angle_deg=1,axis_deg=0").tilt_rad;
-    EXPECT_NEAR((about_u - Eigen::Vector2d(deg, 0.0)).norm(), 0.0, 1e-15);
-    const Eigen::Vector2d about_v = deviation_of("camera_tilt:angle_deg=1,axis_deg=90").tilt_rad;
-    EXPECT_NEAR((about_v - Eigen::Vector2d(0.0, deg)).norm(), 0.0, 1e-15);
+    const CameraDeviation tilted = deviation_of("camera_tilt:about_u_deg=1,about_v_deg=-2");
+    EXPECT_NEAR((tilted.tilt_rad - deg * Eigen::Vector2d(1.0, -2.0)).norm(), 0.0, 1e-15);
+    EXPECT_EQ(deviation_of("camera_tilt:aside_u_mm=0.8,aside_v_mm=-0.5").aside_mm,
+              Eigen::Vector2d(0.8, -0.5));
 }
 
 TEST(CameraEffects, Light_FallsOffInAddition) {
