@@ -58,6 +58,21 @@ class LossOfLast : public cv::MinProblemSolver::Function {
     std::optional<WaveParameters> wave_;
 };
 
+/// A simplex of one parameter: steps to either side as long as one leads down, then shorter ones.
+Fit stepped(const LossOfLast& loss, double best, double least, double step, double enough) {
+    while (step > enough) {
+        const auto better = [&](double there) {
+            const double value = loss.calc(&there);
+            if (value >= least) return false;
+            best = there;
+            least = value;
+            return true;
+        };
+        if (!better(best + step) && !better(best - step)) step *= 0.5;
+    }
+    return {loss.at(&best), least, {}};
+}
+
 }  // namespace
 
 Fit polish(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
@@ -67,7 +82,7 @@ Fit polish(const Predict& predict, std::span<const Window> windows, const Wanted
     const auto loss = cv::makePtr<LossOfLast>(predict, windows, counted, start);
     std::vector<double> best = loss->start();
     const double loss_at_start = loss->calc(best.data());
-    if (loss->getDims() < 2) return {start, loss_at_start, {}};
+    if (loss->getDims() < 2) return stepped(*loss, best.front(), loss_at_start, first_step, enough);
     const auto solver = cv::DownhillSolver::create(
         loss, cv::Mat(1, loss->getDims(), CV_64F, cv::Scalar(first_step)),
         cv::TermCriteria(cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, most_predictions, enough));

@@ -8,8 +8,7 @@ namespace fidservo::gap {
 /// a simplex (Nelder and Mead, The Computer Journal 7, 1965; OpenCV). Whether friction holds or lets go
 /// depends on a parameter by jumps, so that fits by derivatives end in any of many small valleys.
 /// @param counted  which windows to fit
-/// @return the start where nothing is better and where there is one parameter only, which a fit by
-/// derivatives serves; no covariance
+/// @return the start where nothing is better; no covariance
 Fit polish(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
            const Hypothesis& start);
 

@@ -231,7 +231,8 @@ void Search::fit_second_half(const CrossFit& base, Contender& contender) const {
 
 void Search::fit_closer(const CrossFit& base, Contender& contender) const {
     const bool is_wave = contender.trial.candidate->wave.has_value();
-    const bool is_of_camera = contender.trial.candidate->effect->block.starts_with("camera.");
+    const std::string_view block = contender.trial.candidate->effect->block;
+    const bool moves_tags = block == "macro.encoder" || block.starts_with("camera.");
     constexpr int most_times = 3;
     constexpr double worth_a_simplex = 0.5;  // of what a signal exceeds its floor by
     Finding& finding = *contender.finding;
@@ -247,7 +248,10 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
         const auto by_simplex = [&](std::size_t side) { return polished(contender, side); };
         const auto by_slopes = [&](std::size_t side) { return fitted_from_there(base, contender, side); };
         Contender closer = is_wave ? fitted_by(by_simplex) : fitted_by(by_slopes);
-        if (is_of_camera && closer.gain() < contender.gain() + least_gain) closer = fitted_by(by_simplex);
+        if (moves_tags && meet(off(closer.trial.fitted), closer.teachers())) {
+            Contender other = fitted_by(by_simplex);
+            if (other.gain() > closer.gain()) closer = std::move(other);
+        }
         finding.is_close = closer.gain() < contender.gain() + least_gain;
         if (closer.gain() <= contender.gain()) return;
         for (std::size_t side = 0; side < 2; ++side)

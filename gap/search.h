@@ -80,7 +80,8 @@ class Search {
     void fit_second_half(const CrossFit& base, Contender& contender) const;
     /// Where a fit from afar leaves more than the floor: again from where it ended, to the windows that say
     /// most there; of a wave by a simplex over all windows, as its losses have many minima;
-    /// of the camera as well where slopes lead nowhere, as the place within a count gives way up to its end.
+    /// of encoder and camera as well where slopes do not lead there, as the place within a count gives way up
+    /// to its end.
     void fit_closer(const CrossFit& base, Contender& contender) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side) const;
     Hypothesis polished(const Contender& contender, std::size_t side) const;

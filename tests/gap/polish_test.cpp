@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace fidservo {
@@ -40,6 +41,16 @@ TEST(Polish, GoesOverJumps_WhereDerivativesStandStill) {
     const Fit polished = polish(jumping, windows, all, start);
     EXPECT_LT(polished.loss, 0.3 * by_derivatives.loss);
     EXPECT_NEAR(polished.hypothesis.back().values.front(), 0.0512, 0.001);
+}
+
+TEST(Polish, OfOneParameter_GoesOverJumpsToo) {
+    const auto jumping_gain = [](const Hypothesis& hypothesis) {
+        const double factor = hypothesis.back().values.front();
+        return jumping({plant::parse_effect(fmt::format("cogging:amplitude_V={}", factor - 1.0))});
+    };
+    const Hypothesis start{plant::parse_effect("drive_gain:factor=1.06")};
+    const Fit polished = polish(jumping_gain, windows, Wanted(windows_count, 1), start);
+    EXPECT_NEAR(polished.hypothesis.back().values.front(), 1.0512, 0.001);
 }
 
 TEST(Polish, ChangesTheLastEffectOnly_AndKeepsAStartThatNothingBetters) {
