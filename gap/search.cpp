@@ -248,7 +248,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
         const auto by_simplex = [&](std::size_t side) { return polished(contender, side); };
         const auto by_slopes = [&](std::size_t side) { return fitted_from_there(base, contender, side); };
         Contender closer = is_wave ? fitted_by(by_simplex) : fitted_by(by_slopes);
-        if (moves_tags && meet(off(closer.trial.fitted), closer.teachers())) {
+        if (moves_tags && !is_wave && meet(off(closer.trial.fitted), closer.teachers())) {
             Contender other = fitted_by(by_simplex);
             if (other.gain() > closer.gain()) closer = std::move(other);
         }
@@ -287,9 +287,11 @@ void Search::judge_both_halves(const CrossFit& base, Contender& contender) const
 void Search::prefer_simplest(std::vector<Trial>& trials) const {
     if (trials.empty()) return;
     const auto parameters = [](const Trial& trial) { return trial.candidate->effect->parameters.size(); };
+    const CrossFit& first = trials.front().fitted;
     auto best = trials.begin();
     for (auto trial = trials.begin(); trial != trials.end() && trial->is_leader; ++trial)
-        if (parameters(*trial) < parameters(*best) && ties(trials.front().fitted, trial->fitted))
+        if (parameters(*trial) < parameters(*best) &&
+            (ties(first, trial->fitted) || !is_real(trial->fitted, first)))
             best = trial;
     std::rotate(trials.begin(), best, std::next(best));
 }

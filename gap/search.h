@@ -39,8 +39,8 @@ class Search {
     CrossFit nothing() const;
 
     /// Candidates added to a base, all of them but those `added` in it; leaders first, then by gain,
-    /// but of those that tie with the best the one of fewest parameters first. What could only improve
-    /// signals that are at their floors is not fitted.
+    /// but of those that tie with the best, or leave it nothing, the one of fewest parameters first. What
+    /// could only improve signals that are at their floors is not fitted.
     std::vector<Trial> try_all(const CrossFit& base, std::span<const Candidate* const> added,
                                const Effort& effort = {});
 
@@ -88,7 +88,8 @@ class Search {
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
     /// Whether some signal loses such a share of its excess.
     bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share) const;
-    /// Puts the one of fewest parameters first, of those that tie with the best.
+    /// Puts the one of fewest parameters first, of those that tie with the best or leave it nothing: bristles
+    /// that bend over no way are Coulomb friction, fitted a little better.
     void prefer_simplest(std::vector<Trial>& trials) const;
 
     const std::vector<Candidate>& candidates_;
