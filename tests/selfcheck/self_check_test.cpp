@@ -56,5 +56,35 @@ TEST(SlowSelfCheck, OneEffectAndNone_AreRecordedDiagnosedAndScored) {
     EXPECT_GT(one.score.floors, 3.0);
 }
 
+/// A case by its number, the whole catalogue to choose from.
+Outcome case_of(std::uint64_t seed, std::size_t number) {
+    SelfCheckOptions options;
+    options.cases = 1;
+    options.first = number;
+    options.seed = seed;
+    SelfCheck check =
+        run_self_check(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), options, [](const Outcome&) {});
+    return check.outcomes.at(0);
+}
+
+TEST(SlowSelfCheck, BristlesThatBendOverNoWay_AreCalledCoulombFriction) {
+    const Outcome coulomb = case_of(2028, 54);
+    ASSERT_EQ(coulomb.label.effects.front().effect, "coulomb_friction") << "the draw has changed";
+    EXPECT_TRUE(coulomb.score.right_effect_first) << line_of(coulomb);
+}
+
+TEST(SlowSelfCheck, SmallHallGain_IsNoOffsetBesideAnotherHeater) {
+    const Outcome gain = case_of(2027, 83);
+    ASSERT_EQ(gain.label.effects.front().effect, "hall_gain") << "the draw has changed";
+    EXPECT_TRUE(gain.score.right_effect_first) << line_of(gain);
+}
+
+TEST(SlowSelfCheck, ScaleOfTheEncoder_NeedsNoBacklashBesideIt) {
+    const Outcome scale = case_of(2028, 14);
+    ASSERT_EQ(scale.label.effects.front().effect, "encoder_scale") << "the draw has changed";
+    EXPECT_TRUE(scale.score.right_effect_first) << line_of(scale);
+    EXPECT_THAT(line_of(scale), ::testing::Not(HasSubstr("backlash")));
+}
+
 }  // namespace
 }  // namespace fidservo::selfcheck
