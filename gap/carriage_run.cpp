@@ -21,17 +21,46 @@ bool is_homed(const std::vector<double>& reading_count, const MacroParameters& m
     });
 }
 
-/// Whether the reading of each row is that of all rows within 50 ms.
+/// A run of rows with one reading.
+struct Dwell {
+    std::size_t first, end;
+    double reading_count;
+};
+
+std::vector<Dwell> dwells(const std::vector<double>& reading_count) {
+    std::vector<Dwell> all;
+    for (std::size_t k = 0; k < reading_count.size(); ++k) {
+        if (all.empty() || reading_count[k] != all.back().reading_count)
+            all.push_back({k, k, reading_count[k]});
+        all.back().end = k + 1;
+    }
+    return all;
+}
+
+/// Behind the last dwell from `first` on that has one of this one's and the next one's readings.
+std::size_t end_of_flicker(const std::vector<Dwell>& all, std::size_t first) {
+    if (first + 1 == all.size() || std::abs(all[first + 1].reading_count - all[first].reading_count) != 1.0)
+        return first + 1;
+    std::size_t end = first + 2;
+    while (end < all.size() && all[end].reading_count == all[end - 2].reading_count) ++end;
+    return end;
+}
+
+/// Whether, 50 ms before and after each row, the reading is the same or goes to and fro between two counts.
 std::vector<bool> standing_rows(const CarriageRun& run) {
     const std::size_t rows = run.reading_count.size(), reach = lead_rows(run.tick_s) / 2;
     std::vector<bool> stands(rows, false);
-    for (std::size_t first = 0; first < rows;) {
-        std::size_t end = first + 1;
-        while (end < rows && run.reading_count[end] == run.reading_count[first]) ++end;
+    const auto stands_between = [&](std::size_t first, std::size_t end) {
         const std::size_t from = first == 0 ? 0 : first + reach,
                           to = end == rows ? rows : end - std::min(end, reach);
         for (std::size_t k = from; k < to; ++k) stands[k] = true;
-        first = end;
+    };
+    const std::vector<Dwell> all = dwells(run.reading_count);
+    for (std::size_t d = 0; d < all.size(); ++d) {
+        stands_between(all[d].first, all[d].end);
+        const std::size_t end = end_of_flicker(all, d);
+        const bool to_and_fro = end > d + 2;
+        if (to_and_fro) stands_between(all[d].first, all[end - 1].end);
     }
     return stands;
 }

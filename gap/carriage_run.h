@@ -16,8 +16,10 @@ struct CarriageRun {
     std::vector<double> reading_count;  ///< likewise; position / resolution where that was recorded
     std::vector<std::vector<WindowRows>> windows;  ///< by stretch; only where the carriage is free
     std::vector<std::size_t> run_on_end;  ///< of each stretch: up to which row commands go on after it
-    std::vector<bool> stands;             ///< whether the reading is the same for 50 ms before and after
-    bool is_homed = false;                ///< readings are places in the rig file's travel
+    /// Whether, for 50 ms before and after, the reading is the same or goes to and fro between two counts: a
+    /// controller that sees counts keeps the carriage at the edge of one.
+    std::vector<bool> stands;
+    bool is_homed = false;  ///< readings are places in the rig file's travel
 };
 
 /// A row's count; where the position was recorded, position / resolution.

@@ -1,6 +1,7 @@
 // What recordings of the simulated rig say about the effect that it has.
 #include "core/random.h"
 #include "gap/evidence.h"
+#include "gap/score.h"
 #include "src/simulation/experiments.h"
 #include "src/simulation/simulate.h"
 #include "tests/gap/effects.h"
@@ -77,6 +78,22 @@ TEST(Evidence, SensorThatWouldReadHighAtAColdWire_IsNoWarmWire) {
     };
     // Cold, the second one reads an LSB and a half less than was recorded.
     EXPECT_LT(rms_with("hall_gain:factor=1.005"), 2.2 * rms_with("hall_gain:factor=1.0025"));
+}
+
+/// Soft bristles let the carriage swing about the edge of a count, to which its controller takes it: there
+/// each reading is half a count off.
+TEST(Evidence, CarriageThatFlickersBetweenTwoCounts_IsNoFurtherOffThanIsExpected) {
+    constexpr std::uint64_t seed = 11;
+    const Hypothesis truth = effects({"presliding:level_V=0.01,distance_um=390"});
+    const Evidence evidence(reference_rig(), simulated(truth, {"integrated"}, seed));
+    const auto squares = mean_squares(evidence.windows(), evidence.errors(truth, everything(evidence)));
+    double found = 0.0, expected = 0.0;
+    for (std::size_t w = 0; w < squares.size(); ++w) {
+        if (evidence.windows()[w].signal != Signal::encoder) continue;
+        found += squares[w];
+        expected += evidence.windows()[w].expected_square;
+    }
+    EXPECT_LT(found, 1.1 * expected) << "seed " << seed;
 }
 
 TEST(Evidence, RecordingThatBeginsWarm_IsFollowed) {
