@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace fidservo::plant {
 
@@ -56,26 +57,32 @@ class Motion {
     /// Moves on by at most `longest_s`, to the next event if there is one before. Returns the time it took.
     double advance(double longest_s) {
         const State first = rate(x_);
-        double h = std::min(longest_s, trial_s_);
-        auto step = step_from(first, h);
+        Step step = step_from(first, std::min(longest_s, trial_s_));
         double error = error_of(step);
-        while (!(error <= 1.0) && h > shortest_step_s) {
-            h *= std::isfinite(error) ? std::clamp(0.9 * std::pow(error, -0.2), 0.1, 0.9) : 0.1;
-            step = step_from(first, h);
+        while (!(error <= 1.0) && step.duration_s > shortest_step_s) {
+            step = step_from(first,
+                             step.duration_s * (std::isfinite(error) ? std::min(fitting(error), 0.9) : 0.1));
             error = error_of(step);
         }
-        trial_s_ = h * (error <= 1.0 ? std::clamp(0.9 * std::pow(error, -0.2), 0.5, 5.0) : 5.0);
-        if (slack(step.end) < 0.0) {
-            h = time_of_event(first, h, slack(step.end));
-            step = step_from(first, h);
-        }
+        trial_s_ = step.duration_s * (error <= 1.0 ? std::max(fitting(error), 0.5) : 5.0);
+        if (slack(step.end) < 0.0) step = step_to_event(first, step);
         settle(step.end);
-        return h;
+        return step.duration_s;
     }
 
   private:
-    RungeKuttaStep<size> step_from(const State& first, double h) const {
-        return dormand_prince_step([this](const State& x) { return rate(x); }, x_, first, h);
+    struct Step : RungeKuttaStep<size> {
+        double duration_s;
+    };
+
+    Step step_from(const State& first, double h) const {
+        return {dormand_prince_step([this](const State& x) { return rate(x); }, x_, first, h), h};
+    }
+
+    /// The share of a step of such an error, in tolerances, that would keep within them: 0.1 to 5.
+    static double fitting(double error) {
+        constexpr double safety = 0.9, most = 5.0, of_most = 1.8e-4;  // (safety / most)^5
+        return error < of_most ? most : std::max(safety * std::pow(error, -0.2), 0.1);
     }
 
     double standing_V(const State& x) const { return standing_force_V(p_.standing, x[place]); }
@@ -161,26 +168,42 @@ class Motion {
         return worst;
     }
 
-    /// The shortest time found after which an event is just past: regula falsi on the slack, a bisection
-    /// every third time.
-    double time_of_event(const State& first, double late_s, double late_slack) const {
-        const auto slack_after = [&](double h) { return slack(step_from(first, h).end); };
-        double early_s = 0.0, early_slack = slack(x_);
+    /// The shortest step found that ends just past an event, by regula falsi on the slack (Illinois: an end
+    /// that stays counts half).
+    Step step_to_event(const State& first, Step late) const {
+        double early_s = 0.0, early_slack = slack(x_), late_slack = slack(late.end);
         while (early_slack <= 0.0) {  // it leaves one event for the next within the step
-            if (late_s < shortest_step_s) return late_s;
-            const double h = 0.25 * late_s, value = slack_after(h);
-            (value > 0.0 ? early_s : late_s) = h;
-            (value > 0.0 ? early_slack : late_slack) = value;
+            if (late.duration_s < shortest_step_s) return late;
+            const Step step = step_from(first, 0.25 * late.duration_s);
+            const double value = slack(step.end);
+            if (value > 0.0) {
+                early_s = step.duration_s;
+                early_slack = value;
+            } else {
+                late = step;
+                late_slack = value;
+            }
         }
         constexpr double resolution = 1e-10, resolution_s = 1e-14;
-        for (int k = 1; late_slack < -resolution && late_s - early_s > resolution_s; ++k) {
-            const double share = k % 3 == 0 ? 0.5 : early_slack / (early_slack - late_slack);
-            const double h = early_s + share * (late_s - early_s);
-            const double value = slack_after(h);
-            (value < 0.0 ? late_s : early_s) = h;
-            (value < 0.0 ? late_slack : early_slack) = value;
+        double early_weight = early_slack, late_weight = late_slack;
+        std::optional<bool> was_late;
+        while (late_slack < -resolution && late.duration_s - early_s > resolution_s) {
+            const double share = early_weight / (early_weight - late_weight);
+            const Step step = step_from(first, early_s + share * (late.duration_s - early_s));
+            const double value = slack(step.end);
+            const bool is_late = value <= 0.0;
+            if (is_late) {
+                if (was_late == true) early_weight *= 0.5;
+                late = step;
+                late_slack = late_weight = value;
+            } else {
+                if (was_late == false) late_weight *= 0.5;
+                early_s = step.duration_s;
+                early_weight = value;
+            }
+            was_late = is_late;
         }
-        return late_s;
+        return late;
     }
 
     /// Takes over the end of a step, put right where an event has just been passed.
