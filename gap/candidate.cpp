@@ -56,6 +56,8 @@ std::vector<double> grid_of(const plant::EffectParameter& parameter, const Trave
         constexpr int places = 12;
         for (int k = 0; k < places; ++k)
             grid.push_back(within(range.low_mm + (range.high_mm - range.low_mm) * (k + 0.5) / places));
+    } else if (parameter.low > 0.0 && parameter.high >= 5000.0 * parameter.low) {
+        for (const double factor : {0.2, 1.0, 5.0}) grid.push_back(within(factor * parameter.typical));
     } else if (parameter.low > 0.0 && parameter.high >= 20.0 * parameter.low) {
         for (const double factor : {0.4, 2.0}) grid.push_back(within(factor * parameter.typical));
     } else {
@@ -92,6 +94,11 @@ bool names(std::span<const std::string> list, std::string_view name) {
 
 std::string_view class_of(std::string_view effect) {
     return effect == "stress_shift" ? temperature_class : effect;
+}
+
+bool is_limit_of(std::string_view plainer, std::string_view richer) {
+    return std::ranges::any_of(
+        limits, [&](const Limit& limit) { return limit.plainer == plainer && limit.richer == richer; });
 }
 
 std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std::string> only,

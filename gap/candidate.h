@@ -35,4 +35,7 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
 /// The class of an effect.
 std::string_view class_of(std::string_view effect);
 
+/// Whether an effect is what a richer one comes to where what sets that apart vanishes.
+bool is_limit_of(std::string_view plainer, std::string_view richer);
+
 }  // namespace fidservo::gap

@@ -286,13 +286,17 @@ void Search::judge_both_halves(const CrossFit& base, Contender& contender) const
 
 void Search::prefer_simplest(std::vector<Trial>& trials) const {
     if (trials.empty()) return;
+    const Trial& first = trials.front();
+    const plant::Effect& explained = *first.candidate->effect;
+    const auto does_as_well = [&](const Trial& plainer) {
+        return ties(first.fitted, plainer.fitted) || !meet(off(plainer.fitted), teachers_of(explained)) ||
+               (is_limit_of(plainer.candidate->effect->name, explained.name) &&
+                !is_real(plainer.fitted, first.fitted));
+    };
     const auto parameters = [](const Trial& trial) { return trial.candidate->effect->parameters.size(); };
-    const CrossFit& first = trials.front().fitted;
     auto best = trials.begin();
     for (auto trial = trials.begin(); trial != trials.end() && trial->is_leader; ++trial)
-        if (parameters(*trial) < parameters(*best) &&
-            (ties(first, trial->fitted) || !is_real(trial->fitted, first)))
-            best = trial;
+        if (parameters(*trial) < parameters(*best) && does_as_well(*trial)) best = trial;
     std::rotate(trials.begin(), best, std::next(best));
 }
 

@@ -88,8 +88,9 @@ class Search {
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
     /// Whether some signal loses such a share of its excess.
     bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share) const;
-    /// Puts the one of fewest parameters first, of those that tie with the best or leave it nothing: bristles
-    /// that bend over no way are Coulomb friction, fitted a little better.
+    /// Puts the one of fewest parameters first, of those that tie with the best, leave nothing in the signals
+    /// that teach it, or are its limit and no worse than by chance: bristles that bend over no way are
+    /// Coulomb friction, fitted a little better.
     void prefer_simplest(std::vector<Trial>& trials) const;
 
     const std::vector<Candidate>& candidates_;

@@ -101,10 +101,29 @@ bool exchange(Search& search, Chain& chain, bool changed) {
     return changed;
 }
 
-/// Whether another chain explains better: the shorter one unless the longer one's gain is no chance.
+/// Candidates of one chain that the other lacks.
+std::vector<const Candidate*> only_in(const Chain& one, const Chain& other) {
+    std::vector<const Candidate*> found = one.candidates();
+    std::erase_if(found, [&](const Candidate* candidate) {
+        return std::ranges::find(other.choices, candidate, &Choice::candidate) != other.choices.end();
+    });
+    return found;
+}
+
+/// Whether a chain is another one with a richer effect in the place of its limit.
+bool refines(const Chain& richer, const Chain& plainer) {
+    const auto more = only_in(richer, plainer), less = only_in(plainer, richer);
+    return more.size() == 1 && less.size() == 1 &&
+           is_limit_of(less.front()->effect->name, more.front()->effect->name);
+}
+
+/// Whether another chain explains better: the shorter or plainer one unless the other one's gain is no
+/// chance.
 bool is_better(const Search& search, const Chain& other, const Chain& chain) {
-    if (other.choices.size() < chain.choices.size()) return !search.is_real(other.fitted, chain.fitted);
-    if (other.choices.size() > chain.choices.size()) return search.is_real(chain.fitted, other.fitted);
+    if (other.choices.size() < chain.choices.size() || refines(chain, other))
+        return !search.is_real(other.fitted, chain.fitted);
+    if (other.choices.size() > chain.choices.size() || refines(other, chain))
+        return search.is_real(chain.fitted, other.fitted);
     return other.fitted.loss < chain.fitted.loss - least_gain;
 }
 

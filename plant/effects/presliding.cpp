@@ -6,7 +6,7 @@ namespace {
 
 constexpr EffectParameter parameters[] = {
     {"level_V", "V", 0.0, 3.0, 0.0, 0.1, "friction once it slides"},
-    {"distance_um", "um", 0.0, 1000.0, 0.0, 20.0, "way over which the bristles bend"},
+    {"distance_um", "um", 0.1, 1000.0, 50.0, 50.0, "way over which the bristles bend"},
     {"damping_V_s_per_mm", "V s/mm", 0.0, 0.05, 0.0, 0.0, "of the bristles"},
 };
 

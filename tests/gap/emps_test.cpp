@@ -16,7 +16,6 @@ namespace fidservo {
 namespace {
 
 using namespace gap;
-using ::testing::AnyOf;
 using ::testing::Contains;
 using testing::read_all;
 using ::testing::SizeIs;
@@ -47,8 +46,7 @@ TEST_F(SlowEmps, FrictionIsNamedAndTheScrewsRippleIsFoundInWhatRemains) {
     const Evidence evidence(rig, read_all(find_recordings(folder)));
     const Diagnosis diagnosis = diagnose(evidence);
     ASSERT_THAT(diagnosis.effects, SizeIs(2));
-    // Bristles that bend over a few um carry the same dry friction; which of the two is named is not settled.
-    EXPECT_THAT(diagnosis.effects[0].effect, AnyOf("coulomb_friction", "presliding"));
+    EXPECT_EQ(diagnosis.effects[0].effect, "coulomb_friction");
     EXPECT_EQ(diagnosis.effects[1].effect, "friction_asymmetry");
     // Published: 20.4 N at 35.15 N/V; 167 and 240 N s/m where the file says 203.5.
     EXPECT_NEAR(diagnosis.effects[0].parameters[0].value, 20.4 / 35.15, 0.02);
