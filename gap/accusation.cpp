@@ -19,7 +19,8 @@ std::string_view carriage_block(std::optional<Dependence> dependence) {
 std::string_view platform_block(std::optional<Dependence> dependence) {
     if (dependence == Dependence::macro_command || dependence == Dependence::acceleration)
         return "micro.mechanics";
-    if (dependence == Dependence::contraction || dependence == Dependence::direction)
+    if (dependence == Dependence::contraction || dependence == Dependence::direction ||
+        dependence == Dependence::minor_loops)
         return "micro.hysteresis";
     return "micro.heater";
 }

@@ -4,6 +4,7 @@
 #include "gap/carriage_forces.h"
 #include "gap/gap_size.h"
 #include "gap/halves.h"
+#include "gap/minor_loops.h"
 #include "gap/period_search.h"
 #include "gap/surrogate.h"
 
@@ -70,6 +71,8 @@ Dependences dependences(const Evidence& evidence, Signal signal, const Errors& e
         case Signal::encoder:
             return dependences_of_carriage(evidence, errors, half, tail);
         case Signal::hall:
+            if (only_minor_loops_are_off(evidence, errors))
+                return {{static_cast<int>(Dependence::minor_loops)}};
             return dependences(evidence, signal, platform_surrogate(evidence), errors, half, tail);
         case Signal::tag:
             return dependences(evidence, signal, tag_surrogate(evidence, errors), errors, half, tail);

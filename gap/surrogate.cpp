@@ -5,7 +5,7 @@
 namespace fidservo::gap {
 
 std::string_view name_of(Dependence dependence) {
-    constexpr std::array<std::string_view, 18> names{"velocity",
+    constexpr std::array<std::string_view, 19> names{"velocity",
                                                      "direction",
                                                      "position",
                                                      "position, periodic",
@@ -17,6 +17,7 @@ std::string_view name_of(Dependence dependence) {
                                                      "time",
                                                      "temperature",
                                                      "temperature before",
+                                                     "turns between the wire's end states",
                                                      "contraction",
                                                      "macro command",
                                                      "position, against the motion",

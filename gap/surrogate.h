@@ -26,6 +26,7 @@ enum class Dependence : std::uint8_t {
     time,
     temperature,
     temperature_before,  ///< as bodies of some time constants remember it
+    minor_loops,         ///< between the wire's end states: gap/minor_loops.h
     contraction,
     macro_command,
     position_friction,  ///< a friction that depends on the place
