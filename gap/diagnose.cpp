@@ -124,17 +124,24 @@ std::vector<BlockProbability> blocks_of(const Selection& selection, double trust
     return where;
 }
 
-/// Whether what is named for the carriage stands in for something else: the gap as a whole depends on what
-/// accuses a block of the carriage that none of the names has. (The forces that a carriage lacks tell its
-/// blocks apart well.)
-/// @param least_names  of the carriage's, below which they are believed
+/// Whether what accuses a block shows in the same way as an effect of another one. The forces that a carriage
+/// lacks tell its blocks apart well; of the view, the tags' own size is told from all else.
+bool could_be(std::string_view named_block, const Remainder& whole) {
+    if (whole.depends_on.empty()) return false;
+    if (whole.block == "plate") return named_block.starts_with("camera.") && whole.depends_on.size() == 1;
+    return named_block.starts_with("macro.") && whole.block.starts_with("macro.");
+}
+
+/// Whether what is named stands in for something else: the gap as a whole depends on what accuses a block
+/// that none of the names has.
+/// @param least_names  of those that could be it, below which they are believed
 bool has_stand_in(const Selection& selection, const Remainder& whole, std::ptrdiff_t least_names) {
     const auto block_of = [](const Choice& choice) {
         return std::string_view(choice.candidate->effect->block);
     };
-    const auto is_of_carriage = [&](const Choice& choice) { return block_of(choice).starts_with("macro."); };
-    return whole.block.starts_with("macro.") && !whole.depends_on.empty() &&
-           std::ranges::count_if(selection.choices, is_of_carriage) >= least_names &&
+    return std::ranges::count_if(selection.choices,
+                                 [&](const Choice& choice) { return could_be(block_of(choice), whole); }) >=
+               least_names &&
            std::ranges::none_of(selection.choices,
                                 [&](const Choice& choice) { return block_of(choice) == whole.block; });
 }
