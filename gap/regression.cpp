@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -13,8 +14,9 @@
 namespace fidservo::gap {
 namespace {
 
-/// Of the columns' own weight: enough to hold columns that hardly differ from each other.
-constexpr double ridge = 1e-3;
+/// Of the columns' own weight: enough to hold columns that hardly differ from each other. Of the mean weight
+/// in their group: enough to hold those that the fitted half hardly has, as places that it does not visit.
+constexpr double own_ridge = 1e-3, group_ridge = 3e-3;
 
 Eigen::MatrixXd gram_of(const Window& window, const Errors& errors, std::span<const Column> columns,
                         std::span<const Column> nuisances, double& count) {
@@ -88,6 +90,22 @@ Regression::Regression(std::span<const Window> windows, Signal signal, const Err
     drop_gross_windows(condensed_);
 }
 
+Eigen::VectorXd Regression::means_in_groups(std::span<const Eigen::Index> columns,
+                                            const Eigen::VectorXd& values) const {
+    const auto group = [&](Eigen::Index i) {
+        return group_of_[static_cast<std::size_t>(columns[static_cast<std::size_t>(i)])];
+    };
+    std::map<int, std::pair<double, double>> sums;
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+        sums[group(i)].first += values(i);
+        sums[group(i)].second += 1.0;
+    }
+    return Eigen::VectorXd::NullaryExpr(values.size(), [&](Eigen::Index i) {
+        const auto& [sum, count] = sums.at(group(i));
+        return sum / count;
+    });
+}
+
 Eigen::VectorXd Regression::solve(std::span<const Eigen::Index> columns, std::uint8_t half) const {
     if (columns.empty()) return {};
     const auto width = static_cast<Eigen::Index>(columns.size());
@@ -105,7 +123,9 @@ Eigen::VectorXd Regression::solve(std::span<const Eigen::Index> columns, std::ui
         }
     }
     const double floor = 1e-12 * std::max(1e-300, normal.diagonal().maxCoeff());
-    normal.diagonal() += ridge * normal.diagonal() + Eigen::VectorXd::Constant(width, floor);
+    const Eigen::VectorXd own = normal.diagonal();
+    normal.diagonal() += own_ridge * own + group_ridge * means_in_groups(columns, own) +
+                         Eigen::VectorXd::Constant(width, floor);
     return normal.ldlt().solve(right);
 }
 

@@ -48,6 +48,9 @@ class Regression {
     std::vector<int> significant_groups(double tail, double as_good) const;
 
   private:
+    /// Of each column, the mean over the columns of its group.
+    Eigen::VectorXd means_in_groups(std::span<const Eigen::Index> columns,
+                                    const Eigen::VectorXd& values) const;
     Eigen::VectorXd solve(std::span<const Eigen::Index> columns, std::uint8_t half) const;
 
     std::span<const Window> windows_;

@@ -84,6 +84,19 @@ TEST(Regression, WhatTheStateAtAWindowsStartExplains_IsNoFinding) {
     EXPECT_TRUE(regression(setting, errors).significant_groups(0.01, 0.8).empty());
 }
 
+/// As a place that one half of the recordings hardly visits.
+TEST(Regression, ColumnThatAHalfHardlyHas_IsHeldByItsGroup) {
+    constexpr float share_in_first_half = 0.003F;
+    Setting setting = make_setting(6);
+    Column rare{ramp, setting.columns[0].values};
+    for (std::size_t k = 0; k < rare.values.size(); ++k)
+        if (setting.half[k / values] == 0) rare.values[k] *= share_in_first_half;
+    setting.columns[0] = rare;
+    const int groups[] = {ramp};
+    const Errors errors = sum(setting.noise, setting.columns[1], 30.0F);
+    for (const double square : regression(setting, errors).mean_squares(groups)) EXPECT_LT(square, 2.0);
+}
+
 TEST(Regression, Noise_IsNoFinding) {
     constexpr int draws = 200;
     int findings = 0;
