@@ -3,6 +3,7 @@
 #include "gap/gap_size.h"
 #include "gap/posterior.h"
 #include "gap/remainder.h"
+#include "gap/surrogate.h"
 #include "plant/effects/catalogue.h"
 
 #include <algorithm>
@@ -146,6 +147,16 @@ bool has_stand_in(const Selection& selection, const Remainder& whole, std::ptrdi
                                 [&](const Choice& choice) { return block_of(choice) == whole.block; });
 }
 
+/// Whether the gap as a whole is friction at a place, and nothing that is named knows places.
+bool lacks_place(const Selection& selection, const Remainder& whole) {
+    const auto knows_places = [](const Choice& choice) {
+        return std::ranges::find(choice.candidate->effect->parameters, "mm", &plant::EffectParameter::unit) !=
+               choice.candidate->effect->parameters.end();
+    };
+    return !whole.depends_on.empty() && whole.depends_on.front() == name_of(Dependence::position_friction) &&
+           std::ranges::none_of(selection.choices, knows_places);
+}
+
 /// How far the names of an explanation are to be trusted, and what is missing beside them.
 struct Doubt {
     double trust;
@@ -159,7 +170,7 @@ Doubt doubt_of(const Evidence& evidence, const Selection& selection, Remainder r
                double tail) {
     if (selection.choices.empty()) return {0.0, std::move(remainder)};
     const std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
-    const bool stands_in = whole && has_stand_in(selection, *whole, 1);
+    const bool stands_in = whole && (has_stand_in(selection, *whole, 1) || lacks_place(selection, *whole));
     if (stands_in) trust = std::min(trust, trust_in_stand_in);
     if (whole && (stands_in || trust <= 0.5)) remainder.block = whole->block;
     return {trust, std::move(remainder)};
