@@ -92,6 +92,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
                                     const Wanted& counted, const Surroundings& beside,
                                     const Candidate& candidate) {
     constexpr double probe = 0.25;  // of the typical size
+    constexpr double hopeless_gain = 0.4 * least_gain;
     constexpr std::size_t most_places = 8, most_starts = 4;
     const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
     const auto moving = static_cast<Eigen::Index>(beside.slopes.size());
@@ -122,6 +123,9 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         const double expected = gained(windows, counted, base_squares, added(beside.errors, changes, steps));
         places.push_back({shape, steps, expected, probe_gain});
     }
+    std::erase_if(places, [](const Place& place) {
+        return place.expected_gain < hopeless_gain && place.probe_gain <= 0.0;
+    });
     std::ranges::sort(places, std::greater{}, &Place::expected_gain);
     if (places.size() > most_places / 2)  // the others by what is not extrapolated
         std::ranges::sort(places.begin() + most_places / 2, places.end(), std::greater{}, &Place::probe_gain);
