@@ -159,6 +159,10 @@ constexpr DependenceAdvice dependences[] = {
     {"command", "The amplifier: saturation, a dead zone or a gain that is not constant."},
     {"time", "Something that drifts during a run: warming up, a sagging supply, draughts."},
     {"temperature", "Heat flow or the wire's table: supply, contacts, clamps, draughts, a tired wire."},
+    {"turns between",
+     "The wire's memory of partial heatings is another than the rig file's table says: identify the "
+     "hysteresis "
+     "again, with small loops among the large ones."},
     {"contraction", "The Hall sensor's curve: its magnet's place and tilt, iron near by."},
     {"macro command",
      "The macro drive's current gets into a sensor: ground return, shielding, lead routing."},

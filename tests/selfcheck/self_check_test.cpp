@@ -86,5 +86,23 @@ TEST(SlowSelfCheck, ScaleOfTheEncoder_NeedsNoBacklashBesideIt) {
     EXPECT_THAT(line_of(scale), ::testing::Not(HasSubstr("backlash")));
 }
 
+TEST(SlowSelfCheck, HysteresisOfDuhemsKind_IsNotTheHeaters) {
+    const Outcome duhem = case_of(2028, 40);
+    ASSERT_EQ(duhem.label.effects.front().effect, "duhem_hysteresis") << "the draw has changed";
+    EXPECT_TRUE(duhem.score.right_block_first) << line_of(duhem);
+}
+
+TEST(SlowSelfCheck, TagsOfAnotherSize_AreNoScaleOfTheCamera) {
+    const Outcome side = case_of(2028, 120);
+    ASSERT_EQ(side.label.effects.front().effect, "tag_side") << "the draw has changed";
+    EXPECT_TRUE(side.score.right_block_first && !side.score.is_confident_wrong) << line_of(side);
+}
+
+TEST(SlowSelfCheck, WeakForceOfTheHarness_IsNotTheDrives) {
+    const Outcome cable = case_of(2028, 60);
+    ASSERT_EQ(cable.label.effects.front().effect, "cable_force") << "the draw has changed";
+    EXPECT_TRUE(cable.score.right_block_first) << line_of(cable);
+}
+
 }  // namespace
 }  // namespace fidservo::selfcheck
