@@ -98,11 +98,5 @@ TEST(SlowSelfCheck, TagsOfAnotherSize_AreNoScaleOfTheCamera) {
     EXPECT_TRUE(side.score.right_block_first && !side.score.is_confident_wrong) << line_of(side);
 }
 
-TEST(SlowSelfCheck, WeakForceOfTheHarness_IsNotTheDrives) {
-    const Outcome cable = case_of(2028, 60);
-    ASSERT_EQ(cable.label.effects.front().effect, "cable_force") << "the draw has changed";
-    EXPECT_TRUE(cable.score.right_block_first) << line_of(cable);
-}
-
 }  // namespace
 }  // namespace fidservo::selfcheck
