@@ -1,5 +1,6 @@
 #include "gap/first_sight.h"
 
+#include "gap/parallel.h"
 #include "gap/score.h"
 #include "gap/slopes.h"
 
@@ -27,11 +28,16 @@ plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>
     return {candidate.effect, std::move(values)};
 }
 
+/// What moves, by some scales.
+Hypothesis moved(const ScaledParameters& parameters, const Eigen::VectorXd& scales) {
+    std::vector<double> values = parameters.values;
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += scales(static_cast<Eigen::Index>(k));
+    return parameters.at(values);
+}
+
 /// What moves, by some scales, then the candidate.
 Hypothesis moved(const Surroundings& beside, const Eigen::VectorXd& scales, plant::EffectSetting added) {
-    std::vector<double> values = beside.parameters.values;
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] += scales(static_cast<Eigen::Index>(k));
-    Hypothesis part = beside.parameters.at(values);
+    Hypothesis part = moved(beside.parameters, scales);
     part.push_back(std::move(added));
     return part;
 }
@@ -77,14 +83,19 @@ Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen
 
 }  // namespace
 
-Surroundings surroundings(const Predict& predict, const Hypothesis& base, const Errors& base_errors,
-                          const Places& places) {
-    Surroundings beside{base, base_errors, places, ScaledParameters(part_of(base, places)), {}};
+Surroundings surroundings(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
+                          const Hypothesis& base, const Errors& base_errors, const Places& places) {
+    Surroundings beside{base, base_errors, places, ScaledParameters(part_of(base, places)), {}, {}};
     const Predict predict_part = [&](const Hypothesis& part) {
         return predict(with_part(base, places, part));
     };
-    for (std::size_t k = 0; k < beside.parameters.size(); ++k)
-        beside.slopes.push_back(slope(predict_part, beside.parameters, k, base_errors));
+    beside.slopes.resize(beside.parameters.size());
+    parallel_for(beside.slopes.size(), [&](std::size_t k) {
+        beside.slopes[k] = slope(predict_part, beside.parameters, k, base_errors);
+    });
+    if (!beside.slopes.empty())
+        beside.moved =
+            predict_part(moved(beside.parameters, best_shares(windows, counted, base_errors, beside.slopes)));
     return beside;
 }
 
@@ -104,6 +115,8 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         double probe_gain;      ///< of a small size, really
     };
     const std::vector<double> base_squares = mean_squares(windows, beside.errors);
+    const double without =
+        beside.moved.empty() ? 0.0 : std::max(0.0, gained(windows, counted, base_squares, beside.moved));
     std::vector<Place> places;
     for (const std::vector<double>& shape : candidate.shapes) {
         std::vector<Errors> changes = beside.slopes;
@@ -123,8 +136,8 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         const double expected = gained(windows, counted, base_squares, added(beside.errors, changes, steps));
         places.push_back({shape, steps, expected, probe_gain});
     }
-    std::erase_if(places, [](const Place& place) {
-        return place.expected_gain < hopeless_gain && place.probe_gain <= 0.0;
+    std::erase_if(places, [&](const Place& place) {
+        return place.expected_gain - without < hopeless_gain && place.probe_gain <= 0.0;
     });
     std::ranges::sort(places, std::greater{}, &Place::expected_gain);
     if (places.size() > most_places / 2)  // the others by what is not extrapolated
@@ -144,6 +157,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         starts.push_back(best);
     }
     std::ranges::sort(starts, std::greater{}, &Promise::gain);
+    std::erase_if(starts, [&](const Promise& start) { return start.gain - without < hopeless_gain; });
     if (starts.size() > most_starts) starts.resize(most_starts);
     return starts;
 }

@@ -16,10 +16,12 @@ struct Surroundings {
     Places places;  ///< of the settings that may move
     ScaledParameters parameters;
     std::vector<Errors> slopes;  ///< of these parameters
+    Errors moved;                ///< of the base where these parameters alone fit best; empty: none moves
 };
 
-Surroundings surroundings(const Predict& predict, const Hypothesis& base, const Errors& base_errors,
-                          const Places& places);
+/// @param counted  windows that `predict` predicts
+Surroundings surroundings(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
+                          const Hypothesis& base, const Errors& base_errors, const Places& places);
 
 struct Promise {
     Hypothesis start;  ///< the settings that may move, then the candidate
@@ -30,7 +32,8 @@ struct Promise {
 /// proportion to both: weighted least squares of the base's errors. (A base that was fitted without the
 /// candidate has taken over what it can of it. Where that misleads, as with a base of which only a product is
 /// well known, the candidate alone is tried.) Of the shapes that promise most by that at most four, best
-/// first; `gain` is what it really saves.
+/// first; `gain` is what it really saves. None where the settings that may move save as much without the
+/// candidate.
 std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
                                     const Wanted& counted, const Surroundings& beside,
                                     const Candidate& candidate);

@@ -22,6 +22,16 @@ bool is_simple(const Candidate& candidate) {
     return candidate.effect->parameters.size() <= 2;
 }
 
+/// Whether one half of the recordings has no use for a candidate.
+bool vanishes_on_a_half(const Trial& trial) {
+    return std::ranges::any_of(trial.fitted.of_half, [&](const Hypothesis& hypothesis) {
+        const plant::EffectSetting& fitted = hypothesis.back();
+        return std::ranges::all_of(trial.candidate->sizes, [&](std::size_t k) {
+            return fitted.values[k] == fitted.effect->parameters[k].vanishing;
+        });
+    });
+}
+
 bool includes(const SignalFlags& all, const SignalFlags& some) {
     for (std::size_t s = 0; s < signal_count; ++s)
         if (some[s] && !all[s]) return false;
@@ -78,7 +88,8 @@ Search::Search(const Evidence& evidence, const std::vector<Candidate>& candidate
     : candidates_(candidates),
       options_(options),
       fitter_(evidence, options.windows, options.stop),
-      memory_(candidates.size()) {}
+      memory_(candidates.size()),
+      first_excess_(fitter_.excess(nothing().mean_squares)) {}
 
 CrossFit Search::nothing() const {
     CrossFit cross;
@@ -160,8 +171,9 @@ void Search::look_at(const CrossFit& base, std::span<Contender> contenders) {
     std::map<Places, Surroundings> beside;
     for (const Contender* contender : fresh)
         if (!beside.contains(contender->coupled))
-            beside.emplace(contender->coupled, surroundings(fitter_.predictor(looked_at), base.of_half[0],
-                                                            base_errors, contender->coupled));
+            beside.emplace(contender->coupled,
+                           surroundings(fitter_.predictor(looked_at), windows, looked_at, base.of_half[0],
+                                        base_errors, contender->coupled));
     parallel_for(fresh.size(), [&](std::size_t c) {
         const Candidate& candidate = *fresh[c]->trial.candidate;
         const Wanted wanted = only_of(windows, looked_at, fresh[c]->teachers());
@@ -234,9 +246,10 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
     const std::string_view block = contender.trial.candidate->effect->block;
     const bool moves_tags = block == "macro.encoder" || block.starts_with("camera.");
     constexpr int most_times = 3;
-    constexpr double worth_a_simplex = 0.5;  // of what a signal exceeds its floor by
+    constexpr double worth_it = 0.1, worth_a_simplex = 0.5;  // of what a signal exceeds its floor by
     Finding& finding = *contender.finding;
-    if (is_wave && !clears_a_signal(base, contender.trial.fitted, worth_a_simplex)) return;
+    if (vanishes_on_a_half(contender.trial)) return;
+    if (!clears_a_signal(base, contender.trial.fitted, is_wave ? worth_a_simplex : worth_it)) return;
     for (int time = 0; time < most_times && !finding.is_close; ++time) {
         if (!meet(off(contender.trial.fitted), contender.teachers())) return;
         const auto fitted_by = [&](const auto& fit_side) {
@@ -301,9 +314,10 @@ void Search::prefer_simplest(std::vector<Trial>& trials) const {
 }
 
 bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
-    constexpr double least_share = 0.3;
+    constexpr double least_share = 0.3, least_share_of_first = 1e-3;
     const Comparison comparison = fitter_.compared(without, with);
-    return clears_a_signal(without, with, least_share) && comparison.gain > least_gain &&
+    return clears_a_signal(without, with, least_share, least_share_of_first) &&
+           comparison.gain > least_gain &&
            comparison.significance >
                significance_bound(comparison.blocks, std::max(trials_, 1), options_.tail);
 }
@@ -312,11 +326,14 @@ bool Search::nearly_clears(const CrossFit& without, const CrossFit& with) const 
     return clears_a_signal(without, with, 0.9);
 }
 
-bool Search::clears_a_signal(const CrossFit& without, const CrossFit& with, double share) const {
+bool Search::clears_a_signal(const CrossFit& without, const CrossFit& with, double share,
+                             double share_of_first) const {
     const SignalExcess before = fitter_.excess(without.mean_squares),
                        after = fitter_.excess(with.mean_squares);
     for (std::size_t s = 0; s < signal_count; ++s)
-        if (after[s] < (1.0 - share) * before[s]) return true;
+        if (after[s] < (1.0 - share) * before[s] &&
+            (after[s] == 0.0 || before[s] - after[s] >= share_of_first * first_excess_[s]))
+            return true;
     return false;
 }
 

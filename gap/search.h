@@ -52,7 +52,8 @@ class Search {
 
     /// Whether an effect's gain is more than chance, over all that was tried, and takes away a good part of
     /// what a signal exceeds its floor by: where the true law differs a little from the catalogue's, many an
-    /// effect gains a little.
+    /// effect gains a little. So it does beside an effect whose law is not quite the true one: what leaves a
+    /// signal off its floor has to take away a thousandth of what the signal exceeded it by at first.
     bool is_real(const CrossFit& without, const CrossFit& with) const;
 
     /// Whether a signal loses 90 % of what it exceeds its floor by.
@@ -86,8 +87,10 @@ class Search {
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side) const;
     Hypothesis polished(const Contender& contender, std::size_t side) const;
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
-    /// Whether some signal loses such a share of its excess.
-    bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share) const;
+    /// Whether some signal loses such a share of its excess, and comes to its floor or loses at least such a
+    /// share of what it exceeds it by where nothing is known.
+    bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share,
+                         double share_of_first = 0.0) const;
     /// Puts the one of fewest parameters first, of those that tie with the best, leave nothing in the signals
     /// that teach it, or are its limit and no worse than by chance: bristles that bend over no way are
     /// Coulomb friction, fitted a little better.
@@ -97,6 +100,7 @@ class Search {
     SearchOptions options_;
     CrossFitter fitter_;
     SearchMemory memory_;
+    SignalExcess first_excess_;  ///< where nothing is known
     int trials_ = 0;
 };
 

@@ -2,7 +2,6 @@
 
 #include "core/failure.h"
 #include "core/micro_model.h"
-#include "plant/thermal_pair.h"
 
 #include <cmath>
 
@@ -13,17 +12,17 @@ namespace {
 /// Any part of a tick, with or without a second mass.
 void heat(const Heater& heater, HeaterState& state, double command_V, double time_s) {
     const HeaterParameters& wire = heater.parameters;
-    if (heater.mass.coupling == 0.0) {
+    if (heater.pair.pair.coupling == 0.0) {
         state.temp_degC = heater_step_degC(wire, state.temp_degC, command_V, time_s);
         return;
     }
-    const ThermalPair pair{wire.heating_tau_s, wire.cooling_tau_s, heater.mass.coupling, heater.mass.tau_s,
-                           heater.mass.retention};
-    const Eigen::Vector2d rise_degC =
-        advance(pair, {state.temp_degC - wire.ambient_degC, state.mass_rise_degC},
-                heater_rise_degC(wire, command_V), time_s);
-    state.temp_degC = wire.ambient_degC + rise_degC.x();
-    state.mass_rise_degC = rise_degC.y();
+    const Eigen::Vector2d before_degC(state.temp_degC - wire.ambient_degC, state.mass_rise_degC);
+    const double phi_degC = heater_rise_degC(wire, command_V);
+    const Eigen::Vector2d after_degC = time_s == heater.tick_s
+                                           ? advance(heater.pair, before_degC, phi_degC)
+                                           : advance(heater.pair.pair, before_degC, phi_degC, time_s);
+    state.temp_degC = wire.ambient_degC + after_degC.x();
+    state.mass_rise_degC = after_degC.y();
 }
 
 }  // namespace
@@ -36,7 +35,9 @@ Heater make_heater(const HeaterParameters& parameters, double tick_s, const Seco
             -std::expm1(-tick_s / parameters.heating_tau_s),
             -std::expm1(-tick_s / parameters.cooling_tau_s),
             tick_s,
-            mass,
+            thermal_pair_tick({parameters.heating_tau_s, parameters.cooling_tau_s, mass.coupling, mass.tau_s,
+                               mass.retention},
+                              tick_s),
             delay_s,
             mass.coupling == 0.0 && delay_s == 0.0};
 }

@@ -11,6 +11,7 @@
 // heat with a second mass follows plant/thermal_pair.h instead; a heater that acts late, plant/delay_line.h.
 #include "core/rig.h"
 #include "plant/delay_line.h"
+#include "plant/thermal_pair.h"
 
 namespace fidservo::plant {
 
@@ -27,9 +28,9 @@ struct Heater {
     double heating_share;  ///< 1 - exp(-T / heating tau): the part of the way to phi that a tick covers
     double cooling_share;
     double tick_s;
-    SecondMass mass;
-    double delay_s;  ///< from a command to its effect
-    bool is_plain;   ///< neither second mass nor delay
+    ThermalPairTick pair;  ///< of wire and second mass
+    double delay_s;        ///< from a command to its effect
+    bool is_plain;         ///< neither second mass nor delay
 };
 
 struct HeaterState {

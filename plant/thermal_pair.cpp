@@ -27,14 +27,25 @@ struct Regime {
         equilibrium_degC = {wire_degC, r * wire_degC};
     }
 
-    Eigen::Vector2d after(const Eigen::Vector2d& rise_degC, double time_s) const {
+    Eigen::Matrix2d decay(double time_s) const {
         const Eigen::Matrix2d& A = rates_per_s;
         const double m = 0.5 * (A(0, 0) + A(1, 1));
         const double d = std::hypot(0.5 * (A(0, 0) - A(1, 1)), std::sqrt(A(0, 1) * A(1, 0)));
         const double mean_of_decays = 0.5 * (std::exp((m + d) * time_s) + std::exp((m - d) * time_s));
-        const Eigen::Vector2d deviation = rise_degC - equilibrium_degC;
-        return equilibrium_degC + mean_of_decays * deviation +
-               difference_of_decays(m, d, time_s) * (A * deviation - m * deviation);
+        const Eigen::Matrix2d identity = Eigen::Matrix2d::Identity();
+        return mean_of_decays * identity + difference_of_decays(m, d, time_s) * (A - m * identity);
+    }
+
+    Eigen::Vector2d after(const Eigen::Vector2d& rise_degC, const Eigen::Matrix2d& decay) const {
+        return equilibrium_degC + decay * (rise_degC - equilibrium_degC);
+    }
+
+    Eigen::Vector2d after(const Eigen::Vector2d& rise_degC, double time_s) const {
+        return after(rise_degC, decay(time_s));
+    }
+
+    bool wire_rises(const Eigen::Vector2d& rise_degC) const {
+        return rates_per_s.row(0).dot(rise_degC - equilibrium_degC) > 0.0;
     }
 };
 
@@ -54,10 +65,7 @@ double end_of(const Condition& holds, double end_s) {
 /// once.
 std::optional<double> passing_time_s(const Regime& regime, const Eigen::Vector2d& start_degC, double phi_degC,
                                      bool heating, double end_s) {
-    const auto rises = [&](double time_s) {
-        const Eigen::Vector2d deviation = regime.after(start_degC, time_s) - regime.equilibrium_degC;
-        return regime.rates_per_s.row(0).dot(deviation) > 0.0;
-    };
+    const auto rises = [&](double time_s) { return regime.wire_rises(regime.after(start_degC, time_s)); };
     const auto keeps_side = [&](double time_s) {
         return (phi_degC > regime.after(start_degC, time_s).x()) == heating;
     };
@@ -84,6 +92,21 @@ Eigen::Vector2d advance(const ThermalPair& pair, const Eigen::Vector2d& rise_deg
         time_s -= *pass_s;
         heating = !heating;
     }
+}
+
+ThermalPairTick thermal_pair_tick(const ThermalPair& pair, double time_s) {
+    return {pair, time_s, Regime(pair, pair.heating_tau_s, 0.0).decay(time_s),
+            Regime(pair, pair.cooling_tau_s, 0.0).decay(time_s)};
+}
+
+Eigen::Vector2d advance(const ThermalPairTick& tick, const Eigen::Vector2d& rise_degC, double phi_degC) {
+    const bool heating = phi_degC > rise_degC.x();
+    const Regime regime(tick.pair, heating ? tick.pair.heating_tau_s : tick.pair.cooling_tau_s, phi_degC);
+    const Eigen::Vector2d end_degC =
+        regime.after(rise_degC, heating ? tick.heating_decay : tick.cooling_decay);
+    const bool turns = regime.wire_rises(rise_degC) != regime.wire_rises(end_degC);
+    const bool keeps_side = (phi_degC > end_degC.x()) == heating;
+    return turns || !keeps_side ? advance(tick.pair, rise_degC, phi_degC, tick.time_s) : end_degC;
 }
 
 }  // namespace fidservo::plant

@@ -31,4 +31,16 @@ struct ThermalPair {
 Eigen::Vector2d advance(const ThermalPair& pair, const Eigen::Vector2d& rise_degC, double phi_degC,
                         double time_s);
 
+/// A pair over ticks of one length, what decays in one of them computed once.
+struct ThermalPairTick {
+    ThermalPair pair;
+    double time_s;
+    Eigen::Matrix2d heating_decay, cooling_decay;  ///< y(time_s) = decay y(0), by regime
+};
+
+ThermalPairTick thermal_pair_tick(const ThermalPair& pair, double time_s);
+
+/// Wire and mass above ambient in degC after a tick under a constant phi (degC).
+Eigen::Vector2d advance(const ThermalPairTick& tick, const Eigen::Vector2d& rise_degC, double phi_degC);
+
 }  // namespace fidservo::plant

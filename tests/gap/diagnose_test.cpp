@@ -103,6 +103,22 @@ TEST(Diagnosis, EffectThatClearsOneSignal_IsRealThoughAnotherIsFurtherOff) {
     EXPECT_FALSE(search.off(with)[index_of(Signal::hall)]);
 }
 
+/// Beside a law that is not quite the true one many an effect gains a little.
+TEST(Diagnosis, EffectThatClearsCrumbsOfALargeGap_IsNotReal) {
+    const std::vector<Candidate> tried;
+    const Evidence evidence = campaign(effects({"stress_shift:shift_degC=6"}), {"micro-steps"});
+    const Search search(evidence, tried, {});
+    const auto with_hall_at = [&](double mean_square) {
+        CrossFit cross;
+        for (const Window& window : evidence.windows())
+            cross.mean_squares.push_back(window.signal == Signal::hall ? mean_square : 1.0);
+        return cross;
+    };
+    EXPECT_FALSE(search.is_real(with_hall_at(25.0), with_hall_at(6.0)));
+    EXPECT_TRUE(search.is_real(with_hall_at(25.0), with_hall_at(1.0))) << "it leaves nothing";
+    EXPECT_TRUE(search.is_real(search.nothing(), with_hall_at(6.0)));
+}
+
 /// Alone, either of the two does worse than a compromise of others; the one that is found first has taken
 /// over what it can of the other.
 TEST(SlowDiagnosis, TwoEffectsOfOneStretch_AreBothNamed) {

@@ -92,5 +92,21 @@ TEST(ThermalPair, WireThatPassesItsGoal_SolvesTheEquationsInBothRegimes) {
     EXPECT_GE(passed, 5);
 }
 
+TEST(ThermalPair, TickByTick_IsTheSameAsTheClosedForm) {
+    NoiseStream draw(14, "cases");
+    for (int k = 0; k < 50; ++k) {
+        const ThermalPair pair{0.3 + draw.uniform(), 0.3 + draw.uniform(), 2.0 * draw.uniform(),
+                               0.05 + 10.0 * draw.uniform(), draw.uniform()};
+        const ThermalPairTick tick = thermal_pair_tick(pair, 0.02);
+        Eigen::Vector2d by_ticks(100.0 * draw.uniform(), 150.0 * draw.uniform()), whole = by_ticks;
+        for (int i = 0; i < 200; ++i) {
+            const double phi = i % 40 < 20 ? 80.0 : 40.0;
+            by_ticks = advance(tick, by_ticks, phi);
+            whole = advance(pair, whole, phi, tick.time_s);
+        }
+        EXPECT_NEAR((by_ticks - whole).norm(), 0.0, 1e-10) << "seed 14, case " << k;
+    }
+}
+
 }  // namespace
 }  // namespace fidservo::plant
