@@ -107,14 +107,34 @@ std::vector<TriedEffect> tried_effects(const Evidence& evidence, const Selection
     return tried;
 }
 
+/// Where effects of several blocks cannot be told apart: the block that can fail in most ways.
+std::string likeliest_block(const Choice& choice) {
+    const auto ways_of = [](std::string_view block) {
+        return std::ranges::count(plant::effect_catalogue(), block,
+                                  [](const plant::Effect* effect) { return effect->block; });
+    };
+    std::string_view likeliest = choice.candidate->effect->block;
+    for (const Trial& trial : choice.alternatives) {
+        const std::string_view block = trial.candidate->effect->block;
+        if (trial.candidate->class_name == choice.candidate->class_name &&
+            ways_of(block) > ways_of(likeliest))
+            likeliest = block;
+    }
+    return std::string(likeliest);
+}
+
 /// Of each block that one of its effects, as far as the choices tell, is part of the explanation.
 std::vector<BlockProbability> blocks_of(const Selection& selection, double trust) {
     std::map<std::string, double> by_block;
     for (const Choice& choice : selection.choices) {
         const std::vector<double> shares = shares_of(choice.alternatives, choice.loss_without);
+        const std::string block_of_class = likeliest_block(choice);
         std::map<std::string, double> here;
-        for (std::size_t k = 0; k < choice.alternatives.size(); ++k)
-            here[std::string(choice.alternatives[k].candidate->effect->block)] += shares[k];
+        for (std::size_t k = 0; k < choice.alternatives.size(); ++k) {
+            const Candidate& candidate = *choice.alternatives[k].candidate;
+            const bool is_of_class = candidate.class_name == choice.candidate->class_name;
+            here[is_of_class ? block_of_class : std::string(candidate.effect->block)] += shares[k];
+        }
         for (const auto& [block, probability] : here)
             by_block[block] = 1.0 - (1.0 - by_block[block]) * (1.0 - trust * probability);
     }
@@ -221,7 +241,7 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
         diagnosis.unexplained = doubt->missing;
     }
     diagnosis.effects = found_effects(evidence, selection, fitted);
-    for (FoundEffect& effect : diagnosis.effects) effect.probability *= trust;
+    for (FoundEffect& effect : diagnosis.effects) effect.probability *= worth_of_names(trust);
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, trust);
     if (doubt) accuse(diagnosis.where, doubt->missing.block, 1.0 - trust);

@@ -20,4 +20,8 @@ double trust_in(double floors_left) {
     return 1.0 / (1.0 + 4.0 * std::log10(std::max(at_floor, floors_left) / at_floor));
 }
 
+double worth_of_names(double trust) {
+    return 0.97 * trust * std::sqrt(trust);
+}
+
 }  // namespace fidservo::gap

@@ -14,10 +14,14 @@ namespace fidservo::gap {
 
 inline constexpr double values_per_window = 1.0;
 
-/// What a probability among named effects is worth where the best explanation still leaves a gap: the cause
-/// may be none of them. 1 up to 1.1 floors, from there 1 / (1 + 4 log10(floors left / 1.1)).
+/// How far the place of named effects is trusted where they still leave a gap: the cause may be none of them.
+/// 1 up to 1.1 floors, from there 1 / (1 + 4 log10(floors left / 1.1)).
 /// @param floors_left  typical_floors of gap/gap_size.h
 double trust_in(double floors_left);
+
+/// What a probability among named effects is worth: 0.97 trust^1.5. Set on the self-check of seed 2033, where
+/// 58 of 60 names were right of which nothing spoke against, and 4 of 16 at a mean trust of 0.44.
+double worth_of_names(double trust);
 
 /// @param losses  of the explanations, each the sum over the same windows
 std::vector<double> probabilities(std::span<const double> losses);

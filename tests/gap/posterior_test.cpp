@@ -25,6 +25,12 @@ TEST(Posterior, ExplanationThatLeavesAGap_IsTrustedLess) {
     EXPECT_DOUBLE_EQ(trust_in(11.0), 0.2);
 }
 
+TEST(Posterior, NameIsNeverCertain) {
+    EXPECT_DOUBLE_EQ(worth_of_names(1.0), 0.97);
+    EXPECT_DOUBLE_EQ(worth_of_names(0.25), 0.97 / 8.0);
+    EXPECT_EQ(worth_of_names(0.0), 0.0);
+}
+
 }  // namespace
 
 }  // namespace fidservo
