@@ -20,6 +20,8 @@ struct MacroControllerState {
     PdState pd;
     std::optional<std::int64_t> last_count;
     double quiet_s = 0.0;  ///< since the last command or count
+    std::int64_t steady_count = 0;
+    int steady_ticks = 0;  ///< for which readings have been within a count of steady_count
     double command_V = 0.0;
 };
 
@@ -29,6 +31,10 @@ double macro_update(const MacroControllerParams& params, MacroControllerState& s
 
 /// Goes to a count (rounded), from rest.
 void macro_go_to(MacroControllerState& state, double setpoint_count);
+
+/// Whether it is within `near_count` of its setpoint and for some ticks within a count of where it is: slow,
+/// whatever is commanded. The PD's last nudges may go on for ever where commands or readings come late.
+bool macro_is_near(const MacroControllerState& state, int near_count);
 
 /// The carriage stands, as far as the encoder and the command tell: it sees no less than a count, so a camera
 /// must confirm it.

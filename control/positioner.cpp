@@ -70,9 +70,7 @@ void look(const PositionerParams& params, PositionerState& state, const std::opt
 }
 
 void macro_move(const PositionerParams& params, PositionerState& state) {
-    const double error_count = *state.macro.setpoint_count - static_cast<double>(*state.macro.last_count);
-    const bool near = std::abs(error_count) <= params.macro_near_count && state.macro.quiet_s > 0.0;
-    if (near || macro_is_quiet(params.macro, state.macro)) {
+    if (macro_is_near(state.macro, params.macro_near_count) || macro_is_quiet(params.macro, state.macro)) {
         state.macro.setpoint_count.reset();
         enter(state, PositionerPhase::macro_settle);
     } else if (state.phase_s > params.macro_timeout_s) {

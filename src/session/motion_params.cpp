@@ -1,11 +1,14 @@
 #include "src/session/motion_params.h"
 
+#include <algorithm>
+
 namespace fidservo {
 
 namespace {
 
 constexpr double reach_margin_mm = 0.2;  ///< near its ends the wire hardly answers to temperature
 constexpr double park_margin_mm = 1.0;
+constexpr double frames_to_look_at = 20.0;  ///< at most, for two that agree
 
 }  // namespace
 
@@ -26,6 +29,8 @@ control::PositionerParams positioner_params(const Rig& rig, double tolerance_mm)
     params.park_low_mm = rig.micro->low_mm + park_margin_mm;
     params.park_high_mm = rig.micro->high_mm - park_margin_mm;
     params.tolerance_mm = tolerance_mm;
+    params.look_timeout_s = std::max(params.look_timeout_s,
+                                     rig.camera->latency_s + frames_to_look_at / rig.camera->frame_rate_hz);
     return params;
 }
 

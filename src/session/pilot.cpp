@@ -91,11 +91,16 @@ Status Pilot::carry_to(double s_mm) {
     const double carriage = std::clamp(s_mm - state.micro.average_mm, rig.macro.low_mm, rig.macro.high_mm);
     control::macro_go_to(state.macro, (carriage - count_zero_mm) / params.count_mm);
     setpoints.macro_mm = carriage;
-    auto quiet = step_until([&] { return control::macro_is_quiet(params.macro, state.macro); },
-                            params.macro_timeout_s, "the macro stage did not settle");
+    const auto is_quiet = [&] { return control::macro_is_quiet(params.macro, state.macro); };
+    const auto is_there = [&] {
+        return control::macro_is_near(state.macro, params.macro_near_count) || is_quiet();
+    };
+    const char* const unsettled = "the macro stage did not settle";
+    auto settled = step_until(is_there, params.macro_timeout_s, unsettled);
     state.macro.setpoint_count.reset();
     setpoints.macro_mm = not_in_force;
-    return quiet;
+    if (!settled) return settled;
+    return step_until(is_quiet, params.macro_timeout_s, unsettled);
 }
 
 Result<vision::PositionFit> Pilot::look_anywhere() {

@@ -1,3 +1,4 @@
+#include "plant/effects/catalogue.h"
 #include "src/session/faulty_devices.h"
 #include "src/session/pilot.h"
 #include "tests/session/watched_rig.h"
@@ -112,6 +113,21 @@ TEST(Session, CountsThatWereNoMotion_AreFoundOutByTheTags) {
     ASSERT_TRUE(arrival) << arrival.error().text;
     EXPECT_NEAR(plant::camera_position_mm(rig->truth()), 80.25, 0.002);
     EXPECT_TRUE(session.check_rig());
+}
+
+/// The PD's last nudges then go on for ever, a count to and fro.
+TEST(Session, DriveThatActsLate_IsHomedAndPositioned) {
+    auto physics = reference_physics();
+    const plant::EffectSetting late = plant::parse_effect("drive_delay:delay_ms=5");
+    plant::apply_effects(physics, {&late, 1});
+    WatchedRig rig(physics, reference_plate(), 5);
+    const auto homed = rig.session.home();
+    ASSERT_TRUE(homed) << homed.error().text;
+    for (const int tag : {3, 40}) {
+        const auto arrival = rig.session.go_to(tag, 0.25);
+        ASSERT_TRUE(arrival) << arrival.error().text;
+        EXPECT_NEAR(plant::camera_position_mm(rig.rig->truth()), 2.0 * tag + 0.25, 0.002);
+    }
 }
 
 TEST(Session, TagOutOfTravelOrNotOnThePlate_IsRefused) {

@@ -17,6 +17,7 @@
 #include "tests/vm/loopback_feed.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -29,6 +30,16 @@ using namespace control::comedi;
 
 constexpr Terminal channel(int subdevice, int number) {
     return {{subdevice, number, 1}, {-5.0, 5.0}, 0xffff};  // comedi_test's second range
+}
+
+constexpr std::chrono::milliseconds step{1};
+
+/// The rig in steps that are short against the program's ticks: it goes on between them.
+Rig in_short_steps(Rig rig) {
+    const double step_s = std::chrono::duration<double>(step).count();
+    rig.macro.velocity_pole = std::pow(rig.macro.velocity_pole, step_s / rig.tick_s);
+    rig.tick_s = step_s;
+    return rig;
 }
 
 /// The stage's electronics.
@@ -46,7 +57,7 @@ void drive(LiveRig& rig, const Rig& file, BoardLink& board, const std::stop_toke
         if (!board.write(channel(1, 2).at, number_of(channel(1, 2), position_V)) ||
             !board.write(channel(1, 3).at, number_of(channel(1, 3), reading.hall_adc * lsb_V)))
             std::abort();
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        std::this_thread::sleep_for(step);
     }
 }
 
@@ -67,7 +78,7 @@ void film(LiveRig& rig, const CameraParameters& camera, devices::LoopbackFeed& f
 }
 
 int run(char** arguments) {
-    const Rig file = load_rig(arguments[1]);
+    const Rig file = in_short_steps(load_rig(arguments[1]));
     const Plate plate = load_plate(arguments[2]);
     const double duration_s = std::atof(arguments[5]);
     const auto board = open_board(arguments[3]);

@@ -15,7 +15,7 @@ declare -A groups=(
     [inspection]="v4l2loopback:video_nr=20:exclusive_caps=0,comedi_test|700|$here/inspection.sh $build"
     [loopback]="v4l2loopback:video_nr=20:exclusive_caps=0|900|$build/tests/vm/loopback_test"
 )
-order=(vivid loopback comedi)  # inspection: only when named, it needs a machine that is not busy
+order=(vivid loopback comedi inspection)
 (($#)) && order=("$@")
 
 failed=0
