@@ -7,9 +7,9 @@
 #include "plant/view/plate_view.h"
 #include "src/config/rig_file.h"
 #include "src/inspect/checks.h"
-#include "src/inspect/durable.h"
 #include "src/inspect/nominal_drawing.h"
 #include "src/inspect/pattern.h"
+#include "src/recording/durable_file.h"
 #include "src/report/chart.h"
 #include "src/report/page.h"
 

@@ -10,7 +10,8 @@ namespace fidservo {
 
 namespace {
 
-constexpr double false_failure = 0.01;  ///< of each test
+/// Of each test: three in a calibration of minutes, which chance alone is not to throw away.
+constexpr double false_failure = 0.001;
 
 FreshTest test_pictures(const StageNumbers& numbers, std::span<const StageShot> shots) {
     double squares = 0.0, promised = 0.0, chi_square = 0.0, freedom = 0.0, worst_normalised = 0.0;

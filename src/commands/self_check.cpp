@@ -30,9 +30,9 @@ std::map<std::string, selfcheck::CaseKind> kinds_by_name() {
 }
 
 /// Over the progress bar, where stdout is the terminal that shows it.
-void print_case(const selfcheck::Outcome& outcome) {
+void print_last_case(const selfcheck::SelfCheck& check) {
     constexpr const char* erase_line = "\r\033[K";
-    fmt::print("{}{}\n", ::isatty(STDOUT_FILENO) == 1 ? erase_line : "", line_of(outcome));
+    fmt::print("{}{}\n", ::isatty(STDOUT_FILENO) == 1 ? erase_line : "", line_of_last(check));
     std::fflush(stdout);
 }
 
@@ -63,14 +63,17 @@ int run_self_check(const SelfCheckRequest& request, const std::filesystem::path&
     const auto kinds = kinds_by_name();
     for (const std::string& name : request.kinds) options.kinds.push_back(kinds.at(name));
     watch_for_interrupts();
-    const selfcheck::SelfCheck check = selfcheck::run_self_check(load_rig(rig_file), options, print_case);
+    const auto after_case = [&](const selfcheck::SelfCheck& so_far) {
+        print_last_case(so_far);
+        if (!json.empty())
+            replace_file(json, self_check_json(options, so_far, selfcheck::tally(so_far.outcomes)));
+    };
+    const selfcheck::SelfCheck check = selfcheck::run_self_check(load_rig(rig_file), options, after_case);
     const selfcheck::Tally tally = selfcheck::tally(check.outcomes);
     fmt::print("{}", text_of(tally));
-    for (const selfcheck::Failure& failure : check.failures)
-        fmt::print("case {} could not be diagnosed: {}\n", failure.number, failure.text);
     if (check.was_interrupted)
         fmt::print("interrupted ({}) after {} of {} cases\n", interrupt_name(), tally.cases, options.cases);
-    if (!json.empty()) write_or_throw(json, self_check_json(options, check, tally));
+    if (!json.empty()) replace_file(json, self_check_json(options, check, tally));
     const bool is_whole = check.failures.empty() && !check.was_interrupted;
     return is_whole && keeps_all_limits(tally) ? exit_done : exit_answer_is_no;
 }

@@ -1,10 +1,8 @@
 #include "src/inspect/durable.h"
 
 #include "core/failure.h"
-#include "src/recording/durable_file.h"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <string>
 
@@ -52,16 +50,6 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 }
 
 }  // namespace
-
-void replace_file(const std::filesystem::path& file, std::string_view text) {
-    std::filesystem::path draft = file;
-    draft += ".part";
-    std::error_code none;
-    std::filesystem::remove(draft, none);
-    write_or_throw(draft, text);
-    if (std::rename(draft.c_str(), file.c_str()) != 0) give_up(file);
-    sync_to_disk(folder_of(file));
-}
 
 void append_durably(const std::filesystem::path& file, std::string_view text) {
     {

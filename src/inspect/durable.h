@@ -5,10 +5,6 @@
 
 namespace fidservo::inspect {
 
-/// Replaces a file in one step: a reader sees the old text or the new, never a part. Throws RunFault if the
-/// disk does not take it.
-void replace_file(const std::filesystem::path& file, std::string_view text);
-
 /// Adds text at the end of a file that exists or is made. Throws RunFault if the disk does not take all of
 /// it.
 void append_durably(const std::filesystem::path& file, std::string_view text);

@@ -1,9 +1,9 @@
 #include "src/inspect/inspection_report.h"
 
-#include "src/inspect/durable.h"
 #include "src/inspect/loop_report.h"
 #include "src/inspect/report_sections.h"
 #include "src/inspect/report_traces.h"
+#include "src/recording/durable_file.h"
 
 #include <algorithm>
 

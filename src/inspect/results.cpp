@@ -1,7 +1,7 @@
 #include "src/inspect/results.h"
 
 #include "core/failure.h"
-#include "src/inspect/durable.h"
+#include "src/recording/durable_file.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "src/inspect/site_visit.h"
 
 #include "core/units.h"
-#include "src/inspect/durable.h"
+#include "src/recording/durable_file.h"
 
 #include <algorithm>
 #include <utility>

@@ -82,6 +82,19 @@ void write_or_throw(const std::filesystem::path& file, std::string_view text) {
     if (const Status written = write_durably(file, text); !written) throw RunFault(written.error().text);
 }
 
+void replace_file(const std::filesystem::path& file, std::string_view text) {
+    std::filesystem::path draft = file;
+    draft += ".part";
+    std::error_code none;
+    std::filesystem::remove(draft, none);
+    write_or_throw(draft, text);
+    std::error_code problem;
+    std::filesystem::rename(draft, file, problem);
+    if (problem) throw RunFault(fmt::format("{}: cannot be written: {}", file.string(), problem.message()));
+    if (const Status synced = sync_folder(file.has_parent_path() ? file.parent_path() : "."); !synced)
+        throw RunFault(synced.error().text);
+}
+
 Status sync_folder(const std::filesystem::path& folder) {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return failure(Reason::device, describe_errno(folder, "cannot be opened"));

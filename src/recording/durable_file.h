@@ -1,5 +1,5 @@
 #pragma once
-// A new file that is written once, in order, and is on the disk when it is closed.
+// Files that are on the disk, whole, when the caller goes on.
 #include "core/failure.h"
 
 #include <filesystem>
@@ -38,6 +38,10 @@ Status write_durably(const std::filesystem::path& file, std::string_view text);
 
 /// The same; throws RunFault if the disk does not take it, or the file exists.
 void write_or_throw(const std::filesystem::path& file, std::string_view text);
+
+/// Replaces a file in one step: a reader sees the old text or the new, never a part. Throws RunFault if the
+/// disk does not take it.
+void replace_file(const std::filesystem::path& file, std::string_view text);
 
 /// Waits until the disk has the names of a folder's files.
 Status sync_folder(const std::filesystem::path& folder);

@@ -56,13 +56,21 @@ Outcome run_case(const Rig& nominal, const Case& drawn, const std::vector<std::s
 
 }  // namespace
 
+std::string line_of_last(const SelfCheck& check) {
+    const bool has_failed =
+        !check.failures.empty() &&
+        (check.outcomes.empty() || check.failures.back().number > check.outcomes.back().number);
+    if (!has_failed) return line_of(check.outcomes.back());
+    const Failure& failure = check.failures.back();
+    return fmt::format("case {:4} could not be diagnosed: {}", failure.number, failure.text);
+}
+
 SelfCheck run_self_check(const Rig& nominal, const SelfCheckOptions& options,
-                         const std::function<void(const Outcome&)>& done) {
+                         const std::function<void(const SelfCheck&)>& done) {
     demand_whole_rig(nominal);
     SelfCheck check;
     Progress progress("cases", options.cases);
-    const auto finished = [&] { return check.outcomes.size() + check.failures.size(); };
-    for (std::size_t number = options.first; finished() < options.cases; ++number) {
+    for (std::size_t number = options.first; check.finished() < options.cases; ++number) {
         check.was_interrupted = interrupt_requested();
         if (check.was_interrupted) break;
         const CaseKind kind = kind_of_case(options.seed, number);
@@ -70,10 +78,10 @@ SelfCheck run_self_check(const Rig& nominal, const SelfCheckOptions& options,
         try {
             check.outcomes.push_back(
                 run_case(nominal, draw_case(nominal, options.seed, number), options.only));
-            done(check.outcomes.back());
         } catch (const std::exception& error) {
             check.failures.push_back({number, error.what()});
         }
+        done(check);
         progress.advance();
     }
     progress.finish();

@@ -30,12 +30,17 @@ struct SelfCheck {
     std::vector<Outcome> outcomes;
     std::vector<Failure> failures;
     bool was_interrupted = false;  ///< after a whole number of cases
+
+    std::size_t finished() const { return outcomes.size() + failures.size(); }
 };
 
+/// One line on the case that was finished last: an outcome or a failure.
+std::string line_of_last(const SelfCheck& check);
+
 /// Case after case; Ctrl-C (src/interrupt.h) ends it after the present one.
-/// @param done  called after every case
+/// @param done  called after every case with all so far
 /// Throws InputError if the rig lacks what the cases need: micro stage, camera, fiducials, controllers.
 SelfCheck run_self_check(const Rig& nominal, const SelfCheckOptions& options,
-                         const std::function<void(const Outcome&)>& done);
+                         const std::function<void(const SelfCheck&)>& done);
 
 }  // namespace fidservo::selfcheck

@@ -30,7 +30,7 @@ TEST(SelfCheckCommand, OptionsThatDoNotGoTogether_AreRefused) {
 TEST(SelfCheck, RigWithoutMicroStage_IsRefusedBeforeAnyCase) {
     Rig rig = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
     rig.micro.reset();
-    EXPECT_THROW(run_self_check(rig, {}, [](const Outcome&) { FAIL(); }), InputError);
+    EXPECT_THROW(run_self_check(rig, {}, [](const SelfCheck&) { FAIL(); }), InputError);
 }
 
 /// The first case of a kind, diagnosed with three effects to choose from.
@@ -41,7 +41,7 @@ Outcome first_case(CaseKind kind) {
     options.seed = 3;
     options.only = {"hall_gain", "drive_gain", "stress_shift"};
     SelfCheck check =
-        run_self_check(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), options, [](const Outcome&) {});
+        run_self_check(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), options, [](const SelfCheck&) {});
     EXPECT_TRUE(check.failures.empty());
     return check.outcomes.at(0);
 }
@@ -63,7 +63,7 @@ Outcome case_of(std::uint64_t seed, std::size_t number) {
     options.first = number;
     options.seed = seed;
     SelfCheck check =
-        run_self_check(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), options, [](const Outcome&) {});
+        run_self_check(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), options, [](const SelfCheck&) {});
     return check.outcomes.at(0);
 }
 

@@ -87,6 +87,22 @@ TEST(Tally, FalseAlarm_MissesItsLimitAndSilenceKeepsAll) {
     EXPECT_TRUE(keeps_all_limits(tally({})));
 }
 
+TEST(SelfCheck, CaseThatFailed_IsSaidInItsTurn) {
+    Outcome first = outcome(CaseKind::one, 4.0, true), third = first;
+    first.number = 1;
+    third.number = 3;
+    EXPECT_THAT(line_of_last({{first}, {{2, "no memory"}}, false}),
+                HasSubstr("case    2 could not be diagnosed"));
+    EXPECT_EQ(line_of_last({{first, third}, {{2, "no memory"}}, false}), line_of(third));
+    SelfCheckOptions three;
+    three.cases = 3;
+    const auto is_unfinished = [&](const SelfCheck& check) {
+        return nlohmann::json::parse(self_check_json(three, check, tally(check.outcomes)))["interrupted"];
+    };
+    EXPECT_EQ(is_unfinished({{first}, {{2, "no memory"}}, false}), true);
+    EXPECT_EQ(is_unfinished({{first, third}, {{2, "no memory"}}, false}), false);
+}
+
 TEST(Tally, TextAndJson_SayTheSame) {
     const std::vector<Outcome> outcomes{outcome(CaseKind::one, 4.0, true),
                                         outcome(CaseKind::none, 1.0, false)};
