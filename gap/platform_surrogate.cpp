@@ -91,14 +91,13 @@ std::vector<std::vector<float>> remembered_degC(const Evidence& evidence, double
     return of_run;
 }
 
-/// What a wire that is warmer by a degree does to the errors: the tangent of the ambient temperature.
-Errors by_warmth(const Evidence& evidence) {
-    const plant::Effect* ambient = plant::find_effect("ambient_temperature");
+/// What a small effect does to the errors.
+Errors tangent(const Evidence& evidence, std::string_view effect, double value) {
     const Wanted wanted = everything(evidence);
-    Errors cold = evidence.errors({}, wanted);
-    const Errors warm = evidence.errors({{ambient, {1.0}}}, wanted);
-    for (std::size_t k = 0; k < cold.size() && k < warm.size(); ++k) cold[k] = warm[k] - cold[k];
-    return cold;
+    Errors without = evidence.errors({}, wanted);
+    const Errors with = evidence.errors({{plant::find_effect(effect), {value}}}, wanted);
+    for (std::size_t k = 0; k < without.size() && k < with.size(); ++k) without[k] = with[k] - without[k];
+    return without;
 }
 
 }  // namespace
@@ -107,20 +106,22 @@ Surrogate platform_surrogate(const Evidence& evidence) {
     const Columns make(evidence);
     Surrogate surrogate{Signal::hall, {}, {}};
     std::vector<Column>& columns = surrogate.columns;
-    const Errors warmth = by_warmth(evidence);
-    const auto add_hats = [&](Dependence group, std::size_t count, bool of_temperature,
+    const Errors warmth = tangent(evidence, "ambient_temperature", 1.0);
+    const Errors stroke = tangent(evidence, "stroke_change", 1.01);
+    const auto add_hats = [&](Dependence group, std::size_t count, const Errors* by,
                               const std::function<double(const Row&)>& quantity) {
         const std::vector<double> knots = knots_by_share(make.all(quantity), count);
         if (knots.size() < 2) return;
         for (std::size_t j = 0; j < knots.size(); ++j)
             columns.push_back(make.of(group, [&, j](const Window& window, std::size_t k, const Row& at) {
-                return hat(knots, j, quantity(at)) * (of_temperature ? warmth[window.begin + k] : 1.0);
+                return hat(knots, j, quantity(at)) * (by != nullptr ? (*by)[window.begin + k] : 1.0);
             }));
     };
-    add_hats(Dependence::contraction, 10, false, [](const Row& at) { return at.contraction_mm; });
-    add_hats(Dependence::time, 6, false, [](const Row& at) { return at.time_s; });
-    add_hats(Dependence::temperature, 8, true, [](const Row& at) { return at.temperature_degC; });
-    add_hats(Dependence::command, 8, true, [](const Row& at) { return at.command_V; });
+    add_hats(Dependence::contraction, 10, nullptr, [](const Row& at) { return at.contraction_mm; });
+    add_hats(Dependence::contraction, 5, &stroke, [](const Row& at) { return at.contraction_mm; });
+    add_hats(Dependence::time, 6, nullptr, [](const Row& at) { return at.time_s; });
+    add_hats(Dependence::temperature, 8, &warmth, [](const Row& at) { return at.temperature_degC; });
+    add_hats(Dependence::command, 8, &warmth, [](const Row& at) { return at.command_V; });
     for (const double memory_s : {0.2, 0.6, 2.0, 6.0, 20.0}) {
         const auto remembered = remembered_degC(evidence, memory_s);
         columns.push_back(

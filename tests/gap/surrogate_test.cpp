@@ -85,6 +85,16 @@ TEST(Surrogate, BodyThatStoresHeat_AccusesTheHeater) {
     EXPECT_EQ(diagnosis.where.front().block, "micro.heater") << first_dependence(diagnosis);
 }
 
+/// A longer stroke is no other heater, though a warmer wire contracts further too.
+TEST(Surrogate, LongerStroke_AccusesTheHysteresis) {
+    for (const char* stroke : {"stroke_change:factor=1.013", "stroke_change:factor=0.93"}) {
+        const Diagnosis diagnosis = unnamed(reference_rig(), testing::effects({stroke}),
+                                            {"micro-steps", "micro-triangle", "micro-servo"}, "clock_skew");
+        EXPECT_EQ(diagnosis.where.front().block, "micro.hysteresis") << stroke;
+        EXPECT_EQ(first_dependence(diagnosis), "contraction") << stroke;
+    }
+}
+
 }  // namespace
 
 }  // namespace fidservo
