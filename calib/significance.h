@@ -13,8 +13,8 @@ double chi_square_bound(double freedom, double tail);
 
 /// Bound that the ratio of two mean squares with such degrees of freedom exceeds with probability `tail`, by
 /// Paulson's approximation (Annals of Mathematical Statistics 13, 1942): good to some per cent where `below`
-/// is at least 4 and tails are not below 1e-3; further out it is too high, exceeded three times of four that it
-/// ought to be at 6e-5 with 1 and 20 degrees of freedom.
+/// is at least 4 and tails are not below 1e-3; further out it is too high, exceeded three times of four that
+/// it ought to be at 6e-5 with 1 and 20 degrees of freedom.
 double mean_square_ratio_bound(double above, double below, double tail);
 
 }  // namespace fidservo::calib
