@@ -27,6 +27,8 @@ std::string_view name_of(Reason reason) {
             return "not_identifiable";
         case Reason::feature_not_found:
             return "feature_not_found";
+        case Reason::no_image:
+            return "no_image";
         case Reason::device:
             return "device";
         case Reason::timeout:

@@ -21,6 +21,7 @@ enum class Reason {
     out_of_reach,       ///< the stage cannot go there
     not_identifiable,   ///< the data do not determine the quantity
     feature_not_found,  ///< a printed feature is not where it should be
+    no_image,           ///< the image that was to be measured again is not there
     device,             ///< a camera or a stage failed
     timeout,            ///< nothing arrived in the time allowed
     stopped,            ///< the user or the guardian ended the run

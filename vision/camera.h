@@ -29,6 +29,7 @@ struct FrameCounts {
         0;  ///< without a usable time stamp: their time is the arrival's less the latency
     std::uint64_t reconnects = 0;  ///< the camera was lost and came back
 
+    bool operator==(const FrameCounts&) const = default;
     FrameCounts& operator+=(const FrameCounts& more) {
         handed_out += more.handed_out;
         skipped += more.skipped;

@@ -36,6 +36,10 @@ void add_inspect(CLI::App& app, int& exit_code) {
         ->required()
         ->type_name("RECIPE.yaml");
     add_session_options(*command, options->session);
+    command->get_option("--camera")
+        ->description(
+            "Camera: sim, v4l2:/dev/video0 (fidservo cameras lists them), or images:DIR to measure "
+            "the images of an earlier run again");
     command->add_option("--out", options->out, "New folder for results, report, images and recordings")
         ->required();
     command->add_flag("--resume", options->resume,

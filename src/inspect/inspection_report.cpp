@@ -1,8 +1,8 @@
 #include "src/inspect/inspection_report.h"
 
-#include "src/inspect/loop_report.h"
 #include "src/inspect/report_sections.h"
 #include "src/inspect/report_traces.h"
+#include "src/inspect/saved_images.h"
 #include "src/recording/durable_file.h"
 
 #include <algorithm>
@@ -25,8 +25,7 @@ std::string headline(std::size_t sites, std::size_t failed, std::size_t unsure) 
 }  // namespace
 
 void write_inspection_report(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
-                             const JournalContent& content,
-                             const std::optional<control::LoopStatistics>& loop) {
+                             const JournalContent& content, const DeviceFigures& devices) {
     const std::vector<Visit>& visits = content.visits;
     const Counts counts = count(visits);
     std::size_t failed = 0, unsure = 0;
@@ -42,9 +41,13 @@ void write_inspection_report(const OutputFolder& output, const Recipe& recipe, c
     page.kind = "Inspection report \u00b7 " + recipe.name;
     page.headline = headline(recipe.sites.size(), failed, unsure);
     page.mood = failed > 0 ? report::Mood::bad : unsure > 0 ? report::Mood::unsure : report::Mood::good;
-    page.subline = fmt::format("{} checks at {} sites on rig {} in {:.0f} s of rig time{}.", counts.total(),
-                               recipe.sites.size(), rig.name, visits.empty() ? 0.0 : visits.back().to_s,
-                               content.identity.stage == "sim" ? ", simulated" : "");
+    const auto measured_again = images_folder(content.identity.camera);
+    page.subline = fmt::format("{} checks at {} sites on ", counts.total(), recipe.sites.size()) +
+                   (measured_again ? fmt::format("the images in {}, which were measured again.",
+                                                 measured_again->string())
+                                   : fmt::format("rig {} in {:.0f} s of rig time{}.", rig.name,
+                                                 visits.empty() ? 0.0 : visits.back().to_s,
+                                                 content.identity.stage == "sim" ? ", simulated" : ""));
     page.figures = {
         {std::to_string(counts.pass), "checks passed", report::Mood::good},
         {std::to_string(counts.fail), "failed", counts.fail > 0 ? report::Mood::bad : report::Mood::neutral},
@@ -57,8 +60,9 @@ void write_inspection_report(const OutputFolder& output, const Recipe& recipe, c
         page.body += report::section("findings", "Findings", findings_html(visits));
     page.body += report::section("sites", "Sites", sites_html(output, camera, visits));
     page.body += report::section("errors", "Deviations", histogram_html(visits));
-    page.body += report::section("traces", "Stage", traces_html(output, rig, visits));
-    if (loop) page.body += report::section("loop", "Control loop", loop_html(*loop));
+    if (!measured_again) page.body += report::section("traces", "Stage", traces_html(output, rig, visits));
+    if (devices.loop) page.body += report::section("loop", "Control loop", loop_html(*devices.loop));
+    if (devices.frames) page.body += report::section("frames", "Camera frames", frames_html(*devices.frames));
     page.body += report::section("checks", "All checks", checks_html(visits));
     page.footer = footer_html(content);
     replace_file(output.report(), report::render(page));

@@ -10,6 +10,7 @@
 #include "src/inspect/nominal_drawing.h"
 #include "src/inspect/reference_check.h"
 #include "src/inspect/run_json.h"
+#include "src/inspect/saved_images.h"
 #include "src/inspect/site_visit.h"
 #include "src/live/live_server.h"
 #include "src/session/camera_choice.h"
@@ -50,6 +51,13 @@ std::string one_line(const Visit& visit) {
 /// Sites that are visited a second time.
 std::size_t deferred(const std::vector<Visit>& visits) {
     return static_cast<std::size_t>(std::ranges::count(visits, Visit::End::deferred, &Visit::end));
+}
+
+/// A line for the last visit.
+void say(const std::vector<Visit>& visits, const Recipe& recipe) {
+    fmt::print("{:>3} of {}  {}\n", visits.size(), recipe.sites.size() + deferred(visits),
+               one_line(visits.back()));
+    std::fflush(stdout);
 }
 
 /// A reference image that cannot serve ends the run before it begins.
@@ -100,7 +108,8 @@ void visit_all(const Run& run) {
     std::vector<Visit>& visits = run.content.visits;
     const DrawNominal draw_nominal = nominal_drawing(*run.rig.camera, run.recipe.nominal);
     vision::TagDetector detector;
-    const VisitContext context{run.recipe, *run.rig.camera, run.output, draw_nominal, run.session, detector};
+    const VisitContext context{{run.recipe, *run.rig.camera, run.output, draw_nominal, detector},
+                               run.session};
     while (const auto next = next_visit(run.recipe.sites, visits)) {
         pause_if_asked(run.session, run.progress);
         run.progress.goes_to(*next);
@@ -108,10 +117,51 @@ void visit_all(const Run& run) {
         run.journal.ended(visit, run.session.checkpoint());
         visits.push_back(visit);
         run.progress.has_visited(visits);
-        fmt::print("{:>3} of {}  {}\n", visits.size(), run.recipe.sites.size() + deferred(visits),
-                   one_line(visit));
-        std::fflush(stdout);
+        say(visits, run.recipe);
     }
+}
+
+DeviceFigures figures_of(const Session& session) {
+    const vision::FrameCounts frames = session.frame_counts();
+    return {session.loop_statistics(),
+            frames == vision::FrameCounts{} ? std::nullopt : std::optional(frames)};
+}
+
+/// What scripts and people read, once all sites are done.
+void write_all(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
+               const JournalContent& content, const DeviceFigures& devices) {
+    write_results(output.results(), content.visits);
+    write_run_json(output.run_json(), recipe, content, devices);
+    write_inspection_report(output, recipe, rig, content, devices);
+}
+
+void refuse_what_moves(const InspectionOptions& options) {
+    const auto refuse = [&](std::string_view what) {
+        throw InputError(fmt::format("--camera {}: nothing moves; {}", options.session.camera, what));
+    };
+    if (options.session.stage != "sim") refuse("leave --stage out");
+    if (options.resume) refuse("leave --resume out and begin again");
+    if (options.live_port) refuse("leave --live out");
+    if (!options.session.faults.empty()) refuse("leave --fault out");
+}
+
+Counts measure_again(const InspectionOptions& options, const std::filesystem::path& folder,
+                     const Recipe& recipe, const Rig& rig, const RunIdentity& identity) {
+    refuse_what_moves(options);
+    const SavedImages images(folder, recipe);
+    const OutputFolder output{options.out};
+    make_output_folder(output.root);
+    std::filesystem::create_directories(output.root / "images");
+    const DrawNominal draw_nominal = nominal_drawing(*rig.camera, recipe.nominal);
+    vision::TagDetector detector;
+    const Measuring measuring{recipe, *rig.camera, output, draw_nominal, detector};
+    JournalContent content{identity, {}, {}, 0};
+    for (const Site& site : recipe.sites) {
+        content.visits.push_back(measure_saved(measuring, images, site));
+        say(content.visits, recipe);
+    }
+    write_all(output, recipe, rig, content, {});
+    return count(content.visits);
 }
 
 }  // namespace
@@ -125,6 +175,8 @@ Counts run_inspection(const InspectionOptions& options) {
     session_options.camera_reconnect_s = recipe.camera_reconnect_s;
     session_options.seed = options.seed.value_or(recipe.simulation.seed);
     const RunIdentity identity = identity_of(recipe, rig, session_options);
+    if (const auto folder = images_folder(session_options.camera))
+        return measure_again(options, *folder, recipe, rig, identity);
 
     const OutputFolder output{options.out};
     JournalContent content{identity, {}, {}, 0};
@@ -161,10 +213,7 @@ Counts run_inspection(const InspectionOptions& options) {
         progress.is_at("stopped", fault.what());
         throw;
     }
-    write_results(output.results(), content.visits);
-    const auto loop = session.loop_statistics();
-    write_run_json(output.run_json(), recipe, content, loop);
-    write_inspection_report(output, recipe, rig, content, loop);
+    write_all(output, recipe, rig, content, figures_of(session));
     progress.is_at("done");
     return count(content.visits);
 }

@@ -18,7 +18,8 @@ struct InspectionOptions {
 };
 
 /// Runs it, and leaves results.csv, run.json, report.html, images and recordings in the output folder.
-/// Everything measured at a site is on the disk before the next one begins. Throws InputError before anything
+/// Everything measured at a site is on the disk before the next one begins. On the images of an earlier run
+/// (saved_images.h) nothing moves, and there are no recordings. Throws InputError before anything
 /// is moved or written, RunFault if the run cannot go on.
 /// @return the number of rows by outcome
 Counts run_inspection(const InspectionOptions& options);

@@ -48,10 +48,16 @@ ordered_json json_of_loop(const control::LoopStatistics& loop) {
             {"memory_locked", loop.memory_locked}};
 }
 
+ordered_json json_of_frames(const vision::FrameCounts& frames) {
+    return {{"used", frames.handed_out},     {"skipped", frames.skipped},
+            {"lost", frames.lost},           {"damaged", frames.damaged},
+            {"unstamped", frames.unstamped}, {"reconnections", frames.reconnects}};
+}
+
 }  // namespace
 
 void write_run_json(const std::filesystem::path& file, const Recipe& recipe, const JournalContent& content,
-                    const std::optional<control::LoopStatistics>& loop) {
+                    const DeviceFigures& devices) {
     const RunIdentity& id = content.identity;
     const Counts counts = count(content.visits);
     ordered_json visits = ordered_json::array();
@@ -79,7 +85,8 @@ void write_run_json(const std::filesystem::path& file, const Recipe& recipe, con
                       {"resumed", content.resumed},
                       {"rig_time_s", content.visits.empty() ? 0.0 : content.visits.back().to_s},
                       {"visits", visits}};
-    if (loop) json["control_loop"] = json_of_loop(*loop);
+    if (devices.loop) json["control_loop"] = json_of_loop(*devices.loop);
+    if (devices.frames) json["frames"] = json_of_frames(*devices.frames);
     replace_file(file, json.dump(2) + "\n");
 }
 

@@ -1,20 +1,15 @@
 #pragma once
 // One visit to a site: go to each view, take its picture at rest, measure.
-#include "src/inspect/checks.h"
-#include "src/inspect/output.h"
 #include "src/inspect/schedule.h"
+#include "src/inspect/site_measurement.h"
 #include "src/session/session.h"
 
 namespace fidservo::inspect {
 
 /// What every visit of a run needs.
 struct VisitContext {
-    const Recipe& recipe;
-    const CameraParameters& camera;
-    const OutputFolder& output;
-    const DrawNominal& draw_nominal;
+    Measuring measuring;
     Session& session;
-    vision::TagDetector& detector;
 };
 
 /// Views that fail are tried again as the recipe says; those that succeeded stay. A site that is given up has

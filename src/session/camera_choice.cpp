@@ -49,6 +49,8 @@ bool camera_is_simulated(const SessionOptions& options) {
 }
 
 std::shared_ptr<vision::Camera> open_camera(const SessionOptions& options, const CameraParameters& camera) {
+    if (options.camera.starts_with("images:"))
+        refuse(options, "images on disk cannot guide a motion; inspect measures them again");
     if (!options.camera.starts_with(v4l2_prefix)) refuse(options, "no such camera");
     const std::filesystem::path node = options.camera.substr(v4l2_prefix.size());
     std::error_code error;

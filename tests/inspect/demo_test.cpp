@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,6 +18,14 @@ namespace fidservo::inspect {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string without_site(int site, const std::string& csv) {
+    std::istringstream lines(csv);
+    std::string kept;
+    for (std::string line; std::getline(lines, line);)
+        if (!line.starts_with(fmt::format("{},", site))) kept += line + '\n';
+    return kept;
+}
 
 InspectionOptions demo(const fs::path& out) {
     InspectionOptions options;
@@ -70,6 +79,24 @@ TEST_F(SlowDemo, KnownDefects_AllAreFoundAndNothingElse) {
                                          {59, {"reference"}},
                                          {77, {"line_width", "line_narrowest", "reference"}}};
     EXPECT_EQ(failed, expected);
+}
+
+TEST_F(SlowDemo, ImagesMeasuredAgain_SameRecipeGivesTheSameResults) {
+    const Counts at_first = run_inspection(demo(folder_ / "run"));
+    InspectionOptions again = demo(folder_ / "again");
+    again.session.camera = "images:" + (folder_ / "run").string();
+    const Counts counts = run_inspection(again);
+    EXPECT_EQ(counts.fail, at_first.fail);
+    EXPECT_EQ(text_of(again.out / "results.csv"), text_of(folder_ / "run/results.csv"));
+    EXPECT_FALSE(fs::exists(again.out / "recordings")) << "nothing moved";
+
+    fs::remove(folder_ / "run/images/site-041-left.png");
+    again.out = folder_ / "incomplete";
+    const Counts incomplete = run_inspection(again);
+    EXPECT_GT(incomplete.not_measured, 0);
+    const std::string results = text_of(again.out / "results.csv");
+    EXPECT_NE(results.find("no_image: no image site-041-left"), std::string::npos);
+    EXPECT_EQ(without_site(41, results), without_site(41, text_of(folder_ / "run/results.csv")));
 }
 
 TEST_F(SlowDemo, KilledTwiceAndResumed_ResultsAreByteForByteTheSame) {

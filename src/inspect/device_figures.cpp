@@ -1,4 +1,4 @@
-#include "src/inspect/loop_report.h"
+#include "src/inspect/device_figures.h"
 
 #include "src/report/chart.h"
 
@@ -39,6 +39,15 @@ std::string loop_html(const control::LoopStatistics& loop) {
         histogram.counts[0][bar] += static_cast<int>(loop.lateness.counts[bin]);
     }
     return html + report::histogram_svg(histogram);
+}
+
+std::string frames_html(const vision::FrameCounts& frames) {
+    return "<table>" + row("Used", std::to_string(frames.handed_out)) +
+           row("Skipped: a newer one had come before anybody asked", std::to_string(frames.skipped)) +
+           row("Lost: gaps in the camera's numbers", std::to_string(frames.lost)) +
+           row("Damaged", std::to_string(frames.damaged)) +
+           row("Without a time stamp", std::to_string(frames.unstamped)) +
+           row("Reconnections", std::to_string(frames.reconnects)) + "</table>";
 }
 
 }  // namespace fidservo::inspect
