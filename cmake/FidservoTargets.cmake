@@ -64,6 +64,14 @@ function(fidservo_shards name serial)
   endforeach()
 endfunction()
 
+# Notes sources that are in some test program; tests/CMakeLists.txt looks for those that are in none.
+function(fidservo_in_a_test_program)
+  foreach(source ${ARGN})
+    cmake_path(ABSOLUTE_PATH source)
+    set_property(GLOBAL APPEND PROPERTY FIDSERVO_TEST_SOURCES ${source})
+  endforeach()
+endfunction()
+
 # fidservo_test(NAME [SERIAL] SOURCES a.cpp ... USES targets...): one GoogleTest program.
 # Tests whose name begins with Slow get the label slow, the others quick. SERIAL: no other test runs at the same
 # time, for tests that watch processes on the wall clock.
@@ -71,6 +79,7 @@ include(GoogleTest)
 function(fidservo_test name)
   cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;USES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  fidservo_in_a_test_program(${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE fidservo_compile_options ${ARG_USES} GTest::gtest_main GTest::gmock)
   fidservo_precompiled_headers(${name})
   target_compile_definitions(${name} PRIVATE
