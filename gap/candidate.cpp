@@ -43,6 +43,14 @@ TravelledRange travelled(const Evidence& evidence) {
     return range.low_mm <= range.high_mm ? range : TravelledRange{};
 }
 
+/// Typical values of a size. What a belt's stretch does is in proportion to it only as long as the frequency
+/// with which the carriage swings on it is about the same.
+std::vector<double> sizes_of(const plant::EffectParameter& parameter) {
+    const bool is_compliance = parameter.unit == "um/V";
+    return is_compliance ? std::vector{parameter.typical, 4.0 * parameter.typical}
+                         : std::vector{parameter.typical};
+}
+
 /// Values from which a fit of a shape may begin.
 std::vector<double> grid_of(const plant::EffectParameter& parameter, const TravelledRange& range) {
     const auto within = [&](double value) { return std::clamp(value, parameter.low, parameter.high); };
@@ -74,7 +82,7 @@ std::vector<std::vector<double>> shapes_of(const plant::Effect& effect, const Tr
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
         const plant::EffectParameter& parameter = effect.parameters[k];
         const std::vector<double> grid =
-            is_wave || says_how_large(parameter) ? std::vector{parameter.typical} : grid_of(parameter, range);
+            is_wave || says_how_large(parameter) ? sizes_of(parameter) : grid_of(parameter, range);
         std::vector<std::vector<double>> longer;
         for (const std::vector<double>& shape : shapes)
             for (const double value : grid) {

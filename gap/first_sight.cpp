@@ -146,14 +146,15 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
     for (std::size_t p = 0; p < std::min(places.size(), most_places); ++p) {
         Promise best{{}, -std::numeric_limits<double>::infinity()};
         const Eigen::VectorXd with_rest = places[p].steps.head(moving), sizes = places[p].steps.tail(width);
-        const auto look = [&](const Eigen::VectorXd& rest, double part) {
-            Hypothesis there = moved(beside, rest, sized(candidate, places[p].shape, part * sizes));
+        const auto look = [&](const Eigen::VectorXd& rest, const Eigen::VectorXd& shares) {
+            Hypothesis there = moved(beside, rest, sized(candidate, places[p].shape, shares));
             const double gain =
                 gained(windows, counted, base_squares, predict(extended(beside.base, beside.places, there)));
             if (best.start.empty() || gain > best.gain) best = {std::move(there), gain};
         };
-        for (const double part : {1.0, 0.4, 2.5}) look(part * with_rest, part);
-        if (moving > 0) look(unmoved, 1.0);
+        for (const double part : {1.0, 0.4, 2.5}) look(part * with_rest, part * sizes);
+        if (moving > 0) look(unmoved, sizes);
+        if (best.gain - without < hopeless_gain) look(unmoved, Eigen::VectorXd::Ones(width));
         starts.push_back(best);
     }
     std::ranges::sort(starts, std::greater{}, &Promise::gain);

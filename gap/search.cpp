@@ -166,7 +166,9 @@ void Search::look_at(const CrossFit& base, std::span<Contender> contenders) {
     std::vector<PositionPeriod> periods;
     if (std::ranges::any_of(fresh, [](const Contender* c) { return c->trial.candidate->wave.has_value(); })) {
         const Evidence& evidence = fitter_.evidence();
-        periods = strongest_periods(evidence, evidence.errors(base.of_half[0], fitter_.half(0)));
+        const Hypothesis& known = base.of_half[0];
+        periods = on_the_rail(strongest_periods(evidence, evidence.errors(known, fitter_.half(0))),
+                              evidence.rig(), known);
     }
     std::map<Places, Surroundings> beside;
     for (const Contender* contender : fresh)

@@ -1,6 +1,8 @@
 #include "gap/wave_starts.h"
 
 #include "gap/score.h"
+#include "plant/effects/catalogue.h"
+#include "plant/stage_plant.h"
 
 #include <algorithm>
 #include <array>
@@ -50,6 +52,18 @@ std::array<plant::EffectSetting, 6> neighbours(const plant::EffectSetting& setti
 }
 
 }  // namespace
+
+std::vector<PositionPeriod> on_the_rail(std::vector<PositionPeriod> periods, const Rig& rig,
+                                        const Hypothesis& hypothesis) {
+    plant::PlantParameters parameters = plant::plant_parameters(rig);
+    plant::apply_effects(parameters, hypothesis);
+    const double stretch = parameters.encoder.resolution_mm / rig.macro.encoder_resolution_mm;
+    for (PositionPeriod& period : periods) {
+        period.period_mm *= stretch;
+        period.reading_mm.amplitude *= stretch;
+    }
+    return periods;
+}
 
 std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<const Window> windows,
                                           const Wanted& counted, const Surroundings& beside,

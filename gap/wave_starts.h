@@ -5,6 +5,11 @@
 
 namespace fidservo::gap {
 
+/// Periods that were found by counts of the nominal length, as a hypothesis has them on the rail, where a
+/// count may have another length.
+std::vector<PositionPeriod> on_the_rail(std::vector<PositionPeriod> periods, const Rig& rig,
+                                        const Hypothesis& hypothesis);
+
 /// What at_first_sight is to other candidates, for one that has a wave: the waves that the forces lacking
 /// show (gap/period_search.h), those that promise most first.
 std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<const Window> windows,
