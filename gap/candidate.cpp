@@ -43,12 +43,16 @@ TravelledRange travelled(const Evidence& evidence) {
     return range.low_mm <= range.high_mm ? range : TravelledRange{};
 }
 
-/// Typical values of a size. What a belt's stretch does is in proportion to it only as long as the frequency
-/// with which the carriage swings on it is about the same.
-std::vector<double> sizes_of(const plant::EffectParameter& parameter) {
-    const bool is_compliance = parameter.unit == "um/V";
-    return is_compliance ? std::vector{parameter.typical, 4.0 * parameter.typical}
-                         : std::vector{parameter.typical};
+/// Sizes of which errors are roughly multiples nearby. What a belt's stretch does grows with it only as long
+/// as the carriage swings on it with about the same frequency; a false scale hides within the counts up to
+/// where the carriage has gone too far for that.
+std::vector<double> sizes_of(const plant::Effect& effect, const plant::EffectParameter& parameter) {
+    const auto times = [&](double factor) {
+        return parameter.vanishing + factor * (parameter.typical - parameter.vanishing);
+    };
+    if (parameter.unit == "um/V") return {times(1.0), times(4.0)};
+    if (effect.block == "macro.encoder") return {times(1.0), times(0.1), times(-0.1)};
+    return {parameter.typical};
 }
 
 /// Values from which a fit of a shape may begin.
@@ -81,8 +85,9 @@ std::vector<std::vector<double>> shapes_of(const plant::Effect& effect, const Tr
     std::vector<std::vector<double>> shapes{{}};
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
         const plant::EffectParameter& parameter = effect.parameters[k];
-        const std::vector<double> grid =
-            is_wave || says_how_large(parameter) ? sizes_of(parameter) : grid_of(parameter, range);
+        const std::vector<double> grid = is_wave                     ? std::vector{parameter.typical}
+                                         : says_how_large(parameter) ? sizes_of(effect, parameter)
+                                                                     : grid_of(parameter, range);
         std::vector<std::vector<double>> longer;
         for (const std::vector<double>& shape : shapes)
             for (const double value : grid) {
