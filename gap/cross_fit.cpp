@@ -3,6 +3,7 @@
 #include "gap/halves.h"
 #include "gap/parallel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,6 +12,10 @@ namespace fidservo::gap {
 namespace {
 
 constexpr SignalFlags every_signal{true, true, true, true, true};
+
+bool moves_carriage(const plant::Effect& effect) {
+    return effect.block.starts_with("macro.");
+}
 
 }  // namespace
 
@@ -60,19 +65,45 @@ void CrossFitter::fit_again(CrossFit& cross, const SignalFlags& signals) const {
 void CrossFitter::judge(CrossFit& cross) const {
     CrossFit unknown;
     unknown.mean_squares.assign(evidence_.windows().size(), std::numeric_limits<double>::quiet_NaN());
-    judge_beside(unknown, every_signal, cross);
+    judge_signals(unknown, every_signal, cross);
 }
 
-void CrossFitter::judge_beside(const CrossFit& base, const SignalFlags& reached, CrossFit& cross) const {
+void CrossFitter::judge_beside(const CrossFit& base, const Hypothesis& different, CrossFit& cross) const {
+    SignalFlags reached = reached_by(different);
+    for (const plant::EffectSetting& setting : different)
+        reached = either(reached, concerned_by(*setting.effect, cross.of_half[0]));
+    judge_signals(base, reached, cross);
+}
+
+void CrossFitter::judge_signals(const CrossFit& base, const SignalFlags& signals, CrossFit& cross) const {
     cross.mean_squares = base.mean_squares;
     parallel_for(2, [&](std::size_t side) {
-        const Wanted others = only_of(evidence_.windows(), half(1 - side), reached);
+        const Wanted others = only_of(evidence_.windows(), half(1 - side), signals);
         const std::vector<double> squares =
             mean_squares(evidence_.windows(), evidence_.errors(cross.of_half[side], others));
         for (std::size_t w = 0; w < squares.size(); ++w)
             if (others[w] != 0) cross.mean_squares[w] = squares[w];
     });
     cross.loss = total_loss(cross.mean_squares);
+}
+
+Places CrossFitter::met_by(const Hypothesis& base, const plant::EffectSetting& further,
+                           Places coupled) const {
+    Hypothesis whole = base;
+    whole.push_back(further);
+    const bool hears_of_carriage = teachers_of(*further.effect)[index_of(Signal::hall)];
+    if (!hears_of_carriage || !evidence_.platform_feels_carriage(whole)) return coupled;
+    for (std::size_t k = 0; k < base.size(); ++k)
+        if (moves_carriage(*base[k].effect) && std::ranges::find(coupled, k) == coupled.end())
+            coupled.push_back(k);
+    return coupled;
+}
+
+SignalFlags CrossFitter::concerned_by(const plant::Effect& effect, const Hypothesis& whole) const {
+    SignalFlags concerned = teachers_of(effect);
+    if (moves_carriage(effect) && evidence_.platform_feels_carriage(whole))
+        concerned[index_of(Signal::hall)] = true;
+    return concerned;
 }
 
 SignalExcess CrossFitter::excess(std::span<const double> mean_squares) const {

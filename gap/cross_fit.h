@@ -44,13 +44,24 @@ class CrossFitter {
     void fit_again(CrossFit& cross, const SignalFlags& signals) const;
 
     void judge(CrossFit& cross) const;
-    /// Judges the signals that are reached by what is other than in a base; the rest is as there.
-    void judge_beside(const CrossFit& base, const SignalFlags& reached, CrossFit& cross) const;
+    /// Judges the signals that some settings change, in which the cross fit differs from a base; the rest is
+    /// as there.
+    void judge_beside(const CrossFit& base, const Hypothesis& different, CrossFit& cross) const;
+
+    /// Signals at whose fits an effect has a say: its teachers, and the Hall reading where the effect moves a
+    /// carriage that the platform feels.
+    SignalFlags concerned_by(const plant::Effect& effect, const Hypothesis& whole) const;
+
+    /// Settings of a base on which the fit of a further one depends: those `coupled` with it, and what moves
+    /// the carriage where the platform feels that.
+    Places met_by(const Hypothesis& base, const plant::EffectSetting& further, Places coupled) const;
 
     SignalExcess excess(std::span<const double> mean_squares) const;
     Comparison compared(const CrossFit& base, const CrossFit& fitted) const;
 
   private:
+    void judge_signals(const CrossFit& base, const SignalFlags& signals, CrossFit& cross) const;
+
     const Evidence& evidence_;
     std::size_t windows_;
     std::function<bool()> stop_;

@@ -238,6 +238,10 @@ const TagSighting& Evidence::sighting(std::size_t run, std::size_t detection) co
     return parts_->links[run].tags.sightings[detection];
 }
 
+bool Evidence::platform_feels_carriage(const Hypothesis& hypothesis) const {
+    return models_of(rig(), hypothesis).platform_feels_carriage;
+}
+
 Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted) const {
     const Parts& parts = *parts_;
     FIDSERVO_DEMAND(wanted.size() == parts.windows.size());

@@ -112,6 +112,9 @@ class Evidence {
     /// One of a recording's detections, in the order of Window::first_detection (gap/tag_link.h).
     const TagSighting& sighting(std::size_t run, std::size_t detection) const;
 
+    /// Whether the Hall reading depends on what the carriage does, and so on all that moves the carriage.
+    bool platform_feels_carriage(const Hypothesis& hypothesis) const;
+
     /// Predictions of a hypothesis; values of windows that are not wanted are NaN.
     /// Deterministic, const and safe to call from several threads at once.
     /// Empty if the hypothesis is none that a rig can have (the plant refuses it).

@@ -19,12 +19,12 @@ namespace {
 class Linearised : public ceres::EvaluationCallback {
   public:
     Linearised(const Predict& predict, const ScaledParameters& parameters, std::span<const Window> windows,
-               const Wanted& counted, Threads threads)
+               const Wanted& counted, const FitOptions& options)
         : predict_(predict),
           parameters_(parameters),
           windows_(windows),
           counted_(counted),
-          threads_(threads) {}
+          options_(options) {}
 
     void PrepareForEvaluation(bool with_derivatives, bool at_new_point) override {
         if (at_new_point && parameters_.values != values_) {
@@ -35,9 +35,9 @@ class Linearised : public ceres::EvaluationCallback {
         if (!with_derivatives || has_derivatives_ || errors.empty()) return;
         by_parameter.assign(parameters_.size(), {});
         const auto differentiate = [this](std::size_t k) {
-            by_parameter[k] = slope(predict_, parameters_, k, errors);
+            by_parameter[k] = slope(predict_, parameters_, k, errors, options_.step_scales);
         };
-        if (threads_ == Threads::one)
+        if (options_.threads == Threads::one)
             for (std::size_t k = 0; k < parameters_.size(); ++k) differentiate(k);
         else
             parallel_for(parameters_.size(), differentiate);
@@ -75,7 +75,7 @@ class Linearised : public ceres::EvaluationCallback {
     const ScaledParameters& parameters_;
     std::span<const Window> windows_;
     const Wanted& counted_;
-    Threads threads_;
+    FitOptions options_;
     std::vector<double> values_;  ///< that errors are of
     bool has_derivatives_ = false;
 };
@@ -165,7 +165,7 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
         const Hypothesis& start, const FitOptions& options) {
     ScaledParameters parameters(start);
     const std::vector<double> values_at_start = parameters.values;
-    Linearised linearised(predict, parameters, windows, counted, options.threads);
+    Linearised linearised(predict, parameters, windows, counted, options);
     linearised.PrepareForEvaluation(false, true);
     const auto size = static_cast<Eigen::Index>(parameters.size());
     Fit result{start, total_loss(windows, counted, linearised.errors), Eigen::MatrixXd::Zero(size, size)};

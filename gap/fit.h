@@ -22,13 +22,19 @@ struct Fit {
     Eigen::MatrixXd covariance;
 };
 
+/// Steps of differences, in scales of a parameter: from afar, above what friction's events and float errors
+/// scatter; near the best values, where such a step reaches beyond those that a place within its count leaves
+/// equally good.
+inline constexpr double usual_step = 0.01, close_step = 0.001;
+
 enum class Threads { one, all };
 
 struct FitOptions {
     int most_iterations = 12;
-    double tolerance = 1e-4;         ///< relative, of loss and parameters, at which a fit ends
-    bool with_covariance = false;    ///< costs a prediction a parameter
-    Threads threads = Threads::one;  ///< that predict at the same time
+    double tolerance = 1e-4;          ///< relative, of loss and parameters, at which a fit ends
+    bool with_covariance = false;     ///< costs a prediction a parameter
+    Threads threads = Threads::one;   ///< that predict at the same time
+    double step_scales = usual_step;  ///< of differences
 };
 
 /// Minimises the windows' total loss over all parameters of the hypothesis, from the values given, within

@@ -111,7 +111,12 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         near_best(fitted, share_of_gain, 0.0, effort.leaders, std::mem_fn(&Contender::gain));
     parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k]); });
     std::ranges::sort(leaders, std::greater{}, &Contender::gain);
-    if (!leaders.empty()) fit_closer(base, leaders.front());
+    if (!leaders.empty()) {
+        fit_closer(base, leaders.front());
+        const auto chosen = leaders.begin() + static_cast<std::ptrdiff_t>(simplest(leaders));
+        if (chosen != leaders.begin()) fit_closer(base, *chosen);
+        std::rotate(leaders.begin(), chosen, std::next(chosen));
+    }
 
     std::vector<Trial> trials;
     trials.reserve(candidates_.size());
@@ -120,9 +125,6 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         if (std::ranges::find(added, &candidate) == added.end() &&
             std::ranges::find(trials, &candidate, &Trial::candidate) == trials.end())
             trials.push_back({&candidate, 0.0, false, {}});
-    std::ranges::stable_sort(trials, std::greater{},
-                             [](const Trial& trial) { return std::pair(trial.is_leader, trial.gain); });
-    prefer_simplest(trials);
     return trials;
 }
 
@@ -135,8 +137,9 @@ CrossFit Search::with(const CrossFit& base, const Candidate& candidate) {
 
 Search::Contender Search::contender(const CrossFit& base, const Candidate& candidate) {
     Places coupled = coupled_with(base.of_half[0], *candidate.effect);
+    const Places met = fitter_.met_by(base.of_half[0], {candidate.effect, candidate.shapes.front()}, coupled);
     Finding& finding = memory_.of(static_cast<std::size_t>(&candidate - candidates_.data()),
-                                  {part_of(base.of_half[0], coupled), part_of(base.of_half[1], coupled)});
+                                  {part_of(base.of_half[0], met), part_of(base.of_half[1], met)});
     return {{&candidate, 0.0, false, {}}, std::move(coupled), &finding};
 }
 
@@ -261,12 +264,17 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
             return closer;
         };
         const auto by_simplex = [&](std::size_t side) { return polished(contender, side); };
-        const auto by_slopes = [&](std::size_t side) { return fitted_from_there(base, contender, side); };
-        Contender closer = is_wave ? fitted_by(by_simplex) : fitted_by(by_slopes);
-        if (moves_tags && !is_wave && meet(off(closer.trial.fitted), closer.teachers())) {
-            Contender other = fitted_by(by_simplex);
+        const auto by_slopes = [&](double step_scales) {
+            return fitted_by(
+                [&](std::size_t side) { return fitted_from_there(base, contender, side, step_scales); });
+        };
+        Contender closer = is_wave ? fitted_by(by_simplex) : by_slopes(usual_step);
+        const auto or_else = [&](Contender other) {
             if (other.gain() > closer.gain()) closer = std::move(other);
-        }
+        };
+        const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
+        if (!is_wave && is_off()) or_else(by_slopes(close_step));
+        if (!is_wave && moves_tags && is_off()) or_else(fitted_by(by_simplex));
         finding.is_close = closer.gain() < contender.gain() + least_gain;
         if (closer.gain() <= contender.gain()) return;
         for (std::size_t side = 0; side < 2; ++side)
@@ -276,12 +284,12 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
     finding.is_close = true;
 }
 
-Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& contender,
-                                     std::size_t side) const {
+Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
+                                     double step_scales) const {
     const CrossFit& fitted = contender.trial.fitted;
     return fitter_
         .fit_places(side, fitted.of_half[side], contender.fitted_places(base), fitted.mean_squares,
-                    {.tolerance = 1e-7})
+                    {.tolerance = 1e-7, .step_scales = step_scales})
         .hypothesis;
 }
 
@@ -294,25 +302,26 @@ Hypothesis Search::polished(const Contender& contender, std::size_t side) const 
 
 void Search::judge_both_halves(const CrossFit& base, Contender& contender) const {
     Trial& trial = contender.trial;
-    fitter_.judge_beside(base, reached_by(contender.finding->fitted[0]), trial.fitted);
+    fitter_.judge_beside(base, contender.finding->fitted[0], trial.fitted);
     trial.gain = fitter_.compared(base, trial.fitted).gain;
     trial.is_leader = true;
 }
 
-void Search::prefer_simplest(std::vector<Trial>& trials) const {
-    if (trials.empty()) return;
-    const Trial& first = trials.front();
+std::size_t Search::simplest(std::span<const Contender> leaders) const {
+    const Trial& first = leaders.front().trial;
     const plant::Effect& explained = *first.candidate->effect;
     const auto does_as_well = [&](const Trial& plainer) {
         return ties(first.fitted, plainer.fitted) || !meet(off(plainer.fitted), teachers_of(explained)) ||
                (is_limit_of(plainer.candidate->effect->name, explained.name) &&
                 !is_real(plainer.fitted, first.fitted));
     };
-    const auto parameters = [](const Trial& trial) { return trial.candidate->effect->parameters.size(); };
-    auto best = trials.begin();
-    for (auto trial = trials.begin(); trial != trials.end() && trial->is_leader; ++trial)
-        if (parameters(*trial) < parameters(*best) && does_as_well(*trial)) best = trial;
-    std::rotate(trials.begin(), best, std::next(best));
+    const auto parameters = [&](std::size_t k) {
+        return leaders[k].trial.candidate->effect->parameters.size();
+    };
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < leaders.size(); ++k)
+        if (parameters(k) < parameters(best) && does_as_well(leaders[k].trial)) best = k;
+    return best;
 }
 
 bool Search::is_real(const CrossFit& without, const CrossFit& with) const {

@@ -50,6 +50,11 @@ class Search {
     /// Fits those parameters of a cross fit again, from where they are, that meet some signals.
     void fit_again(CrossFit& cross, const SignalFlags& signals) const { fitter_.fit_again(cross, signals); }
 
+    /// Signals at whose fits an effect of a cross fit has a say (gap/cross_fit.h).
+    SignalFlags concerned_by(const Candidate& candidate, const CrossFit& whole) const {
+        return fitter_.concerned_by(*candidate.effect, whole.of_half[0]);
+    }
+
     /// Whether an effect's gain is more than chance, over all that was tried, and takes away a good part of
     /// what a signal exceeds its floor by: where the true law differs a little from the catalogue's, many an
     /// effect gains a little. So it does beside an effect whose law is not quite the true one: what leaves a
@@ -84,17 +89,18 @@ class Search {
     /// of encoder and camera as well where slopes do not lead there, as the place within a count gives way up
     /// to its end.
     void fit_closer(const CrossFit& base, Contender& contender) const;
-    Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side) const;
+    Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
+                                 double step_scales) const;
     Hypothesis polished(const Contender& contender, std::size_t side) const;
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
     /// Whether some signal loses such a share of its excess, and comes to its floor or loses at least such a
     /// share of what it exceeds it by where nothing is known.
     bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share,
                          double share_of_first = 0.0) const;
-    /// Puts the one of fewest parameters first, of those that tie with the best, leave nothing in the signals
-    /// that teach it, or are its limit and no worse than by chance: bristles that bend over no way are
-    /// Coulomb friction, fitted a little better.
-    void prefer_simplest(std::vector<Trial>& trials) const;
+    /// Of leaders, best first, the one of fewest parameters among those that tie with the best, leave nothing
+    /// in the signals that teach it, or are its limit and no worse than by chance: bristles that bend over no
+    /// way are Coulomb friction, fitted a little better.
+    std::size_t simplest(std::span<const Contender> leaders) const;
 
     const std::vector<Candidate>& candidates_;
     SearchOptions options_;

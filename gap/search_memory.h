@@ -10,7 +10,7 @@
 
 namespace fidservo::gap {
 
-/// Of a candidate beside those settings of a base that it is coupled with.
+/// Of a candidate beside those settings of a base that it meets.
 struct Finding {
     std::array<Hypothesis, 2> beside;  ///< as fitted on each half
     bool is_looked_at = false;         ///< whether starts were looked for

@@ -31,9 +31,19 @@ Choice choice_of(const Search& search, const CrossFit& beside, std::vector<Trial
     return choice;
 }
 
-/// A chain with one more effect.
+SignalFlags only_in(const SignalFlags& all, const SignalFlags& some) {
+    SignalFlags rest{};
+    for (std::size_t s = 0; s < signal_count; ++s) rest[s] = all[s] && !some[s];
+    return rest;
+}
+
+/// A chain with one more effect. What has learnt from signals to which that effect only passes its change on
+/// is fitted again: a platform that feels the carriage, where that moves otherwise.
 Chain grown(const Search& search, Chain chain, std::vector<Trial> trials) {
     CrossFit fitted = trials.front().fitted;
+    const Candidate& added = *trials.front().candidate;
+    const SignalFlags passed_on = only_in(search.concerned_by(added, fitted), teachers_of(*added.effect));
+    if (passed_on != SignalFlags{}) search.fit_again(fitted, passed_on);
     chain.choices.push_back(choice_of(search, chain.fitted, std::move(trials)));
     chain.fitted = std::move(fitted);
     return chain;
@@ -58,7 +68,7 @@ void grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
 /// The chain without one of its effects, fitted anew.
 Chain without(const Search& search, const Chain& chain, std::size_t left_out) {
     Chain shorter = chain;
-    const SignalFlags concerned = teachers_of(*chain.choices[left_out].candidate->effect);
+    const SignalFlags concerned = search.concerned_by(*chain.choices[left_out].candidate, chain.fitted);
     const auto at = static_cast<std::ptrdiff_t>(left_out);
     shorter.choices.erase(shorter.choices.begin() + at);
     for (Hypothesis& hypothesis : shorter.fitted.of_half) hypothesis.erase(hypothesis.begin() + at);
@@ -192,7 +202,7 @@ CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
     CrossFit fitted = chain.fitted;
     SignalFlags concerned{};
     for (std::size_t k = count; k < chain.choices.size(); ++k)
-        concerned = either(concerned, teachers_of(*chain.choices[k].candidate->effect));
+        concerned = either(concerned, search.concerned_by(*chain.choices[k].candidate, chain.fitted));
     for (Hypothesis& hypothesis : fitted.of_half) hypothesis.resize(count);
     search.fit_again(fitted, concerned);
     return fitted;

@@ -2,12 +2,10 @@
 
 namespace fidservo::gap {
 
-Errors slope(const Predict& predict, const ScaledParameters& parameters, std::size_t k,
-             const Errors& errors) {
-    constexpr double difference_step = 0.01;
+Errors slope(const Predict& predict, const ScaledParameters& parameters, std::size_t k, const Errors& errors,
+             double step_scales) {
     std::vector<double> beside = parameters.values;
-    const double step =
-        beside[k] + difference_step <= parameters.high(k) ? difference_step : -difference_step;
+    const double step = beside[k] + step_scales <= parameters.high(k) ? step_scales : -step_scales;
     beside[k] += step;
     Errors change = predict(parameters.at(beside));
     if (change.empty()) change = errors;

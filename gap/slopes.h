@@ -5,8 +5,9 @@
 
 namespace fidservo::gap {
 
-/// Change of the errors with parameter k, a scale of it: a difference over a hundredth of a scale, above what
-/// friction's events and float errors scatter. 0 where the plant refuses the value beside.
-Errors slope(const Predict& predict, const ScaledParameters& parameters, std::size_t k, const Errors& errors);
+/// Change of the errors with parameter k, a scale of it: a difference over a step. 0 where the plant refuses
+/// the value beside.
+Errors slope(const Predict& predict, const ScaledParameters& parameters, std::size_t k, const Errors& errors,
+             double step_scales = usual_step);
 
 }  // namespace fidservo::gap
