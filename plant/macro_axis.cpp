@@ -132,10 +132,12 @@ MacroAxis make_macro_axis(const MacroAxisParameters& parameters, double tick_s) 
     axis.driven_high_mm = parameters.high_mm + 0.5 * parameters.play_mm;
     axis.longest_step_s = tick_s;
     if (axis.has_belt)
-        axis.longest_step_s = std::min(
-            tick_s, 1.0 / natural_frequency_rad_per_s(parameters.belt, gain, parameters.time_constant_s));
+        axis.longest_step_s =
+            tick_s / std::ceil(tick_s * natural_frequency_rad_per_s(parameters.belt, gain,
+                                                                    parameters.time_constant_s));
     axis.has_closed_form =
         !axis.has_standing_force && !axis.has_friction && !axis.has_belt && parameters.play_mm == 0.0;
+    if (!axis.has_closed_form) axis.whole_steps = whole_steps(axis);
     return axis;
 }
 

@@ -61,6 +61,7 @@ struct MacroAxis {
     double driven_low_mm = 0.0;  ///< travel of what drives the carriage: wider by the play
     double driven_high_mm = 0.0;
     double longest_step_s = 0.0;  ///< of the integration
+    WholeSteps whole_steps{};
 };
 
 /// The axis of a rig, without effects. tau = -T / ln(pole).

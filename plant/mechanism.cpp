@@ -25,6 +25,9 @@ constexpr double rest_mm_per_s = 1e-9;
 
 constexpr double shortest_step_s = 1e-10;
 
+/// Bristles that lack less than this share of their bend slide.
+constexpr double fully_bent = 1e-10;
+
 /// A motion under a held voltage: of the carriage alone (2 states), or of motor and carriage (4).
 template <std::size_t size>
 class Motion {
@@ -33,13 +36,19 @@ class Motion {
     static constexpr bool has_belt = size == 4;
 
     Motion(const MacroAxis& axis, double drive_V, const State& start, double bend)
-        : axis_(axis), p_(axis.parameters), drive_V_(drive_V), x_(start), bend_(bend) {}
+        : axis_(axis),
+          p_(axis.parameters),
+          standing_(p_.standing),
+          drive_V_(drive_V),
+          x_(start),
+          bend_(bend) {}
 
     const State& state() const { return x_; }
     double bend() const { return bend_; }
 
     /// Begins a stretch of motion without events. Returns whether anything moves in it.
     bool begin() {
+        if (axis_.has_standing_force) standing_.go_to(x_[place]);
         const double w_V = drive_V_ + (axis_.has_standing_force ? standing_V(x_) : 0.0);
         branch_ = dead_zone_branch(p_.dead_zone, w_V);
         voltage_V_ = dead_zone_V(p_.dead_zone, branch_, w_V, p_.dead_zone_on_motion);
@@ -57,6 +66,13 @@ class Motion {
     /// Moves on by at most `longest_s`, to the next event if there is one before. Returns the time it took.
     double advance(double longest_s) {
         const State first = rate(x_);
+        if (is_whole(longest_s) && is_straight(x_)) {
+            const State end = whole_step(first);
+            if (slack(end) >= 0.0 && is_straight(end)) {
+                settle(end);
+                return longest_s;
+            }
+        }
         Step step = step_from(first, std::min(longest_s, trial_s_));
         double error = error_of(step);
         while (!(error <= 1.0) && step.duration_s > shortest_step_s) {
@@ -70,10 +86,69 @@ class Motion {
         return step.duration_s;
     }
 
+    static WholeSteps whole_steps(const MacroAxis& axis) {
+        WholeSteps steps{axis.longest_step_s, {}};
+        for (const DeadZoneBranch branch :
+             {DeadZoneBranch::left, DeadZoneBranch::inside, DeadZoneBranch::right})
+            for (const double direction : {-1.0, 1.0})
+                for (const bool held : {false, true}) {
+                    Motion motion(axis, 0.0, State{}, direction);
+                    motion.branch_ = branch;
+                    motion.direction_ = direction;
+                    motion.held_ = held;
+                    const auto step = affine_step(motion.rates(), steps.duration_s);
+                    for (std::size_t i = 0; i < size; ++i)
+                        std::ranges::copy(step[i], steps.of_way[motion.way()][i].begin());
+                }
+        return steps;
+    }
+
   private:
     struct Step : RungeKuttaStep<size> {
         double duration_s;
     };
+
+    /// The way in which it moves, until the next event.
+    std::size_t way() const {
+        const auto branch = static_cast<std::size_t>(static_cast<int>(branch_) + 1);
+        return 4 * branch + (direction_ < 0.0 ? 0U : 2U) + (held_ ? 1U : 0U);
+    }
+
+    /// A of x' = A x + b, where forces are straight lines.
+    SquareMatrix<size> rates() const {
+        SquareMatrix<size> rates;
+        const State at_zero = rate(State{});
+        for (std::size_t k = 0; k < size; ++k) {
+            State one{};
+            one[k] = 1.0;
+            const State at_one = rate(one);
+            for (std::size_t i = 0; i < size; ++i) rates[i][k] = at_one[i] - at_zero[i];
+        }
+        return rates;
+    }
+
+    bool is_whole(double duration_s) const {
+        constexpr double rounding_s = 1e-14;
+        const double whole_s = axis_.whole_steps.duration_s;
+        return whole_s > 0.0 && std::abs(duration_s - whole_s) < rounding_s;
+    }
+
+    /// Whether forces change by straight lines there: bristles have bent as far as they do, and a patch is
+    /// far.
+    bool is_straight(const State& x) const {
+        constexpr double far_widths = 8.0;  // exp(-32) is left
+        const RailPatch& patch = p_.friction.patch;
+        return (!axis_.has_bristles || bend_ == direction_) &&
+               (patch.level_V == 0.0 || std::abs(x[place] - patch.centre_mm) > far_widths * patch.width_mm);
+    }
+
+    State whole_step(const State& first) const {
+        const SquareMatrix<4>& step = axis_.whole_steps.of_way[way()];
+        State end = x_;
+        for (std::size_t i = 0; i < size; ++i)
+            for (std::size_t k = 0; k < size; ++k) end[i] += step[i][k] * first[k];
+        return end;
+    }
 
     Step step_from(const State& first, double h) const {
         return {dormand_prince_step([this](const State& x) { return rate(x); }, x_, first, h), h};
@@ -85,7 +160,7 @@ class Motion {
         return error < of_most ? most : std::max(safety * std::pow(error, -0.2), 0.1);
     }
 
-    double standing_V(const State& x) const { return standing_force_V(p_.standing, x[place]); }
+    double standing_V(const State& x) const { return standing_.volts(x[place]); }
 
     double effective_V(const State& x) const {
         return axis_.has_standing_force
@@ -208,7 +283,10 @@ class Motion {
 
     /// Takes over the end of a step, put right where an event has just been passed.
     void settle(const State& end) {
-        if (axis_.has_bristles && !held_) bend_ = bend_at(end);
+        if (axis_.has_bristles && !held_) {
+            bend_ = bend_at(end);
+            if (std::abs(bend_ - direction_) < fully_bent) bend_ = direction_;
+        }
         x_ = end;
         if (held_) return;
         const bool outside = x_[place] < axis_.driven_low_mm || x_[place] > axis_.driven_high_mm;
@@ -218,6 +296,7 @@ class Motion {
 
     const MacroAxis& axis_;
     const MacroAxisParameters& p_;
+    StandingForceNearby standing_;
     double drive_V_;
     State x_;
     double bend_;                                               ///< at x_
@@ -257,11 +336,13 @@ void move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V,
         start[motor] = start[speed] + mechanism.stretching_mm_per_s;
     }
     Motion<size> motion(axis, drive_V, start, mechanism.bristle_bend);
-    while (duration_s > 0.0 && motion.begin()) {
+    constexpr double no_time_s = 1e-15;
+    bool moves = true;
+    while (duration_s > no_time_s && (moves = motion.begin())) {
         duration_s -= motion.advance(std::min(duration_s, axis.longest_step_s));
         carry(axis, state, motion.state()[place], motion.state()[speed]);
     }
-    if (duration_s > 0.0) carry(axis, state, motion.state()[place], 0.0);
+    if (!moves) carry(axis, state, motion.state()[place], 0.0);
     mechanism.bristle_bend = motion.bend();
     if constexpr (size == 4) {
         mechanism.stretch_mm = motion.state()[stretch];
@@ -270,6 +351,16 @@ void move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V,
 }
 
 }  // namespace
+
+WholeSteps whole_steps(const MacroAxis& axis) {
+    const Friction& friction = axis.parameters.friction;
+    if (axis.parameters.standing.cogging_V != 0.0 || friction.stribeck_V != 0.0 ||
+        friction.creep_mm_per_s != 0.0)
+        return {};
+    MacroAxis far_from_patch = axis;
+    far_from_patch.parameters.friction.patch.level_V = 0.0;
+    return axis.has_belt ? Motion<4>::whole_steps(far_from_patch) : Motion<2>::whole_steps(far_from_patch);
+}
 
 void move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
     if (axis.has_belt)

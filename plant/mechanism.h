@@ -6,9 +6,14 @@
 //     tau dv/dt = K (V - F) - v         friction (plant/friction.h); belt: plant/transmission.h
 //
 // Between events the right-hand side is smooth, and an embedded Runge-Kutta pair integrates it, its steps
-// kept to the tolerances in mechanism.cpp. Events are located within the tick: the velocity's zero (turn,
+// kept to the tolerances in mechanism.cpp; where all forces are straight lines, a whole step without an event
+// has an exact solution (plant/affine_step.h). Events are located within the tick: the velocity's zero (turn,
 // stop), an edge of the dead zone, an end of travel, break-away. What is held stays exactly where it is;
 // nothing chatters.
+#include "plant/affine_step.h"
+
+#include <array>
+
 namespace fidservo::plant {
 
 struct MacroAxis;
@@ -22,6 +27,16 @@ struct MechanismState {
     double stretching_mm_per_s = 0.0;  ///< its rate
     double bristle_bend = 0.0;         ///< z of plant/friction.h, -1 .. 1
 };
+
+/// G of a whole step for each way in which an axis can move: by branch of the dead zone, direction, and
+/// whether friction holds the carriage. Of 2 states the upper left corner counts.
+struct WholeSteps {
+    double duration_s = 0.0;  ///< 0: forces are nowhere straight lines
+    std::array<SquareMatrix<4>, 12> of_way{};
+};
+
+/// Of an axis that is otherwise made.
+WholeSteps whole_steps(const MacroAxis& axis);
 
 /// Moves the carriage under a held voltage of the drive, before standing forces and dead zone. Does not
 /// allocate.

@@ -3,7 +3,9 @@
 // voltage before the dead zone, so that friction holds them while the carriage stands.
 //
 //     f(y) = A sin(2 pi y / p + phase) - k (y - y0)          cogging and the spring of the cable harness
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace fidservo::plant {
@@ -20,13 +22,53 @@ inline bool acts(const StandingForce& force) {
     return force.cogging_V != 0.0 || force.cable_V_per_mm != 0.0;
 }
 
-/// f(y) in V, to the right.
-inline double standing_force_V(const StandingForce& force, double position_mm) {
-    double sum_V = -force.cable_V_per_mm * (position_mm - force.cable_centre_mm);
-    if (force.cogging_V != 0.0)
-        sum_V += force.cogging_V * std::sin(2.0 * std::numbers::pi * position_mm / force.cogging_period_mm +
-                                            force.cogging_phase_rad);
-    return sum_V;
-}
+/// f(y) in V, to the right, for places that follow each other closely: near a place whose sine and cosine are
+/// known those of another one follow from a few terms of their series.
+class StandingForceNearby {
+  public:
+    explicit StandingForceNearby(const StandingForce& force)
+        : force_(force), rad_per_mm_(2.0 * std::numbers::pi / force.cogging_period_mm) {}
+
+    /// Places near this one are asked for next.
+    void go_to(double position_mm) {
+        if (force_.cogging_V == 0.0 || std::abs(rad_per_mm_ * (position_mm - here_mm_)) <= near_rad) return;
+        here_mm_ = position_mm;
+        sine_ = std::sin(phase_rad(position_mm));
+        cosine_ = std::cos(phase_rad(position_mm));
+    }
+
+    double volts(double position_mm) const {
+        const double cable_V = -force_.cable_V_per_mm * (position_mm - force_.cable_centre_mm);
+        return force_.cogging_V == 0.0 ? cable_V : cable_V + force_.cogging_V * sine(position_mm);
+    }
+
+  private:
+    static constexpr double near_rad = 0.25;
+
+    double phase_rad(double position_mm) const {
+        return rad_per_mm_ * position_mm + force_.cogging_phase_rad;
+    }
+
+    double sine(double position_mm) const {
+        const double on_rad = rad_per_mm_ * (position_mm - here_mm_);
+        if (!(std::abs(on_rad) <= near_rad)) return std::sin(phase_rad(position_mm));
+        // Their series, Horner's way; what is left out is below 1e-17.
+        constexpr std::array sine_terms{-1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6, 1.0};
+        constexpr std::array cosine_terms{1.0 / 479001600, -1.0 / 3628800, 1.0 / 40320, -1.0 / 720,
+                                          1.0 / 24,        -1.0 / 2,       1.0};
+        const auto series = [square = on_rad * on_rad](const auto& terms) {
+            double sum = 0.0;
+            for (const double term : terms) sum = sum * square + term;
+            return sum;
+        };
+        const double sine_on = on_rad * series(sine_terms), cosine_on = series(cosine_terms);
+        return sine_ * cosine_on + cosine_ * sine_on;
+    }
+
+    const StandingForce& force_;
+    double rad_per_mm_;
+    double here_mm_ = std::numeric_limits<double>::infinity();
+    double sine_ = 0.0, cosine_ = 0.0;
+};
 
 }  // namespace fidservo::plant

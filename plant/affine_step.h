@@ -1,0 +1,18 @@
+#pragma once
+// The exact step of a motion whose forces are straight lines between events, x' = A x + b:
+//
+//     x(h) = x + G x',   G = integral from 0 to h of exp(A s) ds
+#include <array>
+#include <cstddef>
+
+namespace fidservo::plant {
+
+/// Row by row.
+template <std::size_t size>
+using SquareMatrix = std::array<std::array<double, size>, size>;
+
+/// G over a duration h in s, for the A of 1/s given; of 2 or 4 states.
+template <std::size_t size>
+SquareMatrix<size> affine_step(const SquareMatrix<size>& rates, double duration_s);
+
+}  // namespace fidservo::plant
