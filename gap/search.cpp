@@ -5,6 +5,7 @@
 #include "gap/wave_starts.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
 #include <map>
@@ -109,7 +110,8 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     std::ranges::sort(fitted, std::greater{}, &Contender::gain);
     const std::span leaders =
         near_best(fitted, share_of_gain, 0.0, effort.leaders, std::mem_fn(&Contender::gain));
-    parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k]); });
+    const Threads each = leaders.size() > 1 ? Threads::one : Threads::all;
+    parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k], each); });
     std::ranges::sort(leaders, std::greater{}, &Contender::gain);
     if (!leaders.empty()) {
         fit_closer(base, leaders.front());
@@ -130,8 +132,8 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
 
 CrossFit Search::with(const CrossFit& base, const Candidate& candidate) {
     Contender one = contender(base, candidate);
-    fit_first_half(base, one);
-    fit_second_half(base, one);
+    fit_first_half(base, std::array{&one});
+    fit_second_half(base, one, Threads::all);
     return std::move(one.trial.fitted);
 }
 
@@ -193,53 +195,65 @@ void Search::look_at(const CrossFit& base, std::span<Contender> contenders) {
 }
 
 void Search::fit_simple_first(const CrossFit& base, std::span<Contender> contenders) const {
-    const auto is_simple_one = [](const Contender& c) { return is_simple(*c.trial.candidate); };
-    const auto first_rich = std::stable_partition(contenders.begin(), contenders.end(), is_simple_one);
-    const auto simple_count = static_cast<std::size_t>(first_rich - contenders.begin());
-    const std::span simple = contenders.first(simple_count), rich = contenders.subspan(simple_count);
-    parallel_for(simple.size(), [&](std::size_t k) { fit_first_half(base, simple[k]); });
-    const auto leaves_nothing_to = [&](const Contender& other) {
-        return std::ranges::any_of(simple, [&](const Contender& one) {
-            return one.gain() > 0.0 && includes(one.teachers(), other.teachers()) &&
-                   !meet(off(one.trial.fitted), other.teachers());
+    std::vector<Contender*> simple, rich;
+    for (Contender& contender : contenders)
+        (is_simple(*contender.trial.candidate) ? simple : rich).push_back(&contender);
+    fit_first_half(base, simple);
+    std::erase_if(rich, [&](const Contender* other) {
+        return std::ranges::any_of(simple, [&](const Contender* one) {
+            return one->gain() > 0.0 && includes(one->teachers(), other->teachers()) &&
+                   !meet(off(one->trial.fitted), other->teachers());
         });
-    };
-    std::vector<Contender*> wanted;
-    for (Contender& contender : rich)
-        if (!leaves_nothing_to(contender)) wanted.push_back(&contender);
-    parallel_for(wanted.size(), [&](std::size_t k) { fit_first_half(base, *wanted[k]); });
+    });
+    fit_first_half(base, rich);
 }
 
-void Search::fit_first_half(const CrossFit& base, Contender& contender) const {
+void Search::fit_first_half(const CrossFit& base, std::span<Contender* const> contenders) const {
     constexpr double share_of_best_start = 0.5;
-    Finding& finding = *contender.finding;
-    if (finding.fitted[0].empty()) {
-        double least_loss = std::numeric_limits<double>::infinity();
-        for (const Promise& promise : finding.starts) {
-            if (promise.gain < share_of_best_start * contender.promised()) continue;
-            const Fit fitted = fitter_.fit_places(0, contender.placed(base, 0, promise.start),
-                                                  contender.fitted_places(base), base.mean_squares);
-            if (fitted.loss >= least_loss) continue;
-            least_loss = fitted.loss;
-            finding.fitted[0] = contender.part(fitted.hypothesis);
-        }
+    struct Attempt {
+        Contender* contender;
+        const Promise* promise;
+        Fit fitted;
+    };
+    std::vector<Attempt> attempts;
+    for (Contender* contender : contenders)
+        if (contender->finding->fitted[0].empty())
+            for (const Promise& promise : contender->finding->starts)
+                if (promise.gain >= share_of_best_start * contender->promised())
+                    attempts.push_back({contender, &promise, {}});
+    parallel_for(attempts.size(), [&](std::size_t k) {
+        const Contender& contender = *attempts[k].contender;
+        attempts[k].fitted = fitter_.fit_places(0, contender.placed(base, 0, attempts[k].promise->start),
+                                                contender.fitted_places(base), base.mean_squares);
+    });
+    std::map<const Contender*, double> least_loss;
+    for (const Attempt& attempt : attempts) {
+        const auto [least, is_first] = least_loss.try_emplace(attempt.contender, attempt.fitted.loss);
+        if (!is_first && attempt.fitted.loss >= least->second) continue;
+        least->second = attempt.fitted.loss;
+        attempt.contender->finding->fitted[0] = attempt.contender->part(attempt.fitted.hypothesis);
     }
+    parallel_for(contenders.size(), [&](std::size_t k) { judge_first_half(base, *contenders[k]); });
+}
+
+void Search::judge_first_half(const CrossFit& base, Contender& contender) const {
     Trial& trial = contender.trial;
-    if (finding.fitted[0].empty()) return;
-    trial.fitted.of_half[0] = contender.placed(base, 0, finding.fitted[0]);
+    const Hypothesis& found = contender.finding->fitted[0];
+    if (found.empty()) return;
+    trial.fitted.of_half[0] = contender.placed(base, 0, found);
     const Wanted others = fitter_.instructive_of(1, contender.teachers(), base.mean_squares);
     trial.fitted.mean_squares = mean_squares(fitter_.evidence().windows(),
                                              fitter_.evidence().errors(trial.fitted.of_half[0], others));
     trial.gain = fitter_.compared(base, trial.fitted).gain;
 }
 
-void Search::fit_second_half(const CrossFit& base, Contender& contender) const {
+void Search::fit_second_half(const CrossFit& base, Contender& contender, Threads threads) const {
     Finding& finding = *contender.finding;
     if (finding.fitted[1].empty()) {
-        finding.fitted[1] = contender.part(fitter_
-                                               .fit_places(1, contender.placed(base, 1, finding.fitted[0]),
-                                                           contender.fitted_places(base), base.mean_squares)
-                                               .hypothesis);
+        const Fit fit =
+            fitter_.fit_places(1, contender.placed(base, 1, finding.fitted[0]), contender.fitted_places(base),
+                               base.mean_squares, {.threads = threads});
+        finding.fitted[1] = contender.part(fit.hypothesis);
     }
     for (std::size_t side = 0; side < 2; ++side)
         contender.trial.fitted.of_half[side] = contender.placed(base, side, finding.fitted[side]);
@@ -251,7 +265,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
     const std::string_view block = contender.trial.candidate->effect->block;
     const bool moves_tags = block == "macro.encoder" || block.starts_with("camera.");
     constexpr int most_times = 3;
-    constexpr double worth_it = 0.1, worth_a_simplex = 0.5;  // of what a signal exceeds its floor by
+    constexpr double worth_it = 0.1, worth_a_simplex = 0.5, nearly_all = 0.98;  // of a signal's excess
     Finding& finding = *contender.finding;
     if (vanishes_on_a_half(contender.trial)) return;
     if (!clears_a_signal(base, contender.trial.fitted, is_wave ? worth_a_simplex : worth_it)) return;
@@ -274,7 +288,8 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
         };
         const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
-        if (!is_wave && moves_tags && is_off()) or_else(fitted_by(by_simplex));
+        if (!is_wave && is_off() && (moves_tags || clears_a_signal(base, closer.trial.fitted, nearly_all)))
+            or_else(fitted_by(by_simplex));
         finding.is_close = closer.gain() < contender.gain() + least_gain;
         if (closer.gain() <= contender.gain()) return;
         for (std::size_t side = 0; side < 2; ++side)

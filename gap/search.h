@@ -82,8 +82,10 @@ class Search {
     /// Looks for values from which their fits may begin.
     void look_at(const CrossFit& base, std::span<Contender> contenders);
     void fit_simple_first(const CrossFit& base, std::span<Contender> contenders) const;
-    void fit_first_half(const CrossFit& base, Contender& contender) const;
-    void fit_second_half(const CrossFit& base, Contender& contender) const;
+    /// From each of a contender's best starts; then judges it on some windows of the other half.
+    void fit_first_half(const CrossFit& base, std::span<Contender* const> contenders) const;
+    void judge_first_half(const CrossFit& base, Contender& contender) const;
+    void fit_second_half(const CrossFit& base, Contender& contender, Threads threads) const;
     /// Where a fit from afar leaves more than the floor: again from where it ended, to the windows that say
     /// most there; of a wave by a simplex over all windows, as its losses have many minima;
     /// of encoder and camera as well where slopes do not lead there, as the place within a count gives way up
