@@ -110,8 +110,8 @@ class Motion {
 
     /// The way in which it moves, until the next event.
     std::size_t way() const {
-        const auto branch = static_cast<std::size_t>(static_cast<int>(branch_) + 1);
-        return 4 * branch + (direction_ < 0.0 ? 0U : 2U) + (held_ ? 1U : 0U);
+        const int branch = static_cast<int>(branch_) + 1;
+        return 4 * static_cast<std::size_t>(branch) + (direction_ < 0.0 ? 0U : 2U) + (held_ ? 1U : 0U);
     }
 
     /// A of x' = A x + b, where forces are straight lines.
