@@ -228,9 +228,10 @@ void Search::fit_first_half(const CrossFit& base, std::span<Contender* const> co
     });
     std::map<const Contender*, double> least_loss;
     for (const Attempt& attempt : attempts) {
-        const auto [least, is_first] = least_loss.try_emplace(attempt.contender, attempt.fitted.loss);
-        if (!is_first && attempt.fitted.loss >= least->second) continue;
-        least->second = attempt.fitted.loss;
+        constexpr double none_yet = std::numeric_limits<double>::infinity();
+        double& least = least_loss.try_emplace(attempt.contender, none_yet).first->second;
+        if (attempt.fitted.loss >= least) continue;
+        least = attempt.fitted.loss;
         attempt.contender->finding->fitted[0] = attempt.contender->part(attempt.fitted.hypothesis);
     }
     parallel_for(contenders.size(), [&](std::size_t k) { judge_first_half(base, *contenders[k]); });

@@ -87,9 +87,9 @@ class Search {
     void judge_first_half(const CrossFit& base, Contender& contender) const;
     void fit_second_half(const CrossFit& base, Contender& contender, Threads threads) const;
     /// Where a fit from afar leaves more than the floor: again from where it ended, to the windows that say
-    /// most there; of a wave by a simplex over all windows, as its losses have many minima;
-    /// of encoder and camera as well where slopes do not lead there, as the place within a count gives way up
-    /// to its end.
+    /// most there; of a wave by a simplex over all windows, as its losses have many minima. Where slopes do
+    /// not lead there, by a simplex too: of encoder and camera, as the place within a count gives way up to
+    /// its end, and of what leaves nearly nothing of a signal's gap.
     void fit_closer(const CrossFit& base, Contender& contender) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                  double step_scales) const;

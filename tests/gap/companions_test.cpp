@@ -1,5 +1,6 @@
 // Effects that show only beside what another one does.
 #include "gap/diagnose.h"
+#include "tests/gap/effect_names.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <algorithm>
@@ -17,17 +18,11 @@ namespace {
 using namespace gap;
 using testing::campaign;
 using testing::effects;
+using testing::names;
 
 Diagnosis diagnosed(std::initializer_list<std::string_view> truth,
                     std::initializer_list<std::string_view> kinds, const std::vector<std::string>& tried) {
     return diagnose(campaign(effects(truth), kinds), {.only = tried, .without = {}, .selection = {}});
-}
-
-std::vector<std::string> names(const Diagnosis& diagnosis) {
-    std::vector<std::string> found;
-    for (const FoundEffect& effect : diagnosis.effects) found.push_back(effect.effect);
-    std::ranges::sort(found);
-    return found;
 }
 
 const FoundEffect& found(const Diagnosis& diagnosis, std::string_view name) {

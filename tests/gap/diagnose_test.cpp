@@ -2,9 +2,9 @@
 #include "gap/diagnose.h"
 
 #include "gap/search.h"
+#include "tests/gap/effect_names.h"
 #include "tests/gap/simulated_campaign.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -19,13 +19,7 @@ namespace {
 using namespace gap;
 using testing::campaign;
 using testing::effects;
-
-std::vector<std::string> names(const Diagnosis& diagnosis) {
-    std::vector<std::string> found;
-    for (const FoundEffect& effect : diagnosis.effects) found.push_back(effect.effect);
-    std::ranges::sort(found);
-    return found;
-}
+using testing::names;
 
 TEST(Diagnosis, RigAsItsFileSays_HasNoGap) {
     const Diagnosis diagnosis = diagnose(

@@ -1,0 +1,18 @@
+#pragma once
+#include "gap/diagnosis.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace fidservo::testing {
+
+/// Of what a diagnosis names, in the order of the alphabet.
+inline std::vector<std::string> names(const gap::Diagnosis& diagnosis) {
+    std::vector<std::string> found;
+    for (const gap::FoundEffect& effect : diagnosis.effects) found.push_back(effect.effect);
+    std::ranges::sort(found);
+    return found;
+}
+
+}  // namespace fidservo::testing
