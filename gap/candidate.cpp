@@ -137,7 +137,13 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
         if (left_out && !is_limit(effect->name)) continue;
         if (std::ranges::none_of(reach_of(*effect), [&](Signal s) { return recorded[index_of(s)]; }))
             continue;
-        Candidate candidate{effect, {}, {}, wave_of(*effect), std::string(class_of(effect->name)), left_out};
+        Candidate candidate{.effect = effect,
+                            .sizes = {},
+                            .shapes = {},
+                            .wave = wave_of(*effect),
+                            .patch = patch_of(*effect),
+                            .class_name = std::string(class_of(effect->name)),
+                            .is_limit = left_out};
         candidate.shapes = shapes_of(*effect, range, candidate.wave.has_value());
         for (std::size_t k = 0; k < effect->parameters.size(); ++k)
             if (says_how_large(effect->parameters[k])) candidate.sizes.push_back(k);

@@ -1,6 +1,7 @@
 #pragma once
 // The effects that a diagnosis tries, and where their fits may begin.
 #include "gap/evidence.h"
+#include "gap/patch.h"
 #include "gap/wave.h"
 
 #include <optional>
@@ -18,6 +19,7 @@ struct Candidate {
     std::vector<std::size_t> sizes;           ///< parameters that say how large; one at least
     std::vector<std::vector<double>> shapes;  ///< all values, sizes at typical ones, shapes over a grid
     std::optional<WaveParameters> wave;       ///< of an effect periodic in position; it has one shape
+    std::optional<PatchParameters> patch;     ///< of friction raised around a place
     std::string class_name;  ///< effects that no data can tell apart share it, otherwise the effect's name
     /// Not to be named, but what another candidate comes to where what sets that apart vanishes: without it
     /// the richer one would be named for what it shares with the plainer.

@@ -13,53 +13,50 @@
 namespace fidservo::gap {
 namespace {
 
-class LossOfLast : public cv::MinProblemSolver::Function {
+class LossOfPart : public cv::MinProblemSolver::Function {
   public:
-    LossOfLast(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
-               const Hypothesis& start)
+    LossOfPart(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
+               const Hypothesis& start, const Places& places)
         : predict_(predict),
           windows_(windows),
           counted_(counted),
-          parameters_(start),
-          first_(parameters_.size() - start.back().values.size()),
-          start_(start.back()),
-          wave_(wave_of(*start.back().effect)) {}
+          start_(start),
+          places_(places),
+          part_(part_of(start, places)),
+          parameters_(part_) {}
 
-    int getDims() const override { return static_cast<int>(parameters_.size() - first_); }
+    int getDims() const override { return static_cast<int>(parameters_.size()); }
     double calc(const double* scaled) const override {
         const double loss = total_loss(windows_, counted_, predict_(at(scaled)));
         return std::min(loss, 1e12);  // of what the plant refuses it is infinite
     }
 
     Hypothesis at(const double* scaled) const {
-        std::vector<double> all = parameters_.values;
-        std::copy_n(scaled, getDims(), all.begin() + static_cast<std::ptrdiff_t>(first_));
-        Hypothesis there = parameters_.at(all);
-        if (wave_) keep_in_step(there.back().values);
-        return there;
+        Hypothesis part = parameters_.at(std::span(scaled, parameters_.size()));
+        for (std::size_t k = 0; k < part.size(); ++k) keep_in_step(part_[k], part[k].values);
+        return with_part(start_, places_, part);
     }
-    std::vector<double> start() const {
-        return {parameters_.values.begin() + static_cast<std::ptrdiff_t>(first_), parameters_.values.end()};
-    }
+    const std::vector<double>& start() const { return parameters_.values; }
 
   private:
-    /// Turns the phase with the period.
-    void keep_in_step(std::vector<double>& values) const {
-        values[wave_->phase] =
-            phase_in_step(values[wave_->phase], start_.values[wave_->period], values[wave_->period]);
+    /// Turns a wave's phase with its period.
+    static void keep_in_step(const plant::EffectSetting& from, std::vector<double>& values) {
+        if (const std::optional<WaveParameters> wave = wave_of(*from.effect))
+            values[wave->phase] =
+                phase_in_step(values[wave->phase], from.values[wave->period], values[wave->period]);
     }
 
     const Predict& predict_;
     std::span<const Window> windows_;
     const Wanted& counted_;
+    const Hypothesis& start_;
+    const Places& places_;
+    Hypothesis part_;
     ScaledParameters parameters_;
-    std::size_t first_;
-    plant::EffectSetting start_;
-    std::optional<WaveParameters> wave_;
 };
 
 /// A simplex of one parameter: steps to either side as long as one leads down, then shorter ones.
-Fit stepped(const LossOfLast& loss, double best, double least, double step, double enough) {
+Fit stepped(const LossOfPart& loss, double best, double least, double step, double enough) {
     while (step > enough) {
         const auto better = [&](double there) {
             const double value = loss.calc(&there);
@@ -76,10 +73,10 @@ Fit stepped(const LossOfLast& loss, double best, double least, double step, doub
 }  // namespace
 
 Fit polish(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
-           const Hypothesis& start) {
-    constexpr int most_predictions = 100;
+           const Hypothesis& start, const Places& places) {
+    const int most_predictions = 100;
     constexpr double first_step = 0.1, enough = 1e-3;  // scales
-    const auto loss = cv::makePtr<LossOfLast>(predict, windows, counted, start);
+    const auto loss = cv::makePtr<LossOfPart>(predict, windows, counted, start, places);
     std::vector<double> best = loss->start();
     const double loss_at_start = loss->calc(best.data());
     if (loss->getDims() < 2) return stepped(*loss, best.front(), loss_at_start, first_step, enough);

@@ -47,6 +47,10 @@ class Search {
     /// The base with a candidate that try_all has tried beside it, fitted on both halves.
     CrossFit with(const CrossFit& base, const Candidate& candidate);
 
+    /// Takes over from a whole, which is the base and a candidate at a place, what it has found for that one:
+    /// try_all beside this base then fits only what promises about as much.
+    void remember(const CrossFit& base, const Candidate& candidate, const CrossFit& whole, std::size_t at);
+
     /// Fits those parameters of a cross fit again, from where they are, that meet some signals.
     void fit_again(CrossFit& cross, const SignalFlags& signals) const { fitter_.fit_again(cross, signals); }
 
@@ -69,6 +73,9 @@ class Search {
 
     /// Whether every signal is at its floor: nothing is left for another effect to explain.
     bool is_at_floor(const CrossFit& fitted) const;
+
+    /// Whether no signal exceeds its floor by as much as a further effect has to take away of it.
+    bool leaves_little(const CrossFit& fitted) const;
 
     /// Whether what the other lacks to the best is no more than chance.
     bool ties(const CrossFit& best, const CrossFit& other) const;
@@ -93,7 +100,7 @@ class Search {
     void fit_closer(const CrossFit& base, Contender& contender) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                  double step_scales) const;
-    Hypothesis polished(const Contender& contender, std::size_t side) const;
+    Hypothesis polished(const Contender& contender, std::size_t side, const Places& places) const;
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
     /// Whether some signal loses such a share of its excess, and comes to its floor or loses at least such a
     /// share of what it exceeds it by where nothing is known.

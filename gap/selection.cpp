@@ -93,6 +93,8 @@ bool exchange(Search& search, Chain& chain, bool changed) {
             k = 0;
             continue;
         }
+        if (search.leaves_little(chain.fitted))
+            search.remember(rest.fitted, *chain.choices[k].candidate, chain.fitted, k);
         std::vector<Trial> trials = search.try_all(rest.fitted, rest.candidates());
         const bool is_other = has_leader(trials) && trials.front().candidate != chain.choices[k].candidate;
         const bool better = has_leader(trials) && trials.front().fitted.loss < chain.fitted.loss - least_gain;

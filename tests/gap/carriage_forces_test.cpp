@@ -1,11 +1,15 @@
 // The forces that a carriage's prediction lacks, against forces that are known.
 #include "gap/carriage_forces.h"
 
+#include "gap/patch_search.h"
 #include "gap/period_search.h"
+#include "plant/effects/catalogue.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <cmath>
 #include <numbers>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -106,6 +110,29 @@ TEST(PeriodSearch, ForceThatLetsTheCarriageGoByJumps_ComesBackWithPeriodAmplitud
                     0.0, 0.15)
             << truth.period_mm;
     }
+}
+
+/// As well as a fit needs it to begin, also where dry friction that the file lacks is everywhere.
+TEST(PatchSearch, NarrowPatch_ComesBackWithLevelPlaceAndWidth) {
+    for (const std::string_view beside : {"", "coulomb_friction:level_V=0.05"}) {
+        constexpr double level_V = 0.1, centre_mm = 77.0, width_mm = 5.0;
+        std::vector<plant::EffectSetting> truth{plant::parse_effect(
+            fmt::format("rail_patch:level_V={},centre_mm={},width_mm={}", level_V, centre_mm, width_mm))};
+        if (!beside.empty()) truth.push_back(plant::parse_effect(beside));
+        const Evidence evidence = campaign(truth, {"macro-sweep", "macro-pulses", "macro-square"});
+        const auto patches = strongest_patches(evidence, evidence.errors({}, everything(evidence)));
+        ASSERT_FALSE(patches.empty());
+        EXPECT_NEAR(patches.front().level_V, level_V, 0.4 * level_V) << beside;
+        EXPECT_NEAR(patches.front().centre_mm, centre_mm, 0.6 * width_mm) << beside;
+        EXPECT_NEAR(std::log2(patches.front().width_mm / width_mm), 0.0, 1.1) << beside;
+    }
+}
+
+TEST(PatchSearch, FrictionThatIsTheSameEverywhere_IsNoPatch) {
+    const Evidence evidence =
+        campaign(effects({"coulomb_friction:level_V=0.05"}), {"macro-sweep", "macro-pulses"});
+    const auto patches = strongest_patches(evidence, evidence.errors({}, everything(evidence)));
+    for (const FrictionPatch& patch : patches) EXPECT_LT(patch.share, 0.05) << patch.centre_mm;
 }
 
 }  // namespace

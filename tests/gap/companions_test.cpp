@@ -41,6 +41,26 @@ TEST(Diagnosis, SmallFalseScaleOfEitherSign_IsFound) {
     }
 }
 
+/// Between the places of a coarse grid.
+TEST(Diagnosis, NarrowPatchOfFriction_IsFoundWithItsPlace) {
+    const Diagnosis diagnosis = diagnosed({"rail_patch:level_V=0.15,centre_mm=73,width_mm=3"},
+                                          {"macro-square", "macro-sweep", "macro-pulses"},
+                                          {"rail_patch", "viscous_friction", "drive_gain"});
+    ASSERT_EQ(names(diagnosis), std::vector<std::string>{"rail_patch"}) << diagnosis.gap.before;
+    EXPECT_NEAR(diagnosis.effects.front().parameters[0].value, 0.15, 0.01);
+    EXPECT_NEAR(diagnosis.effects.front().parameters[1].value, 73.0, 0.2);
+    EXPECT_NEAR(diagnosis.effects.front().parameters[2].value, 3.0, 0.2);
+}
+
+/// A tilted camera predicts nearly all that the tags show of it, but nothing of what the encoder shows.
+TEST(Diagnosis, FalseScaleThatIsWithheld_IsNoMatterOfTheCamera) {
+    const Diagnosis diagnosis = diagnosed({"encoder_scale:factor=1.001"}, {"macro-square", "integrated"},
+                                          {"camera_tilt", "viscous_friction", "drive_gain"});
+    ASSERT_FALSE(diagnosis.where.empty());
+    EXPECT_EQ(diagnosis.where.front().block, "macro.encoder");
+    for (const FoundEffect& effect : diagnosis.effects) EXPECT_LT(effect.probability, 0.5) << effect.effect;
+}
+
 /// Its period is one of the rail, which the encoder reads at a false scale.
 TEST(Diagnosis, RippleBesideAFalseScale_IsFoundWithItsPeriod) {
     const Diagnosis diagnosis =

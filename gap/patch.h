@@ -1,0 +1,18 @@
+#pragma once
+// Effects that are raised friction around a place on the rail.
+#include "plant/effects/effect.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace fidservo::gap {
+
+/// Which parameters of an effect are a patch's.
+struct PatchParameters {
+    std::size_t level, centre, width;
+};
+
+/// Of an effect that has one size, in V, and as shapes in mm a place, which may be negative, and a width.
+std::optional<PatchParameters> patch_of(const plant::Effect& effect);
+
+}  // namespace fidservo::gap

@@ -1,0 +1,174 @@
+// How a search fits those it tries: simple ones first, the second half for leaders, closely for the best.
+#include "gap/contender.h"
+#include "gap/parallel.h"
+#include "gap/polish.h"
+#include "gap/search.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string_view>
+#include <utility>
+
+namespace fidservo::gap {
+namespace {
+
+/// Effects of few parameters are tried first: where one of them leaves nothing, a richer one that does as
+/// well is no better explanation.
+bool is_simple(const Candidate& candidate) {
+    return candidate.effect->parameters.size() <= 2;
+}
+
+/// Whether one half of the recordings has no use for a candidate.
+bool vanishes_on_a_half(const Trial& trial) {
+    return std::ranges::any_of(trial.fitted.of_half, [&](const Hypothesis& hypothesis) {
+        const plant::EffectSetting& fitted = hypothesis.back();
+        return std::ranges::all_of(trial.candidate->sizes, [&](std::size_t k) {
+            return fitted.values[k] == fitted.effect->parameters[k].vanishing;
+        });
+    });
+}
+
+bool includes(const SignalFlags& all, const SignalFlags& some) {
+    for (std::size_t s = 0; s < signal_count; ++s)
+        if (some[s] && !all[s]) return false;
+    return true;
+}
+
+}  // namespace
+
+void Search::fit_simple_first(const CrossFit& base, std::span<Contender> contenders) const {
+    std::vector<Contender*> simple, rich;
+    for (Contender& contender : contenders)
+        (is_simple(*contender.trial.candidate) ? simple : rich).push_back(&contender);
+    fit_first_half(base, simple);
+    std::erase_if(rich, [&](const Contender* other) {
+        return std::ranges::any_of(simple, [&](const Contender* one) {
+            return one->gain() > 0.0 && includes(one->teachers(), other->teachers()) &&
+                   !meet(off(one->trial.fitted), other->teachers());
+        });
+    });
+    fit_first_half(base, rich);
+}
+
+void Search::fit_first_half(const CrossFit& base, std::span<Contender* const> contenders) const {
+    constexpr double share_of_best_start = 0.5;
+    struct Attempt {
+        Contender* contender;
+        const Promise* promise;
+        Fit fitted;
+    };
+    std::vector<Attempt> attempts;
+    for (Contender* contender : contenders)
+        if (contender->finding->fitted[0].empty())
+            for (const Promise& promise : contender->finding->starts)
+                if (promise.gain >= share_of_best_start * contender->promised())
+                    attempts.push_back({contender, &promise, {}});
+    parallel_for(attempts.size(), [&](std::size_t k) {
+        const Contender& contender = *attempts[k].contender;
+        attempts[k].fitted = fitter_.fit_places(0, contender.placed(base, 0, attempts[k].promise->start),
+                                                contender.fitted_places(base), base.mean_squares);
+    });
+    std::map<const Contender*, double> least_loss;
+    for (const Attempt& attempt : attempts) {
+        constexpr double none_yet = std::numeric_limits<double>::infinity();
+        double& least = least_loss.try_emplace(attempt.contender, none_yet).first->second;
+        if (attempt.fitted.loss >= least) continue;
+        least = attempt.fitted.loss;
+        attempt.contender->finding->fitted[0] = attempt.contender->part(attempt.fitted.hypothesis);
+    }
+    parallel_for(contenders.size(), [&](std::size_t k) { judge_first_half(base, *contenders[k]); });
+}
+
+void Search::judge_first_half(const CrossFit& base, Contender& contender) const {
+    Trial& trial = contender.trial;
+    const Hypothesis& found = contender.finding->fitted[0];
+    if (found.empty()) return;
+    trial.fitted.of_half[0] = contender.placed(base, 0, found);
+    const Wanted others = fitter_.instructive_of(1, contender.teachers(), base.mean_squares);
+    trial.fitted.mean_squares = mean_squares(fitter_.evidence().windows(),
+                                             fitter_.evidence().errors(trial.fitted.of_half[0], others));
+    trial.gain = fitter_.compared(base, trial.fitted).gain;
+}
+
+void Search::fit_second_half(const CrossFit& base, Contender& contender, Threads threads) const {
+    Finding& finding = *contender.finding;
+    if (finding.fitted[1].empty()) {
+        const Fit fit =
+            fitter_.fit_places(1, contender.placed(base, 1, finding.fitted[0]), contender.fitted_places(base),
+                               base.mean_squares, {.threads = threads});
+        finding.fitted[1] = contender.part(fit.hypothesis);
+    }
+    for (std::size_t side = 0; side < 2; ++side)
+        contender.trial.fitted.of_half[side] = contender.placed(base, side, finding.fitted[side]);
+    judge_both_halves(base, contender);
+}
+
+void Search::fit_closer(const CrossFit& base, Contender& contender) const {
+    const bool is_wave = contender.trial.candidate->wave.has_value();
+    const std::string_view block = contender.trial.candidate->effect->block;
+    const bool moves_tags = block == "macro.encoder" || block.starts_with("camera.");
+    constexpr int most_times = 3;
+    constexpr double worth_it = 0.1, worth_a_simplex = 0.5, nearly_all = 0.98;  // of a signal's excess
+    constexpr double worth_another = 0.03;                                      // of the gain
+    Finding& finding = *contender.finding;
+    if (vanishes_on_a_half(contender.trial)) return;
+    if (!clears_a_signal(base, contender.trial.fitted, is_wave ? worth_a_simplex : worth_it)) return;
+    for (int time = 0; time < most_times && !finding.is_close; ++time) {
+        if (!meet(off(contender.trial.fitted), contender.teachers())) return;
+        const auto fitted_by = [&](const auto& fit_side) {
+            Contender closer = contender;
+            parallel_for(2, [&](std::size_t side) { closer.trial.fitted.of_half[side] = fit_side(side); });
+            judge_both_halves(base, closer);
+            return closer;
+        };
+        const Places last{base.of_half[0].size()};
+        const auto by_simplex = [&](std::size_t side) { return polished(contender, side, last); };
+        const auto by_slopes = [&](double step_scales) {
+            return fitted_by(
+                [&](std::size_t side) { return fitted_from_there(base, contender, side, step_scales); });
+        };
+        Contender closer = is_wave ? fitted_by(by_simplex) : by_slopes(usual_step);
+        const auto or_else = [&](Contender other) {
+            if (other.gain() > closer.gain()) closer = std::move(other);
+        };
+        const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
+        if (!is_wave && is_off()) or_else(by_slopes(close_step));
+        if (!is_wave && is_off() && (moves_tags || clears_a_signal(base, closer.trial.fitted, nearly_all)))
+            or_else(fitted_by(by_simplex));
+        if (is_off() && !contender.coupled.empty() && clears_a_signal(base, closer.trial.fitted, nearly_all))
+            or_else(fitted_by(
+                [&](std::size_t side) { return polished(closer, side, contender.fitted_places(base)); }));
+        finding.is_close = closer.gain() < (1.0 + worth_another) * contender.gain() + least_gain;
+        if (closer.gain() <= contender.gain()) return;
+        for (std::size_t side = 0; side < 2; ++side)
+            finding.fitted[side] = contender.part(closer.trial.fitted.of_half[side]);
+        contender = std::move(closer);
+    }
+    finding.is_close = true;
+}
+
+Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
+                                     double step_scales) const {
+    const CrossFit& fitted = contender.trial.fitted;
+    return fitter_
+        .fit_places(side, fitted.of_half[side], contender.fitted_places(base), fitted.mean_squares,
+                    {.tolerance = 1e-7, .step_scales = step_scales})
+        .hypothesis;
+}
+
+Hypothesis Search::polished(const Contender& contender, std::size_t side, const Places& places) const {
+    const std::vector<Window>& windows = fitter_.evidence().windows();
+    const Wanted wanted = only_of(windows, fitter_.half(side), contender.teachers());
+    return polish(fitter_.predictor(wanted), windows, wanted, contender.trial.fitted.of_half[side], places)
+        .hypothesis;
+}
+
+void Search::judge_both_halves(const CrossFit& base, Contender& contender) const {
+    Trial& trial = contender.trial;
+    fitter_.judge_beside(base, contender.finding->fitted[0], trial.fitted);
+    trial.gain = fitter_.compared(base, trial.fitted).gain;
+    trial.is_leader = true;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,78 @@
+#include "gap/starts.h"
+
+#include "gap/score.h"
+#include "gap/wave_starts.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace fidservo::gap {
+namespace {
+
+/// As a patch that was found, beside the base as it is.
+Promise promise_of(const FrictionPatch& patch, const Candidate& candidate, const Predict& predict,
+                   std::span<const Window> windows, const Wanted& counted, const Surroundings& beside) {
+    plant::EffectSetting setting{candidate.effect, candidate.shapes.front()};
+    setting.values[candidate.patch->level] = patch.level_V;
+    setting.values[candidate.patch->centre] = patch.centre_mm;
+    setting.values[candidate.patch->width] = patch.width_mm;
+    Hypothesis part = part_of(beside.base, beside.places);
+    part.push_back(std::move(setting));
+    const Errors errors = predict(extended(beside.base, beside.places, part));
+    return {std::move(part), gained(windows, counted, mean_squares(windows, beside.errors), errors)};
+}
+
+/// With the places that were found, beside those of its grid.
+Candidate with_shapes(Candidate candidate, std::span<const FrictionPatch> patches) {
+    const std::vector<double> typical = candidate.shapes.front();
+    for (const FrictionPatch& patch : patches) {
+        std::vector<double> shape = typical;
+        shape[candidate.patch->centre] = patch.centre_mm;
+        shape[candidate.patch->width] = patch.width_mm;
+        candidate.shapes.push_back(std::move(shape));
+    }
+    return candidate;
+}
+
+std::vector<Promise> patches_at_first_sight(const Predict& predict, std::span<const Window> windows,
+                                            const Wanted& counted, const Surroundings& beside,
+                                            const Candidate& candidate,
+                                            std::span<const FrictionPatch> patches) {
+    std::vector<Promise> starts =
+        at_first_sight(predict, windows, counted, beside, with_shapes(candidate, patches));
+    if (starts.empty()) return starts;
+    for (const FrictionPatch& patch : patches)
+        starts.push_back(promise_of(patch, candidate, predict, windows, counted, beside));
+    std::ranges::sort(starts, std::greater{}, &Promise::gain);
+    return starts;
+}
+
+}  // namespace
+
+AlongRail seen_along_rail(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted,
+                          std::span<const Candidate* const> candidates) {
+    const bool asks_for_periods =
+        std::ranges::any_of(candidates, [](const Candidate* c) { return c->wave.has_value(); });
+    const bool asks_for_patches =
+        std::ranges::any_of(candidates, [](const Candidate* c) { return c->patch.has_value(); });
+    if (!asks_for_periods && !asks_for_patches) return {};
+    const Errors errors = evidence.errors(known, wanted);
+    AlongRail along;
+    if (asks_for_periods)
+        along.periods = on_the_rail(strongest_periods(evidence, errors), evidence.rig(), known);
+    if (asks_for_patches) along.patches = strongest_patches(evidence, errors);
+    return along;
+}
+
+std::vector<Promise> starts_of(const Candidate& candidate, const AlongRail& along, const Predict& predict,
+                               std::span<const Window> windows, const Wanted& counted,
+                               const Surroundings& beside) {
+    if (candidate.wave)
+        return waves_at_first_sight(predict, windows, counted, beside, candidate, along.periods);
+    if (candidate.patch)
+        return patches_at_first_sight(predict, windows, counted, beside, candidate, along.patches);
+    return at_first_sight(predict, windows, counted, beside, candidate);
+}
+
+}  // namespace fidservo::gap

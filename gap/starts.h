@@ -1,0 +1,30 @@
+#pragma once
+// Where fits of a candidate begin: at what its own grid promises, and at what errors show along the rail.
+#include "gap/candidate.h"
+#include "gap/first_sight.h"
+#include "gap/patch_search.h"
+#include "gap/period_search.h"
+
+#include <span>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// What errors of the encoder show along the rail.
+struct AlongRail {
+    std::vector<PositionPeriod> periods;  ///< strongest first
+    std::vector<FrictionPatch> patches;   ///< strongest first
+};
+
+/// As far as some candidate asks for it.
+/// @param known  of which the errors are
+/// @param wanted  windows that are looked at
+AlongRail seen_along_rail(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted,
+                          std::span<const Candidate* const> candidates);
+
+/// Best first (gap/first_sight.h).
+std::vector<Promise> starts_of(const Candidate& candidate, const AlongRail& along, const Predict& predict,
+                               std::span<const Window> windows, const Wanted& counted,
+                               const Surroundings& beside);
+
+}  // namespace fidservo::gap
