@@ -106,7 +106,7 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, dou
     columns.push_back(force(forces, Dependence::acceleration, acceleration));
     columns.push_back(reading(forces, Dependence::acceleration, acceleration));
     add_hats(
-        columns, forces, Dependence::command, 8, [](const SlidingRow& at) { return at.command_V; },
+        columns, forces, Dependence::command, 12, [](const SlidingRow& at) { return at.command_V; },
         share_passed);
     const std::vector<std::vector<double>> effective = effective_V(evidence);
     for (const std::size_t ticks : late_ticks)

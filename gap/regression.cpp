@@ -14,6 +14,9 @@
 namespace fidservo::gap {
 namespace {
 
+/// Standard deviations of its lead up to which the best group is not told from others.
+constexpr double tie_significance = 3.0;
+
 /// Of the columns' own weight: enough to hold columns that hardly differ from each other. Of the mean weight
 /// in their group: enough to hold those that the fitted half hardly has, as places that it does not visit.
 constexpr double own_ridge = 1e-3, group_ridge = 3e-3;
@@ -168,8 +171,11 @@ std::vector<int> Regression::significant_groups(double tail, double as_good) con
         });
         if (trials.empty()) return taken;
         const auto gain = [](const Trial& trial) { return trial.comparison.gain; };
-        const double enough = as_good * gain(*std::ranges::max_element(trials, {}, gain));
-        std::erase_if(trials, [&](const Trial& trial) { return gain(trial) < enough; });
+        const Trial best = *std::ranges::max_element(trials, {}, gain);
+        std::erase_if(trials, [&](const Trial& trial) {
+            return gain(trial) < as_good * gain(best) ||
+                   compare(windows_, trial.squares, best.squares).significance > tie_significance;
+        });
         const auto simplest = std::ranges::min_element(trials, {}, [&](const Trial& trial) {
             return std::pair(std::ranges::count(group_of_, trial.group), -gain(trial));
         });

@@ -44,7 +44,7 @@ class Regression {
     /// Groups that make held-out predictions better beyond chance, in the order of what they add; of groups
     /// that add about as much, the one of fewest columns.
     /// @param tail     of taking in anything where there is nothing
-    /// @param as_good  share of the best one's gain that is about as much
+    /// @param as_good  share of the best one's gain that is about as much, where its lead may be chance
     std::vector<int> significant_groups(double tail, double as_good) const;
 
   private:

@@ -43,8 +43,8 @@ struct Surrogate {
     std::vector<Column> nuisances;  ///< of the state at a window's start
     Errors errors{};                ///< that the columns are to explain, where they are not the signal's
     double period_mm = 0.0;         ///< of Dependence::position_period and reading_period
-    /// Groups that add this share of what the best one adds are as good, and of those the one of fewest
-    /// columns is preferred.
+    /// Groups that add this share of what the best one adds, whose lead may be chance, are as good, and of
+    /// those the one of fewest columns is preferred.
     double as_good = 0.8;
 };
 

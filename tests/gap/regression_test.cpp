@@ -77,6 +77,22 @@ TEST(Regression, BothGroups_AreFoundInTheOrderOfWhatTheyAdd) {
     EXPECT_EQ(regression(setting, errors).significant_groups(0.01, 0.8), (std::vector{ramp, wave}));
 }
 
+/// A plainer group that comes near is preferred only where the data cannot tell that it is not the one.
+TEST(Regression, PlainGroupThatComesNear_YieldsToARichOneThatLeadsForCertain) {
+    constexpr int near = 1;
+    Setting setting = make_setting(7);
+    Column nearly{near, sum(setting.columns[0].values, setting.columns[1], 0.2F)};
+    setting.columns[1].group = wave;
+    setting.columns.push_back(nearly);
+    const auto first = [&](float factor) {
+        return regression(setting, sum(setting.noise, setting.columns[0], factor))
+            .significant_groups(0.01, 0.8)
+            .front();
+    };
+    EXPECT_EQ(first(1.0F), near);
+    EXPECT_EQ(first(30.0F), wave);
+}
+
 TEST(Regression, WhatTheStateAtAWindowsStartExplains_IsNoFinding) {
     Setting setting = make_setting(5);
     Errors errors = setting.noise;
