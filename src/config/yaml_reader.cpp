@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 namespace fidservo {
@@ -131,6 +132,41 @@ void demand_text(std::string_view text, const std::filesystem::path& file) {
     }
 }
 
+/// Ends the parse where a second document begins. Some texts, such as one that opens with a comma, are
+/// documents without end to the YAML library, so that they must not all be loaded.
+class OneDocument : public YAML::EventHandler {
+  public:
+    explicit OneDocument(const std::filesystem::path& file) : file_(file) {}
+
+    void OnDocumentStart(const YAML::Mark& mark) override {
+        if (++begun_ > 1)
+            fail_at(file_, line_of(mark, 1),
+                    "the file must hold one map of keys and values; it ends before here");
+    }
+    void OnDocumentEnd() override {}
+    void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+    void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+    void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+    void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                         YAML::EmitterStyle::value) override {}
+    void OnSequenceEnd() override {}
+    void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                    YAML::EmitterStyle::value) override {}
+    void OnMapEnd() override {}
+
+  private:
+    const std::filesystem::path& file_;
+    int begun_ = 0;
+};
+
+YAML::Node load_document(const std::string& text, const std::filesystem::path& file) {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    for (OneDocument check(file); parser.HandleNextDocument(check);) {
+    }
+    return YAML::Load(text);
+}
+
 /// A plain scalar; quotes make text of a number.
 bool is_plain_scalar(const YAML::Node& node) {
     return node.IsScalar() && node.Tag() != "!";
@@ -151,11 +187,10 @@ YamlValue YamlValue::load(const std::filesystem::path& file) {
 YamlValue YamlValue::parse(const std::string& text, const std::filesystem::path& file) {
     demand_text(text, file);
     try {
-        const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-        if (documents.size() != 1 || !documents.front().IsMap())
-            fail_at(file, 1, "the file must hold keys and values (key: value)");
-        StructureCheck(file, text.size()).visit(documents.front(), 1);
-        return YamlValue(std::make_shared<const Impl>(Impl{documents.front(), file, "", 1}));
+        const YAML::Node document = load_document(text, file);
+        if (!document.IsMap()) fail_at(file, 1, "the file must hold keys and values (key: value)");
+        StructureCheck(file, text.size()).visit(document, 1);
+        return YamlValue(std::make_shared<const Impl>(Impl{document, file, "", 1}));
     } catch (const YAML::Exception& error) {
         fail_at(file, line_of(error.mark, 1), fmt::format("not YAML: {}", error.msg));
     }

@@ -83,8 +83,15 @@ TEST(YamlReader, File_IsRelativeToTheFilesFolder) {
 
 TEST(YamlReader, NotYaml_IsAnInputErrorWithTheLine) {
     EXPECT_TRUE(message_of([] { parse("a: [1, 2\nb: 3\n"); }).starts_with("rig.yaml:2: not YAML: "));
-    for (const char* text : {"", "- 1\n", "word", "a: 1\n---\nb: 2\n", "? [a]\n: 1\n"})
+    for (const char* text : {"", "- 1\n", "word", "? [a]\n: 1\n"})
         EXPECT_THROW(parse(text), InputError) << text;
+}
+
+TEST(YamlReader, MoreThanOneDocument_IsRefusedWhereTheSecondBegins) {
+    EXPECT_EQ(message_of([] { parse("a: 1\n---\nb: 2\n"); }),
+              "rig.yaml:2: the file must hold one map of keys and values; it ends before here");
+    EXPECT_THROW(parse(", cols: 3, data: [1, 2]\ncamera_matrix: { rows: 3 }\n"), InputError);
+    EXPECT_NO_THROW(parse("---\na: 1\n...\n"));
 }
 
 TEST(YamlReader, AliasesThatGrowOrNeverEnd_AreRefused) {
