@@ -71,11 +71,14 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
 
     std::vector<Trial> trials;
     trials.reserve(candidates_.size());
-    for (Contender& contender : all) trials.push_back(std::move(contender.trial));
+    for (Contender& contender : all) {
+        contender.trial.promised = contender.promised();
+        trials.push_back(std::move(contender.trial));
+    }
     for (const Candidate& candidate : candidates_)
         if (std::ranges::find(added, &candidate) == added.end() &&
             std::ranges::find(trials, &candidate, &Trial::candidate) == trials.end())
-            trials.push_back({&candidate, 0.0, false, {}});
+            trials.push_back({.candidate = &candidate});
     return trials;
 }
 
@@ -110,7 +113,7 @@ Search::Contender Search::contender(const CrossFit& base, const Candidate& candi
     const Places met = fitter_.met_by(base.of_half[0], {candidate.effect, candidate.shapes.front()}, coupled);
     Finding& finding = memory_.of(static_cast<std::size_t>(&candidate - candidates_.data()),
                                   {part_of(base.of_half[0], met), part_of(base.of_half[1], met)});
-    return {{&candidate, 0.0, false, {}}, std::move(coupled), &finding};
+    return {{.candidate = &candidate}, std::move(coupled), &finding};
 }
 
 std::vector<Search::Contender> Search::contenders(const CrossFit& base,
@@ -183,7 +186,7 @@ bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
 }
 
 bool Search::nearly_clears(const CrossFit& without, const CrossFit& with) const {
-    return clears_a_signal(without, with, 0.9);
+    return clears_a_signal(without, with, 0.98);
 }
 
 bool Search::clears_a_signal(const CrossFit& without, const CrossFit& with, double share,

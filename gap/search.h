@@ -14,9 +14,10 @@ namespace fidservo::gap {
 /// A candidate that was added to a hypothesis. What promised little was not fitted: no gain, no squares.
 struct Trial {
     const Candidate* candidate = nullptr;
+    double promised = 0.0;   ///< loss saved at first sight, in the windows that it is fitted to
     double gain = 0.0;       ///< loss saved in the held-out windows
     bool is_leader = false;  ///< fitted on both halves; otherwise on the first, judged on some of the second
-    CrossFit fitted;
+    CrossFit fitted = {};
 };
 
 /// How many candidates of those that promise most a step fits, and how many of these on both halves.
@@ -65,7 +66,7 @@ class Search {
     /// signal off its floor has to take away a thousandth of what the signal exceeded it by at first.
     bool is_real(const CrossFit& without, const CrossFit& with) const;
 
-    /// Whether a signal loses 90 % of what it exceeds its floor by.
+    /// Whether a signal loses 98 % of what it exceeds its floor by.
     bool nearly_clears(const CrossFit& without, const CrossFit& with) const;
 
     /// Signals above their floors.

@@ -141,7 +141,8 @@ bool is_better(const Search& search, const Chain& other, const Chain& chain) {
 
 /// Where signals stay off their floors, what was taken in for them, one after the other, may be no step on
 /// the way to what there is: instead of it each of the best single effects, with what is best beside it.
-/// Where nothing was taken in, a pair has to explain nearly all: two wrong effects fit most things a little.
+/// Where nothing was taken in, two effects may hide each other: what promises a little is tried as the first
+/// of a pair, which has to explain nearly all, as two wrong effects fit most things a little.
 /// @return whether anything changed
 bool pair_up(Search& search, Chain& chain, int most_effects) {
     constexpr Effort effort{.fits = 3, .leaders = 1};
@@ -152,16 +153,20 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
         if (meet(teachers_of(*chain.choices[k].candidate->effect), off)) rest = without(search, rest, k);
     if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
     const bool from_nothing = chain.choices.size() == rest.choices.size();
-    const std::size_t most_first = from_nothing ? 2 : 3;
-    const std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates());
+    const std::size_t most_first = from_nothing ? 6 : 3;
+    std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates());
+    if (from_nothing) std::ranges::stable_sort(singles, std::greater{}, &Trial::promised);
     std::vector<std::string> classes;
     bool changed = false;
     for (const Trial& single : singles) {
         const bool is_new = std::ranges::find(classes, single.candidate->class_name) == classes.end();
-        if (single.gain < least_gain || !is_new) continue;
+        const bool is_hopeless = from_nothing ? single.promised <= 0.0 : single.gain < least_gain;
+        if (is_hopeless || !is_new) continue;
         if (classes.size() == most_first) break;
         classes.push_back(single.candidate->class_name);
-        Trial first{single.candidate, single.gain, true, search.with(rest.fitted, *single.candidate)};
+        Trial first = single;
+        first.is_leader = true;
+        first.fitted = search.with(rest.fitted, *single.candidate);
         const Chain one = grown(search, rest, {std::move(first)});
         std::vector<Trial> trials = search.try_all(one.fitted, one.candidates(), effort);
         if (!has_leader(trials)) continue;
@@ -171,6 +176,7 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
             continue;
         chain = std::move(two);
         changed = true;
+        if (search.is_at_floor(chain.fitted)) break;
     }
     return changed;
 }

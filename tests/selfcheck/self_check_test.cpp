@@ -92,6 +92,12 @@ TEST(SlowSelfCheck, HysteresisOfDuhemsKind_IsNotTheHeaters) {
     EXPECT_TRUE(duhem.score.right_block_first) << line_of(duhem);
 }
 
+TEST(SlowSelfCheck, EffectsThatHideEachOther_AreBothNamed) {
+    const Outcome hidden = case_of(2042, 99);
+    ASSERT_EQ(hidden.label.effects.front().effect, "payload") << "the draw has changed";
+    EXPECT_TRUE(hidden.score.all_right) << line_of(hidden);
+}
+
 TEST(SlowSelfCheck, TagsOfAnotherSize_AreNoScaleOfTheCamera) {
     const Outcome side = case_of(2028, 120);
     ASSERT_EQ(side.label.effects.front().effect, "tag_side") << "the draw has changed";
