@@ -14,14 +14,22 @@ namespace fidservo::gap {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_limit_V = std::numeric_limits<double>::infinity();
 
-/// Commands of a stretch, from the state in which a controller starts.
+/// Commands of a stretch, from the state in which a controller starts, or that its commands show where it is
+/// under way; NaN where they do not yet.
 using Replay = std::function<std::vector<double>(const Stretch&)>;
 
 double square_sum(const std::vector<double>& errors) {
     double sum = 0.0;
-    for (const double error : errors) sum += error * error;
+    for (const double error : errors)
+        if (!std::isnan(error)) sum += error * error;
     return sum;
+}
+
+/// Whether a stretch begins where control goes on after rows that are missing.
+bool is_under_way(const Recording& recording, const Stretch& stretch, double StageRow::*setpoint_mm) {
+    return stretch.first > 0 && std::isfinite(recording.rows[stretch.first - 1].*setpoint_mm);
 }
 
 /// Fills a run with what the best of several replays leaves in each stretch.
@@ -70,15 +78,33 @@ ControllerRun macro_controller_run(const Recording& recording, const Rig& rig) {
                 if (restarts && is_new) state = {};
                 commands.push_back(control::pd_update(*rig.macro.pd, limit_V, state, error_count[k]));
             }
+            if (is_under_way(recording, stretch, &StageRow::macro_setpoint_mm)) commands.front() = nan;
             return commands;
         };
     };
     const auto pid = [&](const Stretch& stretch) {
         std::vector<double> commands;
         control::PidState state;
-        for (std::size_t k = stretch.first; k < stretch.end; ++k)
-            commands.push_back(
-                control::pid_update(*rig.macro.pid, limit_V, recording.tick_s, state, error_count[k]));
+        bool is_known = !is_under_way(recording, stretch, &StageRow::macro_setpoint_mm);
+        for (std::size_t k = stretch.first; k < stretch.end; ++k) {
+            const double command_V = recording.rows[k].macro_command_V;
+            if (!is_known && k > stretch.first && std::abs(command_V) < limit_V) {
+                control::PidState without_integral{0.0, state.last_error_count};
+                PidGains gains = *rig.macro.pid;
+                gains.ki_V_per_count_s = 0.0;
+                state.integral_V = command_V - control::pid_update(gains, no_limit_V, recording.tick_s,
+                                                                   without_integral, error_count[k]);
+                state.last_error_count = error_count[k];
+                is_known = true;
+                commands.push_back(command_V);
+            } else if (is_known) {
+                commands.push_back(control::pid_update(*rig.macro.pid, limit_V, recording.tick_s, state,
+                                                       error_count[k]));
+            } else {
+                state.last_error_count = error_count[k];
+                commands.push_back(nan);
+            }
+        }
         return commands;
     };
     std::vector<Replay> candidates;
@@ -98,11 +124,17 @@ ControllerRun micro_controller_run(const Recording& recording, const Rig& rig) {
             const PiGains& gains = *rig.micro->pi;
             std::vector<double> commands;
             control::PiState state = control::pi_start(gains);
+            bool is_known = !is_under_way(recording, stretch, &StageRow::micro_setpoint_mm);
             for (std::size_t k = stretch.first; k < stretch.end; ++k) {
                 const StageRow& row = recording.rows[k];
-                const double position_mm = hall_position_mm_of_adc(rig.micro->hall, row.hall_adc);
-                commands.push_back(
-                    control::pi_update(gains, recording.tick_s, state, row.micro_setpoint_mm - position_mm));
+                const double error_mm =
+                    row.micro_setpoint_mm - hall_position_mm_of_adc(rig.micro->hall, row.hall_adc);
+                if (!is_known && row.micro_command_V > gains.low_V && row.micro_command_V < gains.high_V) {
+                    state.integral_V = row.micro_command_V - gains.kp_V_per_mm * error_mm;
+                    is_known = true;
+                }
+                commands.push_back(is_known ? control::pi_update(gains, recording.tick_s, state, error_mm)
+                                            : nan);
             }
             return commands;
         });

@@ -4,6 +4,7 @@
 #include "gap/posterior.h"
 #include "gap/remainder.h"
 #include "gap/surrogate.h"
+#include "gap/undecided.h"
 #include "plant/effects/catalogue.h"
 
 #include <algorithm>
@@ -247,12 +248,15 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, trust);
     if (doubt) accuse(diagnosis.where, doubt->missing.block, 1.0 - trust);
+    if (diagnosis.unexplained && selection.choices.empty()) {
+        const std::string wanting = what_is_wanting(evidence, selection);
+        if (!wanting.empty()) diagnosis.unexplained->text += "; " + wanting;
+    }
     if (selection.choices.empty())
         diagnosis.verdict = doubt ? Verdict::unexplained : Verdict::no_gap;
     else
         diagnosis.verdict = doubt ? Verdict::partly_explained : Verdict::explained;
-    for (const Omission& omission : evidence.omissions())
-        diagnosis.notes.push_back(fmt::format("{}: {}", omission.recording, omission.text));
+    diagnosis.notes = undecided(evidence, tried, selection);
     return diagnosis;
 }
 

@@ -80,10 +80,11 @@ struct Course {
     std::vector<float> contraction_mm;                  ///< by the Hall reading, smoothed
 };
 
-/// A signal that was not judged, or a part of one, and why.
+/// A signal of a recording that was not judged, or a part of one, and why.
 struct Omission {
     std::string recording;
-    std::string text;  ///< one line for people
+    std::string signal, why;
+    double left_out_s = 0.0, recorded_s = 0.0;  ///< 0 where it is not a matter of time
 };
 
 /// What is to be predicted: a flag for each of Evidence::windows().

@@ -73,9 +73,8 @@ void note_rows(Evidence::Parts& parts, std::size_t run, std::string_view signal,
     const double left_out_s = static_cast<double>(recorded - std::min(judged, recorded)) * tick_s;
     if (judged > 0 && left_out_s < worth_telling_s) return;
     if (recorded == 0) return;
-    parts.omissions.push_back(
-        {parts.recordings[run].name, fmt::format("{}: {:.1f} s of {:.1f} s are not judged: {}", signal,
-                                                 left_out_s, static_cast<double>(recorded) * tick_s, why)});
+    parts.omissions.push_back({parts.recordings[run].name, std::string(signal), std::string(why), left_out_s,
+                               static_cast<double>(recorded) * tick_s});
 }
 
 template <class Has>
@@ -97,16 +96,17 @@ void note_omissions(Evidence::Parts& parts, std::size_t run) {
         note_rows(parts, run, "hall",
                   count_rows(recording, [](const StageRow& row) { return std::isfinite(row.hall_adc); }),
                   links.platform->windows,
-                  "readings at an end of the range, gaps and the wire's unknown memory after them, or rows "
-                  "without a command");
+                  fmt::format("readings at an end of the range ({:.0f} or {:.0f}), gaps and the wire's unknown "
+                              "memory after them, or rows without a command",
+                              parts.hall_range.low_adc, parts.hall_range.high_adc));
     if (!recording.detections.empty() && !(parts.rig.camera && parts.rig.fiducials))
-        parts.omissions.push_back({recording.name, "tag: the rig file has no camera or no fiducials"});
+        parts.omissions.push_back({recording.name, "tag", "the rig file has no camera or no fiducials"});
     const auto unknown = std::ranges::count_if(
         links.tags.sightings, [](const TagSighting& sighting) { return !sighting.is_known; });
     if (unknown > 0)
         parts.omissions.push_back(
-            {recording.name,
-             fmt::format("tag: {} detections of tags that the plate does not have", unknown)});
+            {recording.name, "tag",
+             fmt::format("{} detections are of tags that the plate does not have", unknown)});
     const auto controlled = [&](double StageRow::*setpoint) {
         return count_rows(recording, [&](const StageRow& row) { return std::isfinite(row.*setpoint); });
     };
@@ -128,6 +128,7 @@ void check(const Rig& rig, const Recording& recording) {
 }
 
 void find_noise(Evidence::Parts& parts) {
+    if (parts.rig.micro) parts.hall_range = hall_range(parts.recordings, parts.rig.micro->hall);
     std::vector<QuietStretch> encoder, hall;
     const auto add = [](std::vector<QuietStretch>& to, const std::vector<QuietStretch>& found) {
         to.insert(to.end(), found.begin(), found.end());
@@ -137,7 +138,7 @@ void find_noise(Evidence::Parts& parts) {
         for (const StageRow& row : recording.rows) {
             count.push_back(reading_count(row, parts.rig.macro));
             macro_V.push_back(row.macro_command_V);
-            adc.push_back(row.hall_adc);
+            adc.push_back(within(parts.hall_range, row.hall_adc));
             micro_V.push_back(row.micro_command_V);
         }
         add(encoder, quiet_stretches(count, macro_V));
@@ -164,7 +165,8 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     predicted_counts(carriage_model(nominal), links.carriage, links.path);
     std::optional<PlatformPrediction> platform;
     if (rig.micro) {
-        links.platform = platform_run(recording, *rig.micro, parts.floors[index_of(Signal::hall)]);
+        links.platform = platform_run(recording, *rig.micro, parts.hall_range,
+                                      parts.floors[index_of(Signal::hall)]);
         platform =
             predicted_readings(platform_model(nominal), *links.platform, links.path.acceleration_mm_per_s2);
         links.smoothed = smoothed_reading(*links.platform, platform->path_lsb, rig.macro.command_limit_V);

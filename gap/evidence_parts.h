@@ -3,6 +3,7 @@
 #include "gap/carriage_link.h"
 #include "gap/controller_link.h"
 #include "gap/evidence.h"
+#include "gap/hall_range.h"
 #include "gap/hall_smoothing.h"
 #include "gap/platform_link.h"
 #include "gap/tag_link.h"
@@ -32,6 +33,7 @@ struct Evidence::Parts {
     std::vector<std::size_t> first_window;  ///< of each run, and one past the last
     std::size_t values = 0;
     std::array<double, signal_count> floors{};
+    HallRange hall_range;
     std::vector<Omission> omissions;
     std::vector<Course> courses;
     Errors nominal;  ///< without a hypothesis

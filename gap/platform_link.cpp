@@ -189,19 +189,23 @@ int ticks_between(TimeNs from_ns, TimeNs to_ns, double tick_s) {
 void leave_out_unknown_wire(const Recording& recording, const HeaterParameters& heater,
                             std::vector<bool>& usable) {
     constexpr double longest_pause_s = 0.1, cold_taus = 5.0;
+    const double longest_under_way_s = std::max(0.01, 1.5 * recording.tick_s);
     bool is_known = true;
     TimeNs last_ns = recording.rows.empty() ? 0 : recording.rows.front().time_ns;  // with a command
+    double last_V = std::numeric_limits<double>::quiet_NaN();
     double cold_s = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < recording.rows.size(); ++k) {
         const StageRow& row = recording.rows[k];
         if (std::isfinite(row.micro_command_V)) {
             const double pause_s = seconds(row.time_ns - last_ns);
-            const bool is_pause = pause_s > longest_pause_s;
+            const bool is_pause =
+                pause_s > (row.micro_command_V == last_V ? longest_pause_s : longest_under_way_s);
             if (is_pause && cold_s < cold_taus * heater.cooling_tau_s) is_known = false;
             if (is_pause) cold_s = std::min(cold_s, 0.0);
             cold_s = row.micro_command_V > heater.onset_V ? 0.0 : cold_s + (is_pause ? 0.0 : pause_s);
             if (cold_s >= cold_taus * heater.cooling_tau_s) is_known = true;
             last_ns = row.time_ns;
+            last_V = row.micro_command_V;
         }
         if (!is_known) usable[k] = false;
     }
@@ -209,22 +213,21 @@ void leave_out_unknown_wire(const Recording& recording, const HeaterParameters& 
 
 }  // namespace
 
-PlatformRun platform_run(const Recording& recording, const MicroParameters& micro, double floor_lsb) {
+PlatformRun platform_run(const Recording& recording, const MicroParameters& micro, const HallRange& range,
+                         double floor_lsb) {
     PlatformRun run;
     run.tick_s = recording.tick_s;
     run.floor_lsb = floor_lsb;
-    const double highest_adc = std::exp2(micro.hall.adc_bits) - 1.0;
     std::vector<bool> usable;
     double micro_V = 0.0, macro_V = 0.0;
     for (std::size_t k = 0; k < recording.rows.size(); ++k) {
         const StageRow& row = recording.rows[k];
-        const bool inside = row.hall_adc > 0.0 && row.hall_adc < highest_adc;
-        usable.push_back(std::isfinite(row.micro_command_V) && inside);
+        run.hall_adc.push_back(within(range, row.hall_adc));
+        usable.push_back(std::isfinite(row.micro_command_V) && std::isfinite(run.hall_adc.back()));
         if (std::isfinite(row.micro_command_V)) micro_V = row.micro_command_V;
         if (std::isfinite(row.macro_command_V)) macro_V = row.macro_command_V;
         run.command_V.push_back(micro_V);
         run.macro_command_V.push_back(macro_V);
-        run.hall_adc.push_back(inside ? row.hall_adc : nan);
         run.ticks.push_back(k + 1 < recording.rows.size()
                                 ? ticks_between(row.time_ns, recording.rows[k + 1].time_ns, recording.tick_s)
                                 : 1);

@@ -13,6 +13,7 @@
 // is remembered that never was.
 #include "core/recording.h"
 #include "core/rig.h"
+#include "gap/hall_range.h"
 #include "gap/windows.h"
 #include "plant/stage_plant.h"
 
@@ -26,15 +27,16 @@ struct PlatformRun {
     double tick_s = 0.0;
     std::vector<double> command_V;        ///< what was last commanded where a row has none
     std::vector<double> macro_command_V;  ///< likewise
-    std::vector<double> hall_adc;         ///< NaN where missing, or at an end of the converter's range
+    std::vector<double> hall_adc;         ///< NaN where missing, or at an end of the range
     std::vector<int> ticks;               ///< to the next row
     std::vector<WindowRows> windows;      ///< by time
     double floor_lsb = 0.0;
 };
 
-/// After a pause in the rows or commands of more than 0.1 s nobody knows what a warm wire remembers: windows
-/// begin again when it has been cold for five cooling time constants.
-PlatformRun platform_run(const Recording& recording, const MicroParameters& micro, double floor_lsb);
+/// After a pause in the rows or commands of more than 0.1 s, or 10 ms where the command is another one then,
+/// nobody knows what a warm wire remembers: windows begin again when it has been cold for five cooling time constants.
+PlatformRun platform_run(const Recording& recording, const MicroParameters& micro, const HallRange& range,
+                         double floor_lsb);
 
 struct PlatformModel {
     plant::MicroStage stage;

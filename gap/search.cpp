@@ -181,8 +181,27 @@ bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
     const Comparison comparison = fitter_.compared(without, with);
     return clears_a_signal(without, with, least_share, least_share_of_first) &&
            comparison.gain > least_gain &&
-           comparison.significance >
-               significance_bound(comparison.blocks, std::max(trials_, 1), options_.tail);
+           (comparison.significance >
+                significance_bound(comparison.blocks, std::max(trials_, 1), options_.tail) ||
+            clears_each_half(without, with));
+}
+
+bool Search::clears_each_half(const CrossFit& without, const CrossFit& with) const {
+    constexpr double far_off_square = 9.0;  // floors^2
+    constexpr int fewest = 3;               // windows
+    const std::vector<Window>& windows = fitter_.evidence().windows();
+    const SignalExcess before = fitter_.excess(without.mean_squares),
+                       after = fitter_.excess(with.mean_squares);
+    SignalFlags cleared{};
+    for (std::size_t s = 0; s < signal_count; ++s) cleared[s] = before[s] > 0.0 && after[s] == 0.0;
+    for (std::size_t side = 0; side < 2; ++side) {
+        const Wanted half = fitter_.half(side);
+        std::array<int, signal_count> far_off{};
+        for (std::size_t w = 0; w < windows.size(); ++w)
+            if (half[w] != 0 && without.mean_squares[w] > far_off_square) ++far_off[index_of(windows[w].signal)];
+        for (std::size_t s = 0; s < signal_count; ++s) cleared[s] = cleared[s] && far_off[s] >= fewest;
+    }
+    return cleared != SignalFlags{};
 }
 
 bool Search::nearly_clears(const CrossFit& without, const CrossFit& with) const {

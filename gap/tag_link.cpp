@@ -159,12 +159,30 @@ std::optional<Eigen::Vector2d> tag_centre_mm(const FiducialParameters& plate, in
     return Eigen::Vector2d(column * plate.pitch_x_mm, row * plate.pitch_y_mm);
 }
 
+/// Leaves out the rows beside a pause of the Hall readings: lines through the readings of one side only tell
+/// less of where the platform is than those through both (gap/hall_smoothing.h).
+void leave_out_rims(const Recording& recording, const PlatformRun& platform, std::vector<bool>& usable) {
+    constexpr std::size_t rim_rows = 64;
+    constexpr double longest_ticks = 10.5;
+    std::size_t last = 0;  // row with a reading
+    for (std::size_t k = 1; k < usable.size(); ++k) {
+        if (std::isnan(platform.hall_adc[k])) continue;
+        const double pause_s = seconds(recording.rows[k].time_ns - recording.rows[last].time_ns);
+        if (pause_s > longest_ticks * recording.tick_s)
+            for (std::size_t row = last - std::min(last, rim_rows);
+                 row < std::min(usable.size(), k + rim_rows); ++row)
+                usable[row] = false;
+        last = k;
+    }
+}
+
 std::vector<WindowRows> window_rows(const Recording& recording, const CarriageRun& carriage,
                                     const PlatformRun* platform) {
     std::vector<bool> usable(recording.rows.size(), false);
     for (const auto& windows : carriage.windows)
         for (std::size_t k = windows.front().lead; k < windows.back().end; ++k)
             usable[k] = platform == nullptr || std::isfinite(platform->hall_adc[k]);
+    if (platform != nullptr) leave_out_rims(recording, *platform, usable);
     std::vector<WindowRows> found;
     for (const Stretch& stretch : stretches(recording, usable))
         for (const WindowRows& window : cut(stretch, recording.tick_s, LeadIn::estimates_state))

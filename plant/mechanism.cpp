@@ -39,6 +39,7 @@ class Motion {
         : axis_(axis),
           p_(axis.parameters),
           standing_(p_.standing),
+          turns_matter_(axis.has_friction || p_.play_mm > 0.0),
           drive_V_(drive_V),
           x_(start),
           bend_(bend) {}
@@ -226,8 +227,8 @@ class Motion {
             const double pull = pull_mm_per_s(x);
             return std::min(pull - hold_low_, hold_high_ - pull);
         }
-        double least = std::min(
-            {direction_ * x[speed], x[place] - axis_.driven_low_mm, axis_.driven_high_mm - x[place]});
+        double least = std::min(x[place] - axis_.driven_low_mm, axis_.driven_high_mm - x[place]);
+        if (turns_matter_) least = std::min(least, direction_ * x[speed]);
         if (axis_.has_standing_force)
             least = std::min(least, dead_zone_slack_V(p_.dead_zone, branch_, drive_V_ + standing_V(x)));
         return least;
@@ -291,12 +292,13 @@ class Motion {
         if (held_) return;
         const bool outside = x_[place] < axis_.driven_low_mm || x_[place] > axis_.driven_high_mm;
         if (outside) x_[place] = std::clamp(x_[place], axis_.driven_low_mm, axis_.driven_high_mm);
-        if (outside || direction_ * x_[speed] < 0.0) x_[speed] = 0.0;
+        if (outside || (turns_matter_ && direction_ * x_[speed] < 0.0)) x_[speed] = 0.0;
     }
 
     const MacroAxis& axis_;
     const MacroAxisParameters& p_;
     StandingForceNearby standing_;
+    bool turns_matter_;  ///< friction turns round, or play begins, where the carriage does
     double drive_V_;
     State x_;
     double bend_;                                               ///< at x_

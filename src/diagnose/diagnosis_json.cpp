@@ -90,7 +90,8 @@ std::string diagnosis_json(const gap::Diagnosis& diagnosis) {
                      {"floor", 1.0},
                      {"removed", number(diagnosis.gap.removed())}}},
                    {"unexplained", json_of(diagnosis.unexplained)},
-                   {"next_experiment", json_of(diagnosis.next_experiment)}};
+                   {"next_experiment", json_of(diagnosis.next_experiment)},
+                   {"notes", diagnosis.notes}};
     return all.dump(2) + "\n";
 }
 

@@ -3,7 +3,7 @@
 #include "core/random.h"
 #include "reference/reference_rig.h"
 #include "src/recording/reader.h"
-#include "tests/calib/shared_table.h"
+#include "tests/shared_table.h"
 #include "tests/calib/sweep.h"
 
 #include <array>
@@ -14,6 +14,9 @@
 
 namespace fidservo::calib {
 namespace {
+
+using testing::column;
+using testing::shared_table;
 
 /// Steps as the paper's: heated for 3 s at each of the voltages, cooled for 4 s, on the independent model.
 HeaterRun step_responses(const Rig& rig, const reference::Departures& departures,

@@ -3,7 +3,7 @@
 #include "calib/preisach_shift.h"
 #include "core/random.h"
 #include "tests/calib/relay_wire.h"
-#include "tests/calib/shared_table.h"
+#include "tests/shared_table.h"
 
 #include <cmath>
 #include <limits>
@@ -12,6 +12,9 @@
 
 namespace fidservo::calib {
 namespace {
+
+using testing::column;
+using testing::shared_table;
 
 constexpr double encoder_mm = 0.014;
 

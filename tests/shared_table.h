@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fidservo::calib {
+namespace fidservo::testing {
 
 /// Rows of numbers, separated by blanks or commas, below `header_lines`; empty if the file is absent.
 inline std::vector<std::vector<double>> shared_table(const std::string& name, int header_lines) {
@@ -39,4 +39,4 @@ inline std::vector<double> column(const std::vector<std::vector<double>>& rows, 
     return values;
 }
 
-}  // namespace fidservo::calib
+}  // namespace fidservo::testing
