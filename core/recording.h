@@ -1,6 +1,7 @@
 #pragma once
 // A recording in memory: one row per control tick, and the fiducials seen. Row k holds what was sampled at
 // tick k and the commands applied from tick k on (the voltages sent, after saturation).
+#include "core/appearance.h"
 #include "core/detection.h"
 #include "core/time.h"
 
@@ -46,6 +47,7 @@ struct Recording {
     std::vector<StageRow> rows;
     std::vector<TagDetection> detections;
     std::vector<FrameName> frames;
+    std::vector<TagAppearance> appearances;  ///< of some detections, where frames were measured; by time
 };
 
 }  // namespace fidservo

@@ -111,6 +111,8 @@ std::string_view accused_block(const Pattern& pattern, Signal signal, std::optio
             return is_false ? "micro.hall" : platform_block(dependence);
         case Signal::tag:
             return view_block(pattern, dependence);
+        case Signal::image:
+            return "camera.image";
         case Signal::macro_command:
         case Signal::micro_command:
             break;

@@ -23,8 +23,15 @@ constexpr std::array limits{
     Limit{"rail_patch", "coulomb_friction"}, Limit{"friction_asymmetry", "viscous_friction"},
     Limit{"cable_force", "drive_offset"}};
 
-bool says_how_large(const plant::EffectParameter& parameter) {
-    return parameter.vanishing != parameter.typical;
+/// A typical size; where the catalogue has none but the image's looks grow with the parameter, a quarter of
+/// the largest.
+double typical_of(const plant::Effect& effect, const plant::EffectParameter& parameter) {
+    const bool is_of_image = effect.block == "camera.image" && parameter.vanishing == parameter.typical;
+    return is_of_image ? 0.25 * parameter.high : parameter.typical;
+}
+
+bool says_how_large(const plant::Effect& effect, const plant::EffectParameter& parameter) {
+    return parameter.vanishing != typical_of(effect, parameter);
 }
 
 /// Where the carriage has been in all recordings, mm.
@@ -52,7 +59,7 @@ std::vector<double> sizes_of(const plant::Effect& effect, const plant::EffectPar
     };
     if (parameter.unit == "um/V") return {times(1.0), times(4.0)};
     if (effect.block == "macro.encoder") return {times(1.0), times(0.1), times(-0.1)};
-    return {parameter.typical};
+    return {typical_of(effect, parameter)};
 }
 
 /// Values from which a fit of a shape may begin.
@@ -85,9 +92,9 @@ std::vector<std::vector<double>> shapes_of(const plant::Effect& effect, const Tr
     std::vector<std::vector<double>> shapes{{}};
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
         const plant::EffectParameter& parameter = effect.parameters[k];
-        const std::vector<double> grid = is_wave                     ? std::vector{parameter.typical}
-                                         : says_how_large(parameter) ? sizes_of(effect, parameter)
-                                                                     : grid_of(parameter, range);
+        const std::vector<double> grid = is_wave                             ? std::vector{parameter.typical}
+                                         : says_how_large(effect, parameter) ? sizes_of(effect, parameter)
+                                                                             : grid_of(parameter, range);
         std::vector<std::vector<double>> longer;
         for (const std::vector<double>& shape : shapes)
             for (const double value : grid) {
@@ -132,7 +139,7 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
     const TravelledRange range = travelled(evidence);
     std::vector<Candidate> found;
     for (const plant::Effect* effect : plant::effect_catalogue()) {
-        if (effect->block == "camera.image") continue;
+        if (effect->block == "camera.image" && !recorded[index_of(Signal::image)]) continue;
         const bool left_out = is_left_out(effect->name);
         if (left_out && !is_limit(effect->name)) continue;
         if (std::ranges::none_of(reach_of(*effect), [&](Signal s) { return recorded[index_of(s)]; }))
@@ -146,7 +153,7 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
                             .is_limit = left_out};
         candidate.shapes = shapes_of(*effect, range, candidate.wave.has_value());
         for (std::size_t k = 0; k < effect->parameters.size(); ++k)
-            if (says_how_large(effect->parameters[k])) candidate.sizes.push_back(k);
+            if (says_how_large(*effect, effect->parameters[k])) candidate.sizes.push_back(k);
         found.push_back(std::move(candidate));
     }
     return found;

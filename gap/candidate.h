@@ -26,8 +26,8 @@ struct Candidate {
     bool is_limit = false;
 };
 
-/// Effects of the catalogue that the rig can have and a recorded signal can show. camera.image effects show
-/// in frames only and are not among them.
+/// Effects of the catalogue that the rig can have and a recorded signal can show; camera.image effects
+/// where frames were measured only.
 /// Those left out of which one of the others is a richer form are there as its limits.
 /// @param only  names to keep; empty: all
 /// @param without  names to leave out, with all of their class

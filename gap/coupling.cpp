@@ -35,6 +35,7 @@ SignalFlags teachers_of(const plant::Effect& effect) {
     SignalFlags teach = flags_of(reach_of(effect));
     if (effect.block.starts_with("macro.") && effect.block != "macro.encoder")
         teach[index_of(Signal::tag)] = false;
+    if (teach[index_of(Signal::image)]) teach[index_of(Signal::tag)] = false;
     return teach;
 }
 

@@ -12,7 +12,8 @@ namespace fidservo::gap {
 using SignalFlags = std::array<bool, signal_count>;
 
 /// Signals from which the parameters of an effect are learnt: those whose prediction it changes at first
-/// hand. What moves the carriage shows in the tags as well, but says there what the encoder has said.
+/// hand. What moves the carriage shows in the tags as well, but says there what the encoder has said;
+/// so does a longer exposure, which the image tells.
 SignalFlags teachers_of(const plant::Effect& effect);
 
 /// Of all effects of a part of a hypothesis.

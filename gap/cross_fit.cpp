@@ -11,7 +11,7 @@
 namespace fidservo::gap {
 namespace {
 
-constexpr SignalFlags every_signal{true, true, true, true, true};
+constexpr SignalFlags every_signal{true, true, true, true, true, true};
 
 bool moves_carriage(const plant::Effect& effect) {
     return effect.block.starts_with("macro.");

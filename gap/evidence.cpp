@@ -13,15 +13,16 @@ namespace fidservo::gap {
 
 namespace {
 
-constexpr std::array<std::string_view, signal_count> names{"encoder", "hall", "tag", "macro_command",
-                                                           "micro_command"};
-constexpr std::array<std::string_view, signal_count> units{"count", "adc", "px", "V", "V"};
+constexpr std::array<std::string_view, signal_count> names{"encoder",       "hall",          "tag",
+                                                           "macro_command", "micro_command", "image"};
+constexpr std::array<std::string_view, signal_count> units{"count", "adc", "px", "V", "V", "floor"};
 
 /// A hypothesis as the plants of the signal chain.
 struct Models {
     CarriageModel carriage;
     std::optional<PlatformModel> platform;
     std::optional<TagModel> tag;
+    std::optional<ImageModel> image;
     bool platform_feels_carriage = false;
 };
 
@@ -29,9 +30,15 @@ struct Models {
 Models models_of(const Rig& rig, const Hypothesis& hypothesis) {
     plant::PlantParameters parameters = plant::plant_parameters(rig);
     plant::apply_effects(parameters, hypothesis);
-    Models models{.carriage = carriage_model(parameters), .platform = std::nullopt, .tag = std::nullopt};
+    Models models{.carriage = carriage_model(parameters),
+                  .platform = std::nullopt,
+                  .tag = std::nullopt,
+                  .image = std::nullopt};
     if (parameters.micro) models.platform = platform_model(parameters);
-    if (parameters.camera) models.tag = tag_model(parameters, rig);
+    if (parameters.camera) {
+        models.tag = tag_model(parameters, rig);
+        models.image = ImageModel{*rig.camera, *parameters.camera};
+    }
     models.platform_feels_carriage = models.platform && models.platform->stage.feels_carriage();
     return models;
 }
@@ -94,6 +101,7 @@ class RunPredictor {
         if (signals[index_of(Signal::encoder)]) write_counts(counts, errors);
         if (hall && links_.platform) predict_hall(errors);
         if (tag && models_.tag) predict_tags(errors);
+        if (signals[index_of(Signal::image)] && models_.image) predict_images(errors);
         for (const Signal signal : {Signal::macro_command, Signal::micro_command})
             if (signals[index_of(signal)]) replay(signal, errors);
     }
@@ -127,6 +135,18 @@ class RunPredictor {
                     errors, *window, links_.tags,
                     tag_errors(*models_.tag, links_.tags, links_.tags.windows[i], path(), reading),
                     parts_.floors[index_of(Signal::tag)]);
+    }
+
+    void predict_images(Errors& errors) const {
+        const std::span<const std::uint8_t> wanted = wanted_of(Signal::image);
+        auto window = std::ranges::find(windows_, Signal::image, &Window::signal);
+        for (std::size_t i = 0; i < wanted.size(); ++i, ++window) {
+            if (wanted[i] == 0) continue;
+            std::size_t at = window->begin;
+            for (const ImageErrors& values : image_errors(*models_.image, parts_.recordings[window->run],
+                                                          links_.images, links_.images.windows[i]))
+                for (const double value : values) errors[at++] = static_cast<float>(value);
+        }
     }
 
     void replay(Signal signal, Errors& errors) const {
@@ -189,12 +209,14 @@ Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings) : parts_(s
     for (Recording& recording : parts.recordings) {
         check(rig, recording);
         std::ranges::stable_sort(recording.detections, {}, &TagDetection::time_ns);
+        std::ranges::stable_sort(recording.appearances, {}, &TagAppearance::time_ns);
     }
     find_noise(parts);
     parts.floors[index_of(Signal::macro_command)] =
         command_floor_V(parts.recordings, &StageRow::macro_command_V);
     parts.floors[index_of(Signal::micro_command)] =
         command_floor_V(parts.recordings, &StageRow::micro_command_V);
+    parts.floors[index_of(Signal::image)] = 1.0;
     parts.links.reserve(parts.recordings.size());
     for (std::size_t run = 0; run < parts.recordings.size(); ++run) add_run(parts, run);
     parts.first_window.push_back(parts.windows.size());

@@ -8,6 +8,7 @@
 //     macro_command                        -> encoder         carriage
 //     micro_command (macro_command)        -> hall            wire, platform, Hall sensor
 //     encoder, hall                        -> tag             camera over the plate
+//     tag, from frame to frame             -> image           blur, light and noise of tags in the frames
 //     macro_setpoint, encoder              -> macro_command   controllers
 //     micro_setpoint, hall                 -> micro_command
 //
@@ -30,8 +31,8 @@
 
 namespace fidservo::gap {
 
-enum class Signal : std::uint8_t { encoder, hall, tag, macro_command, micro_command };
-inline constexpr std::size_t signal_count = 5;
+enum class Signal : std::uint8_t { encoder, hall, tag, macro_command, micro_command, image };
+inline constexpr std::size_t signal_count = 6;
 
 /// A signal's place in arrays of signal_count.
 constexpr std::size_t index_of(Signal signal) {
@@ -39,7 +40,7 @@ constexpr std::size_t index_of(Signal signal) {
 }
 
 std::string_view name_of(Signal signal);
-std::string_view unit_of(Signal signal);  ///< count, adc, px, V, V
+std::string_view unit_of(Signal signal);  ///< count, adc, px, V, V, floor
 
 /// What a rig is claimed to have beyond its file.
 using Hypothesis = std::vector<plant::EffectSetting>;
@@ -47,14 +48,18 @@ using Hypothesis = std::vector<plant::EffectSetting>;
 /// u and v of a tag's four corners.
 inline constexpr std::size_t corner_values = 8;
 
+/// What is predicted of a tag's appearance (gap/image_link.h).
+inline constexpr std::size_t image_values = 10;
+
 /// A stretch of one recording over which one signal is predicted from the state at its start.
 struct Window {
     std::size_t run = 0;  ///< which recording
     Signal signal = Signal::encoder;
     TimeNs start_ns = 0;
     std::size_t first_row = 0, rows = 0;  ///< of the recording
-    std::size_t begin = 0, end = 0;   ///< its values in Errors: one a row; of tags, corner_values a detection
-    std::size_t first_detection = 0;  ///< of the recording's, for tags; sorted by time
+    std::size_t begin = 0, end = 0;  ///< its values in Errors: one a row; of tags, corner_values a detection;
+                                     ///< of images, image_values an appearance
+    std::size_t first_detection = 0;  ///< of the recording's, for tags; sorted by time. Of images: appearance
     /// Mean square of its errors under the truth, floors^2: less than 1 where the encoder's reading stands.
     double expected_square = 1.0;
 };
@@ -68,6 +73,8 @@ struct Window {
 /// A detection's eight corner coordinates are turned so that the first value lies along the stage's motion in
 /// the image; the other seven do not move with it (gap/tag_link.h). Their floor is the corner noise,
 /// floor(Signal::tag). The first value's own floor also holds what is uncertain of the camera's position.
+///
+/// Images: logarithms of ratios, each over its own floor (gap/image_link.h).
 ///
 /// Commands: gap/controller_link.h. They are near 0 under the truth.
 using Errors = std::vector<float>;
@@ -106,7 +113,7 @@ class Evidence {
     const std::vector<Recording>& recordings() const;
     /// By run, then by signal, then by time.
     const std::vector<Window>& windows() const;
-    /// In the signal's unit. NaN for signals that no window has.
+    /// In the signal's unit; 1 for images, whose errors have none. NaN for signals that no window has.
     double floor(Signal signal) const;
     const std::vector<Omission>& omissions() const;
     const Course& course(std::size_t run) const;

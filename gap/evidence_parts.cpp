@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -58,6 +61,16 @@ void add_tag_windows(Evidence::Parts& parts, std::size_t run) {
         const std::size_t values = corner_values * (window.end - window.first);
         parts.windows.push_back({run, Signal::tag, parts.recordings[run].rows[window.rows.first].time_ns,
                                  window.rows.first, window.rows.end - window.rows.first, parts.values,
+                                 parts.values + values, window.first});
+        parts.values += values;
+    }
+}
+
+void add_image_windows(Evidence::Parts& parts, std::size_t run) {
+    for (const ImageWindow& window : parts.links[run].images.windows) {
+        const std::size_t values = image_values * (window.end - window.first);
+        parts.windows.push_back({run, Signal::image, parts.recordings[run].rows[window.first_row].time_ns,
+                                 window.first_row, window.end_row - window.first_row, parts.values,
                                  parts.values + values, window.first});
         parts.values += values;
     }
@@ -116,6 +129,64 @@ void note_omissions(Evidence::Parts& parts, std::size_t run) {
               "the rig file states no gains, or rows lack a command or a reading");
 }
 
+/// How far a tag is from the nearest side of the image, px.
+double to_border_px(const TagDetection& tag, const CameraGeometry& image) {
+    double nearest_px = std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector2d& corner : tag.corners_px)
+        nearest_px = std::min({nearest_px, corner.x(), corner.y(), image.width_px - 1.0 - corner.x(),
+                               image.height_px - 1.0 - corner.y()});
+    return nearest_px;
+}
+
+/// Takes out detections that say little of where the tag was: those of frames in which it moves by more than
+/// 0.15 cells while they are exposed, by the carriage's path and by where the frames before and after show
+/// it; those that one of these frames does not show; and those nearer than half a cell to the image's border,
+/// which may have cut it. The exposure is what the frames' own blur shows, where that is longer than the rig
+/// file's.
+void drop_unclear(Evidence::Parts& parts, std::size_t run) {
+    constexpr double most_cells = 0.15, least_border_cells = 0.5, cells = 8.0, late = 1.5;
+    Recording& recording = parts.recordings[run];
+    const CameraParameters& camera = *parts.rig.camera;
+    const double exposure_s =
+        std::max(camera.exposure_s, seen_exposure_s(recording, parts.links[run].images).value_or(0.0));
+    const double cell_mm = parts.rig.fiducials->side_mm / cells;
+    std::vector<TagDetection>& detections = recording.detections;
+    std::vector<double> smear_cells(detections.size());  // while a frame is exposed
+    std::vector<bool> is_cut(detections.size());
+    std::vector<int> neighbours(detections.size());
+    std::map<int, std::size_t> last;
+    for (std::size_t k = 0; k < detections.size(); ++k) {
+        const TagDetection& now = detections[k];
+        const auto after = std::ranges::lower_bound(recording.rows, now.time_ns, {}, &StageRow::time_ns);
+        const auto row =
+            std::min<std::ptrdiff_t>(after - recording.rows.begin(), std::ssize(recording.rows) - 1);
+        const double speed_mm_per_s = parts.links[run].path.velocity_mm_per_s[static_cast<std::size_t>(row)];
+        smear_cells[k] = exposure_s * std::abs(speed_mm_per_s) / cell_mm;
+        const double cell_px = (now.corners_px[1] - now.corners_px[0]).norm() / cells;
+        is_cut[k] = to_border_px(now, camera.geometry) < least_border_cells * cell_px;
+        const auto [before, is_first] = last.try_emplace(now.tag_id, k);
+        const std::size_t at = std::exchange(before->second, k);
+        const double since_s = seconds(now.time_ns - detections[at].time_ns);
+        if (is_first || since_s <= 0.0 || since_s > late / camera.frame_rate_hz) continue;
+        const double way_px = (now.corners_px[0] - detections[at].corners_px[0]).norm();
+        const double by_frames = exposure_s / since_s * way_px / cell_px;
+        smear_cells[k] = std::max(smear_cells[k], by_frames);
+        smear_cells[at] = std::max(smear_cells[at], by_frames);
+        ++neighbours[k];
+        ++neighbours[at];
+    }
+    std::vector<TagDetection> judged;
+    for (std::size_t k = 0; k < detections.size(); ++k)
+        if (smear_cells[k] <= most_cells && !is_cut[k] && neighbours[k] == 2) judged.push_back(detections[k]);
+    const std::size_t unclear = detections.size() - judged.size();
+    detections = std::move(judged);
+    if (unclear > 0)
+        parts.omissions.push_back(
+            {recording.name,
+             fmt::format("tag: {} detections, smeared, alone or at the image's border, are not judged",
+                         unclear)});
+}
+
 }  // namespace
 
 void check(const Rig& rig, const Recording& recording) {
@@ -150,10 +221,16 @@ void find_noise(Evidence::Parts& parts) {
             floor_of(noise_before_rounding(hall).value_or(parts.rig.micro->hall.noise_lsb));
     if (!parts.rig.camera) return;
     constexpr double least_px = 1e-3;
+    // What the detector is off by in the same way in every frame: optics, print, the pixels' unequal gains.
+    constexpr double detector_px = 0.01;
     const CameraParameters& camera = *parts.rig.camera;
     parts.floors[index_of(Signal::tag)] = std::max(
         least_px,
         corner_noise_px(parts.recordings, 1.0 / camera.frame_rate_hz).value_or(camera.corner_noise_px));
+    const bool has_frames = std::ranges::any_of(
+        parts.recordings, [](const Recording& recording) { return !recording.appearances.empty(); });
+    if (has_frames)
+        parts.floors[index_of(Signal::tag)] = std::hypot(parts.floors[index_of(Signal::tag)], detector_px);
 }
 
 void add_run(Evidence::Parts& parts, std::size_t run) {
@@ -163,6 +240,10 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     RunLinks& links = parts.links.emplace_back();
     links.carriage = carriage_run(recording, rig.macro);
     predicted_counts(carriage_model(nominal), links.carriage, links.path);
+    if (rig.camera && rig.fiducials && !recording.appearances.empty() && !recording.rows.empty()) {
+        links.images = image_run(parts.recordings[run], *rig.camera);
+        drop_unclear(parts, run);
+    }
     std::optional<PlatformPrediction> platform;
     if (rig.micro) {
         links.platform = platform_run(recording, *rig.micro, parts.hall_range,
@@ -187,6 +268,7 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     add_tag_windows(parts, run);
     add_windows(parts, run, Signal::macro_command, links.macro.windows);
     add_windows(parts, run, Signal::micro_command, links.micro.windows);
+    add_image_windows(parts, run);
     note_omissions(parts, run);
 }
 

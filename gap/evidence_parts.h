@@ -5,6 +5,7 @@
 #include "gap/evidence.h"
 #include "gap/hall_range.h"
 #include "gap/hall_smoothing.h"
+#include "gap/image_link.h"
 #include "gap/platform_link.h"
 #include "gap/tag_link.h"
 
@@ -21,6 +22,7 @@ struct RunLinks {
     std::optional<PlatformRun> platform;      ///< empty without micro stage
     std::optional<SmoothedReading> smoothed;  ///< likewise
     TagRun tags;
+    ImageRun images;
     ControllerRun macro, micro;
     CarriagePath path;  ///< of the rig file's carriage
 };

@@ -78,6 +78,7 @@ Dependences dependences(const Evidence& evidence, Signal signal, const Errors& e
             return dependences(evidence, signal, tag_surrogate(evidence, errors), errors, half, tail);
         case Signal::macro_command:
         case Signal::micro_command:
+        case Signal::image:
             break;
     }
     return {};

@@ -119,6 +119,19 @@ struct CameraDepartures {
     double clock_skew = 0.0;     ///< the camera's clock gains this share
 };
 
+/// Seen in frames only (reference/tag_picture.h).
+struct ImageDepartures {
+    double defocus_px = 0.0;        ///< standard deviation along each axis, beyond the lens's
+    bool defocus_is_disc = false;   ///< a disc of light of that deviation; otherwise a Gaussian
+    double extra_exposure_s = 0.0;  ///< at the same brightness
+    double readout_s = 0.0;         ///< from the first row's exposure to the last one's
+    double light_u = 0.0;           ///< relative change from the centre to the right side
+    double light_v = 0.0;           ///< to the lower side
+    double light_falloff = 0.0;  ///< a, of 1 / (1 + a (x^2 + y^2) / 4)^2; x, y from -1 to 1 across the image
+    double read_noise_e = 0.0;   ///< r.m.s., in addition
+    double gain_spread = 0.0;    ///< standard deviation of the pixels' fixed gains
+};
+
 struct Departures {
     DriveDepartures drive = {};
     FrictionDepartures friction = {};
@@ -129,6 +142,7 @@ struct Departures {
     FlexureDepartures flexure = {};
     HallDepartures hall = {};
     CameraDepartures camera = {};
+    ImageDepartures image = {};
 };
 
 }  // namespace fidservo::reference

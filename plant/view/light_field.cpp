@@ -16,18 +16,15 @@ double across(int pixel, int pixels) {
 }  // namespace
 
 std::vector<float> light_field(int width_px, int height_px, const ViewOptions& options) {
-    const Light& light = options.light;
     NoiseStream gains(options.seed, "pixel_gain");
     std::vector<float> field;
     field.reserve(static_cast<std::size_t>(width_px) * height_px);
     for (int v = 0; v < height_px; ++v) {
         for (int u = 0; u < width_px; ++u) {
             const Eigen::Vector2d place(across(u, width_px), across(v, height_px));
-            const double brightness = light.level * (1.0 + light.gradient.dot(place)) *
-                                      (1.0 - 0.5 * light.vignetting * place.squaredNorm());
             double gain = 1.0;
             if (options.pixel_gain_spread > 0.0) gain += options.pixel_gain_spread * gains.normal();
-            field.push_back(static_cast<float>(255.0 * brightness * gain));
+            field.push_back(static_cast<float>(255.0 * brightness(options.light, place) * gain));
         }
     }
     return field;

@@ -19,6 +19,12 @@ struct Light {
     double vignetting = 0.06;  ///< loss in the corners
 };
 
+/// L at (x', y').
+inline double brightness(const Light& light, const Eigen::Vector2d& place) {
+    return light.level * (1.0 + light.gradient.dot(place)) *
+           (1.0 - 0.5 * light.vignetting * place.squaredNorm());
+}
+
 /// A reflection of the lamp on the plate: reflectance gains strength exp(-r^2 / (2 radius^2)). A strength
 /// above 1 saturates the middle.
 struct Glare {

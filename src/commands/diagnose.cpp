@@ -7,6 +7,7 @@
 #include "src/commands/self_check.h"
 #include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
+#include "src/diagnose/frame_looks.h"
 #include "src/diagnose/next_experiment.h"
 #include "src/diagnose/report.h"
 #include "src/interrupt.h"
@@ -15,6 +16,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/Config.hpp>
@@ -39,12 +41,22 @@ void demand_effects(const char* option, const std::vector<std::string>& names) {
                 "{}: {}: there is no such effect; fidservo simulate --help lists them", option, name));
 }
 
-std::vector<Recording> read_recordings(const std::vector<std::filesystem::path>& paths) {
+/// With what their frames show, and what of that is missing.
+struct Read {
     std::vector<Recording> recordings;
+    std::vector<std::string> notes;
+};
+
+Read read_recordings(const std::vector<std::filesystem::path>& paths) {
+    Read read;
+    std::vector<std::filesystem::path> folders;
     for (const std::filesystem::path& path : paths)
-        for (const std::filesystem::path& folder : find_recordings(path))
-            recordings.push_back(read_recording(folder));
-    return recordings;
+        for (const std::filesystem::path& folder : find_recordings(path)) {
+            read.recordings.push_back(read_recording(folder));
+            folders.push_back(folder);
+        }
+    read.notes = diagnose::measure_frames(read.recordings, folders);
+    return read;
 }
 
 int check_itself(const DiagnoseOptions& options) {
@@ -63,7 +75,9 @@ int run_diagnose(const DiagnoseOptions& options) {
     if (options.recordings.empty()) throw InputError("RECORDING: give one recording folder at least");
     demand_new_file("--report", options.report);
     demand_new_file("--write-rig", options.write_rig);
-    const gap::Evidence evidence(load_rig(options.rig_file), read_recordings(options.recordings));
+    const Rig rig = load_rig(options.rig_file);
+    Read read = read_recordings(options.recordings);
+    const gap::Evidence evidence(rig, std::move(read.recordings));
     gap::DiagnosisOptions how{.only = options.only, .without = options.without, .selection = {}};
     how.selection.search.stop = interrupt_requested;
     gap::Diagnosis diagnosis = gap::diagnose(evidence, how);
@@ -71,6 +85,7 @@ int run_diagnose(const DiagnoseOptions& options) {
         fmt::print("interrupted ({}): no diagnosis, nothing was written\n", interrupt_name());
         return exit_answer_is_no;
     }
+    diagnosis.notes.insert(diagnosis.notes.end(), read.notes.begin(), read.notes.end());
     diagnosis.next_experiment = diagnose::next_experiment(evidence.rig(), diagnosis);
     fmt::print("{}", describe(diagnosis));
     if (!options.json.empty()) write_or_throw(options.json, diagnosis_json(diagnosis));
@@ -96,7 +111,9 @@ void add_diagnose(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<DiagnoseOptions>();
     CLI::App* command = app.add_subcommand(
         "diagnose", "Where recordings of a rig and its simulator disagree, and by which effect");
-    command->add_option("RECORDING", options->recordings, "Recording folders, or folders that hold some")
+    command
+        ->add_option("RECORDING", options->recordings,
+                     "Recording folders, or folders that hold some; frames are judged where they have them")
         ->option_text("...");
     add_rig_option(*command, options->rig_file);
     command->add_option("--effects", options->only, "Try these effects only")

@@ -50,7 +50,9 @@ void add_self_check_options(CLI::App& diagnose, SelfCheckRequest& request) {
     add("--first-case", request.first, "Number of the first case")->type_name("N")->capture_default_str();
     std::vector<std::string> names;
     for (const auto& [name, kind] : kinds_by_name()) names.push_back(name);
-    add("--kinds", request.kinds, "Cases of these kinds only: none, one, two, withheld, unlisted")
+    add("--kinds", request.kinds,
+        "Cases of these kinds only: none, one, two, withheld, unlisted; "
+        "or, with rendered frames: frames (an effect of the image), frames-none")
         ->type_name("A,B,..")
         ->delimiter(',')
         ->check(CLI::IsMember(names));

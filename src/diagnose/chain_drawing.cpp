@@ -169,7 +169,7 @@ double draw_stage(Drawing& drawing, const StageRow& row, double y) {
     return sensor + boundary_width;
 }
 
-void draw_camera(Drawing& drawing, double y) {
+void draw_camera(Drawing& drawing, double y, bool has_looks) {
     constexpr Block blocks[] = {{"plate", "Plate of tags"},
                                 {"camera.geometry", "Lens, mounting"},
                                 {"camera.timing", "Frame times"},
@@ -184,7 +184,11 @@ void draw_camera(Drawing& drawing, double y) {
         drawing.arrow(straight(x, middle, x - step));
         x -= step;
     }
-    drawing.boundary(x - boundary_width, y, Signal::tag, "Tags in the image");
+    x -= boundary_width;
+    drawing.boundary(x, y, Signal::tag, "Tags in the image");
+    if (!has_looks) return;
+    drawing.arrow(straight(x, middle, x - step));
+    drawing.boundary(x - step - boundary_width, y, Signal::image, "Blur, light, noise");
 }
 
 }  // namespace
@@ -219,7 +223,9 @@ std::string chain_drawing_svg(const Rig& rig, const gap::Diagnosis& diagnosis) {
         const double bus = width - margin;
         for (const auto& [x, middle] : ends) drawing.line(straight(x, middle, bus));
         drawing.line(fmt::format("M{0:.0f} {1:.0f}V{2:.0f}", bus, ends.front().second, y + part_height / 2));
-        draw_camera(drawing, y);
+        const bool has_looks = std::ranges::find(diagnosis.signals, Signal::image, &gap::SignalGap::signal) !=
+                               diagnosis.signals.end();
+        draw_camera(drawing, y, has_looks);
         y += row_height;
     }
     return drawing.finished(y - row_height + part_height + 8);

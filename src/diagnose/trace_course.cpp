@@ -24,6 +24,7 @@ double recorded_value(const StageRow& row, Signal signal, const MacroParameters&
         case Signal::micro_command:
             return row.micro_command_V;
         case Signal::tag:
+        case Signal::image:
             break;
     }
     return not_in_force;
@@ -45,6 +46,25 @@ void add_frame(TraceCourse& course, const gap::Window& window, const Predictions
         along.push_back(known > 0.0 ? static_cast<float>(sum / known) : nan);
         across.push_back(
             known > 0.0 ? static_cast<float>(std::sqrt(squares / (known * (gap::corner_values - 1)))) : nan);
+    };
+    of(predictions.nominal, course.nominal_error, course.nominal_across);
+    of(predictions.explained, course.explained_error, course.explained_across);
+}
+
+/// Mean of an appearance's edges, and r.m.s. of its light and noise.
+void add_looks(TraceCourse& course, const Predictions& predictions, std::size_t begin) {
+    constexpr std::size_t edges = 4;
+    const auto of = [&](const gap::Errors& errors, std::vector<float>& of_edges,
+                        std::vector<float>& of_rest) {
+        double sum = 0.0, squares = 0.0, sides = 0.0, others = 0.0;
+        for (std::size_t k = 0; k < gap::image_values; ++k) {
+            const double error = errors[begin + k];
+            if (std::isnan(error)) continue;
+            (k < edges ? sum : squares) += k < edges ? error : error * error;
+            (k < edges ? sides : others) += 1.0;
+        }
+        of_edges.push_back(sides > 0.0 ? static_cast<float>(sum / sides) : nan);
+        of_rest.push_back(others > 0.0 ? static_cast<float>(std::sqrt(squares / others)) : nan);
     };
     of(predictions.nominal, course.nominal_error, course.nominal_across);
     of(predictions.explained, course.explained_error, course.explained_across);
@@ -98,6 +118,20 @@ TraceCourse course_of_frames(const gap::Evidence& evidence, const Predictions& p
             course.time_s.push_back(seconds(time_ns(first) - recording.rows.front().time_ns));
             add_frame(course, window, predictions, first, end);
             first = end;
+        }
+    }
+    return course;
+}
+
+TraceCourse course_of_looks(const gap::Evidence& evidence, const Predictions& predictions, std::size_t run) {
+    const Recording& recording = evidence.recordings()[run];
+    TraceCourse course;
+    for (const gap::Window& window : evidence.windows()) {
+        if (window.run != run || window.signal != Signal::image) continue;
+        for (std::size_t i = 0; window.begin + gap::image_values * i < window.end; ++i) {
+            const TagAppearance& seen = recording.appearances[window.first_detection + i];
+            course.time_s.push_back(seconds(seen.time_ns - recording.rows.front().time_ns));
+            add_looks(course, predictions, window.begin + gap::image_values * i);
         }
     }
     return course;

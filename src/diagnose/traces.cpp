@@ -91,6 +91,13 @@ std::vector<report::TimePlot> plots_of(const TraceCourse& course, const std::vec
             both(picked(course.nominal_across, rows), picked(course.explained_across, rows), 2));
         return plots;
     }
+    if (signal == Signal::image) {
+        add("edges", "Error of the edges' blur, mean of a tag's sides", "floors", error_height_px,
+            both(before, after, 2));
+        add("light", "Error of light and noise, r.m.s. of a tag", "floors", error_height_px,
+            both(picked(course.nominal_across, rows), picked(course.explained_across, rows), 2));
+        return plots;
+    }
     const std::vector<float> recorded = picked(course.recorded, rows);
     const ValueUnit drawn = value_unit(signal, display);
     std::vector<report::Trace> values = both(sum_of(recorded, before, drawn.per_error_unit),
@@ -149,8 +156,9 @@ std::string signal_html(const gap::Evidence& evidence, const Predictions& predic
                         Signal signal, const RunGap& size) {
     const Recording& recording = evidence.recordings()[run];
     const DisplayUnit display = display_unit(evidence.rig(), signal, size.before * evidence.floor(signal));
-    const TraceCourse course = signal == Signal::tag
-                                   ? course_of_frames(evidence, predictions, run)
+    const TraceCourse course = signal == Signal::tag ? course_of_frames(evidence, predictions, run)
+                               : signal == Signal::image
+                                   ? course_of_looks(evidence, predictions, run)
                                    : course_of_rows(evidence, predictions, run, signal, display);
     report::TimeAxis axis{{}, worst_spans(evidence, predictions, run, signal)};
     const std::vector<std::size_t> rows = drawn_rows(course, axis.spans);

@@ -55,7 +55,8 @@ std::string block_words(std::string_view block) {
 
 std::string_view signal_words(gap::Signal signal) {
     constexpr std::array<std::string_view, gap::signal_count> names{
-        "encoder reading", "Hall reading", "tags' places in the image", "macro command", "micro command"};
+        "encoder reading", "Hall reading",  "tags' places in the image",
+        "macro command",   "micro command", "tags' looks in the frames"};
     return names[gap::index_of(signal)];
 }
 
@@ -118,6 +119,8 @@ DisplayUnit display_unit(const Rig& rig, gap::Signal signal, double largest) {
         case gap::Signal::macro_command:
         case gap::Signal::micro_command:
             return {"mV", 1000.0};
+        case gap::Signal::image:
+            return {"floors", 1.0};
     }
     return {"", 1.0};
 }

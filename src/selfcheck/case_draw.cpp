@@ -3,12 +3,12 @@
 #include "gap/candidate.h"
 #include "plant/effects/catalogue.h"
 #include "src/selfcheck/listed_effects.h"
+#include "src/selfcheck/rounds.h"
 #include "src/selfcheck/unlisted_effects.h"
 
 #include <algorithm>
 #include <array>
 #include <span>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,15 +20,6 @@ constexpr std::array cycle{none, none, one, one, one, one, two, two, withheld, u
 
 /// Sizes reach down to this many floors, but not below this share of the largest.
 constexpr double smallest_floors = 0.7, smallest_share = 1.0 / 300.0;
-
-std::size_t index_below(NoiseStream& draw, std::size_t count) {
-    return std::min(count - 1, static_cast<std::size_t>(draw.uniform() * static_cast<double>(count)));
-}
-
-template <class Item>
-void shuffle(std::vector<Item>& items, NoiseStream draw) {
-    for (std::size_t k = items.size(); k > 1; --k) std::swap(items[k - 1], items[index_below(draw, k)]);
-}
 
 std::vector<CaseKind> kinds_of_cycle(std::uint64_t seed, std::size_t which) {
     std::vector<CaseKind> kinds(cycle.begin(), cycle.end());
@@ -44,14 +35,6 @@ std::size_t ordinal_of(std::uint64_t seed, std::size_t number) {
     const auto before = std::count(kinds.begin(), here, *here);
     return which * static_cast<std::size_t>(std::ranges::count(cycle, *here)) +
            static_cast<std::size_t>(before);
-}
-
-/// Round robin: item k of a list that is shuffled anew whenever all of it was met.
-template <class Item>
-Item met(std::span<const Item> items, std::uint64_t seed, CaseKind kind, std::size_t k) {
-    std::vector<Item> round(items.begin(), items.end());
-    shuffle(round, NoiseStream(seed, fmt::format("self-check/round/{}/{}", name_of(kind), k / items.size())));
-    return round[k % items.size()];
 }
 
 TrueEffect put_listed(Case& drawn, std::string_view class_name, NoiseStream& draw) {

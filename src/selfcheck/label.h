@@ -8,15 +8,17 @@
 namespace fidservo::selfcheck {
 
 enum class CaseKind : std::uint8_t {
-    none,      ///< the rig is as its file says
-    one,       ///< an effect of the catalogue
-    two,       ///< two effects of the catalogue, of one block or of two
-    withheld,  ///< an effect of the catalogue that the diagnosis is not given
-    unlisted,  ///< an effect that the catalogue lacks
+    none,         ///< the rig is as its file says
+    one,          ///< an effect of the catalogue
+    two,          ///< two effects of the catalogue, of one block or of two
+    withheld,     ///< an effect of the catalogue that the diagnosis is not given
+    unlisted,     ///< an effect that the catalogue lacks
+    frames,       ///< recordings with frames; an effect of the image
+    frames_none,  ///< recordings with frames; the rig is as its file says
 };
-inline constexpr std::size_t kind_count = 5;
+inline constexpr std::size_t kind_count = 7;
 
-/// "none", "one", "two", "withheld", "unlisted".
+/// "none", "one", "two", "withheld", "unlisted", "frames", "frames-none".
 std::string_view name_of(CaseKind kind);
 
 struct TrueEffect {

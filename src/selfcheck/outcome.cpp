@@ -18,8 +18,10 @@ std::string truth_of(const Label& label) {
 bool is_right(const Label& label, const Score& score) {
     switch (label.kind) {
         case CaseKind::none:
+        case CaseKind::frames_none:
             return score.verdict == gap::Verdict::no_gap;
         case CaseKind::one:
+        case CaseKind::frames:
             return score.right_effect_first && score.right_block_first;
         case CaseKind::two:
             return score.all_right;

@@ -20,7 +20,7 @@ Classes set_of(const gap::FoundEffect& found) {
 /// What a right answer may name.
 Classes nameable(const Label& label) {
     Classes classes;
-    if (label.kind == CaseKind::one || label.kind == CaseKind::two)
+    if (label.kind == CaseKind::one || label.kind == CaseKind::two || label.kind == CaseKind::frames)
         for (const TrueEffect& effect : label.effects) classes.insert(effect.class_name);
     return classes;
 }

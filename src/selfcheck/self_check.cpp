@@ -6,6 +6,8 @@
 #include "src/progress.h"
 #include "src/selfcheck/campaign.h"
 #include "src/selfcheck/case_draw.h"
+#include "src/selfcheck/filmed_campaign.h"
+#include "src/selfcheck/frames_draw.h"
 
 #include <algorithm>
 #include <chrono>
@@ -46,12 +48,21 @@ gap::Diagnosis diagnose_blindly(const Rig& nominal, std::vector<Recording> recor
 
 Outcome run_case(const Rig& nominal, const Case& drawn, const std::vector<std::string>& only) {
     const Clock::time_point start = Clock::now();
-    std::vector<Recording> recordings = record_campaign(nominal, drawn.true_rig, drawn.campaign_seed);
+    const auto record = has_frames(drawn.label.kind) ? film_campaign : record_campaign;
+    std::vector<Recording> recordings = record(nominal, drawn.true_rig, drawn.campaign_seed);
     const double recording_s = seconds_since(start);
     const Clock::time_point recorded = Clock::now();
     const gap::Diagnosis diagnosis = diagnose_blindly(nominal, std::move(recordings), only, drawn.without);
     const double diagnosis_s = seconds_since(recorded);
     return {drawn.number, drawn.label, score(drawn.label, diagnosis), recording_s, diagnosis_s};
+}
+
+/// Throws InputError where some of the kinds have frames and others have none.
+bool are_with_frames(const std::vector<CaseKind>& kinds) {
+    const auto with_frames = static_cast<std::size_t>(std::ranges::count_if(kinds, has_frames));
+    if (with_frames != 0 && with_frames != kinds.size())
+        throw InputError("--kinds: frames and frames-none do not go with kinds that have no frames");
+    return with_frames != 0;
 }
 
 }  // namespace
@@ -68,16 +79,18 @@ std::string line_of_last(const SelfCheck& check) {
 SelfCheck run_self_check(const Rig& nominal, const SelfCheckOptions& options,
                          const std::function<void(const SelfCheck&)>& done) {
     demand_whole_rig(nominal);
+    const bool with_frames = are_with_frames(options.kinds);
+    const auto kind_of = with_frames ? kind_of_frames_case : kind_of_case;
+    const auto draw = with_frames ? draw_frames_case : draw_case;
     SelfCheck check;
     Progress progress("cases", options.cases);
     for (std::size_t number = options.first; check.finished() < options.cases; ++number) {
         check.was_interrupted = interrupt_requested();
         if (check.was_interrupted) break;
-        const CaseKind kind = kind_of_case(options.seed, number);
+        const CaseKind kind = kind_of(options.seed, number);
         if (!options.kinds.empty() && std::ranges::find(options.kinds, kind) == options.kinds.end()) continue;
         try {
-            check.outcomes.push_back(
-                run_case(nominal, draw_case(nominal, options.seed, number), options.only));
+            check.outcomes.push_back(run_case(nominal, draw(nominal, options.seed, number), options.only));
         } catch (const std::exception& error) {
             check.failures.push_back({number, error.what()});
         }

@@ -15,7 +15,7 @@ namespace fidservo::selfcheck {
 struct SelfCheckOptions {
     std::size_t cases = 300;
     std::size_t first = 0;        ///< number of the first case
-    std::vector<CaseKind> kinds;  ///< others are passed over; empty: all
+    std::vector<CaseKind> kinds;  ///< others are passed over; empty: all those without frames
     std::uint64_t seed = 1;
     std::vector<std::string> only;  ///< effects that the diagnosis tries; empty: all
 };
@@ -39,7 +39,8 @@ std::string line_of_last(const SelfCheck& check);
 
 /// Case after case; Ctrl-C (src/interrupt.h) ends it after the present one.
 /// @param done  called after every case with all so far
-/// Throws InputError if the rig lacks what the cases need: micro stage, camera, fiducials, controllers.
+/// Throws InputError if the rig lacks what the cases need: micro stage, camera, fiducials, controllers; and
+/// for kinds with and without frames together.
 SelfCheck run_self_check(const Rig& nominal, const SelfCheckOptions& options,
                          const std::function<void(const SelfCheck&)>& done);
 

@@ -38,8 +38,12 @@ Test judged(CaseKind kind) {
     return [kind](const Outcome& outcome) { return outcome.label.kind == kind && is_judged(outcome); };
 }
 
+bool has_one(const Outcome& outcome) {
+    return outcome.label.kind == one || outcome.label.kind == frames;
+}
+
 bool is_explainable(const Outcome& outcome) {
-    return is_judged(outcome) && (outcome.label.kind == one || outcome.label.kind == two);
+    return is_judged(outcome) && (has_one(outcome) || outcome.label.kind == two);
 }
 
 std::vector<ShareFigure> shares_of(std::span<const Outcome> outcomes) {
@@ -78,6 +82,13 @@ std::vector<ShareFigure> shares_of(std::span<const Outcome> outcomes) {
         not_confident, 0.97);
     add("unlisted_unexplained", "not in the catalogue: said to be unexplained, wholly or partly",
         judged(unlisted), unexplained, {});
+    add("frames_block", "effect of the image: right block first", judged(frames), right_block, 0.98);
+    add("frames_effect", "effect of the image: right effect first", judged(frames), right_effect, 0.95);
+    add("frames_alone", "effect of the image: named and no other", judged(frames), all_right, {});
+    add(
+        "frames_no_gap", "frames, no effect: verdict no-gap",
+        [](const Outcome& outcome) { return outcome.label.kind == frames_none; },
+        [](const Outcome& outcome) { return outcome.score.verdict == gap::Verdict::no_gap; }, 0.99);
     add("removed", "one or two effects: 95 % of the excess removed, ending within 1.1 floors", is_explainable,
         [](const Outcome& outcome) {
             return outcome.score.removed >= removed_enough && outcome.score.after <= floors_after;
@@ -103,7 +114,7 @@ double mean(const std::vector<double>& values) {
 std::vector<ClassRow> classes_of(std::span<const Outcome> outcomes) {
     std::map<std::string, ClassRow> rows;
     for (const Outcome& outcome : outcomes) {
-        if (outcome.label.kind != one) continue;
+        if (!has_one(outcome)) continue;
         const std::string& name = outcome.label.effects.front().class_name;
         ClassRow& row = rows[name];
         row.class_name = name;
@@ -123,7 +134,7 @@ std::vector<PowerRow> power_of(std::span<const Outcome> outcomes) {
     std::vector<PowerRow> rows;
     for (std::size_t k = 0; k + 1 < limits.size(); ++k) {
         const Test counts = [&](const Outcome& outcome) {
-            return outcome.label.kind == one && outcome.score.floors >= limits.at(k) &&
+            return has_one(outcome) && outcome.score.floors >= limits.at(k) &&
                    outcome.score.floors < limits.at(k + 1);
         };
         rows.push_back(
@@ -147,7 +158,7 @@ Reliability reliability_of_first(std::span<const Outcome> outcomes) {
 std::vector<LimitFigure> limits_of(std::span<const Outcome> outcomes, const Tally& tally) {
     const Test all = [](const Outcome&) { return true; };
     const Test named = [](const Outcome& outcome) {
-        return judged(one)(outcome) && !outcome.score.named.empty();
+        return has_one(outcome) && is_judged(outcome) && !outcome.score.named.empty();
     };
     std::vector<double> wrong_by_class;
     for (const ClassRow& row : tally.classes)

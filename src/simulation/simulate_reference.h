@@ -6,13 +6,16 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace fidservo {
 
 /// As `simulate`, but on the independent model of the rig (reference/): for checking, against a rig whose
 /// physics the diagnosis did not write.
 /// @param departures  what the rig has and its file does not state
+/// @param way_mm  takes the camera's true position (macro + micro) at every tick, if given
 Recording simulate_reference(const Rig& rig, const reference::Departures& departures,
-                             const Experiment& experiment, const std::string& name, std::uint64_t seed);
+                             const Experiment& experiment, const std::string& name, std::uint64_t seed,
+                             std::vector<double>* way_mm = nullptr);
 
 }  // namespace fidservo

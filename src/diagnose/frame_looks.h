@@ -1,0 +1,29 @@
+#pragma once
+// What the frames of recordings show of their tags' looks.
+#include "core/recording.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+namespace fidservo::diagnose {
+
+/// Frames of a recording that are worth measuring, `most` at most, by time: those that show a tag in which
+/// the recording has detections; half of them spread evenly, half where tags move fastest in the image.
+std::vector<FrameName> chosen_frames(const Recording& recording, std::size_t most);
+
+/// The appearances of a recording's detections in one of its frames (vision/tag_appearance.h).
+void add_appearances(Recording& recording, TimeNs time_ns, const cv::Mat& image);
+
+/// Measures the detections of recordings in their frames, 1200 frames in all at most, shared evenly between
+/// the recordings that have some. One frame a thread is in memory. Throws InputError for a file that is no
+/// image; what is missing is in the result, a line for people each.
+/// @param folders  of the recordings
+std::vector<std::string> measure_frames(std::span<Recording> recordings,
+                                        std::span<const std::filesystem::path> folders);
+
+}  // namespace fidservo::diagnose

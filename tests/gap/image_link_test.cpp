@@ -1,0 +1,194 @@
+// Looks of tags as they follow from a camera, and what a diagnosis makes of frames of the simulated rig.
+#include "gap/image_link.h"
+
+#include "gap/candidate.h"
+#include "gap/diagnose.h"
+#include "src/diagnose/frame_looks.h"
+#include "tests/gap/effect_names.h"
+#include "tests/gap/simulated_campaign.h"
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+namespace fidservo {
+namespace {
+
+using namespace gap;
+using testing::effects;
+using testing::names;
+
+constexpr double frame_s = 0.02, speed_px_per_s = 1500.0;
+
+/// A tag that moves evenly along u for a second, its looks by the formulas of gap/image_link.h.
+Recording even_motion(const plant::CameraDeviation& truth) {
+    const CameraParameters camera = *reference_rig().camera;
+    Recording recording;
+    recording.tick_s = 1e-3;
+    for (int k = 0; k < 1000; ++k) recording.rows.push_back({.time_ns = nanoseconds(1e-3 * k)});
+    for (int frame = 0; frame < 50; ++frame) {
+        const double u_px = 200.0 + speed_px_per_s * frame_s * frame * 0.25;
+        TagDetection tag;
+        tag.time_ns = nanoseconds(3e-3 + frame_s * frame);
+        tag.tag_id = 4;
+        for (std::size_t k = 0; k < 4; ++k)
+            tag.corners_px[k] = Eigen::Vector2d(u_px, 480.0) + 150.0 * tag_corners[k];
+        recording.detections.push_back(tag);
+        TagAppearance look;
+        look.time_ns = tag.time_ns;
+        look.tag_id = tag.tag_id;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double normal_u = k % 2 == 0 ? 0.0 : 1.0;
+            TagSide& side = look.sides[k];
+            side.normal = {normal_u, 1.0 - normal_u};
+            const double way_px =
+                0.25 * speed_px_per_s * (camera.exposure_s + truth.extra_exposure_s) * normal_u;
+            side.variance_px2 = std::pow(camera.blur_px, 2) + std::pow(truth.extra_blur_px, 2) +
+                                (1.0 + way_px * way_px) / 12.0;
+            side.variance_std_px2 = 0.01;
+            side.strip_px = {u_px + (k == 1 ? 150.0 : -150.0), 480.0};
+            side.half_strip_px = {0.0, 0.0};
+            const Eigen::Vector2d place((side.strip_px.x() - 639.5) / 639.5,
+                                        (side.strip_px.y() - 479.5) / 479.5);
+            plant::Light light;
+            light.level = 0.7;  // whatever the lamp
+            light.gradient += truth.light_gradient;
+            light.vignetting += truth.vignetting;
+            side.white_grey = 230.0 * plant::brightness(light, place);
+            side.white_std_grey = 0.1;
+        }
+        const double per_e = 255.0 / camera.full_well_e;
+        const auto noise = [&](double grey) {
+            return GreyNoiseSeen{
+                grey,
+                per_e * grey +
+                    std::pow(per_e * std::hypot(camera.read_noise_e, truth.extra_read_noise_e), 2) +
+                    std::pow(truth.gain_spread * grey, 2) + 1.0 / 12.0,
+                0.02};
+        };
+        look.white = noise(160.0);
+        look.black = noise(18.0);
+        recording.appearances.push_back(look);
+    }
+    return recording;
+}
+
+/// R.m.s. error in floors, by value; only frames with neighbours on both sides know how edges move.
+std::map<std::size_t, double> errors_of(const plant::CameraDeviation& claimed, Recording recording) {
+    const CameraParameters camera = *reference_rig().camera;
+    const ImageRun run = image_run(recording, camera);
+    std::map<std::size_t, double> squares;
+    for (const ImageWindow& window : run.windows)
+        for (const ImageErrors& errors : image_errors({camera, claimed}, recording, run, window))
+            for (std::size_t k = 0; k < image_values; ++k)
+                if (!std::isnan(errors[k])) squares[k] += errors[k] * errors[k] / 50.0;
+    for (auto& [k, square] : squares) square = std::sqrt(square);
+    return squares;
+}
+
+TEST(ImageLink, TrueCamera_HasNoErrors) {
+    for (const plant::CameraDeviation& truth :
+         {plant::CameraDeviation{}, plant::CameraDeviation{.extra_exposure_s = 4e-3, .extra_blur_px = 1.5},
+          plant::CameraDeviation{.extra_read_noise_e = 60.0,
+          .gain_spread = 0.02,
+          .light_gradient = {0.2, -0.1},
+          .vignetting = 0.3}}) {
+        const std::map<std::size_t, double> errors = errors_of(truth, even_motion(truth));
+        ASSERT_EQ(errors.size(), image_values);
+        for (const auto& [k, error] : errors) EXPECT_LT(error, 0.01) << "value " << k;
+    }
+}
+
+TEST(ImageLink, EachCause_ShowsInItsOwnValuesOnly) {
+    const Recording plain = even_motion({});
+    const auto off = [&](const plant::CameraDeviation& claimed) {
+        std::string flags;
+        for (const auto& [k, error] : errors_of(claimed, plain)) flags += error > 0.5 ? '!' : '.';
+        return flags;
+    };
+    EXPECT_EQ(off({.extra_blur_px = 1.0}), "!!!!......");
+    EXPECT_EQ(off({.extra_exposure_s = 5e-3}), ".!.!......");
+    EXPECT_EQ(off({.light_gradient = {0.2, 0.0}}), "....!!!!..");
+    EXPECT_EQ(off({.extra_read_noise_e = 30.0}), "........!!");
+    EXPECT_EQ(off({.delay_s = 0.01, .readout_s = 0.01}), "..........");
+}
+
+TEST(ImageLink, WithoutFrames_NoEffectOfTheImageIsTried) {
+    const Evidence evidence = testing::campaign({}, {"rest"});
+    for (const Candidate& candidate : candidates(evidence, {}, {}))
+        EXPECT_NE(candidate.effect->block, "camera.image");
+    EXPECT_TRUE(std::isnan(evidence.floor(Signal::image)));
+}
+
+/// A quarter of the reference image, so that rendering takes less.
+Rig small_image_rig() {
+    Rig rig = reference_rig();
+    rig.camera->geometry.width_px = 640;
+    rig.camera->geometry.height_px = 480;
+    rig.camera->geometry.principal_point_px = {319.5, 239.5};
+    return rig;
+}
+
+Diagnosis diagnosed_with_frames(const Hypothesis& truth) {
+    const Rig rig = small_image_rig();
+    std::vector<Recording> recordings;
+    for (const char* kind : {"micro-steps", "micro-servo", "macro-square"})
+        for (const std::uint64_t seed : {31, 32}) {
+            const std::string name = std::string(kind) + "-" + std::to_string(seed);
+            Experiment experiment = make_experiment(kind, rig, seed, name);
+            experiment.duration_s = 4.7;
+            std::vector<std::pair<TimeNs, cv::Mat>> frames;
+            recordings.push_back(
+                simulate(rig, truth, experiment, name, seed,
+                         [&](TimeNs time_ns, const cv::Mat& image) { frames.emplace_back(time_ns, image); }));
+            for (const auto& [time_ns, image] : frames)
+                diagnose::add_appearances(recordings.back(), time_ns, image);
+        }
+    return gap::diagnose({rig, std::move(recordings)}, {});
+}
+
+TEST(SlowImageEffects, RigAsItsFileSays_HasNoGap) {
+    const Diagnosis diagnosis = diagnosed_with_frames({});
+    EXPECT_EQ(diagnosis.verdict, Verdict::no_gap) << diagnosis.gap.before;
+    const auto image = std::ranges::find(diagnosis.signals, Signal::image, &SignalGap::signal);
+    ASSERT_NE(image, diagnosis.signals.end());
+    EXPECT_LT(image->before, 1.05);
+    EXPECT_GT(image->before, 0.3);
+}
+
+TEST(SlowImageEffects, EachEffect_IsNamedWithItsSize) {
+    struct Case {
+        std::string_view text;
+        std::string_view name;
+        std::vector<double> values;
+        std::vector<double> tolerances;
+    };
+    for (const Case& one :
+         {Case{"defocus:blur_px=0.8", "defocus", {0.8}, {0.03}},
+          Case{"motion_blur:extra_exposure_ms=8", "motion_blur", {8.0}, {0.4}},
+          Case{"uneven_light:gradient_u=-0.1,gradient_v=0.15,vignetting=0.2",
+               "uneven_light",
+               {-0.1, 0.15, 0.2},
+               {0.01, 0.01, 0.05}},
+          Case{"sensor_noise:read_noise_e=40,gain_spread=0.01", "sensor_noise", {40.0, 0.01}, {2.0, 1e-3}},
+          Case{"rolling_shutter:readout_ms=3", "rolling_shutter", {3.0}, {0.1}}}) {
+        const Diagnosis diagnosis = diagnosed_with_frames(effects({one.text}));
+        EXPECT_EQ(names(diagnosis), std::vector<std::string>{std::string(one.name)}) << diagnosis.gap.before;
+        if (diagnosis.effects.empty()) continue;
+        EXPECT_EQ(diagnosis.verdict, Verdict::explained) << one.text;
+        EXPECT_EQ(diagnosis.where.front().block, "camera.image");
+        const std::vector<FittedParameter>& found = diagnosis.effects.front().parameters;
+        for (std::size_t k = 0; k < one.values.size(); ++k)
+            EXPECT_NEAR(found[k].value, one.values[k], one.tolerances[k])
+                << one.text << ", std " << found[k].std;
+    }
+}
+
+}  // namespace
+}  // namespace fidservo
