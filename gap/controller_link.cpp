@@ -98,8 +98,8 @@ ControllerRun macro_controller_run(const Recording& recording, const Rig& rig) {
                 is_known = true;
                 commands.push_back(command_V);
             } else if (is_known) {
-                commands.push_back(control::pid_update(*rig.macro.pid, limit_V, recording.tick_s, state,
-                                                       error_count[k]));
+                commands.push_back(
+                    control::pid_update(*rig.macro.pid, limit_V, recording.tick_s, state, error_count[k]));
             } else {
                 state.last_error_count = error_count[k];
                 commands.push_back(nan);

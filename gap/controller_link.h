@@ -7,8 +7,8 @@
 // so that a rig with another controller says so without drowning what else is wrong with it. Under the truth
 // the errors are near 0, not near 1.
 //
-// After rows that are missing a controller is under way: the last error is known a row later, and the integral
-// follows from the first command that is not saturated.
+// After rows that are missing a controller is under way: the last error is known a row later, and the
+// integral follows from the first command that is not saturated.
 #include "core/recording.h"
 #include "core/rig.h"
 #include "gap/windows.h"

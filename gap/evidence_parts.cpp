@@ -106,12 +106,13 @@ void note_omissions(Evidence::Parts& parts, std::size_t run) {
                   links.carriage.reading_count, [](double count) { return std::isfinite(count); })),
               carriage, "ends of travel, gaps, or rows without a command");
     if (links.platform)
-        note_rows(parts, run, "hall",
-                  count_rows(recording, [](const StageRow& row) { return std::isfinite(row.hall_adc); }),
-                  links.platform->windows,
-                  fmt::format("readings at an end of the range ({:.0f} or {:.0f}), gaps and the wire's unknown "
-                              "memory after them, or rows without a command",
-                              parts.hall_range.low_adc, parts.hall_range.high_adc));
+        note_rows(
+            parts, run, "hall",
+            count_rows(recording, [](const StageRow& row) { return std::isfinite(row.hall_adc); }),
+            links.platform->windows,
+            fmt::format("readings at an end of the range ({:.0f} or {:.0f}), gaps and the wire's unknown "
+                        "memory after them, or rows without a command",
+                        parts.hall_range.low_adc, parts.hall_range.high_adc));
     if (!recording.detections.empty() && !(parts.rig.camera && parts.rig.fiducials))
         parts.omissions.push_back({recording.name, "tag", "the rig file has no camera or no fiducials"});
     const auto unknown = std::ranges::count_if(
@@ -178,13 +179,13 @@ void drop_unclear(Evidence::Parts& parts, std::size_t run) {
     std::vector<TagDetection> judged;
     for (std::size_t k = 0; k < detections.size(); ++k)
         if (smear_cells[k] <= most_cells && !is_cut[k] && neighbours[k] == 2) judged.push_back(detections[k]);
-    const std::size_t unclear = detections.size() - judged.size();
+    constexpr double worth_telling = 0.05;  // of all
+    const auto all = static_cast<double>(detections.size()), clear = static_cast<double>(judged.size());
     detections = std::move(judged);
-    if (unclear > 0)
+    if (all - clear > worth_telling * all)
         parts.omissions.push_back(
-            {recording.name,
-             fmt::format("tag: {} detections, smeared, alone or at the image's border, are not judged",
-                         unclear)});
+            {recording.name, "tag",
+             "detections that are smeared, alone or at the image's border are not judged"});
 }
 
 }  // namespace
@@ -246,8 +247,8 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     }
     std::optional<PlatformPrediction> platform;
     if (rig.micro) {
-        links.platform = platform_run(recording, *rig.micro, parts.hall_range,
-                                      parts.floors[index_of(Signal::hall)]);
+        links.platform =
+            platform_run(recording, *rig.micro, parts.hall_range, parts.floors[index_of(Signal::hall)]);
         platform =
             predicted_readings(platform_model(nominal), *links.platform, links.path.acceleration_mm_per_s2);
         links.smoothed = smoothed_reading(*links.platform, platform->path_lsb, rig.macro.command_limit_V);

@@ -63,7 +63,8 @@ HallRange hall_range(const std::vector<Recording>& recordings, const HallParamet
             extremes.high_adc = std::max(extremes.high_adc, row.hall_adc);
         }
     const double bound = longest_chance(noise_inside_lsb(recordings, extremes));
-    if (longest_stay(recordings, extremes.low_adc) > bound) range.low_adc = std::max(range.low_adc, extremes.low_adc);
+    if (longest_stay(recordings, extremes.low_adc) > bound)
+        range.low_adc = std::max(range.low_adc, extremes.low_adc);
     if (longest_stay(recordings, extremes.high_adc) > bound)
         range.high_adc = std::min(range.high_adc, extremes.high_adc);
     return range;

@@ -3,8 +3,8 @@
 //
 // A converter ends at 0 and at its highest value; an amplifier in front of it may end earlier. Then the
 // reading stands still at its own end, which a noisy reading otherwise does for moments only: with noise of
-// r.m.s. sigma LSB a reading repeats with a probability of p = erf(1 / (2 sqrt(2) sigma)) at most, and n equal
-// ones in a row, with p^n < 1e-9, are no chance.
+// r.m.s. sigma LSB a reading repeats with a probability of p = erf(1 / (2 sqrt(2) sigma)) at most, and n
+// equal ones in a row, with p^n < 1e-9, are no chance.
 #include "core/hall.h"
 #include "core/recording.h"
 

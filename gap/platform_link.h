@@ -34,7 +34,8 @@ struct PlatformRun {
 };
 
 /// After a pause in the rows or commands of more than 0.1 s, or 10 ms where the command is another one then,
-/// nobody knows what a warm wire remembers: windows begin again when it has been cold for five cooling time constants.
+/// nobody knows what a warm wire remembers: windows begin again when it has been cold for five cooling time
+/// constants.
 PlatformRun platform_run(const Recording& recording, const MicroParameters& micro, const HallRange& range,
                          double floor_lsb);
 

@@ -198,7 +198,8 @@ bool Search::clears_each_half(const CrossFit& without, const CrossFit& with) con
         const Wanted half = fitter_.half(side);
         std::array<int, signal_count> far_off{};
         for (std::size_t w = 0; w < windows.size(); ++w)
-            if (half[w] != 0 && without.mean_squares[w] > far_off_square) ++far_off[index_of(windows[w].signal)];
+            if (half[w] != 0 && without.mean_squares[w] > far_off_square)
+                ++far_off[index_of(windows[w].signal)];
         for (std::size_t s = 0; s < signal_count; ++s) cleared[s] = cleared[s] && far_off[s] >= fewest;
     }
     return cleared != SignalFlags{};

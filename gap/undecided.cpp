@@ -25,9 +25,9 @@ void add_other_rigs(const Evidence& evidence, Lines& lines) {
     for (const Recording& recording : evidence.recordings())
         if (!recording.rig.empty() && recording.rig != evidence.rig().name) ++recordings[recording.rig];
     for (const auto& [rig, count] : recordings)
-        lines.push_back(fmt::format(
-            "{} of {} recordings say that they are of the rig \"{}\"; the rig file is of \"{}\"", count,
-            evidence.recordings().size(), rig, evidence.rig().name));
+        lines.push_back(
+            fmt::format("{} of {} recordings say that they are of the rig \"{}\"; the rig file is of \"{}\"",
+                        count, evidence.recordings().size(), rig, evidence.rig().name));
 }
 
 /// Mean square of a reading about its mean in a window, floors^2.
@@ -98,9 +98,8 @@ struct Look {
 };
 
 Look look_at(const Evidence& evidence, const CrossFit& nothing, std::size_t windows_of_a_signal) {
-    Look look{instructive(evidence.windows(), everything(evidence), nothing.mean_squares,
-                          windows_of_a_signal),
-              {}};
+    Look look{
+        instructive(evidence.windows(), everything(evidence), nothing.mean_squares, windows_of_a_signal), {}};
     look.errors = evidence.errors({}, look.wanted);
     return look;
 }
@@ -140,9 +139,10 @@ void add_what_would_not_show(const Evidence& evidence, std::span<const Candidate
     for (const Candidate* candidate : hidden)
         by_block[std::string(candidate->effect->block)].emplace_back(candidate->effect->name);
     for (const auto& [block, effects] : by_block)
-        lines.push_back(fmt::format("{}: {} of typical size would not show in these recordings, which excite "
-                                    "too little of it",
-                                    block, fmt::join(effects, ", ")));
+        lines.push_back(
+            fmt::format("{}: {} of typical size would not show in these recordings, which excite "
+                        "too little of it",
+                        block, fmt::join(effects, ", ")));
 }
 
 void add_omissions(const Evidence& evidence, Lines& lines) {
@@ -156,13 +156,11 @@ void add_omissions(const Evidence& evidence, Lines& lines) {
             left_out_s += omission->left_out_s;
             recorded_s += omission->recorded_s;
         }
-        const std::string where = omissions.size() == 1
-                                      ? omissions.front()->recording
-                                      : fmt::format("{} recordings", omissions.size());
-        lines.push_back(recorded_s == 0.0
-                            ? fmt::format("{}: {}: {}", where, signal, why)
-                            : fmt::format("{}: {}: {:.1f} s of {:.1f} s are not judged: {}", where, signal,
-                                          left_out_s, recorded_s, why));
+        const std::string where = omissions.size() == 1 ? omissions.front()->recording
+                                                        : fmt::format("{} recordings", omissions.size());
+        lines.push_back(recorded_s == 0.0 ? fmt::format("{}: {}: {}", where, signal, why)
+                                          : fmt::format("{}: {}: {:.1f} s of {:.1f} s are not judged: {}",
+                                                        where, signal, left_out_s, recorded_s, why));
     }
 }
 
@@ -195,16 +193,18 @@ std::string what_is_wanting(const Evidence& evidence, const Selection& selection
         best = &trial;
     }
     if (best == nullptr)
-        return windows >= few_windows ? std::string()
-                                      : fmt::format("{} windows are too few to tell a cause from chance", windows);
+        return windows >= few_windows
+                   ? std::string()
+                   : fmt::format("{} windows are too few to tell a cause from chance", windows);
     const plant::EffectSetting &one = best->fitted.of_half[0].back(), &other = best->fitted.of_half[1].back();
     std::vector<std::string> values;
     for (std::size_t k = 0; k < one.values.size(); ++k)
         values.push_back(fmt::format("{} {:.3g} by one half of the data, {:.3g} by the other",
                                      one.effect->parameters[k].name, one.values[k], other.values[k]));
-    return fmt::format("{} ({}) would remove {:.0f} % of the gap, but {} windows are too few, or too few of them "
-                       "say so, to be sure",
-                       one.effect->name, fmt::join(values, "; "), 100.0 * most, windows);
+    return fmt::format(
+        "{} ({}) would remove {:.0f} % of the gap, but {} windows are too few, or too few of them "
+        "say so, to be sure",
+        one.effect->name, fmt::join(values, "; "), 100.0 * most, windows);
 }
 
 }  // namespace fidservo::gap

@@ -3,8 +3,8 @@
 #include "core/random.h"
 #include "reference/reference_rig.h"
 #include "src/recording/reader.h"
-#include "tests/shared_table.h"
 #include "tests/calib/sweep.h"
+#include "tests/shared_table.h"
 
 #include <array>
 #include <cmath>

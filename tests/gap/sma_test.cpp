@@ -43,7 +43,6 @@ Loop loop_of(const std::vector<std::vector<double>>& rows) {
 /// A rig whose heater has any temperature within a tick, as there is a thermometer, and whose sensor is
 /// straight.
 Rig wire_with_thermometer(const calib::PreisachFit& fit) {
-
     Rig rig = reference_rig();
     rig.tick_s = 0.02;
     rig.camera.reset();

@@ -16,9 +16,9 @@ namespace fidservo {
 namespace {
 
 using namespace gap;
-using testing::effects;
 using ::testing::AllOf;
 using ::testing::Contains;
+using testing::effects;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -32,7 +32,8 @@ Recording simulated(const Hypothesis& truth, std::string_view kind, std::uint64_
 TEST(Undecided, RigAtRest_ShowsNeitherFrictionNorHeater) {
     const Diagnosis diagnosis = diagnose(Evidence(reference_rig(), {simulated({}, "rest", 3)}));
     EXPECT_EQ(diagnosis.verdict, Verdict::no_gap);
-    EXPECT_THAT(diagnosis.notes, Contains(AllOf(StartsWith("macro.friction: "), HasSubstr("viscous_friction"))));
+    EXPECT_THAT(diagnosis.notes,
+                Contains(AllOf(StartsWith("macro.friction: "), HasSubstr("viscous_friction"))));
     EXPECT_THAT(diagnosis.notes, Contains(AllOf(StartsWith("micro.heater: "), HasSubstr("airflow"))));
     EXPECT_THAT(diagnosis.notes, Not(Contains(HasSubstr("hall_offset"))));
 }
