@@ -47,10 +47,12 @@ void add_shares(Shares& shares, int first, double left_px, double cell_px, doubl
     }
 }
 
-/// A disc of a standard deviation along each axis; its edge is divided into 8 x 8 parts a pixel.
+/// A disc of a standard deviation along each axis, half its radius; that of the pixels, by whose squares the
+/// kernel covers it in 8 x 8 parts each, is taken off.
 cv::Mat disc(double deviation_px) {
     constexpr int parts = 8;
-    const double radius_px = 2.0 * deviation_px;
+    constexpr double pixel_px2 = 1.0 / 12.0;
+    const double radius_px = 2.0 * std::sqrt(std::max(deviation_px * deviation_px - pixel_px2, pixel_px2));
     const int reach = static_cast<int>(std::ceil(radius_px + 0.5));
     cv::Mat kernel(2 * reach + 1, 2 * reach + 1, CV_32F);
     for (int v = -reach; v <= reach; ++v)
