@@ -140,6 +140,7 @@ void Search::look_at(const CrossFit& base, std::span<Contender> contenders) {
     const Wanted looked_at = fitter_.instructive_of(0, seen, base.mean_squares);
     const Errors base_errors = fitter_.evidence().errors(base.of_half[0], looked_at);
     std::vector<const Candidate*> asking;
+    asking.reserve(fresh.size());
     for (const Contender* contender : fresh) asking.push_back(contender->trial.candidate);
     const AlongRail along = seen_along_rail(fitter_.evidence(), base.of_half[0], fitter_.half(0), asking);
     std::map<Places, Surroundings> beside;

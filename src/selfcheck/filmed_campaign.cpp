@@ -35,9 +35,9 @@ constexpr std::array runs{FilmedRun{"micro-steps", 2.7},  FilmedRun{"micro-steps
 reference::TagCells cells_of(int tag_id) {
     const vision::TagPattern pattern = vision::tag_pattern(tag_id);
     reference::TagCells cells;
+    std::size_t next = 0;
     for (int row = 0; row < 8; ++row)
-        for (int column = 0; column < 8; ++column)
-            cells(row, column) = pattern[static_cast<std::size_t>(8 * row + column)] ? 0.0 : 1.0;
+        for (int column = 0; column < 8; ++column) cells(row, column) = pattern[next++] ? 0.0 : 1.0;
     return cells;
 }
 
