@@ -79,6 +79,12 @@ DrillEnd Drill::run(const std::string& name, const std::vector<Fault>& faults) c
     return go_on(name, faults);
 }
 
+DrillEnd Drill::run_from_start(const std::string& name, const std::vector<Fault>& faults) const {
+    inspect::InspectionOptions of_run = options(out(name));
+    of_run.session.faults = faults;
+    return end_of(of_run);
+}
+
 DrillEnd Drill::resume(const std::string& name) const {
     return go_on(name, {});
 }

@@ -35,6 +35,8 @@ class Drill {
 
     /// Goes on from the homed rig with faults. @param name  of the run's folder
     DrillEnd run(const std::string& name, const std::vector<Fault>& faults) const;
+    /// A run from the start with faults.
+    DrillEnd run_from_start(const std::string& name, const std::vector<Fault>& faults) const;
     /// Goes on with that run without them.
     DrillEnd resume(const std::string& name) const;
 
