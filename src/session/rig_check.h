@@ -17,8 +17,8 @@ constexpr bool puts_rig_in_doubt(Reason reason) {
 /// words for the user, or Reason::stopped.
 Status check_rig(Pilot& pilot);
 
-/// Whether a frame comes that can be an image of the plate. Fails with Reason::device, in words for the user,
-/// or Reason::stopped.
+/// Whether a frame comes that can be an image of the plate; a camera that may come back is waited for. Fails
+/// with Reason::device, in words for the user, or Reason::stopped.
 Status check_camera(Pilot& pilot);
 
 /// Whether the carriage answers: told to go two millimetres towards the middle of its travel, it does by the

@@ -130,6 +130,21 @@ TEST_F(SlowDrills, EveryFaultThatStopsARun_IsNamedInHomingToo) {
               testing::text_of_file(drill_->whole() / "results.csv"));
 }
 
+TEST_F(SlowDrills, CameraThatIsWaitedFor_TheRunGoesOnWhenItIsBack) {
+    Fault away = planned("camera_silent");
+    away.for_s = 4.0;
+    const DrillEnd end = drill_->run_waiting_for_the_camera("waited", {away});
+    EXPECT_FALSE(end.stopped) << end.text.substr(0, 2000);
+    EXPECT_EQ(end.text.find("deferred"), std::string::npos) << "it was waited for at the site";
+    expect_same_within_uncertainty(drill_->out("waited") / "results.csv");
+    away.for_s = 60.0;
+    const DrillEnd too_long = drill_->run_waiting_for_the_camera("waited_for_long", {away});
+    EXPECT_TRUE(too_long.stopped);
+    EXPECT_NE(too_long.text.find("no frame from the camera for 11."), std::string::npos)
+        << too_long.text.substr(0, 2000);
+    EXPECT_TRUE(too_long.outputs_zero);
+}
+
 /// The others are not led astray by it.
 TEST_F(SlowDrills, TagOfAnotherSite_ThatSiteIsNotMeasuredAndTheOthersAre) {
     const DrillEnd end = drill_->run_with_wrong_tag("wrong_tag");
