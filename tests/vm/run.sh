@@ -15,10 +15,11 @@ loopback="v4l2loopback:video_nr=20:exclusive_caps=0:max_buffers=8"
 declare -A groups=(
     [vivid]="vivid:n_devs=1:node_types=0x1:vid_cap_nr=10|900|$build/tests/vm/vivid_test"
     [comedi]="comedi:comedi_num_legacy_minors=1,multiq3,comedi_test|600|$multiq3 && $build/tests/vm/comedi_vm_test"
-    [inspection]="$loopback,comedi_test|700|$here/inspection.sh $build"
+    [inspection]="$loopback,comedi_test|900|$here/inspection.sh $build"
+    [killed]="$loopback,comedi_test|900|$here/inspection.sh $build killed"
     [loopback]="$loopback|900|$build/tests/vm/loopback_test && $build/tests/vm/record_test"
 )
-order=(vivid loopback comedi inspection)
+order=(vivid loopback comedi inspection killed)
 (($#)) && order=("$@")
 
 failed=0
