@@ -8,7 +8,7 @@ shift 2
 # The board with which the stage was published, at its usual place; there is none in the machine.
 multiq3="/usr/sbin/comedi_config /dev/comedi0 multiq3 0x320,5,2"
 
-# With its usual two buffers v4l2loopback writes into frames that a reader still looks at.
+# With its usual two buffers v4l2loopback writes into frames that a slow reader has not yet fetched.
 loopback="v4l2loopback:video_nr=20:exclusive_caps=0:max_buffers=8"
 
 # group: kernel modules | seconds allowed | command
