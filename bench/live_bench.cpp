@@ -3,7 +3,9 @@
 //   stop    from the moment at which a browser sends "stop" until the stage's outputs are zero at the board,
 //   in
 //           mid-run; limit 50 ms
-//   viewer  how much longer an inspection takes while somebody watches it, in turns with the same without
+//   viewer  how much longer an inspection takes while somebody watches it, in turns with the same without;
+//   and
+//           its processor time, which other work on the machine does not lengthen
 //
 //     live_bench [STOPS [TURNS]]
 #include "control/output_board.h"
@@ -20,6 +22,7 @@
 #include <vector>
 
 #include <httplib.h>
+#include <sys/resource.h>
 
 namespace fidservo {
 namespace {
@@ -83,8 +86,23 @@ double stop_ms(int turn) {
     return took_ms;
 }
 
-double run_ms(bool watched) {
+/// User and system time of all children that have ended, s.
+double children_s() {
+    rusage usage{};
+    ::getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+struct RunTime {
+    double wall_s, processor_s;
+};
+
+RunTime time_of_run(bool watched) {
     const auto start = steady_clock::now();
+    const double before_s = children_s();
     ShownRun run(watched);
     std::thread viewer;
     if (watched)
@@ -96,7 +114,7 @@ double run_ms(bool watched) {
     const double took_ms = ms_since(start);
     if (run.process().wait() != 0) throw std::runtime_error(run.process().output());
     if (viewer.joinable()) viewer.join();
-    return took_ms;
+    return {1e-3 * took_ms, children_s() - before_s};
 }
 
 void bench(int stops, int turns) {
@@ -107,8 +125,12 @@ void bench(int stops, int turns) {
         std::printf("stop, ms:      median %.1f   p90 %.1f   worst %.1f   of %d; limit 50\n",
                     times_ms[times_ms.size() / 2], times_ms[times_ms.size() * 9 / 10], times_ms.back(),
                     stops);
-    for (int k = 0; k < turns; ++k)
-        std::printf("a whole run, s: %.2f alone   %.2f watched\n", 1e-3 * run_ms(false), 1e-3 * run_ms(true));
+    for (int k = 0; k < turns; ++k) {
+        const RunTime alone = time_of_run(false), watched = time_of_run(true);
+        std::printf(
+            "a whole run, s: %.2f alone   %.2f watched; of processor time %.2f alone   %.2f watched\n",
+            alone.wall_s, watched.wall_s, alone.processor_s, watched.processor_s);
+    }
 }
 
 }  // namespace

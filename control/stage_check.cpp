@@ -3,6 +3,7 @@
 #include "control/watchdog.h"
 #include "core/dead_zone.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -86,14 +87,19 @@ void judge_push(const StageCheckParams& params, StageCheckState& state, const St
     enter(state, StageCheckPhase::back);
 }
 
+/// The platform may still be on its way down from an earlier heating: what counts is its way up from the
+/// lowest place.
 void judge_heat(const StageCheckParams& params, StageCheckState& state, const StageSample& sample) {
+    const int lowest = state.lowest_hall_adc.value_or(sample.hall_adc);
+    state.lowest_hall_adc = std::min(lowest, sample.hall_adc);
+    if (sample.hall_adc - *state.lowest_hall_adc >= params.hall_answer_adc)
+        return enter(state, StageCheckPhase::cool);
+    if (state.phase_s < params.heat_limit_s) return;
     const double change = sample.hall_adc - state.hall_sum / state.hall_samples;
-    if (change >= params.hall_answer_adc) return enter(state, StageCheckPhase::cool);
     if (change <= -params.hall_answer_adc)
         return fail(state, "the Hall sensor's reading falls when the wire is heated");
-    if (state.phase_s >= params.heat_limit_s)
-        fail(state, fmt::format("the Hall sensor does not answer to the heater: {:.0f} after {:.1f} s",
-                                change, params.heat_limit_s));
+    fail(state, fmt::format("the Hall sensor does not answer to the heater: {:.0f} after {:.1f} s", change,
+                            params.heat_limit_s));
 }
 
 void advance(const StageCheckParams& params, StageCheckState& state, const StageSample& sample) {

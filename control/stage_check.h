@@ -39,8 +39,9 @@ struct StageCheckState {
     std::int64_t start_count = 0;
     double hall_sum = 0.0;
     int hall_samples = 0;
-    std::string why;        ///< of a failure: one line
-    double moved_mm = 0.0;  ///< by the push that was answered
+    std::optional<int> lowest_hall_adc;  ///< since the wire is heated
+    std::string why;                     ///< of a failure: one line
+    double moved_mm = 0.0;               ///< by the push that was answered
 };
 
 /// One tick. @return the commands from this tick on; zero once the check has ended

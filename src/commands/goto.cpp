@@ -6,6 +6,7 @@
 #include "src/config/rig_file.h"
 #include "src/interrupt.h"
 #include "src/session/motion_params.h"
+#include "src/session/rig_check.h"
 #include "src/session/session.h"
 #include "vision/tag_choice.h"
 
@@ -97,6 +98,8 @@ int run_goto(const GotoOptions& options) {
     Session session(options.session, rig, plate, plate);
     if (const auto homed = session.home(); !homed) return end_of_run("homing", homed.error());
     const auto arrival = session.go_to(options.tag, mm_from_um(options.dx_um));
+    if (!arrival && puts_rig_in_doubt(arrival.error().reason))
+        if (const auto well = session.check_rig(); !well) return end_of_run("goto", well.error());
     if (!arrival) return end_of_run("goto", arrival.error());
     print_arrival(*arrival);
     hold(session, options.hold_s);

@@ -1,6 +1,7 @@
 #include "src/inspect/site_visit.h"
 
 #include "core/units.h"
+#include "src/session/rig_check.h"
 
 #include <utility>
 
@@ -24,12 +25,6 @@ Result<Snapshot> take_snapshot(const VisitContext& context, const Site& site, co
     if (!frame) return tl::make_unexpected(frame.error());
     const Measuring& by = context.measuring;
     return read_snapshot(*frame, by.camera, by.recipe.nominal, site.tag_id, by.detector);
-}
-
-/// What may be the rig's doing: then it has to show that it answers before a site is given up.
-bool is_of_the_rig(Reason reason) {
-    return reason == Reason::timeout || reason == Reason::no_convergence || reason == Reason::not_at_rest ||
-           reason == Reason::out_of_reach;
 }
 
 /// Takes the pictures that are still missing. Fails with the first view's failure.
@@ -75,7 +70,7 @@ Visit visit_site(const VisitContext& context, const NextVisit& next) {
     while (true) {
         const Status taken = take_missing(context, site, snapshots, visit);
         if (taken) break;
-        if (is_of_the_rig(taken.error().reason) || context.session.camera_is_in_doubt())
+        if (puts_rig_in_doubt(taken.error().reason) || context.session.camera_is_in_doubt())
             if (const auto well = context.session.check_rig(); !well) stop_run(site, well.error());
         const Remedy remedy =
             remedy_for(site.on_failure, static_cast<int>(visit.failures.size()), next.again);

@@ -58,6 +58,14 @@ std::shared_ptr<control::Guardian> in_folder(std::shared_ptr<GuardianInFolder> b
     return {both, &both->guardian};
 }
 
+/// A drill's times are those of a session in virtual time.
+void refuse_drills_of_real_devices(const SessionOptions& options) {
+    if (options.faults.empty() || (stage_is_simulated(options) && camera_is_simulated(options))) return;
+    throw InputError(
+        fmt::format("--fault {}: drills are for the simulated rig; leave --stage and --camera out",
+                    name_of(options.faults.front().kind)));
+}
+
 RigDevices real_devices(const SessionOptions& options, const Rig& rig) {
     if (camera_is_simulated(options))
         throw InputError(fmt::format(
@@ -78,6 +86,7 @@ RigDevices real_devices(const SessionOptions& options, const Rig& rig) {
 }  // namespace
 
 RigDevices make_devices(const SessionOptions& options, const Rig& rig, const Plate& printed) {
+    refuse_drills_of_real_devices(options);
     if (!stage_is_simulated(options)) return real_devices(options, rig);
     const Rig truth = options.sim_rig_file.empty() ? rig : load_rig(options.sim_rig_file);
     if (!truth.camera || !truth.micro)
@@ -88,7 +97,6 @@ RigDevices make_devices(const SessionOptions& options, const Rig& rig, const Pla
     const auto simulated =
         std::make_shared<SimulatedRig>(plant::plant_parameters(truth), *truth.camera, printed, options.seed);
     devices.stage = std::make_shared<SimulatedStage>(simulated, devices.guardian);
-    if (!options.faults.empty()) devices.stage = std::make_shared<FaultyStage>(devices.stage, options.faults);
     if (camera_is_simulated(options)) {
         devices.simulated = simulated;
         devices.camera = std::make_shared<SimulatedCamera>(simulated);
@@ -98,8 +106,10 @@ RigDevices make_devices(const SessionOptions& options, const Rig& rig, const Pla
             devices.stage, control::LoopOptions{
                                .tick_s = rig.tick_s, .watchdog = {}, .stop_requested = interrupt_requested});
     }
-    if (!options.faults.empty())
+    if (!options.faults.empty()) {
+        devices.stage = std::make_shared<FaultyStage>(devices.stage, options.faults);
         devices.camera = std::make_shared<FaultyCamera>(devices.camera, options.faults);
+    }
     return devices;
 }
 

@@ -16,7 +16,8 @@ namespace fidservo {
 namespace {
 
 constexpr double registration_lead_mm =
-    1.7;  ///< of the tag before the axis, so that the sweep keeps it in view
+    1.7;                                ///< of the tag before the axis, so that the sweep keeps it in view
+constexpr double most_astray_mm = 5.0;  ///< by which a plate may lie off where the rig file has it
 
 Status seek_end_stop(Pilot& pilot) {
     const control::HomingParams homing = homing_params(pilot.rig);
@@ -39,6 +40,18 @@ Status seek_end_stop(Pilot& pilot) {
     return {};
 }
 
+/// The carriage also stands where something else than the end stop holds it, perhaps for good.
+/// @param astray_mm  how far it is from where it should be
+Status demand_carriage(Pilot& pilot, double astray_mm) {
+    if (auto answers = check_carriage(pilot); !answers) return answers;
+    spdlog::warn(
+        "the carriage stopped {:.1f} mm from where the rig file has its end stop: is something in its way, "
+        "or "
+        "does the plate lie elsewhere?",
+        astray_mm);
+    return {};
+}
+
 /// The end stop is good to a count; a tag's id and place fix the absolute position.
 Status register_by_tag(Pilot& pilot) {
     const auto tags = vision::reachable_rows(pilot.rig.camera->geometry, pilot.nominal);
@@ -55,16 +68,22 @@ Status register_by_tag(Pilot& pilot) {
     Failure why{Reason::no_tag, ""};
     for (const double offset_mm : search_offsets_mm) {
         if (auto carried = pilot.carry_to(nearest->centre_mm.x() - registration_lead_mm + offset_mm);
-            !carried)
+            !carried) {
+            if (carried.error().reason == Reason::timeout)
+                if (auto answers = check_carriage(pilot); !answers) return answers;
             return carried;
+        }
         const auto fit = pilot.look_anywhere();
         if (fit) {
+            const double astray_mm = fit->position.s_mm - pilot.believed_s_mm();
             pilot.register_at(fit->position.s_mm);
             pilot.saw(fit->position);
-            return {};
+            return std::abs(astray_mm) < most_astray_mm ? Status() : demand_carriage(pilot, astray_mm);
         }
         why = fit.error();
     }
+    if (pilot.machine.camera_is_in_doubt())
+        if (auto well = check_camera(pilot); !well) return well;
     return failure(why.reason, fmt::format("homing: tag {} not found near {:.1f} mm: {}", nearest->id,
                                            nearest->centre_mm.x(), why.text));
 }

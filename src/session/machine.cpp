@@ -68,7 +68,7 @@ Status Machine::skip_held() {
 
 Result<std::optional<vision::Frame>> Machine::poll_camera() {
     auto frame = devices_.camera->poll(now_ns_);
-    if (!frame) return frame;
+    if (!frame) return failure(Reason::device, frame.error().text);  // it fails for good
     auto admitted = camera_watch_.admit(std::move(*frame), sample_);
     if (feed_ && admitted && *admitted) feed_->saw(**admitted);
     return admitted;

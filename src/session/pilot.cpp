@@ -154,6 +154,7 @@ Status Pilot::drive_to(double target_s_mm, int tag_id) {
         return {};
     }
     if (trouble) return forward(*trouble);
+    if (state.why == Reason::no_tag) return failure(Reason::timeout, "no frame from the camera");
     return failure(state.why,
                    fmt::format("motion to {:.3f} mm ended after {} micro moves", target_s_mm, state.moves));
 }

@@ -15,38 +15,6 @@ constexpr double platform_way_mm = 0.6, platform_limit_s = 4.0;
 constexpr double heating_degC = 60.0, blind_s = 1.2;
 constexpr double share = 0.5;  ///< of the way: enough of an answer
 
-Status check_camera(Pilot& pilot) {
-    do {
-        const auto frame = pilot.next_frame(pilot.machine.now_ns());
-        if (frame) continue;
-        if (ends_the_run(frame.error().reason)) return forward(frame.error());
-        return failure(Reason::device, frame.error().text);
-    } while (pilot.machine.camera_is_in_doubt());
-    return {};
-}
-
-Status check_carriage(Pilot& pilot) {
-    if (auto caught = pilot.catch_up(); !caught) return caught;
-    const auto start_count = static_cast<double>(pilot.state.macro.last_count.value_or(0));
-    const double start_mm = pilot.count_zero_mm + start_count * pilot.params.count_mm;
-    const double middle_mm = 0.5 * (pilot.rig.macro.low_mm + pilot.rig.macro.high_mm);
-    const double way_mm = start_mm < middle_mm ? carriage_way_mm : -carriage_way_mm;
-    const auto gone_mm = [&] {
-        return (static_cast<double>(*pilot.state.macro.last_count) - start_count) * pilot.params.count_mm;
-    };
-    control::macro_go_to(pilot.state.macro, start_count + way_mm / pilot.params.count_mm);
-    const auto answered = pilot.step_until([&] { return gone_mm() / way_mm >= share; }, carriage_limit_s, "");
-    pilot.state.macro.setpoint_count.reset();
-    if (!answered && answered.error().reason == Reason::timeout)
-        return failure(Reason::device,
-                       fmt::format("the macro stage does not answer: told to go {:.1f} mm, the encoder shows "
-                                   "{:.2f} mm: jammed, motor, supply or encoder?",
-                                   way_mm, gone_mm()));
-    if (!answered) return answered;
-    return pilot.step_until([&] { return control::macro_is_quiet(pilot.params.macro, pilot.state.macro); },
-                            carriage_limit_s, "the macro stage does not come to rest");
-}
-
 /// The camera's place if a tag is in view; empty if not.
 Result<std::optional<double>> seen_s_mm(Pilot& pilot) {
     const auto fit = pilot.look_anywhere();
@@ -91,6 +59,38 @@ Status check_platform(Pilot& pilot) {
 }
 
 }  // namespace
+
+Status check_camera(Pilot& pilot) {
+    // The machine's watch ends a silence that lasts too long.
+    for (bool seen = false; !seen || pilot.machine.camera_is_in_doubt();) {
+        const auto frame = pilot.next_frame(pilot.machine.now_ns());
+        seen = frame.has_value();
+        if (!seen && frame.error().reason != Reason::timeout) return forward(frame.error());
+    }
+    return {};
+}
+
+Status check_carriage(Pilot& pilot) {
+    if (auto caught = pilot.catch_up(); !caught) return caught;
+    const auto start_count = static_cast<double>(pilot.state.macro.last_count.value_or(0));
+    const double start_mm = pilot.count_zero_mm + start_count * pilot.params.count_mm;
+    const double middle_mm = 0.5 * (pilot.rig.macro.low_mm + pilot.rig.macro.high_mm);
+    const double way_mm = start_mm < middle_mm ? carriage_way_mm : -carriage_way_mm;
+    const auto gone_mm = [&] {
+        return (static_cast<double>(*pilot.state.macro.last_count) - start_count) * pilot.params.count_mm;
+    };
+    control::macro_go_to(pilot.state.macro, start_count + way_mm / pilot.params.count_mm);
+    const auto answered = pilot.step_until([&] { return gone_mm() / way_mm >= share; }, carriage_limit_s, "");
+    pilot.state.macro.setpoint_count.reset();
+    if (!answered && answered.error().reason == Reason::timeout)
+        return failure(Reason::device,
+                       fmt::format("the macro stage does not answer: told to go {:.1f} mm, the encoder shows "
+                                   "{:.2f} mm: jammed, motor, supply or encoder?",
+                                   way_mm, gone_mm()));
+    if (!answered) return answered;
+    return pilot.step_until([&] { return control::macro_is_quiet(pilot.params.macro, pilot.state.macro); },
+                            carriage_limit_s, "the macro stage does not come to rest");
+}
 
 Failure unmoved_platform(double hall_mm, double camera_mm) {
     constexpr double agreement_mm = 0.2;

@@ -49,6 +49,7 @@ struct Session::Impl {
         : pilot(rig, nominal, params, std::move(devices), options.camera_reconnect_s) {}
 
     Status drive_or_search(double target_s_mm, int tag_id);
+    void take_up(const nlohmann::json& checkpoint);
 
     Pilot pilot;
     std::shared_ptr<SimulatedRig> simulated;
@@ -246,6 +247,22 @@ constexpr std::array setpoint_names{std::pair{"macro_setpoint_mm", &Setpoints::m
 
 }  // namespace
 
+void Session::Impl::take_up(const nlohmann::json& json) {
+    read_json(json.at("heater"), pilot.params.micro.model.heater);
+    pilot.params.micro.model.stroke_scale = json.at("stroke_scale");
+    json.at("hall_correction").get_to(pilot.params.micro.model.hall_correction);
+    read_json(json.at("positioner"), pilot.state);
+    pilot.count_zero_mm = json.at("count_zero_mm");
+    pilot.registered = true;
+    pilot.camera_delay_s = json.at("camera_delay_s");
+    pilot.camera_mm =
+        Eigen::Vector2d(json.at("camera_mm").at(0).get<double>(), json.at("camera_mm").at(1).get<double>());
+    for (const auto& [name, setpoint] : setpoint_names)
+        pilot.setpoints.*setpoint = json.value(name, not_in_force);
+    pilot.machine.set_now(json.at("now_ns"));
+    if (simulated) simulated->restore(json.at("rig"));
+}
+
 std::string Session::checkpoint() const {
     const Pilot& pilot = impl_->pilot;
     nlohmann::json json{{"positioner", json_of(pilot.state)},
@@ -263,21 +280,11 @@ std::string Session::checkpoint() const {
 }
 
 void Session::restore(const std::string& checkpoint) {
-    const auto json = nlohmann::json::parse(checkpoint);
-    Pilot& pilot = impl_->pilot;
-    read_json(json.at("heater"), pilot.params.micro.model.heater);
-    pilot.params.micro.model.stroke_scale = json.at("stroke_scale");
-    json.at("hall_correction").get_to(pilot.params.micro.model.hall_correction);
-    read_json(json.at("positioner"), pilot.state);
-    pilot.count_zero_mm = json.at("count_zero_mm");
-    pilot.registered = true;
-    pilot.camera_delay_s = json.at("camera_delay_s");
-    pilot.camera_mm =
-        Eigen::Vector2d(json.at("camera_mm").at(0).get<double>(), json.at("camera_mm").at(1).get<double>());
-    for (const auto& [name, setpoint] : setpoint_names)
-        pilot.setpoints.*setpoint = json.value(name, not_in_force);
-    pilot.machine.set_now(json.at("now_ns"));
-    if (impl_->simulated) impl_->simulated->restore(json.at("rig"));
+    try {
+        impl_->take_up(nlohmann::json::parse(checkpoint));
+    } catch (const nlohmann::json::exception& problem) {
+        throw InputError(fmt::format("the checkpoint is damaged: {}", problem.what()));
+    }
 }
 
 }  // namespace fidservo

@@ -113,6 +113,7 @@ class Session {
     /// All that a later process needs to go on from here as if nothing had happened (JSON text). On a
     /// simulated rig that includes the rig itself.
     std::string checkpoint() const;
+    /// Goes on from there. Throws InputError if the text is not a checkpoint.
     void restore(const std::string& checkpoint);
 
   private:

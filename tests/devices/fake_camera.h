@@ -33,6 +33,7 @@ struct FakeProperties {
     bool maps = true;          ///< offers memory of its own
     bool takes_memory = true;  ///< offers to fill the program's
     int stream_error = 0;      ///< of VIDIOC_STREAMON
+    std::string driver = "fake";
 };
 
 struct FakeFrame {

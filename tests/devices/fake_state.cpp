@@ -95,7 +95,7 @@ bool FakeCamera::State::waiting_is_empty() const {
 }
 
 int FakeCamera::State::capability(v4l2_capability& answer) const {
-    write_text("fake", answer.driver);
+    write_text(properties.driver, answer.driver);
     write_text("Fake camera", answer.card);
     write_text("platform:fake", answer.bus_info);
     answer.device_caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;

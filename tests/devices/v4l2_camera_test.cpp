@@ -98,6 +98,18 @@ TEST(V4l2Camera, GreyFrame_StaysInTheDriversBufferUntilLetGo) {
     EXPECT_EQ(fake.queued_buffers(), buffers);
 }
 
+TEST(V4l2Camera, GreyFrameOfV4l2loopback_IsCopied) {
+    devices::FakeProperties properties = devices::grey_camera();
+    properties.driver = "v4l2 loopback";
+    FakeCamera fake(properties);
+    V4l2Camera camera("/dev/video0", settings());
+    const std::size_t buffers = fake.queued_buffers();
+    fake.expose(even_frame(0, 77));
+    const Frame frame = next_frame(camera);
+    EXPECT_EQ(fake.queued_buffers(), buffers);
+    EXPECT_EQ(value_of(frame), 77);
+}
+
 TEST(V4l2Camera, ManyFramesKept_AreCopiedBeforeTheDriverRunsOut) {
     FakeCamera fake(devices::grey_camera());
     V4l2Camera camera("/dev/video0", settings());

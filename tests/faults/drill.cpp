@@ -79,6 +79,12 @@ DrillEnd Drill::run(const std::string& name, const std::vector<Fault>& faults) c
     return go_on(name, faults);
 }
 
+DrillEnd Drill::run_from_start(const std::string& name, const std::vector<Fault>& faults) const {
+    inspect::InspectionOptions of_run = options(out(name));
+    of_run.session.faults = faults;
+    return end_of(of_run);
+}
+
 DrillEnd Drill::resume(const std::string& name) const {
     return go_on(name, {});
 }
@@ -86,6 +92,19 @@ DrillEnd Drill::resume(const std::string& name) const {
 DrillEnd Drill::go_on(const std::string& name, const std::vector<Fault>& faults) const {
     inspect::InspectionOptions of_run = options(out(name));
     of_run.resume = true;
+    of_run.session.faults = faults;
+    return end_of(of_run);
+}
+
+fs::path Drill::recipe_with(const std::string& name, const std::string& keys) const {
+    const fs::path file = folder_ / (name + ".yaml");
+    std::ofstream(file) << text_of_file(recipe) << keys;
+    return file;
+}
+
+DrillEnd Drill::run_waiting_for_the_camera(const std::string& name, const std::vector<Fault>& faults) const {
+    inspect::InspectionOptions of_run = options(out(name));
+    of_run.recipe = recipe_with(name, "camera_reconnect_s: 10\n");
     of_run.session.faults = faults;
     return end_of(of_run);
 }
@@ -106,10 +125,8 @@ DrillEnd Drill::run_with_wrong_tag(const std::string& name) const {
               << "  - { pad: pad@" << site << ", centre_mm: [" << 2 * site - 1
               << ", -1.3], width_um: 600, height_um: 400 }\n";
     plate.close();
-    std::ofstream(folder_ / "wrong_tag.yaml")
-        << text_of_file(recipe) << "simulation:\n  plate: wrong_tag_plate.yaml\n";
     inspect::InspectionOptions of_run = options(out(name));
-    of_run.recipe = folder_ / "wrong_tag.yaml";
+    of_run.recipe = recipe_with(name, "simulation:\n  plate: wrong_tag_plate.yaml\n");
     return end_of(of_run);
 }
 

@@ -35,8 +35,13 @@ class Drill {
 
     /// Goes on from the homed rig with faults. @param name  of the run's folder
     DrillEnd run(const std::string& name, const std::vector<Fault>& faults) const;
+    /// A run from the start with faults.
+    DrillEnd run_from_start(const std::string& name, const std::vector<Fault>& faults) const;
     /// Goes on with that run without them.
     DrillEnd resume(const std::string& name) const;
+
+    /// A run from the start whose recipe lets a lost camera be waited for.
+    DrillEnd run_waiting_for_the_camera(const std::string& name, const std::vector<Fault>& faults) const;
 
     /// A run from the start on another printed plate: the tags 52 and 80 have changed places.
     DrillEnd run_with_wrong_tag(const std::string& name) const;
@@ -44,6 +49,8 @@ class Drill {
     std::filesystem::path out(const std::string& name) const { return folder_ / name; }
 
   private:
+    /// Writes the drill's recipe with more keys. @return where it is
+    std::filesystem::path recipe_with(const std::string& name, const std::string& keys) const;
     inspect::InspectionOptions options(const std::filesystem::path& out) const;
     DrillEnd go_on(const std::string& name, const std::vector<Fault>& faults) const;
     DrillEnd end_of(const inspect::InspectionOptions& options) const;

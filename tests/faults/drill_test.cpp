@@ -112,6 +112,39 @@ TEST_F(SlowDrills, EveryFault_EndsAsTheTableSays) {
     }
 }
 
+/// Before anything is known of where the rig is.
+TEST_F(SlowDrills, EveryFaultThatStopsARun_IsNamedInHomingToo) {
+    for (const Promise& promise : promises()) {
+        if (!promise.stops) continue;
+        SCOPED_TRACE(promise.kind);
+        const std::string name = promise.kind + "_at_once";
+        const DrillEnd end = drill_->run_from_start(name, {parse_fault(promise.kind)});
+        EXPECT_TRUE(end.stopped);
+        EXPECT_NE(end.text.find("homing: "), std::string::npos) << end.text.substr(0, 2000);
+        EXPECT_NE(end.text.find(promise.reason), std::string::npos) << end.text.substr(0, 2000);
+        EXPECT_TRUE(end.outputs_zero);
+    }
+    const DrillEnd resumed = drill_->resume("macro_jammed_at_once");
+    EXPECT_FALSE(resumed.stopped) << resumed.text.substr(0, 2000);
+    EXPECT_EQ(testing::text_of_file(drill_->out("macro_jammed_at_once") / "results.csv"),
+              testing::text_of_file(drill_->whole() / "results.csv"));
+}
+
+TEST_F(SlowDrills, CameraThatIsWaitedFor_TheRunGoesOnWhenItIsBack) {
+    Fault away = planned("camera_silent");
+    away.for_s = 4.0;
+    const DrillEnd end = drill_->run_waiting_for_the_camera("waited", {away});
+    EXPECT_FALSE(end.stopped) << end.text.substr(0, 2000);
+    EXPECT_EQ(end.text.find("deferred"), std::string::npos) << "it was waited for at the site";
+    expect_same_within_uncertainty(drill_->out("waited") / "results.csv");
+    away.for_s = 60.0;
+    const DrillEnd too_long = drill_->run_waiting_for_the_camera("waited_for_long", {away});
+    EXPECT_TRUE(too_long.stopped);
+    EXPECT_NE(too_long.text.find("no frame from the camera for 11."), std::string::npos)
+        << too_long.text.substr(0, 2000);
+    EXPECT_TRUE(too_long.outputs_zero);
+}
+
 /// The others are not led astray by it.
 TEST_F(SlowDrills, TagOfAnotherSite_ThatSiteIsNotMeasuredAndTheOthersAre) {
     const DrillEnd end = drill_->run_with_wrong_tag("wrong_tag");

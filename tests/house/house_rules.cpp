@@ -78,6 +78,11 @@ bool has_file(const std::vector<SourceFile>& house, const std::string& path) {
     return std::any_of(house.begin(), house.end(), [&](const SourceFile& file) { return file.path == path; });
 }
 
+SourceFile read(const std::filesystem::path& file, const std::string& top) {
+    std::ifstream in(file);
+    return {std::filesystem::relative(file, top).string(), {std::istreambuf_iterator<char>(in), {}}};
+}
+
 }  // namespace
 
 std::vector<SourceFile> read_house(const std::string& top) {
@@ -90,12 +95,18 @@ std::vector<SourceFile> read_house(const std::string& top) {
         for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
             const auto extension = entry.path().extension();
             if (extension != ".h" && extension != ".cpp") continue;
-            std::ifstream in(entry.path());
-            house.push_back({std::filesystem::relative(entry.path(), top).string(),
-                             {std::istreambuf_iterator<char>(in), {}}});
+            house.push_back(read(entry.path(), top));
         }
     }
     return house;
+}
+
+std::vector<SourceFile> read_documents(const std::string& top) {
+    std::vector<SourceFile> documents;
+    for (const char* folder : {".", "docs"})
+        for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(top) / folder))
+            if (entry.path().extension() == ".md") documents.push_back(read(entry.path(), top));
+    return documents;
 }
 
 Findings forbidden_arrows(const SourceFile& file) {
@@ -172,6 +183,19 @@ Findings wall_clocks(const SourceFile& file) {
     Findings findings;
     for (const auto& clock : matches(file.text, pattern))
         findings.push_back(file.path + ": wall clock " + clock);
+    return findings;
+}
+
+Findings tests_that_are_not_there(const SourceFile& document, const std::vector<SourceFile>& house) {
+    static const std::regex pattern(R"re(`([A-Z]\w*\.[A-Z]\w*_\w+)`)re");
+    Findings findings;
+    for (std::string name : matches(document.text, pattern)) {
+        const std::string head = "(" + name.replace(name.find('.'), 1, ", ") + ")";
+        const bool is_there = std::any_of(house.begin(), house.end(), [&](const SourceFile& file) {
+            return file.path.starts_with("tests/") && file.text.find(head) != std::string::npos;
+        });
+        if (!is_there) findings.push_back(document.path + ": no test " + head);
+    }
     return findings;
 }
 

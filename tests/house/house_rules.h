@@ -15,6 +15,8 @@ using Findings = std::vector<std::string>;
 
 /// All .h and .cpp files of the rooms, tests and benchmarks below `top`.
 std::vector<SourceFile> read_house(const std::string& top);
+/// All .md files in docs and at the top.
+std::vector<SourceFile> read_documents(const std::string& top);
 
 /// Includes that go against the arrows between rooms.
 Findings forbidden_arrows(const SourceFile& file);
@@ -32,6 +34,8 @@ Findings too_long(const SourceFile& file);
 Findings machine_paths(const SourceFile& file);
 /// Rooms that look at the wall clock, which may be set at any moment; a log line's date excepted.
 Findings wall_clocks(const SourceFile& file);
+/// Tests that a document names, `Suite.Thing_Condition_Expectation`, and that no test file has.
+Findings tests_that_are_not_there(const SourceFile& document, const std::vector<SourceFile>& house);
 /// Work that is left to somebody, and code that is switched off.
 Findings notes_to_self(const SourceFile& file);
 

@@ -87,6 +87,14 @@ TEST(House, Rooms_DoNotLookAtTheWallClock) {
     EXPECT_THAT(in_the_house(wall_clocks), IsEmpty());
 }
 
+TEST(House, Documents_NameTestsThatAreThere) {
+    const std::vector<SourceFile> one{{"tests/a_test.cpp", "TEST_F(Suite, Thing_Happens) {}"}};
+    EXPECT_THAT(tests_that_are_not_there({"a.md", "`Suite.Thing_Happens`"}, one), IsEmpty());
+    EXPECT_THAT(tests_that_are_not_there({"a.md", "`Suite.Thing_IsGone`"}, one), SizeIs(1));
+    for (const SourceFile& document : read_documents(FIDSERVO_SOURCE_DIR))
+        EXPECT_THAT(tests_that_are_not_there(document, house()), IsEmpty());
+}
+
 TEST(House, Files_HoldNoNotesToSelf) {
     EXPECT_THAT(notes_to_self({"core/a.cpp", std::string("// TO") + "DO: later"}), Not(IsEmpty()));
     EXPECT_THAT(in_the_house(notes_to_self), IsEmpty());

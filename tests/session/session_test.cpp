@@ -14,6 +14,19 @@
 namespace fidservo {
 namespace {
 
+std::shared_ptr<SimulatedRig> reference_rig_in_simulation() {
+    return std::make_shared<SimulatedRig>(
+        reference_physics(), load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml").camera.value(), reference_plate(), 5);
+}
+
+/// A session on that rig, whose stage has a fault.
+Session session_with(const std::shared_ptr<SimulatedRig>& rig, const Fault& fault) {
+    const auto stage = std::make_shared<FaultyStage>(std::make_shared<SimulatedStage>(rig, nullptr),
+                                                     std::vector<Fault>{fault});
+    return {SessionOptions{}, load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), reference_plate(),
+            Devices{stage, std::make_shared<SimulatedCamera>(rig)}};
+}
+
 TEST(Session, Home_FindsWhereTheCameraIs) {
     WatchedRig rig(reference_physics(), reference_plate(), 5);
     const auto homed = rig.session.home();
@@ -22,6 +35,38 @@ TEST(Session, Home_FindsWhereTheCameraIs) {
     ASSERT_TRUE(arrival) << arrival.error().text;
     EXPECT_NEAR(plant::camera_position_mm(rig.rig->truth()), 6.25, 0.002);
     EXPECT_NEAR(rig.session.camera_mm().x(), plant::camera_position_mm(rig.rig->truth()), 0.0005);
+}
+
+/// A carriage that stands looks like one at its end stop.
+TEST(Session, Home_CarriageJams_IsSaidWhereverItIsOnItsWay) {
+    for (const double from_s : {0.0, 0.4, 0.9}) {
+        SCOPED_TRACE(from_s);
+        const auto rig = reference_rig_in_simulation();
+        Session session = session_with(rig, {FaultKind::macro_jammed, from_s});
+        const auto homed = session.home();
+        ASSERT_FALSE(homed);
+        EXPECT_EQ(homed.error().reason, Reason::device);
+        EXPECT_NE(homed.error().text.find("the macro stage does not answer"), std::string::npos)
+            << homed.error().text;
+        EXPECT_GT(plant::camera_position_mm(rig->truth()), 10.0) << "the end stop was not reached";
+    }
+}
+
+/// It can still move, and a tag tells where it is.
+TEST(Session, Home_SomethingInTheWay_IsRegisteredAllTheSame) {
+    const auto rig = reference_rig_in_simulation();
+    Session session = session_with(rig, {FaultKind::macro_jammed, 0.5, 0.3});
+    const auto homed = session.home();
+    ASSERT_TRUE(homed) << homed.error().text;
+    EXPECT_GT(rig->truth().axis.position_mm, 10.0) << "the end stop was not reached";
+    ASSERT_TRUE(session.go_to(40, 0.25));
+    EXPECT_NEAR(plant::camera_position_mm(rig->truth()), 80.25, 0.002);
+}
+
+TEST(Session, DamagedCheckpoint_IsRefused) {
+    WatchedRig rig(reference_physics(), reference_plate(), 5);
+    for (const char* text : {"", "{}", R"({"heater": 3})", R"({"heater": {}, "stroke_scale": "x"})"})
+        EXPECT_THROW(rig.session.restore(text), InputError) << text;
 }
 
 TEST(Session, SameSeed_SameCommands) {
@@ -100,12 +145,8 @@ TEST(Session, TagsThatChangedPlaces_LeadTheCameraNotAstray) {
 }
 
 TEST(Session, CountsThatWereNoMotion_AreFoundOutByTheTags) {
-    const auto rig = std::make_shared<SimulatedRig>(
-        reference_physics(), load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml").camera.value(), reference_plate(), 5);
-    const auto stage = std::make_shared<FaultyStage>(std::make_shared<SimulatedStage>(rig, nullptr),
-                                                     std::vector<Fault>{{FaultKind::encoder_jump, 9.0}});
-    Session session(SessionOptions{}, load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), reference_plate(),
-                    Devices{stage, std::make_shared<SimulatedCamera>(rig)});
+    const auto rig = reference_rig_in_simulation();
+    Session session = session_with(rig, {FaultKind::encoder_jump, 9.0});
     ASSERT_TRUE(session.home());
     ASSERT_LT(session.now_s(), 9.0) << "the counts jump after homing";
     ASSERT_TRUE(session.hold(1.0));

@@ -48,6 +48,17 @@ TEST(Program, Help_IsThereForEveryCommand) {
     }
 }
 
+TEST(Program, DrillOfARealDevice_IsRefusedBeforeItIsTouched) {
+    const TemporaryFolder folder;
+    const std::string recipe = FIDSERVO_ASSETS_DIR "/demo/recipe.yaml", rig = FIDSERVO_ASSETS_DIR "/rig.yaml";
+    for (const auto& device :
+         {std::vector<std::string>{"--camera", "v4l2:/dev/null"}, {"--stage", "comedi:/dev/null"}})
+        expect_refusal(
+            {"inspect", recipe, "--rig", rig, "--out", "o", "--fault", "hall_stuck", device[0], device[1]},
+            folder.path(), 2, {"--fault hall_stuck", "simulated"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "o"));
+}
+
 TEST(Program, UnknownCommandOrOption_ExitsWithTwo) {
     const TemporaryFolder folder;
     expect_refusal({"replai"}, folder.path(), 2,

@@ -31,9 +31,19 @@ struct Outcome {
     double warmest_degC = 0.0;
 };
 
-Outcome check(const Fault& fault, double carriage_mm = 100.0) {
+/// What the wire has been through when the check begins: heated for two seconds, then left alone.
+struct Before {
+    double heated_V = 0.0;
+    double cooled_s = 0.0;
+};
+
+Outcome check(const Fault& fault, double carriage_mm = 100.0, const Before& before = {}) {
     const plant::StagePlant plant = plant::make_stage_plant(reference_rig());
     plant::StageState stage = plant::start(plant, carriage_mm, 3);
+    for (int tick = 0; before.heated_V > 0.0 && tick < 2000; ++tick)
+        plant::advance(plant, stage, 0.0, before.heated_V);
+    for (double left_s = before.cooled_s; left_s > 0.0; left_s -= plant.tick_s)
+        plant::advance(plant, stage, 0.0, 0.0);
     const StageCheckParams params = stage_check_params(reference_rig());
     Outcome outcome;
     const plant::StageReading first = plant::sample(plant, stage);
@@ -66,6 +76,16 @@ TEST(StageCheck, HealthyStage_PassesAndIsAsBefore) {
 TEST(StageCheck, AtEitherEnd_PassesByThePushThatIsFree) {
     for (const double end_mm : {0.0, 200.0})
         EXPECT_EQ(check({}, end_mm).state.phase, StageCheckPhase::passed) << end_mm;
+}
+
+/// As after a run that was killed and is taken up at once.
+TEST(StageCheck, WireStillHot_Passes) {
+    for (const double heated_V : {1.45, 1.5, 1.55, 1.6, 1.65})
+        for (const double cooled_s : {0.0, 0.2, 0.5, 1.0, 2.0}) {
+            const Outcome outcome = check({}, 100.0, {heated_V, cooled_s});
+            EXPECT_EQ(outcome.state.phase, StageCheckPhase::passed)
+                << heated_V << " V, " << cooled_s << " s: " << outcome.state.why;
+        }
 }
 
 TEST(StageCheck, WhatDoesNotAnswer_IsNamed) {

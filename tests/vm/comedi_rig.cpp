@@ -6,7 +6,7 @@
 // at its inputs, simulates the stage by the wall clock, and writes what its sensors show to the outputs 2
 // (position, 20 mm/V, 0 V at 100 mm) and 3 (Hall sensor), which the program reads at the inputs 2 and 3.
 // Frames of the plate, as the camera on that stage sees it, go to v4l2loopback. Prints a line when it is
-// ready, and the camera's true place once a second.
+// ready, and the camera's true place and the commands in force once a second.
 #include "control/comedi/libcomedi_link.h"
 #include "control/comedi/wiring.h"
 #include "control/guardian_process.h"
@@ -16,6 +16,7 @@
 #include "tests/live_rig.h"
 #include "tests/vm/loopback_feed.h"
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -42,8 +43,14 @@ Rig in_short_steps(Rig rig) {
     return rig;
 }
 
+/// What the outputs were last seen to command.
+struct Commanded {
+    std::atomic<double> macro_V{0.0}, micro_V{0.0};
+};
+
 /// The stage's electronics.
-void drive(LiveRig& rig, const Rig& file, BoardLink& board, const std::stop_token& stop) {
+void drive(LiveRig& rig, const Rig& file, BoardLink& board, Commanded& commanded,
+           const std::stop_token& stop) {
     constexpr double mm_per_V = 20.0, middle_mm = 100.0;
     control::take_real_time_priority();
     const double lsb_V = hall_lsb_V(file.micro->hall);
@@ -52,6 +59,8 @@ void drive(LiveRig& rig, const Rig& file, BoardLink& board, const std::stop_toke
         if (!board.read(channel(0, 0).at, motor) || !board.read(channel(0, 1).at, heater)) std::abort();
         const double macro_V = volts_of(channel(0, 0), motor), micro_V = volts_of(channel(0, 1), heater);
         rig.command(macro_V, micro_V);
+        commanded.macro_V = macro_V;
+        commanded.micro_V = micro_V;
         const plant::StageReading reading = rig.read(monotonic_now_ns());
         const double position_V = (rig.carriage_mm() - middle_mm) / mm_per_V;
         if (!board.write(channel(1, 2).at, number_of(channel(1, 2), position_V)) ||
@@ -86,11 +95,13 @@ int run(char** arguments) {
     devices::LoopbackFeed feed(arguments[4], vision::v4l2::PixelFormat::grey,
                                {camera.geometry.width_px, camera.geometry.height_px});
     LiveRig rig(file, plate, 30.0, 5);
-    const std::jthread stage([&](const std::stop_token& stop) { drive(rig, file, *board, stop); });
+    Commanded commanded;
+    const std::jthread stage([&](const std::stop_token& stop) { drive(rig, file, *board, commanded, stop); });
     const std::jthread eye([&](const std::stop_token& stop) { film(rig, camera, feed, stop); });
     for (double passed_s = 0.0; passed_s < duration_s; passed_s += 1.0) {
         std::this_thread::sleep_for(std::chrono::seconds(1));
-        std::printf("truth: camera at %.4f mm\n", rig.camera_mm(monotonic_now_ns()));
+        std::printf("truth: camera at %.4f mm; motor %.3f V, heater %.3f V\n",
+                    rig.camera_mm(monotonic_now_ns()), commanded.macro_V + 0.0, commanded.micro_V + 0.0);
         std::fflush(stdout);
     }
     return 0;

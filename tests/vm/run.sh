@@ -8,14 +8,18 @@ shift 2
 # The board with which the stage was published, at its usual place; there is none in the machine.
 multiq3="/usr/sbin/comedi_config /dev/comedi0 multiq3 0x320,5,2"
 
+# With its usual two buffers v4l2loopback writes into frames that a slow reader has not yet fetched.
+loopback="v4l2loopback:video_nr=20:exclusive_caps=0:max_buffers=8"
+
 # group: kernel modules | seconds allowed | command
 declare -A groups=(
     [vivid]="vivid:n_devs=1:node_types=0x1:vid_cap_nr=10|900|$build/tests/vm/vivid_test"
     [comedi]="comedi:comedi_num_legacy_minors=1,multiq3,comedi_test|600|$multiq3 && $build/tests/vm/comedi_vm_test"
-    [inspection]="v4l2loopback:video_nr=20:exclusive_caps=0,comedi_test|700|$here/inspection.sh $build"
-    [loopback]="v4l2loopback:video_nr=20:exclusive_caps=0|900|$build/tests/vm/loopback_test"
+    [inspection]="$loopback,comedi_test|900|$here/inspection.sh $build"
+    [killed]="$loopback,comedi_test|900|$here/inspection.sh $build killed"
+    [loopback]="$loopback|900|$build/tests/vm/loopback_test && $build/tests/vm/record_test"
 )
-order=(vivid loopback comedi inspection)
+order=(vivid loopback comedi inspection killed)
 (($#)) && order=("$@")
 
 failed=0

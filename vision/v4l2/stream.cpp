@@ -43,6 +43,7 @@ FrameStream::FrameStream(const std::filesystem::path& node, const CaptureSetting
     const Capability capability = take_or_throw(capability_of(device));
     demand_capture(device, capability);
     card_ = capability.card;
+    leased_frames_stay_ = capability.driver != "v4l2 loopback";
     format_ = set_format(device, settings);
     lock_ = lock_controls(device, settings);
     frame_rate_hz_ = v4l2::frame_rate_hz(device);

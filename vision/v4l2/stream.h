@@ -40,11 +40,14 @@ class FrameStream {
     const ControlLock& lock() const { return lock_; }
     double frame_rate_hz() const { return frame_rate_hz_; }
     Memory memory() const { return queue_->memory(); }
+    /// Whether a frame stays what it is while it is leased. v4l2loopback writes into it all the same.
+    bool leased_frames_stay() const { return leased_frames_stay_; }
 
   private:
     bool source_changed();
 
     std::string card_;
+    bool leased_frames_stay_ = true;
     CaptureFormat format_;
     ControlLock lock_;
     double frame_rate_hz_ = 0.0;

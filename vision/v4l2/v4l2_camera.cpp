@@ -33,6 +33,8 @@ std::vector<std::string> notes_on(const FrameStream& stream, const CaptureSettin
     if (std::abs(stream.frame_rate_hz() / settings.frame_rate_hz - 1.0) > 0.01)
         notes.push_back(fmt::format("{:.6g} frames/s in place of {:.6g}", stream.frame_rate_hz(),
                                     settings.frame_rate_hz));
+    if (!stream.leased_frames_stay())
+        notes.push_back("its driver writes into frames that are still looked at: they are copied");
     return notes;
 }
 
@@ -43,6 +45,7 @@ struct V4l2Camera::Impl {
         : settings(wanted),
           stream(std::make_unique<FrameStream>(node, wanted)),
           card(stream->card()),
+          leased_frames_stay(stream->leased_frames_stay()),
           notes(notes_on(*stream, wanted)),
           timeout_ns(ns_per_s + nanoseconds(5.0 / wanted.frame_rate_hz)) {
         const auto by_id = by_id_of(node);
@@ -164,7 +167,7 @@ struct V4l2Camera::Impl {
         frame.sequence = raw.sequence;
         if (raw.format.pixels != PixelFormat::grey)
             frame.image = *image;
-        else if (raw.lease.queue().with_driver() < least_with_driver)
+        else if (!leased_frames_stay || raw.lease.queue().with_driver() < least_with_driver)
             frame.image = image->clone();
         else
             frame.image = leased_image(std::move(raw.lease), *image);
@@ -181,6 +184,7 @@ struct V4l2Camera::Impl {
     CaptureSettings settings;
     std::unique_ptr<FrameStream> stream;  ///< the reading thread's once that runs
     std::string card;
+    bool leased_frames_stay;
     std::vector<std::string> notes;
     TimeNs timeout_ns;
     std::filesystem::path path;  ///< under which the camera comes back
