@@ -212,6 +212,14 @@ std::optional<Doubt> doubt_of(const Evidence& evidence, const Selection& selecti
     return Doubt{trust_in_stand_in, std::move(*whole)};
 }
 
+/// How sure it is which block of a stage's stretch is accused where nothing is named: if the errors depend on
+/// nothing that was found, any of them may be it.
+double certainty_of(const Remainder& missing) {
+    constexpr double any_of_them = 0.5;
+    const bool is_of_a_stage = missing.block.starts_with("macro.") || missing.block.starts_with("micro.");
+    return is_of_a_stage && missing.depends_on.empty() ? any_of_them : 1.0;
+}
+
 void accuse(std::vector<BlockProbability>& where, const std::string& block, double probability) {
     const auto known = std::ranges::find(where, block, &BlockProbability::block);
     if (known != where.end())
@@ -247,7 +255,9 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
     for (FoundEffect& effect : diagnosis.effects) effect.probability *= worth_of_names(trust);
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, trust);
-    if (doubt) accuse(diagnosis.where, doubt->missing.block, 1.0 - trust);
+    if (doubt)
+        accuse(diagnosis.where, doubt->missing.block,
+               (1.0 - trust) * (selection.choices.empty() ? certainty_of(doubt->missing) : 1.0));
     if (diagnosis.unexplained && selection.choices.empty()) {
         const std::string wanting = what_is_wanting(evidence, selection);
         if (!wanting.empty()) diagnosis.unexplained->text += "; " + wanting;

@@ -105,13 +105,12 @@ std::string closing_html(const gap::Diagnosis& diagnosis, const Request& request
 }
 
 std::string notes_html(const std::vector<std::string>& notes) {
-    constexpr std::size_t few = 6;
+    constexpr std::size_t few = 12;
     std::string html;
     for (const std::string& note : notes) html += fmt::format("<li>{}</li>\n", escaped(note));
     html = "<ul class=\"notes\">" + html + "</ul>\n";
     if (notes.size() <= few) return html;
-    return fmt::format("<details><summary>{} remarks on parts of recordings</summary>\n{}</details>\n",
-                       notes.size(), html);
+    return fmt::format("<details><summary>{} remarks</summary>\n{}</details>\n", notes.size(), html);
 }
 
 std::string no_gap_html(const gap::Diagnosis& diagnosis) {
@@ -122,9 +121,11 @@ std::string no_gap_html(const gap::Diagnosis& diagnosis) {
         return "<p>The predictions are off by more than the sensors' noise, but too few windows say so to "
                "decide on a cause. Record the experiments again, longer and several times each, and repeat "
                "the diagnosis.</p>\n";
-    return "<p>Nothing needs to be done: use the simulator as it is. This holds for what the recordings "
-           "exercise; an effect that they do not excite (a place on the rail, a speed, a temperature) does "
-           "not show. When the rig was changed or has aged, record again and repeat the diagnosis.</p>\n";
+    return "<p>For what the recordings exercise nothing needs to be done: use the simulator as it is. An "
+           "effect "
+           "that they do not excite (a place on the rail, a speed, a temperature) does not show; which those "
+           "are "
+           "stands below. When the rig was changed or has aged, record again and repeat the diagnosis.</p>\n";
 }
 
 }  // namespace
@@ -142,7 +143,7 @@ std::string next_steps_html(const gap::Diagnosis& diagnosis, const Rig& rig, con
         html += step("What no known effect explains",
                      remainder_html(*diagnosis.unexplained) + trust_html(diagnosis, rig));
     if (!diagnosis.effects.empty()) html += step("How to close the gap", closing_html(diagnosis, request));
-    if (!diagnosis.notes.empty()) html += step("What could not be judged", notes_html(diagnosis.notes));
+    if (!diagnosis.notes.empty()) html += step("What cannot be decided", notes_html(diagnosis.notes));
     return html;
 }
 

@@ -96,6 +96,8 @@ std::string verdict_detail(const gap::Diagnosis& diagnosis) {
             return text + ties(diagnosis);
         }
         case gap::Verdict::unexplained:
+            if (diagnosis.unexplained && diagnosis.unexplained->depends_on.empty())
+                return sizes(diagnosis) + "; nothing was found that the errors depend on.";
             return sizes(diagnosis) +
                    ". A model without a name, fitted to what the errors depend on, predicts the recordings "
                    "better; none of the catalogue's effects does.";

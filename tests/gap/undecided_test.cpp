@@ -61,6 +61,8 @@ TEST(Undecided, ShortRecording_NamesAGuessAsSuch) {
     EXPECT_THAT(diagnosis.effects, IsEmpty());
     ASSERT_TRUE(diagnosis.unexplained);
     EXPECT_THAT(diagnosis.unexplained->text, HasSubstr("too few"));
+    ASSERT_FALSE(diagnosis.where.empty());
+    EXPECT_LE(diagnosis.where.front().probability, 0.5);
 }
 
 TEST(SlowUndecided, RecordingOfAnotherRig_IsAskedAbout) {
