@@ -1,12 +1,12 @@
 #include "gap/undecided.h"
 
+#include "gap/carriage_run.h"
 #include "gap/coupling.h"
 #include "gap/gap_size.h"
 #include "gap/halves.h"
 #include "gap/parallel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -36,10 +36,8 @@ std::optional<double> motion_square(const Evidence& evidence, const Window& wind
     double sum = 0.0, squares = 0.0, count = 0.0;
     for (std::size_t k = window.first_row; k < window.first_row + window.rows; ++k) {
         const StageRow& row = recording.rows[k];
-        const double count_or_place = std::isnan(row.encoder_count)
-                                          ? row.position_mm / evidence.rig().macro.encoder_resolution_mm
-                                          : row.encoder_count;
-        const double reading = window.signal == Signal::hall ? row.hall_adc : count_or_place;
+        const double reading =
+            window.signal == Signal::hall ? row.hall_adc : reading_count(row, evidence.rig().macro);
         if (std::isnan(reading)) continue;
         sum += reading;
         squares += reading * reading;
@@ -72,16 +70,11 @@ void add_useless_predictions(const Evidence& evidence, const Selection& selectio
     }
 }
 
-std::array<bool, signal_count> judged_signals(const Evidence& evidence) {
-    std::array<bool, signal_count> judged{};
-    for (const Window& window : evidence.windows()) judged[index_of(window.signal)] = true;
-    return judged;
-}
-
 void add_missing_signals(const Evidence& evidence, Lines& lines) {
-    const std::array<bool, signal_count> judged = judged_signals(evidence);
     const auto say = [&](Signal signal, bool has, std::string_view blocks) {
-        if (has && !judged[index_of(signal)])
+        const bool is_judged =
+            std::ranges::find(evidence.windows(), signal, &Window::signal) != evidence.windows().end();
+        if (has && !is_judged)
             lines.push_back(fmt::format("{}: nothing was recorded that can be judged: {} cannot be decided",
                                         name_of(signal), blocks));
     };
