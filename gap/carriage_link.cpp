@@ -17,39 +17,43 @@ const plant::MacroAxis& axis_of(const CarriageModel& model, const CarriageRun& r
     return run.is_homed ? model.axis : model.endless_axis;
 }
 
-/// Whether a carriage that a tick left where it was stays there under the same command.
-bool stays(const plant::MacroAxis& axis) {
-    return !axis.has_belt && axis.parameters.delay_s == 0.0 && axis.parameters.play_mm == 0.0;
+/// Whether nothing moves. Bristles and belts swing on for ever, by less than a thousandth of a count.
+bool is_at_rest(const plant::MacroAxis& axis, const plant::MacroAxisState& state) {
+    constexpr double rest_mm_per_s = 1e-4;
+    const plant::MechanismState& mechanism = state.mechanism;
+    const double driven_mm_per_s =
+        axis.parameters.play_mm > 0.0 ? mechanism.driven_mm_per_s : state.velocity_mm_per_s;
+    return std::max({std::abs(state.velocity_mm_per_s), std::abs(driven_mm_per_s),
+                     std::abs(mechanism.stretching_mm_per_s)}) <= rest_mm_per_s;
 }
-
-/// Slower than this is at rest: bristles swing on for ever, by less than a thousandth of a count.
-constexpr double rest_mm_per_s = 1e-4;
 
 /// Runs the plant over rows; what it shows at row k goes to element k - origin.
 void run_rows(const CarriageModel& model, const CarriageRun& run, std::size_t first, std::size_t end,
               plant::MacroAxisState& state, CarriagePath& motion, std::size_t origin = 0) {
     const plant::MacroAxis& axis = axis_of(model, run);
-    const bool may_rest = stays(axis);
-    bool rests = false;
+    const bool may_rest = axis.parameters.delay_s == 0.0;  // else commands are on their way
+    bool was_at_rest = false, rests = false;
     for (std::size_t k = first; k < end; ++k) {
         const double before_mm = state.position_mm, before_mm_per_s = state.velocity_mm_per_s;
         motion.position_mm[k - origin] = before_mm;
         motion.velocity_mm_per_s[k - origin] = before_mm_per_s;
         if (!rests || run.command_V[k] != run.command_V[k - 1]) plant::advance(axis, state, run.command_V[k]);
-        rests = may_rest && std::abs(state.velocity_mm_per_s) <= rest_mm_per_s &&
-                std::abs(before_mm_per_s) <= rest_mm_per_s;
+        const bool is_now = is_at_rest(axis, state);
+        rests = may_rest && is_now && was_at_rest;
+        was_at_rest = is_now;
         motion.acceleration_mm_per_s2[k - origin] = (state.velocity_mm_per_s - before_mm_per_s) / run.tick_s;
     }
 }
 
 /// The state in which a stretch begins, before its counts correct it: at its first count; at rest, or as fast
-/// as its first counts are.
+/// as its first counts are; with what the way until then has left behind.
 plant::MacroAxisState first_state(const CarriageModel& model, const CarriageRun& run, std::size_t row) {
     const std::size_t glance = std::min<std::size_t>(20, lead_rows(run.tick_s));
     auto state = plant::start(model.axis, position_mm(model.encoder, run.reading_count[row]));
     const double way_mm = position_mm(model.encoder, run.reading_count[row + glance]) - state.position_mm;
     if (std::abs(way_mm) > 1.5 * model.encoder.resolution_mm)
         state.velocity_mm_per_s = way_mm / (static_cast<double>(glance) * run.tick_s);
+    state.mechanism = remembered(run.way, model.axis, model.encoder.resolution_mm, row);
     state.mechanism.driven_mm_per_s = state.velocity_mm_per_s;
     if (row > 0) state.delay.acting = state.delay.given = run.command_V[row];
     return state;
@@ -117,58 +121,85 @@ class Lead {
     std::vector<double> errors_;
 };
 
-/// Whether a window has to know all that came before it.
-bool carries_over(const plant::MacroAxis& axis) {
+bool remembers(const plant::MacroAxis& axis) {
     return axis.has_bristles || axis.parameters.play_mm != 0.0;
 }
 
-/// Which windows of a stretch to run: those wanted; with a belt also those before them, in which its swing
-/// dies down.
-std::vector<bool> needed_windows(std::span<const std::uint8_t> wanted, bool has_belt) {
-    std::vector<bool> needed(wanted.size());
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-        needed[i] = wanted[i] != 0 || (has_belt && i + 1 < wanted.size() && wanted[i + 1] != 0);
+/// A run's window, and how the carriage comes there.
+struct Passage {
+    WindowRows window;
+    std::size_t stretch;
+    bool ends_stretch;
+    bool
+        follows;  ///< the window before leads there: also behind an end of travel, if something is remembered
+};
+
+std::vector<Passage> passages(const plant::MacroAxis& axis, const CarriageRun& run) {
+    std::vector<Passage> all;
+    for (std::size_t stretch = 0; stretch < run.windows.size(); ++stretch) {
+        const std::vector<WindowRows>& windows = run.windows[stretch];
+        const bool runs_on = stretch > 0 && run.is_homed && remembers(axis) &&
+                             run.run_on_end[stretch - 1] == windows.front().lead;
+        for (std::size_t i = 0; i < windows.size(); ++i)
+            all.push_back({windows[i], stretch, i + 1 == windows.size(), i > 0 || runs_on});
+    }
+    return all;
+}
+
+/// Which windows to run: those wanted; those before them from where the counts say what the mechanism
+/// remembers; with a belt also one before them, in which its swing dies down.
+/// @param wanted  a flag for each window; empty: all
+std::vector<bool> needed_windows(const CarriageModel& model, const CarriageRun& run,
+                                 std::span<const Passage> all, std::span<const std::uint8_t> wanted) {
+    std::vector<bool> needed(all.size(), true);
+    if (wanted.empty()) return needed;
+    const plant::MacroAxis& axis = model.axis;
+    bool swings_into_next = false, next_asks = false;
+    for (std::size_t k = all.size(); k-- > 0;) {
+        needed[k] = wanted[k] != 0 || swings_into_next || next_asks;
+        swings_into_next = axis.has_belt && wanted[k] != 0 && all[k].follows;
+        next_asks = needed[k] && all[k].follows && remembers(axis) &&
+                    !is_remembered(run.way, axis, model.encoder.resolution_mm, all[k].window.lead);
+    }
     return needed;
 }
 
 /// @param wanted  a flag for each window; empty: all
 std::vector<double> simulate(const CarriageModel& model, const CarriageRun& run,
                              std::span<const std::uint8_t> wanted, CarriagePath* path) {
-    const bool may_skip = !wanted.empty() && !carries_over(model.axis);
-    std::size_t count = 0;
     const std::size_t rows = run.command_V.size();
     std::vector<double> predicted(rows, nan);
     CarriagePath motion = unknown_path(rows);
     Lead lead(model, run);
-    for (std::size_t stretch = 0; stretch < run.windows.size(); ++stretch) {
-        const std::vector<WindowRows>& windows = run.windows[stretch];
-        plant::MacroAxisState carried = first_state(model, run, windows.front().lead);
-        plant::MacroAxisState state = carried;
-        std::vector<bool> needed(windows.size(), true);
-        if (may_skip) needed = needed_windows(wanted.subspan(count, windows.size()), model.axis.has_belt);
-        count += windows.size();
-        bool skipped = false;
-        for (std::size_t i = 0; i < windows.size(); ++i) {
-            const WindowRows& window = windows[i];
-            if (!needed[i]) {
-                skipped = true;
-                continue;
-            }
-            if (skipped) carried = first_state(model, run, window.lead);
-            skipped = false;
-            state = lead.enter(window, carried);
-            const std::size_t next_lead = i + 1 < windows.size() ? windows[i + 1].lead : window.end;
-            run_rows(model, run, window.first, next_lead, state, motion);
-            carried = state;
-            run_rows(model, run, next_lead, window.end, state, motion);
-            for (std::size_t k = window.first; k < window.end; ++k)
-                predicted[k] = mean_reading_count(model.encoder, motion.position_mm[k]);
-            if (!path) continue;
+    const std::vector<Passage> all = passages(model.axis, run);
+    const std::vector<bool> needed = needed_windows(model, run, all, wanted);
+    plant::MacroAxisState carried, state;
+    bool is_carried = false;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto& [window, stretch, ends_stretch, follows] = all[k];
+        if (!needed[k]) {
+            is_carried = false;
+            continue;
+        }
+        if (!is_carried || !follows) carried = first_state(model, run, window.lead);
+        is_carried = true;
+        state = lead.enter(window, carried);
+        const std::size_t next_lead = ends_stretch ? window.end : all[k + 1].window.lead;
+        run_rows(model, run, window.first, next_lead, state, motion);
+        carried = state;
+        run_rows(model, run, next_lead, window.end, state, motion);
+        for (std::size_t row = window.first; row < window.end; ++row)
+            predicted[row] = mean_reading_count(model.encoder, motion.position_mm[row]);
+        if (path) {
             CarriagePath before = lead.motion();
             pull_to_counts(model.encoder, run, window, before, motion);
             fade_in(window, before, motion);
         }
-        if (path) run_rows(model, run, windows.back().end, run.run_on_end[stretch], state, motion);
+        const bool leads_on = k + 1 < all.size() && all[k + 1].follows && needed[k + 1];
+        if (ends_stretch && (path || leads_on)) {
+            run_rows(model, run, window.end, run.run_on_end[stretch], state, motion);
+            carried = state;
+        }
     }
     if (!path || rows == 0) return predicted;
     fill(model.encoder, run, motion);

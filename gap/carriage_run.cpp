@@ -92,6 +92,7 @@ CarriageRun carriage_run(const Recording& recording, const MacroParameters& macr
         run.reading_count.push_back(reading_count(row, macro));
         usable.push_back(std::isfinite(run.command_V.back()) && std::isfinite(run.reading_count.back()));
     }
+    run.way = counted_way(run.reading_count);
     run.stands = standing_rows(run);
     run.is_homed = is_homed(run.reading_count, macro);
     constexpr double infinity = std::numeric_limits<double>::infinity();

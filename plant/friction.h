@@ -12,13 +12,14 @@
 // Bristles bend over a length d before they slide (Dahl 1968; in the path that is covered, as Bliman and
 // Sorine 1995 write it):
 //
-//     F = g z + c1 (v - |v| z) + c v,     dz/dy = (1 - z sgn(v)) / d
+//     F = Fc z + c1 (v - |v| z Fc / g) + c v,     dz/dy = (1 - z sgn(v) Fc / g) / d
 //
-// This is LuGre (Canudas de Wit et al. 1995) with sigma0 = g / d and sigma1 = c1; for a g that depends on v
-// or y it differs from LuGre in that the length, not the stiffness, is constant. z follows from the way
-// alone, so that no speed makes the equations stiff: from z0 at y0 the bend in direction s is
+// This is LuGre (Canudas de Wit et al. 1995) with the stiffness sigma0 = Fc / d, whatever g is, and sigma1 =
+// c1. z follows from the way alone, so that no speed makes the equations stiff. Along a way w = s (y - y0) in
+// direction s, on which g / Fc goes evenly from a to b, with little between them, m their mean and q = w / (m
+// d):
 //
-//     z(y) = s + (z0 - s) exp(-s (y - y0) / d)
+//     z(y) = s m + (z0 - s m) E + s (b - a) ((1 + E) / 2 - (1 - E) / q),     E = exp(-q)
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +30,12 @@ struct RailPatch {
     double level_V = 0.0;
     double centre_mm = 0.0;
     double width_mm = 1.0;
+
+    /// Farther away exp(-32) or less of it is left, which counts as nothing.
+    bool reaches(double position_mm) const {
+        constexpr double far_widths = 8.0;
+        return level_V != 0.0 && std::abs(position_mm - centre_mm) <= far_widths * width_mm;
+    }
 };
 
 struct Friction {
@@ -49,13 +56,13 @@ inline bool is_dry(const Friction& friction) {
     return friction.coulomb_V != 0.0 || friction.stribeck_V != 0.0 || friction.patch.level_V != 0.0;
 }
 
+/// Bristles without Coulomb friction would have no stiffness.
 inline bool has_bristles(const Friction& friction) {
-    return friction.bristle_mm > 0.0 && (is_dry(friction) || friction.bristle_damping_V_s_per_mm > 0.0);
+    return friction.bristle_mm > 0.0 && friction.coulomb_V > 0.0;
 }
 
 inline bool acts(const Friction& friction) {
-    return is_dry(friction) || has_bristles(friction) || friction.right_V_s_per_mm != 0.0 ||
-           friction.left_V_s_per_mm != 0.0;
+    return is_dry(friction) || friction.right_V_s_per_mm != 0.0 || friction.left_V_s_per_mm != 0.0;
 }
 
 /// g(|v|, y) in V.
@@ -63,7 +70,7 @@ inline double dry_friction_V(const Friction& friction, double speed_mm_per_s, do
     double level_V = friction.coulomb_V;
     if (friction.stribeck_V != 0.0)
         level_V += friction.stribeck_V * std::exp(-speed_mm_per_s / friction.stribeck_mm_per_s);
-    if (friction.patch.level_V != 0.0) {
+    if (friction.patch.reaches(position_mm)) {
         const double away = (position_mm - friction.patch.centre_mm) / friction.patch.width_mm;
         level_V += friction.patch.level_V * std::exp(-0.5 * away * away);
     }
@@ -86,18 +93,27 @@ inline double sliding_friction_V(const Friction& friction, double velocity_mm_pe
     return sign * dry_friction_V(friction, speed_mm_per_s, position_mm) + viscous * velocity_mm_per_s;
 }
 
-/// z after a way in one direction.
-inline double bristle_bend(const Friction& friction, double bend, double way_mm, double direction) {
-    return direction + (bend - direction) * std::exp(-direction * way_mm / friction.bristle_mm);
+/// z after a way in one direction, on which g goes from before_V to dry_V.
+inline double bristle_bend(const Friction& friction, double bend, double way_mm, double direction,
+                           double before_V, double dry_V) {
+    const double half = 0.5, straight = 1e-3;
+    const double mean = half * (before_V + dry_V) / friction.coulomb_V;
+    const double ways = direction * way_mm / (mean * friction.bristle_mm);
+    const double lost = -std::expm1(-ways);
+    const double bent = bend + (direction * mean - bend) * lost;
+    if (before_V == dry_V) return bent;
+    const double share = std::abs(ways) < straight ? ways * ways / 12.0 : 1.0 - half * lost - lost / ways;
+    return bent + direction * (dry_V - before_V) / friction.coulomb_V * share;
 }
 
-/// F with bristles of bend z, in V.
-inline double bristle_friction_V(const Friction& friction, double velocity_mm_per_s, double position_mm,
-                                 double direction, double bend) {
+/// F with bristles of bend z where g is dry_V, in V.
+inline double bristle_friction_V(const Friction& friction, double velocity_mm_per_s, double direction,
+                                 double bend, double dry_V) {
     const double speed_mm_per_s = direction * velocity_mm_per_s;
     const double viscous = direction > 0.0 ? friction.right_V_s_per_mm : friction.left_V_s_per_mm;
-    return dry_friction_V(friction, std::max(0.0, speed_mm_per_s), position_mm) * bend +
-           friction.bristle_damping_V_s_per_mm * (velocity_mm_per_s - speed_mm_per_s * bend) +
+    const double elastic_V = friction.coulomb_V * bend;
+    return elastic_V +
+           friction.bristle_damping_V_s_per_mm * (velocity_mm_per_s - speed_mm_per_s * elastic_V / dry_V) +
            viscous * velocity_mm_per_s;
 }
 

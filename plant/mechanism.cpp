@@ -26,7 +26,7 @@ constexpr double rest_mm_per_s = 1e-9;
 constexpr double shortest_step_s = 1e-10;
 
 /// Bristles that lack less than this share of their bend slide.
-constexpr double fully_bent = 1e-10;
+constexpr double fully_bent = 1e-8;
 
 /// A motion under a held voltage: of the carriage alone (2 states), or of motor and carriage (4).
 template <std::size_t size>
@@ -40,6 +40,7 @@ class Motion {
           p_(axis.parameters),
           standing_(p_.standing),
           turns_matter_(axis.has_friction || p_.play_mm > 0.0),
+          dry_is_coulomb_(p_.friction.stribeck_V == 0.0 && p_.friction.patch.level_V == 0.0),
           drive_V_(drive_V),
           x_(start),
           bend_(bend) {}
@@ -66,6 +67,7 @@ class Motion {
 
     /// Moves on by at most `longest_s`, to the next event if there is one before. Returns the time it took.
     double advance(double longest_s) {
+        if (axis_.has_bristles) start_dry_V_ = dry_V_at(x_);
         const State first = rate(x_);
         if (is_whole(longest_s) && is_straight(x_)) {
             const State end = whole_step(first);
@@ -97,6 +99,7 @@ class Motion {
                     motion.branch_ = branch;
                     motion.direction_ = direction;
                     motion.held_ = held;
+                    motion.start_dry_V_ = axis.parameters.friction.coulomb_V;
                     const auto step = affine_step(motion.rates(), steps.duration_s);
                     for (std::size_t i = 0; i < size; ++i)
                         std::ranges::copy(step[i], steps.of_way[motion.way()][i].begin());
@@ -137,10 +140,7 @@ class Motion {
     /// Whether forces change by straight lines there: bristles have bent as far as they do, and a patch is
     /// far.
     bool is_straight(const State& x) const {
-        constexpr double far_widths = 8.0;  // exp(-32) is left
-        const RailPatch& patch = p_.friction.patch;
-        return (!axis_.has_bristles || bend_ == direction_) &&
-               (patch.level_V == 0.0 || std::abs(x[place] - patch.centre_mm) > far_widths * patch.width_mm);
+        return (!axis_.has_bristles || bend_ == direction_) && !p_.friction.patch.reaches(x[place]);
     }
 
     State whole_step(const State& first) const {
@@ -180,11 +180,18 @@ class Motion {
     double friction_V(const State& x) const {
         if (!axis_.has_friction) return 0.0;
         if (!axis_.has_bristles) return sliding_friction_V(p_.friction, x[speed], x[place], direction_);
-        return bristle_friction_V(p_.friction, x[speed], x[place], direction_, bend_at(x));
+        const double dry_V = dry_V_at(x);
+        return bristle_friction_V(p_.friction, x[speed], direction_, bend_at(x, dry_V), dry_V);
     }
 
-    double bend_at(const State& x) const {
-        return bristle_bend(p_.friction, bend_, x[place] - x_[place], direction_);
+    /// A velocity against the direction, as trial steps beyond a turn have, counts as 0.
+    double dry_V_at(const State& x) const {
+        return dry_friction_V(p_.friction, std::max(0.0, direction_ * x[speed]), x[place]);
+    }
+
+    double bend_at(const State& x, double dry_V) const {
+        if (bend_ == direction_ && dry_is_coulomb_) return direction_;
+        return bristle_bend(p_.friction, bend_, x[place] - x_[place], direction_, start_dry_V_, dry_V);
     }
 
     State rate(const State& x) const {
@@ -204,8 +211,7 @@ class Motion {
     /// Between which pulls a carriage at rest stays so. Beyond an end of travel it cannot be pulled.
     void find_hold_range() {
         const double gain = p_.velocity_gain_mm_per_s_per_V;
-        const double bent =
-            axis_.has_bristles ? gain * dry_friction_V(p_.friction, 0.0, x_[place]) * bend_ : 0.0;
+        const double bent = axis_.has_bristles ? gain * p_.friction.coulomb_V * bend_ : 0.0;
         const double held = axis_.has_bristles ? 0.0 : gain * breakaway_V(p_.friction, x_[place]);
         hold_low_ = bent - held - rest_mm_per_s;
         hold_high_ = bent + held + rest_mm_per_s;
@@ -285,7 +291,7 @@ class Motion {
     /// Takes over the end of a step, put right where an event has just been passed.
     void settle(const State& end) {
         if (axis_.has_bristles && !held_) {
-            bend_ = bend_at(end);
+            bend_ = bend_at(end, dry_V_at(end));
             if (std::abs(bend_ - direction_) < fully_bent) bend_ = direction_;
         }
         x_ = end;
@@ -299,9 +305,11 @@ class Motion {
     const MacroAxisParameters& p_;
     StandingForceNearby standing_;
     bool turns_matter_;  ///< friction turns round, or play begins, where the carriage does
+    bool dry_is_coulomb_;
     double drive_V_;
     State x_;
     double bend_;                                               ///< at x_
+    double start_dry_V_ = 0.0;                                  ///< likewise, where there are bristles
     double trial_s_ = std::numeric_limits<double>::infinity();  ///< step to try next
 
     // What stays as it is until the next event.

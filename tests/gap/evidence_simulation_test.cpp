@@ -96,6 +96,38 @@ TEST(Evidence, CarriageThatFlickersBetweenTwoCounts_IsNoFurtherOffThanIsExpected
     EXPECT_LT(found, 1.1 * expected) << "seed " << seed;
 }
 
+/// These sweeps run into the ends of travel, where bristles stay bent as they came.
+TEST(Evidence, BristlesBehindAnEndOfTravel_AreAsTheWayBentThem) {
+    for (const std::uint64_t seed : {2, 4, 8}) {
+        const Hypothesis truth = effects({"presliding:level_V=0.02,distance_um=220"});
+        const Evidence evidence(reference_rig(), simulated(truth, {"macro-sweep"}, seed));
+        const Errors errors = evidence.errors(truth, everything(evidence));
+        EXPECT_LT(rms(evidence, errors, Signal::tag), 1.1) << "seed " << seed;
+        EXPECT_LT(rms(evidence, errors, Signal::encoder), 1.0) << "seed " << seed;
+    }
+}
+
+TEST(Evidence, MechanismThatRemembers_IsPredictedAsWellWithoutTheWindowsBefore) {
+    constexpr std::uint64_t seed = 12;
+    for (const char* effect : {"presliding:level_V=0.05,distance_um=100", "backlash:width_um=300"}) {
+        const Hypothesis truth = effects({effect});
+        const Evidence evidence(reference_rig(), simulated(truth, {"macro-pulses", "macro-square"}, seed));
+        const std::vector<Window>& windows = evidence.windows();
+        Wanted few(windows.size(), 0);
+        for (std::size_t w = 0; w < windows.size(); ++w)
+            few[w] = windows[w].signal == Signal::encoder && w % 3 == 0 ? 1 : 0;
+        const auto sum_of_few = [&](const Errors& errors) {
+            const auto squares = mean_squares(windows, errors);
+            double sum = 0.0;
+            for (std::size_t w = 0; w < windows.size(); ++w) sum += few[w] != 0 ? squares[w] : 0.0;
+            return sum;
+        };
+        EXPECT_LT(sum_of_few(evidence.errors(truth, few)),
+                  1.2 * sum_of_few(evidence.errors(truth, everything(evidence))))
+            << effect << ", seed " << seed;
+    }
+}
+
 TEST(Evidence, RecordingThatBeginsWarm_IsFollowed) {
     auto recordings = simulated({}, {"micro-steps"}, 9);
     Recording& recording = recordings.front();

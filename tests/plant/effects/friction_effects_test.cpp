@@ -77,6 +77,39 @@ TEST(Presliding, AboveBreakAway_SlidesAgainstTheLevel) {
     EXPECT_NEAR(after(axis, start(axis, 0.0), 0.3, 1500).velocity_mm_per_s, gain * 0.2, 1e-5);
 }
 
+/// By hand: LuGre with a constant stiffness, in steps of 2 us.
+TEST(Presliding, BesideOtherFriction_IsLuGreOfConstantStiffness) {
+    PlantParameters plant = plant_parameters(macro_only_rig());
+    plant.axis.dead_zone = {};
+    plant.axis.low_mm = -1e9;
+    plant.axis.high_mm = 1e9;
+    const std::vector effects{parse_effect("presliding:level_V=0.1,distance_um=200"),
+                              parse_effect("rail_patch:level_V=0.08,centre_mm=3,width_mm=2"),
+                              parse_effect("stribeck_friction:level_V=0.05,speed_mm_per_s=20")};
+    apply_effects(plant, effects);
+    const MacroAxis axis = make_macro_axis(plant.axis, plant.tick_s);
+    MacroAxisState state = start(axis, 0.0);
+
+    constexpr double step_s = 2e-6, stiffness_V_per_mm = 0.1 / 0.2;
+    constexpr int steps_per_tick = 500;
+    const double tau_s = axis.parameters.time_constant_s;
+    double y = 0.0, v = 0.0, bristle = 0.0;
+    for (int k = 0; k < 1500; ++k) {
+        const double command_V = 0.6 * std::sin(0.012 * k);
+        advance(axis, state, command_V);
+        for (int i = 0; i < steps_per_tick; ++i) {
+            const double away = (y - 3.0) / 2.0;
+            const double dry_V =
+                0.1 + 0.08 * std::exp(-0.5 * away * away) + 0.05 * std::exp(-std::abs(v) / 20.0);
+            const double force_V = stiffness_V_per_mm * bristle;
+            bristle += step_s * (v - std::abs(v) * force_V / dry_V);
+            v += step_s * (gain * (command_V - force_V) - v) / tau_s;
+            y += step_s * v;
+        }
+        ASSERT_NEAR(state.position_mm, y, 2e-3) << "tick " << k;
+    }
+}
+
 TEST(RailPatch, SteadySpeed_IsLowerOnThePatchOnly) {
     const MacroAxis axis = endless_axis_with("rail_patch:level_V=0.2,centre_mm=500,width_mm=100");
     MacroAxisState state = start(axis, 0.0);
