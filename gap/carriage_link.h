@@ -2,11 +2,11 @@
 // From the macro command to the encoder: a hypothesis's carriage along a recording.
 //
 // In each window the plant runs freely under the recorded commands. It enters the 100 ms before the window
-// with what the window before has carried there (commands on their way, play, bristles, belt; through an end of
-// travel too), or where that one is not run with what the counts tell of it (gap/counted_way.h), at the place
-// and the velocity that fit these 100 ms best: each count says that the carriage was within half a count of
-// it, and the carried state is a weak prior. So a carriage at rest within its count stays where it was
-// carried to, and gets no velocity out of rounding. Least squares of what lies beyond half a count of
+// with what the window before has carried there (commands on their way, play, bristles, belt; through an end
+// of travel too), or where that one is not run with what the counts tell of it (gap/counted_way.h), at the
+// place and the velocity that fit these 100 ms best: each count says that the carriage was within half a
+// count of it, and the carried state is a weak prior. So a carriage at rest within its count stays where it
+// was carried to, and gets no velocity out of rounding. Least squares of what lies beyond half a count of
 //
 //     e_k + dy + tau (1 - exp(-t_k / tau)) dv          e: prediction minus count; dy, dv: corrections
 //
