@@ -22,6 +22,7 @@
 //     z(y) = s m + (z0 - s m) E + s (b - a) ((1 + E) / 2 - (1 - E) / q),     E = exp(-q)
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace fidservo::plant {
 
@@ -91,6 +92,23 @@ inline double sliding_friction_V(const Friction& friction, double velocity_mm_pe
     const double sign =
         friction.creep_mm_per_s > 0.0 ? std::tanh(velocity_mm_per_s / friction.creep_mm_per_s) : direction;
     return sign * dry_friction_V(friction, speed_mm_per_s, position_mm) + viscous * velocity_mm_per_s;
+}
+
+struct Creep {
+    double velocity_mm_per_s;
+    double slope_V_s_per_mm;  ///< of friction, the least between the velocity now and then
+};
+
+/// The velocity at which friction that creeps balances what pulls; nothing where that is near what would let
+/// it slide.
+inline std::optional<Creep> balanced_creep(const Friction& friction, double velocity_mm_per_s,
+                                           double position_mm, double pull_V) {
+    constexpr double far_below = 0.9;
+    const double dry_V = dry_friction_V(friction, std::abs(velocity_mm_per_s), position_mm);
+    const double balance = pull_V / dry_V, now = std::tanh(velocity_mm_per_s / friction.creep_mm_per_s);
+    if (std::abs(balance) > far_below) return std::nullopt;
+    const double slope = 1.0 - std::max(balance * balance, now * now);
+    return Creep{friction.creep_mm_per_s * std::atanh(balance), dry_V * slope / friction.creep_mm_per_s};
 }
 
 /// z after a way in one direction, on which g goes from before_V to dry_V.

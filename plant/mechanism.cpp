@@ -76,6 +76,7 @@ class Motion {
                 return longest_s;
             }
         }
+        if (creeps_evenly(longest_s)) return longest_s;
         Step step = step_from(first, std::min(longest_s, trial_s_));
         double error = error_of(step);
         while (!(error <= 1.0) && step.duration_s > shortest_step_s) {
@@ -141,6 +142,21 @@ class Motion {
     /// far.
     bool is_straight(const State& x) const {
         return (!axis_.has_bristles || bend_ == direction_) && !p_.friction.patch.reaches(x[place]);
+    }
+
+    /// Moves on by a duration, where friction that creeps is stiff to follow.
+    bool creeps_evenly(double duration_s) {
+        if (has_belt || p_.friction.creep_mm_per_s == 0.0 || axis_.has_bristles) return false;
+        const double gain = p_.velocity_gain_mm_per_s_per_V, tau_s = p_.time_constant_s;
+        const auto creep = balanced_creep(p_.friction, x_[speed], x_[place], effective_V(x_));
+        constexpr double time_constants = 8.0;
+        if (!creep || duration_s * creep->slope_V_s_per_mm * gain < time_constants * tau_s) return false;
+        x_[speed] = creep->velocity_mm_per_s;
+        direction_ = x_[speed] < 0.0 ? -1.0 : 1.0;
+        State end = x_;
+        end[place] += duration_s * x_[speed];
+        settle(end);
+        return true;
     }
 
     State whole_step(const State& first) const {

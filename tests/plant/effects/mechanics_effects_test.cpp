@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -100,11 +101,13 @@ double after_three_seconds_mm(MacroAxis axis, double longest_step_s) {
 
 TEST(Mechanism, HundredTimesFinerSteps_GiveTheSameMotion) {
     constexpr double hundredth_count_mm = 5e-4;
-    for (const Effect* effect : effect_catalogue()) {
-        if (!effect->block.starts_with("macro.")) continue;
-        const MacroAxis axis = plant_with(effect->name).axis;
+    std::vector<std::string> effects{"stribeck_friction:level_V=0.4,creep_mm_per_s=0.04"};
+    for (const Effect* effect : effect_catalogue())
+        if (effect->block.starts_with("macro.")) effects.emplace_back(effect->name);
+    for (const std::string& effect : effects) {
+        const MacroAxis axis = plant_with(effect).axis;
         EXPECT_NEAR(after_three_seconds_mm(axis, 1.0), after_three_seconds_mm(axis, 1e-5), hundredth_count_mm)
-            << effect->name;
+            << effect;
     }
     const MacroAxis all = make_stage_plant(reference_rig(), all_of_the_macro_stage()).axis;
     EXPECT_NEAR(after_three_seconds_mm(all, 1.0), after_three_seconds_mm(all, 1e-5), hundredth_count_mm);
