@@ -147,12 +147,14 @@ std::vector<BlockProbability> blocks_of(const Selection& selection, double trust
 }
 
 /// Whether what accuses a block shows in the same way as an effect of another one. The forces that a carriage
-/// lacks tell its blocks apart well; of the view, the tags' own size is told from all else. An encoder whose
-/// readings the tags contradict, and its own model too, is no matter of the view.
+/// lacks tell its blocks apart well; of the view, the tags' own size and their places are told from all else.
+/// An encoder whose readings the tags contradict, and its own model too, is no matter of the view.
 bool could_be(std::string_view named_block, const Remainder& whole) {
     if (whole.block == "macro.encoder" && named_block == "camera.geometry") return true;
     if (whole.depends_on.empty()) return false;
-    if (whole.block == "plate") return named_block.starts_with("camera.") && whole.depends_on.size() == 1;
+    if (whole.block == "plate")
+        return (named_block.starts_with("camera.") || named_block == "macro.encoder") &&
+               whole.depends_on.size() == 1;
     return named_block.starts_with("macro.") && whole.block.starts_with("macro.");
 }
 
