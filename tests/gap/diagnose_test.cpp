@@ -136,6 +136,20 @@ TEST(Diagnosis, RippleOfTheReading_IsFoundWithItsAmplitude) {
     EXPECT_NEAR(diagnosis.effects.front().parameters[1].value, 8.0, 0.01);
 }
 
+/// Jumps from tag to tag tell it from an encoder whose counts are shorter, which explains nearly all.
+TEST(Diagnosis, PlateOfAnotherPitch_AccusesThePlate) {
+    Rig wider = reference_rig();
+    wider.fiducials->pitch_x_mm *= 1.0008;
+    const Diagnosis diagnosis = diagnose(
+        campaign({}, {"macro-sweep", "macro-square", "macro-pulses", "integrated"}, wider),
+        {.only = {"encoder_scale", "pixel_scale", "camera_latency"}, .without = {}, .selection = {}});
+    EXPECT_GT(diagnosis.gap.before, 5.0);
+    EXPECT_NE(diagnosis.verdict, Verdict::explained);
+    ASSERT_FALSE(diagnosis.where.empty());
+    EXPECT_EQ(diagnosis.where.front().block, "plate");
+    for (const FoundEffect& effect : diagnosis.effects) EXPECT_LT(effect.probability, 0.5) << effect.effect;
+}
+
 TEST(SlowDiagnosis, WaveAlongTheRail_IsFoundWithItsPeriodAndPhase) {
     struct Truth {
         double amplitude_V, period_mm, phase_rad;
