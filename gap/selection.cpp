@@ -76,6 +76,14 @@ Chain without(const Search& search, const Chain& chain, std::size_t left_out) {
     return shorter;
 }
 
+/// Whether another effect explains better in the place of one: a plainer form of it unless the richer one's
+/// gain is no chance.
+bool replaces(const Search& search, const Trial& other, const Chain& chain, std::size_t at) {
+    if (is_limit_of(other.candidate->effect->name, chain.choices[at].candidate->effect->name))
+        return !search.is_real(other.fitted, chain.fitted);
+    return other.fitted.loss < chain.fitted.loss - least_gain;
+}
+
 /// An effect that was taken in first may have been a compromise of two others: each is given up where the
 /// rest does as well without it, and otherwise exchanged for what is best beside the rest. As long as nothing
 /// has changed the last one needs no test: it was found beside this very rest.
@@ -97,7 +105,7 @@ bool exchange(Search& search, Chain& chain, bool changed) {
             search.remember(rest.fitted, *chain.choices[k].candidate, chain.fitted, k);
         std::vector<Trial> trials = search.try_all(rest.fitted, rest.candidates());
         const bool is_other = has_leader(trials) && trials.front().candidate != chain.choices[k].candidate;
-        const bool better = has_leader(trials) && trials.front().fitted.loss < chain.fitted.loss - least_gain;
+        const bool better = has_leader(trials) && replaces(search, trials.front(), chain, k);
         if (!is_other) {
             // The same again, with its alternatives as they are beside the whole rest.
             if (has_leader(trials)) chain.choices[k] = choice_of(search, rest.fitted, std::move(trials));
