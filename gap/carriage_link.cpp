@@ -121,17 +121,13 @@ class Lead {
     std::vector<double> errors_;
 };
 
-bool remembers(const plant::MacroAxis& axis) {
-    return axis.has_bristles || axis.parameters.play_mm != 0.0;
-}
-
 /// A run's window, and how the carriage comes there.
 struct Passage {
     WindowRows window;
     std::size_t stretch;
     bool ends_stretch;
-    bool
-        follows;  ///< the window before leads there: also behind an end of travel, if something is remembered
+    /// Whether the window before leads there: behind an end of travel where something is remembered.
+    bool follows;
 };
 
 std::vector<Passage> passages(const plant::MacroAxis& axis, const CarriageRun& run) {
@@ -158,7 +154,7 @@ std::vector<bool> needed_windows(const CarriageModel& model, const CarriageRun& 
     for (std::size_t k = all.size(); k-- > 0;) {
         needed[k] = wanted[k] != 0 || swings_into_next || next_asks;
         swings_into_next = axis.has_belt && wanted[k] != 0 && all[k].follows;
-        next_asks = needed[k] && all[k].follows && remembers(axis) &&
+        next_asks = needed[k] && all[k].follows &&
                     !is_remembered(run.way, axis, model.encoder.resolution_mm, all[k].window.lead);
     }
     return needed;

@@ -17,7 +17,6 @@ struct CarriageRun {
     std::vector<double> reading_count;  ///< likewise; position / resolution where that was recorded
     CountedWay way;
     std::vector<std::vector<WindowRows>> windows;  ///< by stretch; only where the carriage is free
-    std::vector<std::size_t> run_up_first;         ///< of each stretch: from which row commands lead to it
     std::vector<std::size_t> run_on_end;  ///< of each stretch: up to which row commands go on after it
     /// Whether, for 50 ms before and after, the reading is the same or goes to and fro between two counts: a
     /// controller that sees counts keeps the carriage at the edge of one.

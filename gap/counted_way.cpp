@@ -1,5 +1,7 @@
 #include "gap/counted_way.h"
 
+#include "gap/windows.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,10 +14,6 @@ namespace {
 std::size_t turns_before(const CountedWay& way, std::size_t row) {
     const auto behind = std::ranges::upper_bound(way.turns, row, {}, &Turn::row);
     return static_cast<std::size_t>(behind - way.turns.begin());
-}
-
-double sign_of(double way_count) {
-    return way_count < 0.0 ? -1.0 : 1.0;
 }
 
 /// A way that leaves of what was before it one part in a million.
@@ -37,9 +35,9 @@ CountedWay counted_way(const std::vector<double>& reading_count) {
         if (std::isfinite(count)) {
             const double next = std::isnan(place) ? count : std::clamp(place, count - half, count + half);
             const bool begins = way.turns.empty();
-            if (begins || (next != place && sign_of(next - place) != direction)) {
+            if (begins || (next != place && std::copysign(1.0, next - place) != direction)) {
                 way.turns.push_back({row, begins ? count : place});
-                direction = begins ? 0.0 : sign_of(next - place);
+                direction = begins ? 0.0 : std::copysign(1.0, next - place);
             }
             place = next;
         }
@@ -48,15 +46,20 @@ CountedWay counted_way(const std::vector<double>& reading_count) {
     return way;
 }
 
+bool remembers(const plant::MacroAxis& axis) {
+    return axis.has_bristles || axis.parameters.play_mm != 0.0;
+}
+
 plant::MechanismState remembered(const CountedWay& way, const plant::MacroAxis& axis, double mm_per_count,
                                  std::size_t row) {
     plant::MechanismState mechanism;
+    if (!remembers(axis)) return mechanism;
     const std::size_t turns = turns_before(way, row);
     for (std::size_t k = 0; k < turns; ++k) {
         const double end = k + 1 < turns ? way.turns[k + 1].place_count : way.place_count[row];
         const double way_mm = mm_per_count * (end - way.turns[k].place_count);
         if (way_mm == 0.0) continue;
-        const double direction = sign_of(way_mm);
+        const double direction = std::copysign(1.0, way_mm);
         mechanism.play_mm = -direction * 0.5 * axis.parameters.play_mm;
         const plant::Friction& friction = axis.parameters.friction;
         if (axis.has_bristles)
@@ -68,8 +71,8 @@ plant::MechanismState remembered(const CountedWay& way, const plant::MacroAxis& 
 
 bool is_remembered(const CountedWay& way, const plant::MacroAxis& axis, double mm_per_count,
                    std::size_t row) {
-    constexpr std::size_t ahead_rows = 100;  // what a lead needs
-    const std::size_t turns = turns_before(way, row), ahead = row + ahead_rows;
+    if (!remembers(axis)) return true;
+    const std::size_t turns = turns_before(way, row), ahead = row + lead_rows(axis.tick_s);
     if (turns == 0 || ahead >= way.place_count.size() || turns_before(way, ahead) != turns) return false;
     const double covered = way.place_count[row] - way.turns[turns - 1].place_count,
                  next = way.place_count[ahead] - way.place_count[row];

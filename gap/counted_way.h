@@ -27,13 +27,16 @@ struct CountedWay {
 /// @param reading_count  row by row, NaN where missing
 CountedWay counted_way(const std::vector<double>& reading_count);
 
+/// Whether a mechanism remembers anything of its way.
+bool remembers(const plant::MacroAxis& axis);
+
 /// What a mechanism remembers at a row, whose bristles were straight, and whose play was in its middle, where
 /// the counts begin.
 plant::MechanismState remembered(const CountedWay& way, const plant::MacroAxis& axis, double mm_per_count,
                                  std::size_t row);
 
-/// Whether that is as certain as a simulation: the carriage is on its way there, and has been for long enough
-/// to have forgotten all that was before.
+/// Whether that is as certain as a simulation: there is nothing to remember, or the carriage is on its way
+/// there and beyond, and has been for long enough to have forgotten all that was before.
 bool is_remembered(const CountedWay& way, const plant::MacroAxis& axis, double mm_per_count, std::size_t row);
 
 }  // namespace fidservo::gap

@@ -105,12 +105,11 @@ bool exchange(Search& search, Chain& chain, bool changed) {
             search.remember(rest.fitted, *chain.choices[k].candidate, chain.fitted, k);
         std::vector<Trial> trials = search.try_all(rest.fitted, rest.candidates());
         const bool is_other = has_leader(trials) && trials.front().candidate != chain.choices[k].candidate;
-        const bool better = has_leader(trials) && replaces(search, trials.front(), chain, k);
         if (!is_other) {
             // The same again, with its alternatives as they are beside the whole rest.
             if (has_leader(trials)) chain.choices[k] = choice_of(search, rest.fitted, std::move(trials));
             ++k;
-        } else if (better && exchanges++ < most_exchanges) {
+        } else if (replaces(search, trials.front(), chain, k) && exchanges++ < most_exchanges) {
             chain = grown(search, std::move(rest), std::move(trials));
             changed = true;
             k = 0;

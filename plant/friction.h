@@ -16,8 +16,8 @@
 //
 // This is LuGre (Canudas de Wit et al. 1995) with the stiffness sigma0 = Fc / d, whatever g is, and sigma1 =
 // c1. z follows from the way alone, so that no speed makes the equations stiff. Along a way w = s (y - y0) in
-// direction s, on which g / Fc goes evenly from a to b, with little between them, m their mean and q = w / (m
-// d):
+// direction s, on which g / Fc goes evenly from a to b, with little between them, m their mean and
+// q = w / (m d):
 //
 //     z(y) = s m + (z0 - s m) E + s (b - a) ((1 + E) / 2 - (1 - E) / q),     E = exp(-q)
 #include <algorithm>
@@ -83,15 +83,13 @@ inline double breakaway_V(const Friction& friction, double position_mm) {
     return friction.creep_mm_per_s > 0.0 ? 0.0 : friction.hold_V + dry_friction_V(friction, 0.0, position_mm);
 }
 
-/// F without bristles, in V, of a motion in a direction (+1 right, -1 left). A velocity against the
-/// direction, as trial steps beyond a turn have, counts as 0 where F depends on speed alone.
-inline double sliding_friction_V(const Friction& friction, double velocity_mm_per_s, double position_mm,
-                                 double direction) {
-    const double speed_mm_per_s = std::max(0.0, direction * velocity_mm_per_s);
+/// F without bristles, in V, of a motion in a direction (+1 right, -1 left) where g is dry_V.
+inline double sliding_friction_V(const Friction& friction, double velocity_mm_per_s, double direction,
+                                 double dry_V) {
     const double viscous = direction > 0.0 ? friction.right_V_s_per_mm : friction.left_V_s_per_mm;
     const double sign =
         friction.creep_mm_per_s > 0.0 ? std::tanh(velocity_mm_per_s / friction.creep_mm_per_s) : direction;
-    return sign * dry_friction_V(friction, speed_mm_per_s, position_mm) + viscous * velocity_mm_per_s;
+    return sign * dry_V + viscous * velocity_mm_per_s;
 }
 
 struct Creep {

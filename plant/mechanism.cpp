@@ -151,10 +151,10 @@ class Motion {
         const auto creep = balanced_creep(p_.friction, x_[speed], x_[place], effective_V(x_));
         constexpr double time_constants = 8.0;
         if (!creep || duration_s * creep->slope_V_s_per_mm * gain < time_constants * tau_s) return false;
-        x_[speed] = creep->velocity_mm_per_s;
-        direction_ = x_[speed] < 0.0 ? -1.0 : 1.0;
         State end = x_;
-        end[place] += duration_s * x_[speed];
+        end[place] += duration_s * creep->velocity_mm_per_s;
+        end[speed] = creep->velocity_mm_per_s;
+        direction_ = end[speed] < 0.0 ? -1.0 : 1.0;
         settle(end);
         return true;
     }
@@ -195,8 +195,8 @@ class Motion {
 
     double friction_V(const State& x) const {
         if (!axis_.has_friction) return 0.0;
-        if (!axis_.has_bristles) return sliding_friction_V(p_.friction, x[speed], x[place], direction_);
         const double dry_V = dry_V_at(x);
+        if (!axis_.has_bristles) return sliding_friction_V(p_.friction, x[speed], direction_, dry_V);
         return bristle_friction_V(p_.friction, x[speed], direction_, bend_at(x, dry_V), dry_V);
     }
 

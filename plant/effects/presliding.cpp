@@ -23,10 +23,9 @@ extern constexpr Effect presliding{
     .name = "presliding",
     .block = "macro.friction",
     .text =
-        "Elastic micro-motion before break-away: bristles of bend z carry all dry friction g, F = Fc z + c1 "
-        "dz/dt d, dz/dt = (v - |v| z Fc / g) / d, where Fc is this level plus other Coulomb friction. LuGre "
-        "with "
-        "sigma0 = Fc / d, sigma1 = c1; Dahl without damping.",
+        "Elastic micro-motion before break-away: bristles of bend z carry all dry friction g, "
+        "F = Fc z + c1 dz/dt d, dz/dt = (v - |v| z Fc / g) / d, where Fc is this level plus other Coulomb "
+        "friction. LuGre with sigma0 = Fc / d, sigma1 = c1; Dahl without damping.",
     .source =
         "Dahl, Aerospace Corp. TOR-0158(3107-18)-1, 1968; Canudas de Wit et al., IEEE Trans. Autom. Control "
         "40(3), 1995",

@@ -122,10 +122,9 @@ std::string no_gap_html(const gap::Diagnosis& diagnosis) {
                "decide on a cause. Record the experiments again, longer and several times each, and repeat "
                "the diagnosis.</p>\n";
     return "<p>For what the recordings exercise nothing needs to be done: use the simulator as it is. An "
-           "effect "
-           "that they do not excite (a place on the rail, a speed, a temperature) does not show; which those "
-           "are "
-           "stands below. When the rig was changed or has aged, record again and repeat the diagnosis.</p>\n";
+           "effect that they do not excite (a place on the rail, a speed, a temperature) does not show; "
+           "which those are stands below. When the rig was changed or has aged, record again and repeat "
+           "the diagnosis.</p>\n";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "tests/plant/reference_rig.h"
 
 #include <limits>
+#include <span>
 #include <string_view>
 
 namespace fidservo::plant {
@@ -13,16 +14,20 @@ inline StagePlant plant_with(std::string_view effect) {
     return make_stage_plant(reference_rig(), {&setting, 1});
 }
 
-/// The carriage with one effect, on an endless rail, so that only the effect's own physics shows. Without
-/// dead zone the command is the voltage.
-inline MacroAxis endless_axis_with(std::string_view effect, bool dead_zone = false) {
+/// The carriage with effects, on an endless rail, so that only their own physics shows. Without dead zone the
+/// command is the voltage.
+inline MacroAxis endless_axis_with(std::span<const EffectSetting> effects, bool dead_zone = false) {
     PlantParameters plant = plant_parameters(macro_only_rig());
     if (!dead_zone) plant.axis.dead_zone = {};
-    const EffectSetting setting = parse_effect(effect);
-    apply_effects(plant, {&setting, 1});
+    apply_effects(plant, effects);
     plant.axis.low_mm = -std::numeric_limits<double>::infinity();
     plant.axis.high_mm = std::numeric_limits<double>::infinity();
     return make_macro_axis(plant.axis, plant.tick_s);
+}
+
+inline MacroAxis endless_axis_with(std::string_view effect, bool dead_zone = false) {
+    const EffectSetting setting = parse_effect(effect);
+    return endless_axis_with({&setting, 1}, dead_zone);
 }
 
 inline MacroAxisState after(const MacroAxis& axis, MacroAxisState state, double command_V, int ticks) {

@@ -79,15 +79,10 @@ TEST(Presliding, AboveBreakAway_SlidesAgainstTheLevel) {
 
 /// By hand: LuGre with a constant stiffness, in steps of 2 us.
 TEST(Presliding, BesideOtherFriction_IsLuGreOfConstantStiffness) {
-    PlantParameters plant = plant_parameters(macro_only_rig());
-    plant.axis.dead_zone = {};
-    plant.axis.low_mm = -1e9;
-    plant.axis.high_mm = 1e9;
     const std::vector effects{parse_effect("presliding:level_V=0.1,distance_um=200"),
                               parse_effect("rail_patch:level_V=0.08,centre_mm=3,width_mm=2"),
                               parse_effect("stribeck_friction:level_V=0.05,speed_mm_per_s=20")};
-    apply_effects(plant, effects);
-    const MacroAxis axis = make_macro_axis(plant.axis, plant.tick_s);
+    const MacroAxis axis = endless_axis_with(effects);
     MacroAxisState state = start(axis, 0.0);
 
     constexpr double step_s = 2e-6, stiffness_V_per_mm = 0.1 / 0.2;
