@@ -39,6 +39,7 @@ std::string_view view_block(const Pattern& pattern, std::optional<Dependence> de
         return "macro.encoder";
     if (dependence == Dependence::contraction) return "micro.hall";
     if (dependence == Dependence::image_place) return "camera.geometry";
+    if (dependence == Dependence::motion_by_row) return "camera.image";
     if (dependence == Dependence::plate_place || dependence == Dependence::tag_size) return "plate";
     return is_displacement(pattern) ? "camera.timing" : "camera.geometry";
 }

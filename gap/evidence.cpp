@@ -60,14 +60,12 @@ Touched touched_by(const Hypothesis& hypothesis, const Models& models) {
 }
 
 void write_detections(Errors& errors, const Window& window, const TagRun& run,
-                      const std::vector<CornerValues>& found, double corner_noise_px) {
+                      const std::vector<CornerValues>& found) {
+    std::size_t at = window.begin;
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const TagSighting& sighting = run.sightings[window.first_detection + i];
-        for (int value = 0; value < 8; ++value) {
-            const double floor_px = value == 0 ? sighting.along_floor_px : corner_noise_px;
-            errors[window.begin + corner_values * i + static_cast<std::size_t>(value)] =
-                static_cast<float>(found[i][value] / floor_px);
-        }
+        const CornerValues floors =
+            found[i].cwiseQuotient(run.sightings[window.first_detection + i].floors_px);
+        for (const double value : floors) errors[at++] = static_cast<float>(value);
     }
 }
 
@@ -133,19 +131,19 @@ class RunPredictor {
             if (wanted[i] != 0)
                 write_detections(
                     errors, *window, links_.tags,
-                    tag_errors(*models_.tag, links_.tags, links_.tags.windows[i], path(), reading),
-                    parts_.floors[index_of(Signal::tag)]);
+                    tag_errors(*models_.tag, links_.tags, links_.tags.windows[i], path(), reading));
     }
 
     void predict_images(Errors& errors) const {
-        const std::span<const std::uint8_t> wanted = wanted_of(Signal::image);
-        auto window = std::ranges::find(windows_, Signal::image, &Window::signal);
-        for (std::size_t i = 0; i < wanted.size(); ++i, ++window) {
-            if (wanted[i] == 0) continue;
-            std::size_t at = window->begin;
-            for (const ImageErrors& values : image_errors(*models_.image, parts_.recordings[window->run],
-                                                          links_.images, links_.images.windows[i]))
-                for (const double value : values) errors[at++] = static_cast<float>(value);
+        const std::size_t run = windows_.front().run;
+        const std::vector<ImageErrors> found =
+            image_errors(*models_.image, parts_.recordings[run], parts_.images[run]);
+        for (std::size_t w = 0; w < windows_.size(); ++w) {
+            const Window& window = windows_[w];
+            if (window.signal != Signal::image || wanted_[w] == 0) continue;
+            std::size_t at = window.begin;
+            for (std::size_t i = window.first_detection; at < window.end; ++i)
+                for (const double value : found[i]) errors[at++] = static_cast<float>(value);
         }
     }
 
@@ -217,6 +215,7 @@ Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings) : parts_(s
     parts.floors[index_of(Signal::micro_command)] =
         command_floor_V(parts.recordings, &StageRow::micro_command_V);
     parts.floors[index_of(Signal::image)] = 1.0;
+    find_looks(parts);
     parts.links.reserve(parts.recordings.size());
     for (std::size_t run = 0; run < parts.recordings.size(); ++run) add_run(parts, run);
     parts.first_window.push_back(parts.windows.size());

@@ -1,14 +1,13 @@
 #include "gap/evidence_parts.h"
 
 #include "core/failure.h"
+#include "gap/clear_detections.h"
 #include "gap/noise_floor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -67,7 +66,7 @@ void add_tag_windows(Evidence::Parts& parts, std::size_t run) {
 }
 
 void add_image_windows(Evidence::Parts& parts, std::size_t run) {
-    for (const ImageWindow& window : parts.links[run].images.windows) {
+    for (const ImageWindow& window : parts.images[run].windows) {
         const std::size_t values = image_values * (window.end - window.first);
         parts.windows.push_back({run, Signal::image, parts.recordings[run].rows[window.first_row].time_ns,
                                  window.first_row, window.end_row - window.first_row, parts.values,
@@ -130,59 +129,13 @@ void note_omissions(Evidence::Parts& parts, std::size_t run) {
               "the rig file states no gains, or rows lack a command or a reading");
 }
 
-/// How far a tag is from the nearest side of the image, px.
-double to_border_px(const TagDetection& tag, const CameraGeometry& image) {
-    double nearest_px = std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector2d& corner : tag.corners_px)
-        nearest_px = std::min({nearest_px, corner.x(), corner.y(), image.width_px - 1.0 - corner.x(),
-                               image.height_px - 1.0 - corner.y()});
-    return nearest_px;
-}
-
-/// Takes out detections that say little of where the tag was: those of frames in which it moves by more than
-/// 0.15 cells while they are exposed, by the carriage's path and by where the frames before and after show
-/// it; those that one of these frames does not show; and those nearer than half a cell to the image's border,
-/// which may have cut it. The exposure is what the frames' own blur shows, where that is longer than the rig
-/// file's.
-void drop_unclear(Evidence::Parts& parts, std::size_t run) {
-    constexpr double most_cells = 0.15, least_border_cells = 0.5, cells = 8.0, late = 1.5;
-    Recording& recording = parts.recordings[run];
-    const CameraParameters& camera = *parts.rig.camera;
-    const double exposure_s =
-        std::max(camera.exposure_s, seen_exposure_s(recording, parts.links[run].images).value_or(0.0));
-    const double cell_mm = parts.rig.fiducials->side_mm / cells;
-    std::vector<TagDetection>& detections = recording.detections;
-    std::vector<double> smear_cells(detections.size());  // while a frame is exposed
-    std::vector<bool> is_cut(detections.size());
-    std::vector<int> neighbours(detections.size());
-    std::map<int, std::size_t> last;
-    for (std::size_t k = 0; k < detections.size(); ++k) {
-        const TagDetection& now = detections[k];
-        const auto after = std::ranges::lower_bound(recording.rows, now.time_ns, {}, &StageRow::time_ns);
-        const auto row =
-            std::min<std::ptrdiff_t>(after - recording.rows.begin(), std::ssize(recording.rows) - 1);
-        const double speed_mm_per_s = parts.links[run].path.velocity_mm_per_s[static_cast<std::size_t>(row)];
-        smear_cells[k] = exposure_s * std::abs(speed_mm_per_s) / cell_mm;
-        const double cell_px = (now.corners_px[1] - now.corners_px[0]).norm() / cells;
-        is_cut[k] = to_border_px(now, camera.geometry) < least_border_cells * cell_px;
-        const auto [before, is_first] = last.try_emplace(now.tag_id, k);
-        const std::size_t at = std::exchange(before->second, k);
-        const double since_s = seconds(now.time_ns - detections[at].time_ns);
-        if (is_first || since_s <= 0.0 || since_s > late / camera.frame_rate_hz) continue;
-        const double way_px = (now.corners_px[0] - detections[at].corners_px[0]).norm();
-        const double by_frames = exposure_s / since_s * way_px / cell_px;
-        smear_cells[k] = std::max(smear_cells[k], by_frames);
-        smear_cells[at] = std::max(smear_cells[at], by_frames);
-        ++neighbours[k];
-        ++neighbours[at];
-    }
-    std::vector<TagDetection> judged;
-    for (std::size_t k = 0; k < detections.size(); ++k)
-        if (smear_cells[k] <= most_cells && !is_cut[k] && neighbours[k] == 2) judged.push_back(detections[k]);
+void drop_unclear_detections(Evidence::Parts& parts, std::size_t run) {
     constexpr double worth_telling = 0.05;  // of all
-    const auto all = static_cast<double>(detections.size()), clear = static_cast<double>(judged.size());
-    detections = std::move(judged);
-    if (all - clear > worth_telling * all)
+    Recording& recording = parts.recordings[run];
+    const auto all = static_cast<double>(recording.detections.size());
+    drop_unclear(recording, parts.links[run].path.velocity_mm_per_s, *parts.rig.camera, *parts.rig.fiducials,
+                 parts.shutter.exposure_s);
+    if (all - static_cast<double>(recording.detections.size()) > worth_telling * all)
         parts.omissions.push_back(
             {recording.name, "tag",
              "detections that are smeared, alone or at the image's border are not judged"});
@@ -234,6 +187,15 @@ void find_noise(Evidence::Parts& parts) {
         parts.floors[index_of(Signal::tag)] = std::hypot(parts.floors[index_of(Signal::tag)], detector_px);
 }
 
+void find_looks(Evidence::Parts& parts) {
+    parts.images.resize(parts.recordings.size());
+    if (!parts.rig.camera || !parts.rig.fiducials) return;
+    const CameraParameters& camera = *parts.rig.camera;
+    for (std::size_t run = 0; run < parts.recordings.size(); ++run)
+        parts.images[run] = image_run(parts.recordings[run], camera);
+    parts.shutter = seen_shutter(parts.recordings, parts.images, camera);
+}
+
 void add_run(Evidence::Parts& parts, std::size_t run) {
     const Recording& recording = parts.recordings[run];
     const Rig& rig = parts.rig;
@@ -241,10 +203,8 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     RunLinks& links = parts.links.emplace_back();
     links.carriage = carriage_run(recording, rig.macro);
     predicted_counts(carriage_model(nominal), links.carriage, links.path);
-    if (rig.camera && rig.fiducials && !recording.appearances.empty() && !recording.rows.empty()) {
-        links.images = image_run(parts.recordings[run], *rig.camera);
-        drop_unclear(parts, run);
-    }
+    if (rig.camera && rig.fiducials && !recording.appearances.empty() && !recording.rows.empty())
+        drop_unclear_detections(parts, run);
     std::optional<PlatformPrediction> platform;
     if (rig.micro) {
         links.platform =
@@ -256,7 +216,8 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     if (rig.camera && rig.fiducials)
         links.tags =
             tag_run(recording, rig, links.path, links.carriage, links.platform ? &*links.platform : nullptr,
-                    links.smoothed ? &*links.smoothed : nullptr, parts.floors[index_of(Signal::tag)]);
+                    links.smoothed ? &*links.smoothed : nullptr,
+                    {parts.floors[index_of(Signal::tag)], parts.shutter.readout_s});
     links.macro = macro_controller_run(recording, rig);
     links.micro = micro_controller_run(recording, rig);
     parts.courses.push_back(course_of(rig, links, platform ? &*platform : nullptr));

@@ -7,6 +7,7 @@
 #include "gap/hall_smoothing.h"
 #include "gap/image_link.h"
 #include "gap/platform_link.h"
+#include "gap/shutter.h"
 #include "gap/tag_link.h"
 
 #include <array>
@@ -22,7 +23,6 @@ struct RunLinks {
     std::optional<PlatformRun> platform;      ///< empty without micro stage
     std::optional<SmoothedReading> smoothed;  ///< likewise
     TagRun tags;
-    ImageRun images;
     ControllerRun macro, micro;
     CarriagePath path;  ///< of the rig file's carriage
 };
@@ -31,6 +31,8 @@ struct Evidence::Parts {
     Rig rig;
     std::vector<Recording> recordings;
     std::vector<RunLinks> links;
+    std::vector<ImageRun> images;  ///< of each recording
+    Shutter shutter{0.0, 0.0};
     std::vector<Window> windows;
     std::vector<std::size_t> first_window;  ///< of each run, and one past the last
     std::size_t values = 0;
@@ -46,6 +48,9 @@ void check(const Rig& rig, const Recording& recording);
 
 /// Noise of all sensors, from all recordings: sets their floors.
 void find_noise(Evidence::Parts& parts);
+
+/// How tags look in all recordings, and what that says of the shutter.
+void find_looks(Evidence::Parts& parts);
 
 /// Prepares a recording, lists its windows, and notes what is left out.
 void add_run(Evidence::Parts& parts, std::size_t run);

@@ -115,6 +115,7 @@ void smooth(const PlatformRun& run, const Stretch& piece, std::span<const double
         found.reading_lsb[k] = path_lsb[k] + residual_fits.line(i, fitted.first, fitted.end);
         found.std_lsb[k] =
             bias_share * run.floor_lsb * std::sqrt(LineFits::variance(i, fitted.first, fitted.end));
+        found.readings[k] = static_cast<double>(fitted.rows());
         found.drive_V[k] = drive_fits.line(i, fitted.first, fitted.end);
     }
 }
@@ -134,12 +135,21 @@ void hold(std::vector<double>& values, double none) {
 SmoothedReading smoothed_reading(const PlatformRun& run, std::span<const double> path_lsb,
                                  double command_limit_V) {
     const std::vector<double> none(run.hall_adc.size(), std::numeric_limits<double>::quiet_NaN());
-    SmoothedReading found{none, none, none};
+    SmoothedReading found{none, none, none, none};
     for (const Stretch& piece : pieces_of(run)) smooth(run, piece, path_lsb, command_limit_V, found);
     hold(found.reading_lsb, 0.0);
     hold(found.std_lsb, run.floor_lsb);
+    hold(found.readings, 1.0);
     hold(found.drive_V, 0.0);
     return found;
+}
+
+double changed_lsb(const SmoothedReading& reading, std::size_t from, std::size_t to) {
+    const double m = reading.readings[from], n = reading.readings[to];
+    const double apart = to > from ? static_cast<double>(to - from) : static_cast<double>(from - to);
+    const double common = std::clamp(0.5 * (m + n) - apart, 0.0, std::min(m, n));
+    const double noise_lsb = reading.std_lsb[from] * std::sqrt(m);
+    return noise_lsb * std::sqrt(1.0 / m + 1.0 / n - 2.0 * common / (m * n));
 }
 
 }  // namespace fidservo::gap

@@ -20,6 +20,7 @@ namespace fidservo::gap {
 struct SmoothedReading {
     std::vector<double> reading_lsb;
     std::vector<double> std_lsb;
+    std::vector<double> readings;  ///< in the line that gives a row's value
     /// The macro command (limited) that stood before the row, smoothed in the same way: what leaks from it
     /// into the reading leaks in this proportion into the smoothed one.
     std::vector<double> drive_V;
@@ -29,5 +30,9 @@ struct SmoothedReading {
 /// @param command_limit_V  of the macro drive
 SmoothedReading smoothed_reading(const PlatformRun& run, std::span<const double> path_lsb,
                                  double command_limit_V);
+
+/// Standard deviation of what the error changes by from one row to another. Of means over m and n readings, c
+/// of them the same, with noise of sigma each: sigma sqrt(1/m + 1/n - 2c/mn).
+double changed_lsb(const SmoothedReading& reading, std::size_t from, std::size_t to);
 
 }  // namespace fidservo::gap

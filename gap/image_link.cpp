@@ -1,6 +1,5 @@
 #include "gap/image_link.h"
 
-#include "core/median.h"
 #include "plant/view/view_options.h"
 
 #include <algorithm>
@@ -22,8 +21,9 @@ constexpr double edge_allowance = 0.02, light_allowance = 2e-3, noise_allowance 
 /// Of an exposure beyond the rig file's (plant/effects/motion_blur.cpp).
 constexpr double most_extra_s = 0.015;
 
-/// The motion of a tag in the image.
+/// A tag in the image, and its motion.
 struct ImageMotion {
+    const TagDetection* tag;
     Eigen::Vector2d velocity_px_per_s;
     double std_px_per_s;
 };
@@ -40,7 +40,7 @@ Eigen::Vector2d middle_px(const TagDetection& tag) {
 /// Empty where the two frames before or after do not show the tag, or its motion is not even enough.
 std::optional<ImageMotion> motion_at(const TagTrack& track, TimeNs time_ns, double frame_s) {
     constexpr double late = 1.5, place_noise_px = 0.05, least_uncertain_share = 0.02,
-                     most_uncertain_share = 0.05;
+                     most_uncertain_share = 0.05, most_jump_share = 0.1;
     const auto found = std::ranges::lower_bound(track, time_ns, {}, &TagDetection::time_ns);
     if (found == track.end() || (*found)->time_ns != time_ns || found - track.begin() < 2 ||
         track.end() - found < 3)
@@ -52,11 +52,18 @@ std::optional<ImageMotion> motion_at(const TagTrack& track, TimeNs time_ns, doub
         const TagDetection& after = **(found + frames);
         return (middle_px(after) - middle_px(before)) / seconds(after.time_ns - before.time_ns);
     };
+    const auto turn_px = [&](std::ptrdiff_t frames) -> Eigen::Vector2d {
+        return middle_px(**(found + frames)) + middle_px(**(found - frames)) - 2.0 * middle_px(**found);
+    };
     const Eigen::Vector2d near = slope(1), bend = (near - slope(2)) / 3.0;
-    const ImageMotion motion{near + bend, 3.0 * bend.norm() + place_noise_px / frame_s};
-    const double speed = motion.velocity_px_per_s.norm();
-    if (bend.norm() > most_uncertain_share * speed + place_noise_px / frame_s) return std::nullopt;
-    return ImageMotion{motion.velocity_px_per_s, motion.std_px_per_s + least_uncertain_share * speed};
+    const double jump = (turn_px(2) - 4.0 * turn_px(1)).norm() / (2.0 * frame_s);
+    const Eigen::Vector2d velocity = near + bend;
+    const double speed = velocity.norm();
+    if (bend.norm() > most_uncertain_share * speed + place_noise_px / frame_s ||
+        jump > most_jump_share * speed + 4.0 * place_noise_px / frame_s)
+        return std::nullopt;
+    return ImageMotion{*found, velocity,
+                       3.0 * bend.norm() + jump + place_noise_px / frame_s + least_uncertain_share * speed};
 }
 
 double edge_variance_px2(const ImageModel& model, const Eigen::Vector2d& normal,
@@ -96,8 +103,8 @@ std::map<int, TagTrack> tracks_of(const Recording& recording) {
 }
 
 ImageSighting sighting_of(const TagAppearance& seen, const ImageMotion& motion,
-                          const CameraParameters& camera) {
-    ImageSighting sighting{motion.velocity_px_per_s, {}};
+                          const CameraParameters& camera, std::size_t second) {
+    ImageSighting sighting{motion.tag->corners_px, motion.velocity_px_per_s, {}, second};
     const double still_px2 = std::pow(camera.blur_px, 2) + pixel_variance_px2;
     for (std::size_t k = 0; k < sides; ++k) {
         const TagSide& side = seen.sides[k];
@@ -118,6 +125,24 @@ ImageSighting sighting_of(const TagAppearance& seen, const ImageMotion& motion,
     return sighting;
 }
 
+std::vector<ImageWindow> frames_of(const Recording& recording) {
+    const auto row_at = [&](TimeNs time_ns) {
+        const auto after = std::ranges::upper_bound(recording.rows, time_ns, {}, &StageRow::time_ns);
+        return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, after - recording.rows.begin() - 1));
+    };
+    std::vector<ImageWindow> frames;
+    for (std::size_t i = 0; i < recording.appearances.size(); ++i) {
+        const TimeNs time_ns = recording.appearances[i].time_ns;
+        if (i == 0 || time_ns != recording.appearances[i - 1].time_ns) {
+            const std::size_t row = row_at(time_ns);
+            if (i > 0) frames.back().end_row = row;
+            frames.push_back({row, row + 1, i, i});
+        }
+        frames.back().end = i + 1;
+    }
+    return frames;
+}
+
 }  // namespace
 
 ImageRun image_run(Recording& recording, const CameraParameters& camera) {
@@ -129,48 +154,26 @@ ImageRun image_run(Recording& recording, const CameraParameters& camera) {
         const auto motion = motion_at(tracks[seen.tag_id], seen.time_ns, 1.0 / camera.frame_rate_hz);
         if (!motion) continue;
         judged.push_back(seen);
-        run.sightings.push_back(sighting_of(seen, *motion, camera));
+        const double since_s = seconds(seen.time_ns - recording.rows.front().time_ns);
+        run.sightings.push_back(
+            sighting_of(seen, *motion, camera, static_cast<std::size_t>(std::max(0.0, since_s))));
     }
     recording.appearances = std::move(judged);
-    const auto window_rows = static_cast<std::size_t>(std::lround(1.0 / recording.tick_s));
-    const auto first_at = [&](std::size_t row) {
-        if (row >= recording.rows.size()) return run.sightings.size();
-        const auto found = std::ranges::lower_bound(recording.appearances, recording.rows[row].time_ns, {},
-                                                    &TagAppearance::time_ns);
-        return static_cast<std::size_t>(found - recording.appearances.begin());
-    };
-    for (std::size_t row = 0; row < recording.rows.size(); row += window_rows) {
-        const std::size_t end_row = std::min(row + window_rows, recording.rows.size());
-        const ImageWindow window{row, end_row, first_at(row), first_at(row + window_rows)};
-        if (window.end > window.first) run.windows.push_back(window);
-    }
+    run.windows = frames_of(recording);
     return run;
 }
 
-std::optional<double> seen_exposure_s(const Recording& recording, const ImageRun& run) {
-    constexpr double least_px_per_s = 300.0;
-    constexpr std::size_t fewest = 5;
-    std::vector<double> exposures_s;
-    for (std::size_t i = 0; i < run.sightings.size(); ++i) {
-        const Eigen::Vector2d& velocity = run.sightings[i].velocity_px_per_s;
-        const auto along = [&](const TagSide& side) { return std::abs(side.normal.dot(velocity)); };
-        const auto [least, most] = std::ranges::minmax_element(recording.appearances[i].sides, {}, along);
-        const double widened_px2 = most->variance_px2 - least->variance_px2;
-        const double speeds2 = std::pow(along(*most), 2) - std::pow(along(*least), 2);
-        if (!(speeds2 > std::pow(least_px_per_s, 2)) || !(widened_px2 > 0.0)) continue;
-        exposures_s.push_back(std::sqrt(12.0 * widened_px2 / speeds2));
-    }
-    if (exposures_s.size() < fewest) return std::nullopt;
-    return median_of(exposures_s);
-}
-
 std::vector<ImageErrors> image_errors(const ImageModel& model, const Recording& recording,
-                                      const ImageRun& run, const ImageWindow& window) {
+                                      const ImageRun& run) {
+    struct Mean {
+        double sum = 0.0, weights = 0.0;
+    };
     std::vector<ImageErrors> errors;
-    double light_sum = 0.0, weights = 0.0;
-    for (std::size_t i = window.first; i < window.end; ++i) {
+    std::vector<Mean> lights(run.sightings.empty() ? 0 : run.sightings.back().second + 1);  // by second
+    for (std::size_t i = 0; i < run.sightings.size(); ++i) {
         const ImageSighting& sighting = run.sightings[i];
         const TagAppearance& seen = recording.appearances[i];
+        Mean& of_second = lights[sighting.second];
         ImageErrors& logs = errors.emplace_back();
         for (std::size_t k = 0; k < sides; ++k) {
             const TagSide& side = seen.sides[k];
@@ -179,17 +182,18 @@ std::vector<ImageErrors> image_errors(const ImageModel& model, const Recording& 
             const double bright = std::log(white_grey * light(model, side) / side.white_grey);
             logs[first_light + k] = bright;
             if (std::isnan(bright)) continue;
-            light_sum += bright;
-            weights += 1.0;
+            of_second.sum += bright;
+            of_second.weights += 1.0;
         }
         logs[white_noise] = std::log(noise_grey2(model, seen.white.grey) / seen.white.variance_grey2);
         logs[black_noise] = std::log(noise_grey2(model, seen.black.grey) / seen.black.variance_grey2);
     }
     for (std::size_t i = 0; i < errors.size(); ++i) {
+        const ImageSighting& sighting = run.sightings[i];
+        const Mean& of_second = lights[sighting.second];
         for (std::size_t k = 0; k < sides; ++k)
-            errors[i][first_light + k] -= weights > 0.0 ? light_sum / weights : 0.0;
-        for (std::size_t k = 0; k < image_values; ++k)
-            errors[i][k] /= run.sightings[window.first + i].floors[k];
+            errors[i][first_light + k] -= of_second.weights > 0.0 ? of_second.sum / of_second.weights : 0.0;
+        for (std::size_t k = 0; k < image_values; ++k) errors[i][k] /= sighting.floors[k];
     }
     return errors;
 }

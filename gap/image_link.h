@@ -4,15 +4,15 @@
 // Measured (core/appearance.h) and predicted are positive, and compared by the logarithm of their ratio:
 //
 //     edge     ln (blur^2 + extra blur^2 + 1/12 + (n . v)^2 T^2 / 12),   n the edge's normal
-//     light    ln (L at the strip beside the edge), less the mean of these in the window
+//     light    ln (L at the strip beside the edge), less the mean of these in the second
 //     noise    ln (k g + (k r)^2 + (spread g)^2 + 1/12),   k = 255 / full well, for white and for black
 //
 // with T the exposure, r the read noise, g the measured grey level, L of plant/view/view_options.h. How
-// bright the lamp and the paper are no rig file says, so light is compared within a window only. v is how the
+// bright the lamp and the paper are no rig file says, so light is compared within a second only. v is how the
 // tag moves in the image, px/s, from where it is seen two frames before to two frames after, by the
 // five-point formula; it depends on no model of the stages. Where those frames do not show the tag, edges are
 // not judged; nor where their differences over one and over two frames are too far apart for the motion to be
-// even.
+// even, first differences (which jerk sets apart) or second ones (which a jump of the velocity does).
 //
 // floor^2 of a logarithm = (the measurement's own noise)^2 + allowance^2 + (what v is uncertain of)^2
 #include "core/recording.h"
@@ -30,26 +30,25 @@ namespace fidservo::gap {
 
 /// An appearance's motion and floors.
 struct ImageSighting {
+    std::array<Eigen::Vector2d, 4> corners_px;  ///< of its detection
     Eigen::Vector2d velocity_px_per_s;
     std::array<double, image_values> floors;  ///< of the logarithms
+    std::size_t second;                       ///< since the recording's first row
 };
 
+/// A frame: what one is off by says nothing of the next one.
 struct ImageWindow {
-    std::size_t first_row, end_row;  ///< of the recording
+    std::size_t first_row, end_row;  ///< of the recording: those until the next frame that is judged
     std::size_t first, end;          ///< sightings
 };
 
 struct ImageRun {
     std::vector<ImageSighting> sightings;  ///< of the recording's appearances
-    std::vector<ImageWindow> windows;      ///< of 1 s
+    std::vector<ImageWindow> windows;
 };
 
 /// Empty for a recording without appearances. Takes those out of it that are not judged.
 ImageRun image_run(Recording& recording, const CameraParameters& camera);
-
-/// How long frames were exposed by how much wider edges across a tag's motion are than those along it; empty
-/// where too few of a run's tags move.
-std::optional<double> seen_exposure_s(const Recording& recording, const ImageRun& run);
 
 struct ImageModel {
     CameraParameters camera;
@@ -60,8 +59,8 @@ struct ImageModel {
 /// NaN where a value was not measured.
 using ImageErrors = std::array<double, image_values>;
 
-/// Of a window's sightings, one after the other.
+/// Of all sightings.
 std::vector<ImageErrors> image_errors(const ImageModel& model, const Recording& recording,
-                                      const ImageRun& run, const ImageWindow& window);
+                                      const ImageRun& run);
 
 }  // namespace fidservo::gap

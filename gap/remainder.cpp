@@ -6,6 +6,7 @@
 #include "gap/halves.h"
 #include "gap/minor_loops.h"
 #include "gap/period_search.h"
+#include "gap/sheared_tags.h"
 #include "gap/surrogate.h"
 
 #include <algorithm>
@@ -75,6 +76,7 @@ Dependences dependences(const Evidence& evidence, Signal signal, const Errors& e
                 return {{static_cast<int>(Dependence::minor_loops)}};
             return dependences(evidence, signal, platform_surrogate(evidence), errors, half, tail);
         case Signal::tag:
+            if (tags_are_sheared(evidence, errors)) return {{static_cast<int>(Dependence::motion_by_row)}};
             return dependences(evidence, signal, tag_surrogate(evidence, errors), errors, half, tail);
         case Signal::macro_command:
         case Signal::micro_command:

@@ -8,6 +8,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace fidservo::gap {
@@ -19,6 +20,9 @@ constexpr double tie_significance = 2.0;
 /// Of what a signal exceeds its floor by where nothing is known: what an effect has to take away where it
 /// does not bring the signal to its floor.
 constexpr double least_share_of_first = 1e-3;
+
+/// Mean square in floors of what is far off.
+constexpr double far_off_square = 9.0;
 
 /// Of those sorted from the best on, the first that come near it, `most` at most.
 template <class Score>
@@ -188,22 +192,42 @@ bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
 }
 
 bool Search::clears_each_half(const CrossFit& without, const CrossFit& with) const {
-    constexpr double far_off_square = 9.0;  // floors^2
-    constexpr int fewest = 3;               // windows
+    constexpr int fewest_windows = 3, fewest_shapes = 6;
     const std::vector<Window>& windows = fitter_.evidence().windows();
     const SignalExcess before = fitter_.excess(without.mean_squares),
                        after = fitter_.excess(with.mean_squares);
     SignalFlags cleared{};
     for (std::size_t s = 0; s < signal_count; ++s) cleared[s] = before[s] > 0.0 && after[s] == 0.0;
-    for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t side = 0; side < 2 && cleared != SignalFlags{}; ++side) {
         const Wanted half = fitter_.half(side);
         std::array<int, signal_count> far_off{};
         for (std::size_t w = 0; w < windows.size(); ++w)
             if (half[w] != 0 && without.mean_squares[w] > far_off_square)
                 ++far_off[index_of(windows[w].signal)];
-        for (std::size_t s = 0; s < signal_count; ++s) cleared[s] = cleared[s] && far_off[s] >= fewest;
+        for (std::size_t s = 0; s < signal_count; ++s)
+            if (cleared[s] && far_off[s] < fewest_windows)
+                cleared[s] =
+                    static_cast<Signal>(s) == Signal::tag && shapes_far_off(without, side) >= fewest_shapes;
     }
     return cleared != SignalFlags{};
+}
+
+int Search::shapes_far_off(const CrossFit& cross, std::size_t side) const {
+    const std::vector<Window>& windows = fitter_.evidence().windows();
+    SignalFlags tags{};
+    tags[index_of(Signal::tag)] = true;
+    const Wanted wanted = only_of(windows, fitter_.half(side), tags);
+    const Errors errors = fitter_.evidence().errors(cross.of_half[1 - side], wanted);
+    int count = 0;
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        if (wanted[w] == 0) continue;
+        for (std::size_t tag = windows[w].begin; tag < windows[w].end; tag += corner_values) {
+            const auto shape = std::span(errors).subspan(tag + 1, corner_values - 1);
+            const double square = std::inner_product(shape.begin(), shape.end(), shape.begin(), 0.0);
+            if (square > far_off_square * static_cast<double>(shape.size())) ++count;
+        }
+    }
+    return count;
 }
 
 bool Search::nearly_clears(const CrossFit& without, const CrossFit& with) const {

@@ -5,7 +5,7 @@
 namespace fidservo::gap {
 
 std::string_view name_of(Dependence dependence) {
-    constexpr std::array<std::string_view, 19> names{"velocity",
+    constexpr std::array<std::string_view, 20> names{"velocity",
                                                      "direction",
                                                      "position",
                                                      "position, periodic",
@@ -23,7 +23,8 @@ std::string_view name_of(Dependence dependence) {
                                                      "position, against the motion",
                                                      "place in the image",
                                                      "place on the plate",
-                                                     "size of the tag"};
+                                                     "size of the tag",
+                                                     "how fast tags move, row by row"};
     return names.at(static_cast<std::size_t>(dependence));
 }
 

@@ -33,6 +33,7 @@ enum class Dependence : std::uint8_t {
     image_place,
     plate_place,
     tag_size,
+    motion_by_row,  ///< of a tag in the image: gap/sheared_tags.h
 };
 
 std::string_view name_of(Dependence dependence);

@@ -35,6 +35,11 @@ Moment moment_at(const TagRun& run, double at_s) {
     return {row, (at_s - time_s[row]) / way_s, way_s < 1.5 * run.tick_s};
 }
 
+std::size_t nearest_row(const TagRun& run, double at_s) {
+    const Moment at = moment_at(run, at_s);
+    return at.share < 0.5 ? at.row : at.row + 1;
+}
+
 /// Cubic through the path's places with its velocities (Hermite); straight where rows are missing.
 double carriage_mm(const CarriagePath& path, const Moment& at, double tick_s) {
     const double t = at.share;
@@ -147,6 +152,24 @@ CornerValues mirror_of(const CornerValues& slope) {
     return (slope.normalized() - CornerValues::Unit(0)).normalized();
 }
 
+/// When the rows of a tag's corners are exposed, since the middle of the frame.
+Eigen::Vector4d row_delays_s(const TagSighting& sighting, const CameraGeometry& camera, double readout_s) {
+    plant::CameraDeviation deviation;
+    deviation.readout_s = readout_s;
+    Eigen::Vector4d late_s;
+    for (int c = 0; c < 4; ++c)
+        late_s[c] = plant::row_delay_s(camera, deviation, sighting.corners_px[2 * c + 1]);
+    return late_s;
+}
+
+/// Adds to the floors that the error of s changes from the first corner's time to the last one's.
+void add_change(TagSighting& sighting, const CornerValues& slope, const Eigen::Vector4d& late_s,
+                double changed_mm) {
+    CornerValues off_px = slope * changed_mm / (late_s.maxCoeff() - late_s.minCoeff());
+    for (int c = 0; c < 4; ++c) off_px.segment<2>(2 * c) *= late_s[c] - late_s.mean();
+    sighting.floors_px = (sighting.floors_px.cwiseAbs2() + turned(sighting, off_px).cwiseAbs2()).cwiseSqrt();
+}
+
 /// In the middle of the travel.
 double mm_per_lsb(const HallParameters& hall) {
     return hall_lsb_V(hall) / hall_slope_V_per_mm(hall, hall.centre_mm);
@@ -194,7 +217,7 @@ std::vector<WindowRows> window_rows(const Recording& recording, const CarriageRu
 
 TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& path,
                const CarriageRun& carriage, const PlatformRun* platform, const SmoothedReading* reading,
-               double corner_noise_px) {
+               const TagNoise& noise) {
     TagRun run;
     if (recording.rows.empty() || recording.detections.empty()) return run;
     const FiducialParameters& plate = *rig.fiducials;
@@ -237,7 +260,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
             const double strayed_mm = std::min(hidden_mm, way_share * (way_mm[at.row] - way_mm[rows.lead]));
             const double platform_px = slope.norm() * platform_mm, strayed_px = slope.norm() * strayed_mm;
             if (i < window.first) {
-                sighting.offset_weight = 1.0 / (corner_noise_px * corner_noise_px + strayed_px * strayed_px);
+                sighting.offset_weight = 1.0 / (noise.corner_px * noise.corner_px + strayed_px * strayed_px);
                 offset_weights += sighting.offset_weight;
                 lead_platform += platform_px * platform_px;
                 continue;
@@ -246,8 +269,17 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
             const double offset_px = leads > 0.0 ? std::sqrt(1.0 / offset_weights + lead_platform / leads)
                                                  : slope.norm() * hidden_mm;
             sighting.mirror = mirror_of(slope);
-            sighting.along_floor_px =
-                std::hypot(std::hypot(corner_noise_px, offset_px), std::hypot(platform_px, strayed_px));
+            sighting.floors_px = CornerValues::Constant(noise.corner_px);
+            sighting.floors_px[0] =
+                std::hypot(std::hypot(noise.corner_px, offset_px), std::hypot(platform_px, strayed_px));
+            if (noise.readout_s == 0.0) continue;
+            const Eigen::Vector4d late_s = row_delays_s(sighting, rig.camera->geometry, noise.readout_s);
+            const std::size_t from = nearest_row(run, sighting.stamp_s + late_s.minCoeff()),
+                              to = nearest_row(run, sighting.stamp_s + late_s.maxCoeff());
+            const double by_reading_mm =
+                reading ? changed_lsb(*reading, from, to) * mm_per_lsb(rig.micro->hall) : 0.0;
+            add_change(sighting, slope, late_s,
+                       std::hypot(by_reading_mm, way_share * std::abs(way_mm[to] - way_mm[from])));
         }
         run.windows.push_back(window);
     }

@@ -15,6 +15,10 @@
 //
 // The std of x is the smoothed reading's. That of y grows with the way since the window's 100 ms began, as a
 // share of it, to what rounding hides; this is what it is, too, where no detection gave the offset.
+//
+// Where rows are exposed one after the other, s of one corner is wrong by another amount than s of the next:
+// the other values' floors then hold what the smoothed reading's error changes by from the first of these
+// times to the last one, and that share of the carriage's way between them.
 #include "gap/carriage_link.h"
 #include "gap/evidence.h"
 #include "gap/hall_smoothing.h"
@@ -36,10 +40,10 @@ struct TagSighting {
     double stamp_s = 0.0;  ///< since the recording's first row
     Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();
     CornerValues corners_px = CornerValues::Zero();
-    CornerValues mirror = CornerValues::Zero();  ///< normal of the reflection that turns the values
-    double along_floor_px = 0.0;                 ///< of the first value
-    double offset_weight = 0.0;                  ///< in finding the offset, 1/px^2
-    bool is_known = false;                       ///< the plate has this tag
+    CornerValues mirror = CornerValues::Zero();     ///< normal of the reflection that turns the values
+    CornerValues floors_px = CornerValues::Zero();  ///< of the turned values
+    double offset_weight = 0.0;                     ///< in finding the offset, 1/px^2
+    bool is_known = false;                          ///< the plate has this tag
 };
 
 struct TagWindow {
@@ -54,11 +58,16 @@ struct TagRun {
     double side_mm = 0.0, tick_s = 0.0;
 };
 
+/// What makes detections uncertain: their corners' own noise, and what is seen of the readout.
+struct TagNoise {
+    double corner_px, readout_s;
+};
+
 /// @param path    of the rig file's carriage
 /// @param reading empty for a rig without micro stage
 TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& path,
                const CarriageRun& carriage, const PlatformRun* platform, const SmoothedReading* reading,
-               double corner_noise_px);
+               const TagNoise& noise);
 
 /// The camera and the sensors by which it is known where it is.
 struct TagModel {

@@ -44,7 +44,7 @@ using Along = std::function<double(const Sight&)>;          ///< along the motio
 
 class Columns {
   public:
-    explicit Columns(const Evidence& evidence) : floor_px_(evidence.floor(Signal::tag)) {
+    explicit Columns(const Evidence& evidence) {
         for (const Window& window : evidence.windows()) {
             if (window.signal != Signal::tag) continue;
             size_ = std::max(size_, window.end);
@@ -56,16 +56,14 @@ class Columns {
 
     Column of_corners(Dependence group, const Pattern& pattern) const {
         return over_sights(group, [&](const Sight& sight, float* values) {
-            const CornerValues there = turned(sight.tag, pattern(sight));
-            values[0] = static_cast<float>(there[0] / sight.tag.along_floor_px);
-            for (Eigen::Index i = 1; i < there.size(); ++i)
-                values[i] = static_cast<float>(there[i] / floor_px_);
+            const CornerValues there = turned(sight.tag, pattern(sight)).cwiseQuotient(sight.tag.floors_px);
+            for (Eigen::Index i = 0; i < there.size(); ++i) values[i] = static_cast<float>(there[i]);
         });
     }
 
     Column along(Dependence group, const Along& place) const {
         return over_sights(group, [&](const Sight& sight, float* values) {
-            values[0] = static_cast<float>(place(sight) / sight.tag.along_floor_px);
+            values[0] = static_cast<float>(place(sight) / sight.tag.floors_px[0]);
         });
     }
 
@@ -83,7 +81,6 @@ class Columns {
         return column;
     }
 
-    double floor_px_;
     std::size_t size_ = 0;
     std::vector<std::pair<std::size_t, Sight>> sights_;  ///< with where their values begin in Errors
 };

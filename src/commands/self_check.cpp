@@ -52,7 +52,7 @@ void add_self_check_options(CLI::App& diagnose, SelfCheckRequest& request) {
     for (const auto& [name, kind] : kinds_by_name()) names.push_back(name);
     add("--kinds", request.kinds,
         "Cases of these kinds only: none, one, two, withheld, unlisted; "
-        "or, with rendered frames: frames (an effect of the image), frames-none")
+        "or, with rendered frames: frames (an effect of the image), frames-none, frames-withheld")
         ->type_name("A,B,..")
         ->delimiter(',')
         ->check(CLI::IsMember(names));

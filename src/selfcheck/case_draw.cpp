@@ -16,26 +16,11 @@ namespace fidservo::selfcheck {
 namespace {
 
 using enum CaseKind;
-constexpr std::array cycle{none, none, one, one, one, one, two, two, withheld, unlisted};
+constexpr std::array kinds{none, none, one, one, one, one, two, two, withheld, unlisted};
+constexpr KindCycle cycle(kinds, "cycle");
 
 /// Sizes reach down to this many floors, but not below this share of the largest.
 constexpr double smallest_floors = 0.7, smallest_share = 1.0 / 300.0;
-
-std::vector<CaseKind> kinds_of_cycle(std::uint64_t seed, std::size_t which) {
-    std::vector<CaseKind> kinds(cycle.begin(), cycle.end());
-    shuffle(kinds, NoiseStream(seed, fmt::format("self-check/cycle/{}", which)));
-    return kinds;
-}
-
-/// How many cases of the same kind come before a case.
-std::size_t ordinal_of(std::uint64_t seed, std::size_t number) {
-    const std::size_t which = number / cycle.size();
-    const std::vector<CaseKind> kinds = kinds_of_cycle(seed, which);
-    const auto here = kinds.begin() + static_cast<std::ptrdiff_t>(number % cycle.size());
-    const auto before = std::count(kinds.begin(), here, *here);
-    return which * static_cast<std::size_t>(std::ranges::count(cycle, *here)) +
-           static_cast<std::size_t>(before);
-}
 
 TrueEffect put_listed(Case& drawn, std::string_view class_name, NoiseStream& draw) {
     const std::vector<const EffectDraw*> ways = draws_of(class_name);
@@ -78,7 +63,7 @@ std::string_view partner_of(std::string_view class_name, bool same_block, NoiseS
 }  // namespace
 
 CaseKind kind_of_case(std::uint64_t seed, std::size_t number) {
-    return kinds_of_cycle(seed, number / cycle.size())[number % cycle.size()];
+    return cycle.kind_of(seed, number);
 }
 
 Case draw_case(const Rig& nominal, std::uint64_t seed, std::size_t number) {
@@ -88,7 +73,7 @@ Case draw_case(const Rig& nominal, std::uint64_t seed, std::size_t number) {
                .true_rig = {nominal, {}},
                .without = {},
                .campaign_seed = draw.bits()};
-    const std::size_t k = ordinal_of(seed, number);
+    const std::size_t k = cycle.ordinal_of(seed, number);
     const CaseKind kind = drawn.label.kind;
     std::vector<TrueEffect>& effects = drawn.label.effects;
     if (kind == unlisted) {

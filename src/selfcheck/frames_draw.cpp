@@ -56,18 +56,18 @@ constexpr std::array draws{
 };
 constexpr double smallest_floors = 0.7;
 
-constexpr std::size_t cases_in_row = 3;
+using enum CaseKind;
+constexpr std::array kinds{frames, frames, frames_withheld, frames_none};
+constexpr KindCycle cycle(kinds, "frames/row");
 
 }  // namespace
 
 bool has_frames(CaseKind kind) {
-    return kind == CaseKind::frames || kind == CaseKind::frames_none;
+    return cycle.has(kind);
 }
 
 CaseKind kind_of_frames_case(std::uint64_t seed, std::size_t number) {
-    NoiseStream draw(seed, fmt::format("self-check/frames/row/{}", number / cases_in_row));
-    return number % cases_in_row == index_below(draw, cases_in_row) ? CaseKind::frames_none
-                                                                    : CaseKind::frames;
+    return cycle.kind_of(seed, number);
 }
 
 std::vector<std::string_view> effects_in_frames() {
@@ -84,13 +84,11 @@ Case draw_frames_case(const Rig& nominal, std::uint64_t seed, std::size_t number
                .true_rig = {nominal, {}},
                .without = {},
                .campaign_seed = draw.bits()};
-    if (drawn.label.kind == CaseKind::frames_none) return drawn;
-    const std::size_t row = number / cases_in_row;
-    std::size_t k = (cases_in_row - 1) * row;
-    for (std::size_t before = cases_in_row * row; before < number; ++before)
-        if (kind_of_frames_case(seed, before) == CaseKind::frames) ++k;
+    const CaseKind kind = drawn.label.kind;
+    if (kind == frames_none) return drawn;
+    const std::size_t k = cycle.ordinal_of(seed, number);
     const std::vector<std::string_view> names = effects_in_frames();
-    const std::string_view effect = met(std::span(names), seed, CaseKind::frames, k);
+    const std::string_view effect = met(std::span(names), seed, kind, k);
     std::vector<const EffectDraw*> ways;
     for (const EffectDraw& way : draws)
         if (way.effect == effect) ways.push_back(&way);
@@ -103,6 +101,7 @@ Case draw_frames_case(const Rig& nominal, std::uint64_t seed, std::size_t number
                                    .formula = std::string(way.formula),
                                    .size = size,
                                    .expected_floors = size / way.floor_size});
+    if (kind == frames_withheld) drawn.without.emplace_back(effect);
     return drawn;
 }
 

@@ -11,7 +11,7 @@ namespace fidservo::selfcheck {
 /// Whether cases of a kind have frames. They are drawn by themselves, never among the others.
 bool has_frames(CaseKind kind);
 
-/// Of three cases in a row two have an effect of the image, the third none.
+/// Of four cases in a row two have an effect of the image, one has one that is withheld, and one has none.
 CaseKind kind_of_frames_case(std::uint64_t seed, std::size_t number);
 
 /// A pure function of seed and number, as draw_case() is.

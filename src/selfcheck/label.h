@@ -8,17 +8,18 @@
 namespace fidservo::selfcheck {
 
 enum class CaseKind : std::uint8_t {
-    none,         ///< the rig is as its file says
-    one,          ///< an effect of the catalogue
-    two,          ///< two effects of the catalogue, of one block or of two
-    withheld,     ///< an effect of the catalogue that the diagnosis is not given
-    unlisted,     ///< an effect that the catalogue lacks
-    frames,       ///< recordings with frames; an effect of the image
-    frames_none,  ///< recordings with frames; the rig is as its file says
+    none,             ///< the rig is as its file says
+    one,              ///< an effect of the catalogue
+    two,              ///< two effects of the catalogue, of one block or of two
+    withheld,         ///< an effect of the catalogue that the diagnosis is not given
+    unlisted,         ///< an effect that the catalogue lacks
+    frames,           ///< recordings with frames; an effect of the image
+    frames_none,      ///< recordings with frames; the rig is as its file says
+    frames_withheld,  ///< recordings with frames; an effect of the image that the diagnosis is not given
 };
-inline constexpr std::size_t kind_count = 7;
+inline constexpr std::size_t kind_count = 8;
 
-/// "none", "one", "two", "withheld", "unlisted", "frames", "frames-none".
+/// "none", "one", "two", "withheld", "unlisted", "frames", "frames-none", "frames-withheld".
 std::string_view name_of(CaseKind kind);
 
 struct TrueEffect {

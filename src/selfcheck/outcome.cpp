@@ -26,6 +26,7 @@ bool is_right(const Label& label, const Score& score) {
         case CaseKind::two:
             return score.all_right;
         case CaseKind::withheld:
+        case CaseKind::frames_withheld:
         case CaseKind::unlisted:
             break;
     }

@@ -61,7 +61,8 @@ Outcome run_case(const Rig& nominal, const Case& drawn, const std::vector<std::s
 bool are_with_frames(const std::vector<CaseKind>& kinds) {
     const auto with_frames = static_cast<std::size_t>(std::ranges::count_if(kinds, has_frames));
     if (with_frames != 0 && with_frames != kinds.size())
-        throw InputError("--kinds: frames and frames-none do not go with kinds that have no frames");
+        throw InputError(
+            "--kinds: frames, frames-none and frames-withheld do not go with kinds that have no frames");
     return with_frames != 0;
 }
 

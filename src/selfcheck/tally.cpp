@@ -85,6 +85,10 @@ std::vector<ShareFigure> shares_of(std::span<const Outcome> outcomes) {
     add("frames_block", "effect of the image: right block first", judged(frames), right_block, 0.98);
     add("frames_effect", "effect of the image: right effect first", judged(frames), right_effect, 0.95);
     add("frames_alone", "effect of the image: named and no other", judged(frames), all_right, {});
+    add("frames_withheld_block", "effect of the image withheld: right block first", judged(frames_withheld),
+        right_block, 0.90);
+    add("frames_withheld_not_confident", "effect of the image withheld: no confident wrong name",
+        judged(frames_withheld), not_confident, 0.97);
     add(
         "frames_no_gap", "frames, no effect: verdict no-gap",
         [](const Outcome& outcome) { return outcome.label.kind == frames_none; },

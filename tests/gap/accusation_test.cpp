@@ -60,6 +60,7 @@ TEST(Accusation, TagsAlone_AccuseTheCamera) {
     const Pattern late = pattern(0.4, 1.0, 85.0, 240.0, 1.0), tilted = pattern(0.4, 1.0, 9.0, 12.0, 8.0);
     EXPECT_EQ(accused_block(late, Signal::tag, {}), "camera.timing");
     EXPECT_EQ(accused_block(tilted, Signal::tag, {}), "camera.geometry");
+    EXPECT_EQ(accused_block(tilted, Signal::tag, Dependence::motion_by_row), "camera.image");
     EXPECT_FALSE(tags_are_innocent(late));
 }
 

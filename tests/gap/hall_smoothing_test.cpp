@@ -57,6 +57,22 @@ TEST(HallSmoothing, CourseThatTheModelKnows_NoiseGoesDownTenfold) {
     EXPECT_LT(stds_off(run, model, course), 1.2) << "seed " << seed;
 }
 
+TEST(HallSmoothing, WhatItsErrorChangesBy_IsAsStated) {
+    const auto course = [](std::size_t) { return 1500.3; };
+    const PlatformRun run = readings(20'000, course);
+    const SmoothedReading smoothed = smoothed_reading(run, std::vector(run.hall_adc.size(), 1500.3), 5.0);
+    for (const std::size_t ticks : {3, 30, 3000}) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k + ticks < run.hall_adc.size(); ++k)
+            sum += std::pow((smoothed.reading_lsb[k + ticks] - smoothed.reading_lsb[k]) /
+                                changed_lsb(smoothed, k, k + ticks),
+                            2);
+        const double stds = std::sqrt(sum / static_cast<double>(run.hall_adc.size() - ticks));
+        EXPECT_GT(stds, 0.6) << ticks << " ticks, seed " << seed;
+        EXPECT_LT(stds, 1.2) << ticks << " ticks, seed " << seed;
+    }
+}
+
 TEST(HallSmoothing, SwingThatTheModelDoesNotKnow_IsKept) {
     const auto course = [](std::size_t k) {
         return 1500.0 + 10.0 * std::sin(2.0 * std::numbers::pi * 30.0 * tick_s * static_cast<double>(k));

@@ -5,6 +5,7 @@
 #include "gap/diagnose.h"
 #include "src/diagnose/frame_looks.h"
 #include "tests/gap/effect_names.h"
+#include "tests/gap/looks.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <cmath>
@@ -22,72 +23,17 @@ namespace {
 
 using namespace gap;
 using testing::effects;
+using testing::looks_in_even_motion;
 using testing::names;
-
-constexpr double frame_s = 0.02, speed_px_per_s = 1500.0;
-
-/// A tag that moves evenly along u for a second, its looks by the formulas of gap/image_link.h.
-Recording even_motion(const plant::CameraDeviation& truth) {
-    const CameraParameters camera = *reference_rig().camera;
-    Recording recording;
-    recording.tick_s = 1e-3;
-    for (int k = 0; k < 1000; ++k) recording.rows.push_back({.time_ns = nanoseconds(1e-3 * k)});
-    for (int frame = 0; frame < 50; ++frame) {
-        const double u_px = 200.0 + speed_px_per_s * frame_s * frame * 0.25;
-        TagDetection tag;
-        tag.time_ns = nanoseconds(3e-3 + frame_s * frame);
-        tag.tag_id = 4;
-        for (std::size_t k = 0; k < 4; ++k)
-            tag.corners_px[k] = Eigen::Vector2d(u_px, 480.0) + 150.0 * tag_corners[k];
-        recording.detections.push_back(tag);
-        TagAppearance look;
-        look.time_ns = tag.time_ns;
-        look.tag_id = tag.tag_id;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const double normal_u = k % 2 == 0 ? 0.0 : 1.0;
-            TagSide& side = look.sides[k];
-            side.normal = {normal_u, 1.0 - normal_u};
-            const double way_px =
-                0.25 * speed_px_per_s * (camera.exposure_s + truth.extra_exposure_s) * normal_u;
-            side.variance_px2 = std::pow(camera.blur_px, 2) + std::pow(truth.extra_blur_px, 2) +
-                                (1.0 + way_px * way_px) / 12.0;
-            side.variance_std_px2 = 0.01;
-            side.strip_px = {u_px + (k == 1 ? 150.0 : -150.0), 480.0};
-            side.half_strip_px = {0.0, 0.0};
-            const Eigen::Vector2d place((side.strip_px.x() - 639.5) / 639.5,
-                                        (side.strip_px.y() - 479.5) / 479.5);
-            plant::Light light;
-            light.level = 0.7;  // whatever the lamp
-            light.gradient += truth.light_gradient;
-            light.vignetting += truth.vignetting;
-            side.white_grey = 230.0 * plant::brightness(light, place);
-            side.white_std_grey = 0.1;
-        }
-        const double per_e = 255.0 / camera.full_well_e;
-        const auto noise = [&](double grey) {
-            return GreyNoiseSeen{
-                grey,
-                per_e * grey +
-                    std::pow(per_e * std::hypot(camera.read_noise_e, truth.extra_read_noise_e), 2) +
-                    std::pow(truth.gain_spread * grey, 2) + 1.0 / 12.0,
-                0.02};
-        };
-        look.white = noise(160.0);
-        look.black = noise(18.0);
-        recording.appearances.push_back(look);
-    }
-    return recording;
-}
 
 /// R.m.s. error in floors, by value; only frames with neighbours on both sides know how edges move.
 std::map<std::size_t, double> errors_of(const plant::CameraDeviation& claimed, Recording recording) {
     const CameraParameters camera = *reference_rig().camera;
     const ImageRun run = image_run(recording, camera);
     std::map<std::size_t, double> squares;
-    for (const ImageWindow& window : run.windows)
-        for (const ImageErrors& errors : image_errors({camera, claimed}, recording, run, window))
-            for (std::size_t k = 0; k < image_values; ++k)
-                if (!std::isnan(errors[k])) squares[k] += errors[k] * errors[k] / 50.0;
+    for (const ImageErrors& errors : image_errors({camera, claimed}, recording, run))
+        for (std::size_t k = 0; k < image_values; ++k)
+            if (!std::isnan(errors[k])) squares[k] += errors[k] * errors[k] / 50.0;
     for (auto& [k, square] : squares) square = std::sqrt(square);
     return squares;
 }
@@ -99,14 +45,14 @@ TEST(ImageLink, TrueCamera_HasNoErrors) {
           .gain_spread = 0.02,
           .light_gradient = {0.2, -0.1},
           .vignetting = 0.3}}) {
-        const std::map<std::size_t, double> errors = errors_of(truth, even_motion(truth));
+        const std::map<std::size_t, double> errors = errors_of(truth, looks_in_even_motion(truth));
         ASSERT_EQ(errors.size(), image_values);
         for (const auto& [k, error] : errors) EXPECT_LT(error, 0.01) << "value " << k;
     }
 }
 
 TEST(ImageLink, EachCause_ShowsInItsOwnValuesOnly) {
-    const Recording plain = even_motion({});
+    const Recording plain = looks_in_even_motion({});
     const auto off = [&](const plant::CameraDeviation& claimed) {
         std::string flags;
         for (const auto& [k, error] : errors_of(claimed, plain)) flags += error > 0.5 ? '!' : '.';
@@ -117,6 +63,33 @@ TEST(ImageLink, EachCause_ShowsInItsOwnValuesOnly) {
     EXPECT_EQ(off({.light_gradient = {0.2, 0.0}}), "....!!!!..");
     EXPECT_EQ(off({.extra_read_noise_e = 30.0}), "........!!");
     EXPECT_EQ(off({.delay_s = 0.01, .readout_s = 0.01}), "..........");
+}
+
+TEST(ImageLink, EveryFrameWithNeighbours_IsAWindow) {
+    Recording recording = looks_in_even_motion({});
+    const ImageRun run = image_run(recording, *reference_rig().camera);
+    ASSERT_EQ(run.windows.size(), 46U);
+    EXPECT_EQ(run.windows.front().first_row, 43U);
+    EXPECT_EQ(run.windows.front().end_row, 63U);
+    for (std::size_t k = 0; k < run.windows.size(); ++k) {
+        EXPECT_EQ(run.windows[k].first, k);
+        EXPECT_EQ(run.windows[k].end, k + 1);
+    }
+}
+
+TEST(ImageLink, TagThatStartsBetweenTwoFrames_IsNotJudgedThere) {
+    // Both differences about frame 20 are the same, and it still stands there.
+    Recording recording = looks_in_even_motion({});
+    for (std::size_t frame = 0; frame < recording.detections.size(); ++frame) {
+        const double u_px = frame <= 20 ? 200.0 : 200.0 + 140.0 * static_cast<double>(frame - 20);
+        TagDetection& tag = recording.detections[frame];
+        for (std::size_t k = 0; k < 4; ++k)
+            tag.corners_px[k] = Eigen::Vector2d(u_px, 480.0) + 150.0 * tag_corners[k];
+    }
+    const TimeNs start_ns = recording.detections[20].time_ns;
+    image_run(recording, *reference_rig().camera);
+    EXPECT_GT(recording.appearances.size(), 40U);
+    for (const TagAppearance& judged : recording.appearances) EXPECT_NE(judged.time_ns, start_ns);
 }
 
 TEST(ImageLink, WithoutFrames_NoEffectOfTheImageIsTried) {

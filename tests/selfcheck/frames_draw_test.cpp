@@ -36,19 +36,25 @@ TEST(FramesDraw, SameSeedAndNumber_IsTheSameCase) {
     }
 }
 
-TEST(FramesDraw, EffectsOfTheImage_AreMetEvenlyAndAThirdHasNone) {
-    std::map<std::string, int> met;
-    int without = 0;
-    for (std::size_t number = 0; number < 75; ++number) {
+TEST(FramesDraw, EffectsOfTheImage_AreMetEvenlyNamedOrWithheld) {
+    std::map<std::string, int> met, withheld;
+    int none = 0;
+    for (std::size_t number = 0; number < 80; ++number) {
         const Case drawn = draw_frames_case(nominal(), 9, number);
-        if (drawn.label.effects.empty())
-            ++without;
-        else
-            ++met[drawn.label.effects.front().effect];
+        if (drawn.label.effects.empty()) {
+            ++none;
+            continue;
+        }
+        const std::string& effect = drawn.label.effects.front().effect;
+        const bool is_withheld = drawn.label.kind == CaseKind::frames_withheld;
+        ++(is_withheld ? withheld : met)[effect];
+        EXPECT_EQ(drawn.without, is_withheld ? std::vector{effect} : std::vector<std::string>{});
     }
-    EXPECT_EQ(without, 25);
+    EXPECT_EQ(none, 20);
     EXPECT_EQ(met.size(), effects_in_frames().size());
-    for (const auto& [effect, count] : met) EXPECT_EQ(count, 10) << effect;
+    EXPECT_EQ(withheld.size(), effects_in_frames().size());
+    for (const auto& [effect, count] : met) EXPECT_EQ(count, 8) << effect;
+    for (const auto& [effect, count] : withheld) EXPECT_EQ(count, 4) << effect;
 }
 
 TEST(FramesDraw, KindsWithAndWithoutFrames_DoNotGoTogether) {
