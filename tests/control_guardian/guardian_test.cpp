@@ -5,14 +5,13 @@
 #include "control/guardian_memory.h"
 #include "control/guardian_process.h"
 #include "tests/control_guardian/child_process.h"
+#include "tests/src/temporary_folder.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <ostream>
 #include <string>
 #include <thread>
@@ -26,6 +25,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 using testing::ChildProcess;
+using testing::text_of;
 
 /// From the end of the program to zero on the board: 20 ms without a heartbeat, two looks, and the scheduler.
 /// Where neither the guardian nor this test may go before other programs, a busy machine can delay both.
@@ -34,25 +34,13 @@ std::chrono::milliseconds zero_limit() {
     return real_time ? 50ms : 1000ms;
 }
 
-std::string text_of(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 bool is_zero(const StageCommand& command) {
     return command.macro_V == 0.0 && command.micro_V == 0.0;
 }
 
 class GuardedRun {
   public:
-    GuardedRun() {
-        zero_limit();
-        std::string pattern = (std::filesystem::temp_directory_path() / "guardian-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    ~GuardedRun() { std::filesystem::remove_all(folder_); }
-    GuardedRun(const GuardedRun&) = delete;
-    GuardedRun& operator=(const GuardedRun&) = delete;
+    GuardedRun() { zero_limit(); }
 
     std::vector<std::string> command_line(const std::string& heartbeat, const std::string& ending) const {
         return {GUARDED_PROGRAM, registers(), log_file(), heartbeat, ending};
@@ -78,7 +66,7 @@ class GuardedRun {
     }
 
   private:
-    std::filesystem::path folder_;
+    testing::TemporaryFolder folder_;
 };
 
 class GuardianBySignal : public ::testing::TestWithParam<std::tuple<std::string, int>> {};
@@ -192,6 +180,8 @@ TEST(Guardian, TicksOfSimulationFarApart_DoNotTrip) {
     ASSERT_TRUE(program.prints("running"));
     EXPECT_FALSE(program.prints("stood still", 500ms)) << program.output();
     EXPECT_FALSE(is_zero(run.outputs()));
+    program.send(SIGKILL);
+    EXPECT_TRUE(run.log_says("program ended without saying so"));
 }
 
 TEST(Guardian, BoardDoesNotOpen_ThrowsWithItsReason) {

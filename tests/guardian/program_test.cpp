@@ -1,6 +1,7 @@
 // The real program on the simulated rig, ended in mid-run in every way: what the board's registers hold then.
 #include "control/guardian_process.h"
 #include "tests/control_guardian/child_process.h"
+#include "tests/src/temporary_folder.h"
 
 #include <chrono>
 #include <csignal>
@@ -42,19 +43,16 @@ class GuardedProgram : public ::testing::Test {
   public:
     GuardedProgram(const GuardedProgram&) = delete;
     GuardedProgram& operator=(const GuardedProgram&) = delete;
-    ~GuardedProgram() override { std::filesystem::remove_all(folder_); }
 
   protected:
     GuardedProgram() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "guarded-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
         registers_ = folder_ / "registers";
         zero_limit();
     }
 
     /// Starts the program with its temporary files, the board's registers among them, in this test's folder.
     void start(const std::string& arguments, const std::string& before = "") {
-        const std::string shell = "export TMPDIR='" + folder_.string() + "'; " + before +
+        const std::string shell = "export TMPDIR='" + folder_.path().string() + "'; " + before +
                                   " exec '" FIDSERVO_PROGRAM "' " + arguments;
         program_.emplace(std::vector<std::string>{"/bin/sh", "-c", shell});
         program_folder_ = folder_ / ("fidservo-" + std::to_string(program_->pid()));
@@ -88,7 +86,7 @@ class GuardedProgram : public ::testing::Test {
         return std::chrono::ceil<std::chrono::milliseconds>(steady_clock::now() - start);
     }
 
-    std::filesystem::path folder_;
+    testing::TemporaryFolder folder_;  ///< outlives the program
     std::filesystem::path registers_;
     std::filesystem::path program_folder_;
     std::optional<ChildProcess> program_;
