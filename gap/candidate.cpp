@@ -69,8 +69,6 @@ std::vector<double> grid_of(const plant::EffectParameter& parameter, const Trave
     if (parameter.unit == "Hz") {
         constexpr double ratio = 1.15;  // of neighbours: half the width of a resonance of damping ratio 0.07
         for (double value = parameter.low; value < parameter.high; value *= ratio) grid.push_back(value);
-    } else if (parameter.unit == "mm/s" && parameter.low == 0.0) {
-        grid = {parameter.low, 0.1 * parameter.high};
     } else if (parameter.unit == "mm" && parameter.low < 0.0) {
         constexpr int places = 12;
         for (int k = 0; k < places; ++k)
@@ -119,6 +117,19 @@ std::string_view class_of(std::string_view effect) {
 bool is_limit_of(std::string_view plainer, std::string_view richer) {
     return std::ranges::any_of(
         limits, [&](const Limit& limit) { return limit.plainer == plainer && limit.richer == richer; });
+}
+
+std::vector<Refinement> refinements_of(const plant::Effect& effect) {
+    constexpr double hardly_seen = 4.0, in_any_motion = 16.0;
+    std::vector<Refinement> found;
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k)
+        if (const double least = effect.parameters[k].negligible; least > 0.0)
+            found.push_back({effect.parameters[k].name, k, {hardly_seen * least, in_any_motion * least}});
+    return found;
+}
+
+std::size_t unrefined_parameters(const plant::Effect& effect) {
+    return effect.parameters.size() - refinements_of(effect).size();
 }
 
 std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std::string> only,

@@ -12,6 +12,13 @@
 
 namespace fidservo::gap {
 
+/// A parameter that an effect may be without, and values from which its fit may begin.
+struct Refinement {
+    std::string_view name;
+    std::size_t parameter;
+    std::vector<double> values;
+};
+
 /// An effect as a family of hypotheses. Of its parameters, those whose vanishing value is not their typical
 /// one say how large it is; the others say what shape it has.
 struct Candidate {
@@ -25,6 +32,12 @@ struct Candidate {
     /// the richer one would be named for what it shares with the plainer.
     bool is_limit = false;
 };
+
+/// What no candidate's shape has: it is looked for once the rest is known.
+std::vector<Refinement> refinements_of(const plant::Effect& effect);
+
+/// How many parameters an effect has without its refinements.
+std::size_t unrefined_parameters(const plant::Effect& effect);
 
 /// Effects of the catalogue that the rig can have and a recorded signal can show; camera.image effects
 /// where frames were measured only.

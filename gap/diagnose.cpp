@@ -62,6 +62,7 @@ std::vector<FittedParameter> parameters_of(const plant::EffectSetting& setting,
     for (std::size_t k = 0; k < setting.values.size(); ++k) {
         const plant::EffectParameter& parameter = setting.effect->parameters[k];
         const Eigen::Index at = first + static_cast<Eigen::Index>(k);
+        if (setting.values[k] < parameter.negligible) continue;
         parameters.push_back({std::string(parameter.name), std::string(parameter.unit), setting.values[k],
                               std::sqrt(std::max(0.0, covariance(at, at)))});
     }

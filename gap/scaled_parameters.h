@@ -20,6 +20,9 @@ class ScaledParameters {
     double high(std::size_t k) const { return all_[k]->high / scale(k); }
     bool at_bound(std::size_t k) const { return values[k] <= low(k) || values[k] >= high(k); }
 
+    /// Whether an effect is without it: nothing changes with it there.
+    bool is_absent(std::size_t k) const { return values[k] * scale(k) < all_[k]->negligible; }
+
     /// A value beyond a bound counts as at it.
     Hypothesis at(std::span<const double> scaled) const;
 

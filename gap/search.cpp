@@ -172,12 +172,15 @@ std::size_t Search::simplest(std::span<const Contender> leaders) const {
                (is_limit_of(plainer.candidate->effect->name, explained.name) &&
                 !is_real(plainer.fitted, first.fitted));
     };
-    const auto parameters = [&](std::size_t k) {
-        return leaders[k].trial.candidate->effect->parameters.size();
+    const auto is_plainer = [](const Candidate& one, const Candidate& other) {
+        return is_limit_of(one.effect->name, other.effect->name) ||
+               unrefined_parameters(*one.effect) < unrefined_parameters(*other.effect);
     };
     std::size_t best = 0;
     for (std::size_t k = 1; k < leaders.size(); ++k)
-        if (parameters(k) < parameters(best) && does_as_well(leaders[k].trial)) best = k;
+        if (is_plainer(*leaders[k].trial.candidate, *leaders[best].trial.candidate) &&
+            does_as_well(leaders[k].trial))
+            best = k;
     return best;
 }
 

@@ -103,6 +103,9 @@ class Search {
     void fit_closer(const CrossFit& base, Contender& contender) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                  double step_scales) const;
+    /// With a refinement of what is fitted, from any of its values: where a fit has begun without, no slope
+    /// leads to it, and from afar it only seems to do harm.
+    Contender refined(const CrossFit& base, const Contender& contender) const;
     Hypothesis polished(const Contender& contender, std::size_t side, const Places& places) const;
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
     /// Whether some signal loses such a share of its excess, and comes to its floor or loses at least such a

@@ -16,7 +16,7 @@ namespace {
 /// Effects of few parameters are tried first: where one of them leaves nothing, a richer one that does as
 /// well is no better explanation.
 bool is_simple(const Candidate& candidate) {
-    return candidate.effect->parameters.size() <= 2;
+    return unrefined_parameters(*candidate.effect) <= 2;
 }
 
 /// Whether one half of the recordings has no use for a candidate.
@@ -26,6 +26,16 @@ bool vanishes_on_a_half(const Trial& trial) {
         return std::ranges::all_of(trial.candidate->sizes, [&](std::size_t k) {
             return fitted.values[k] == fitted.effect->parameters[k].vanishing;
         });
+    });
+}
+
+/// Whether any of the effects has it: one that several share acts on them all.
+bool is_present(const Refinement& refinement, const Hypothesis& hypothesis) {
+    return std::ranges::any_of(hypothesis, [&](const plant::EffectSetting& setting) {
+        const auto& parameters = setting.effect->parameters;
+        const auto same = std::ranges::find(parameters, refinement.name, &plant::EffectParameter::name);
+        return same != parameters.end() &&
+               setting.values[static_cast<std::size_t>(same - parameters.begin())] >= same->negligible;
     });
 }
 
@@ -109,8 +119,9 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
     const std::string_view block = contender.trial.candidate->effect->block;
     const bool moves_tags = block == "macro.encoder" || block.starts_with("camera.");
     constexpr int most_times = 3;
-    constexpr double worth_it = 0.1, worth_a_simplex = 0.5, nearly_all = 0.98;  // of a signal's excess
-    constexpr double worth_another = 0.03;                                      // of the gain
+    // Shares of a signal's excess; the last one of the gain.
+    constexpr double worth_it = 0.1, worth_a_simplex = 0.5, worth_refining = 0.9, nearly_all = 0.98;
+    constexpr double worth_another = 0.03;
     Finding& finding = *contender.finding;
     if (vanishes_on_a_half(contender.trial)) return;
     if (!clears_a_signal(base, contender.trial.fitted, is_wave ? worth_a_simplex : worth_it)) return;
@@ -139,6 +150,8 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
         if (is_off() && !contender.coupled.empty() && clears_a_signal(base, closer.trial.fitted, nearly_all))
             or_else(fitted_by(
                 [&](std::size_t side) { return polished(closer, side, contender.fitted_places(base)); }));
+        if (is_off() && clears_a_signal(base, closer.trial.fitted, worth_refining))
+            or_else(refined(base, closer));
         finding.is_close = closer.gain() < (1.0 + worth_another) * contender.gain() + least_gain;
         if (closer.gain() <= contender.gain()) return;
         for (std::size_t side = 0; side < 2; ++side)
@@ -155,6 +168,26 @@ Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& cont
         .fit_places(side, fitted.of_half[side], contender.fitted_places(base), fitted.mean_squares,
                     {.tolerance = 1e-7, .step_scales = step_scales})
         .hypothesis;
+}
+
+Search::Contender Search::refined(const CrossFit& base, const Contender& contender) const {
+    Contender best = contender;
+    const auto fit_from = [&](std::size_t place, std::size_t parameter, double value) {
+        Contender with = contender;
+        parallel_for(2, [&](std::size_t side) {
+            Hypothesis& hypothesis = with.trial.fitted.of_half[side];
+            hypothesis[place].values[parameter] = value;
+            hypothesis = fitted_from_there(base, with, side, usual_step);
+        });
+        judge_both_halves(base, with);
+        if (with.gain() > std::max(best.gain(), contender.gain() + least_gain)) best = std::move(with);
+    };
+    const Hypothesis& hypothesis = contender.trial.fitted.of_half[0];
+    for (const std::size_t place : contender.fitted_places(base))
+        for (const Refinement& refinement : refinements_of(*hypothesis[place].effect))
+            if (!is_present(refinement, hypothesis))
+                for (const double value : refinement.values) fit_from(place, refinement.parameter, value);
+    return best;
 }
 
 Hypothesis Search::polished(const Contender& contender, std::size_t side, const Places& places) const {

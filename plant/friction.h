@@ -92,6 +92,12 @@ inline double sliding_friction_V(const Friction& friction, double velocity_mm_pe
     return sign * dry_V + viscous * velocity_mm_per_s;
 }
 
+/// Whether it slides as friction does that does not creep, to the last digit.
+inline bool slides(const Friction& friction, double speed_mm_per_s) {
+    constexpr double tanh_is_one = 19.1;
+    return speed_mm_per_s >= tanh_is_one * friction.creep_mm_per_s;
+}
+
 struct Creep {
     double velocity_mm_per_s;
     double slope_V_s_per_mm;  ///< of friction, the least between the velocity now and then
@@ -104,7 +110,7 @@ inline std::optional<Creep> balanced_creep(const Friction& friction, double velo
     constexpr double far_below = 0.9;
     const double dry_V = dry_friction_V(friction, std::abs(velocity_mm_per_s), position_mm);
     const double balance = pull_V / dry_V, now = std::tanh(velocity_mm_per_s / friction.creep_mm_per_s);
-    if (std::abs(balance) > far_below) return std::nullopt;
+    if (!(std::abs(balance) <= far_below)) return std::nullopt;
     const double slope = 1.0 - std::max(balance * balance, now * now);
     return Creep{friction.creep_mm_per_s * std::atanh(balance), dry_V * slope / friction.creep_mm_per_s};
 }

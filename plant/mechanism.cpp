@@ -138,10 +138,13 @@ class Motion {
         return whole_s > 0.0 && std::abs(duration_s - whole_s) < rounding_s;
     }
 
-    /// Whether forces change by straight lines there: bristles have bent as far as they do, and a patch is
-    /// far.
+    /// Whether forces change by straight lines there: bristles have bent as far as they do, a patch is far, and
+    /// what creeps slides or is nothing.
     bool is_straight(const State& x) const {
-        return (!axis_.has_bristles || bend_ == direction_) && !p_.friction.patch.reaches(x[place]);
+        const Friction& friction = p_.friction;
+        return (!axis_.has_bristles || bend_ == direction_) && !friction.patch.reaches(x[place]) &&
+               (axis_.has_bristles || friction.coulomb_V == 0.0 ||
+                slides(friction, std::max(0.0, direction_ * x[speed])));
     }
 
     /// Moves on by a duration, where friction that creeps is stiff to follow.
@@ -380,12 +383,12 @@ void move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V,
 
 WholeSteps whole_steps(const MacroAxis& axis) {
     const Friction& friction = axis.parameters.friction;
-    if (axis.parameters.standing.cogging_V != 0.0 || friction.stribeck_V != 0.0 ||
-        friction.creep_mm_per_s != 0.0)
-        return {};
-    MacroAxis far_from_patch = axis;
-    far_from_patch.parameters.friction.patch.level_V = 0.0;
-    return axis.has_belt ? Motion<4>::whole_steps(far_from_patch) : Motion<2>::whole_steps(far_from_patch);
+    if (axis.parameters.standing.cogging_V != 0.0 || friction.stribeck_V != 0.0) return {};
+    MacroAxis sliding_far_from_patch = axis;
+    sliding_far_from_patch.parameters.friction.patch.level_V = 0.0;
+    sliding_far_from_patch.parameters.friction.creep_mm_per_s = 0.0;
+    return axis.has_belt ? Motion<4>::whole_steps(sliding_far_from_patch)
+                         : Motion<2>::whole_steps(sliding_far_from_patch);
 }
 
 void move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {

@@ -116,7 +116,7 @@ class Forces {
 /// Has the motion passed the end of its phase: an end stop, or a reversal under rigid dry friction?
 bool is_past(const CarriageModel& model, const Motion& x, double direction) {
     return x[0] > model.high_mm || x[0] < model.low_mm ||
-           (!has_bristles(model.friction) && x[1] * direction < 0.0);
+           (is_rigid(model.friction) && x[1] * direction < 0.0);
 }
 
 /// One step within a phase, cut short where the phase ends. @return its length in s

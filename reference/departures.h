@@ -29,6 +29,8 @@ struct FrictionDepartures {
     double stribeck_speed_mm_per_s = 20.0;
     double stribeck_exponent = 2.0;         ///< of speed in the excess's decay: 2 a bell, 1 an exponential
     std::optional<Bristles> bristles = {};  ///< an elastic contact; a rigid one without
+    /// A lubricated contact: dry friction times tanh(v / creep), which holds nothing at rest. 0: none.
+    double creep_mm_per_s = 0.0;
     double viscous_forward = 1.0;           ///< factor on the file's damping while moving right
     double viscous_backward = 1.0;          ///< likewise while moving left
     double drag_V_s2_per_mm2 = 0.0;         ///< of the square of speed, as in air

@@ -40,8 +40,13 @@ bool has_bristles(const FrictionDepartures& friction) {
     return friction.bristles.has_value();
 }
 
+bool is_rigid(const FrictionDepartures& friction) {
+    return !has_bristles(friction) && friction.creep_mm_per_s == 0.0;
+}
+
 ContactStep contact_step(const CarriageModel& model, double position_mm, double speed_mm_per_s, double h_s) {
-    if (!has_bristles(model.friction)) return {Contact::rigid, h_s};
+    if (is_rigid(model.friction)) return {Contact::rigid, h_s};
+    if (!has_bristles(model.friction)) return {Contact::lubricated, h_s};
     const double stiffness_V_per_mm = bristles_of(model.friction).stiffness_V_per_mm;
     const double relaxations =
         h_s * stiffness_V_per_mm * std::abs(speed_mm_per_s) / steady_V(model, position_mm, speed_mm_per_s);
@@ -53,6 +58,8 @@ DryFriction dry_friction(const CarriageModel& model, double position_mm, double 
                          double bristle_mm, double direction, Contact contact) {
     if (contact == Contact::rigid) return {direction * steady_V(model, position_mm, speed_mm_per_s), 0.0};
     const double steady = steady_V(model, position_mm, speed_mm_per_s);
+    if (contact == Contact::lubricated)
+        return {steady * std::tanh(speed_mm_per_s / model.friction.creep_mm_per_s), 0.0};
     if (contact == Contact::bristles_in_equilibrium) return {std::copysign(steady, speed_mm_per_s), 0.0};
     const Bristles bristles = bristles_of(model.friction);
     const double elastic_V = bristles.stiffness_V_per_mm * bristle_mm;
@@ -61,7 +68,7 @@ DryFriction dry_friction(const CarriageModel& model, double position_mm, double 
 }
 
 double breakaway_V(const CarriageModel& model, double position_mm) {
-    if (has_bristles(model.friction)) return 0.0;
+    if (!is_rigid(model.friction)) return 0.0;
     return steady_V(model, position_mm, 0.0) + model.friction.dead_zone_on_motion * model.dead_zone.offset_V;
 }
 

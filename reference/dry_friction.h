@@ -4,7 +4,8 @@
 //     g(v) = F_level + F_stribeck exp(-|v / v_s|^n)
 //
 // F_level gathers Coulomb friction, rail patch and the share of the dead zone that acts on the motion. In a
-// rigid contact F = g(v) against the motion; at rest it holds up to the break-away force. With bristles
+// rigid contact F = g(v) against the motion; at rest it holds up to the break-away force. A lubricated one
+// creeps at rest, F = g(v) tanh(v / v_c). With bristles
 // (LuGre) the contact is elastic with the deflection z:
 //
 //     dz/dt = v - s0 |v| z / g(v),     F = s0 z + s1 dz/dt
@@ -17,7 +18,7 @@
 
 namespace fidservo::reference {
 
-enum class Contact { rigid, bristles, bristles_in_equilibrium };
+enum class Contact { rigid, lubricated, bristles, bristles_in_equilibrium };
 
 struct DryFriction {
     double force_V;  ///< positive against motion to the right
@@ -31,6 +32,9 @@ struct ContactStep {
 };
 
 bool has_bristles(const FrictionDepartures& friction);
+
+/// Whether it holds a carriage and turns with the motion's direction at once.
+bool is_rigid(const FrictionDepartures& friction);
 
 ContactStep contact_step(const CarriageModel& model, double position_mm, double speed_mm_per_s, double h_s);
 

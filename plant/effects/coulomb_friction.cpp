@@ -1,4 +1,4 @@
-#include "plant/effects/effect.h"
+#include "plant/effects/creeping_friction.h"
 
 namespace fidservo::plant::effects {
 
@@ -8,6 +8,7 @@ constexpr EffectParameter parameters[] = {
     {"level_V", "V", 0.0, 3.0, 0.0, 0.1, "friction while the carriage moves"},
     {"dead_zone_share", "", 0.0, 1.0, 0.0, 0.5,
      "of the dead zone, that acts on the motion instead: it brakes a coasting carriage"},
+    creep_speed,
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -16,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
     friction.coulomb_V += values[0] + values[1] * (zone.slope * zone.threshold_V - zone.offset_V);
     friction.hold_V += values[1] * zone.offset_V;
     plant.axis.dead_zone_on_motion = values[1];
+    if (values[0] != 0.0 || values[1] != 0.0) let_creep(friction, values[2]);
 }
 
 }  // namespace
@@ -28,8 +30,10 @@ extern constexpr Effect coulomb_friction{
         "to a "
         "stop, and holds one at rest while |V| is not above Fc. A share of the dead zone may act so too, "
         "instead of at "
-        "the input.",
-    .source = "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994",
+        "the input. With a creep speed vc, tanh(v / vc) stands for sgn(v), and nothing is held.",
+    .source =
+        "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994; Andersson et al., Tribology Int. "
+        "40, 2007: tanh",
     .parameters = parameters,
     .apply = apply,
 };

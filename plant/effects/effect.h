@@ -27,6 +27,12 @@ struct EffectParameter {
     double vanishing;  ///< without effect, exactly; of what only shapes the effect, the typical value
     double typical;    ///< where none is given
     std::string_view meaning;
+    /// Of what an effect may be without: values below this count as `low`, which is then also its typical
+    /// one. 0: it has no such parameter.
+    double negligible = 0.0;
+
+    /// The value that acts.
+    double acting(double value) const { return value < negligible ? low : value; }
 };
 
 struct Effect {

@@ -1,4 +1,4 @@
-#include "plant/effects/effect.h"
+#include "plant/effects/creeping_friction.h"
 
 namespace fidservo::plant::effects {
 
@@ -8,6 +8,7 @@ constexpr EffectParameter parameters[] = {
     {"level_V", "V", 0.0, 3.0, 0.0, 0.2, "friction at the centre"},
     {"centre_mm", "mm", -1000.0, 1000.0, 100.0, 100.0, "where"},
     {"width_mm", "mm", 0.1, 200.0, 10.0, 10.0, "standard deviation of the bell"},
+    creep_speed,
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -15,6 +16,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
     patch.level_V += values[0];
     patch.centre_mm = values[1];
     patch.width_mm = values[2];
+    if (values[0] != 0.0) let_creep(plant.axis.friction, values[3]);
 }
 
 }  // namespace
@@ -24,7 +26,7 @@ extern constexpr Effect rail_patch{
     .block = "macro.friction",
     .text =
         "Dry friction raised around a place on the rail (dirt, a dent): F = Fp exp(-((y - yp) / wp)^2 / 2) "
-        "sgn(v).",
+        "sgn(v). With a creep speed vc, tanh(v / vc) stands for sgn(v), and nothing is held there.",
     .source = "Armstrong-Helouvry, Control of Machines with Friction, 1991: position-dependent friction",
     .parameters = parameters,
     .apply = apply,

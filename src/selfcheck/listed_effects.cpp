@@ -57,6 +57,12 @@ void stribeck_bristles(Departures& rig, double size_V, NoiseStream& draw) {
     stribeck_friction(rig, size_V, draw);
     rig.friction.bristles = reference::Bristles{.stiffness_V_per_mm = 2000.0, .damping_V_s_per_mm = 0.1};
 }
+/// Lubricated: it lets the carriage creep at rest.
+template <EffectDraw::Put dry>
+void creeping(Departures& rig, double size_V, NoiseStream& draw) {
+    dry(rig, size_V, draw);
+    rig.friction.creep_mm_per_s = log_uniform(draw, 0.2, 1.0);
+}
 void viscous_friction(Departures& rig, double size, NoiseStream& /*draw*/) {
     rig.friction.viscous_forward *= 1.0 + size;
     rig.friction.viscous_backward *= 1.0 + size;
@@ -191,6 +197,9 @@ constexpr std::array draws{
     EffectDraw{"stribeck_friction", "", 5.3e-3, 0.4, stribeck_friction},
     EffectDraw{"stribeck_friction", "bell", 6.9e-3, 0.4, stribeck_bell},
     EffectDraw{"stribeck_friction", "LuGre", 6.2e-3, 0.4, stribeck_bristles},
+    EffectDraw{"coulomb_friction", "creep", 6.2e-4, 0.3, creeping<coulomb_friction>},
+    EffectDraw{"stribeck_friction", "creep", 5.3e-3, 0.4, creeping<stribeck_friction>},
+    EffectDraw{"rail_patch", "creep", 4e-3, 0.6, creeping<rail_patch>},
     EffectDraw{"viscous_friction", "", 7.6e-4, 0.6, viscous_friction},
     EffectDraw{"friction_asymmetry", "", 6.7e-4, 0.4, friction_asymmetry},
     EffectDraw{"presliding", "LuGre", 5.1e-4, 0.3, presliding},

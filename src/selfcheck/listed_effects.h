@@ -12,14 +12,16 @@ namespace fidservo::selfcheck {
 
 /// A way to make an effect.
 struct EffectDraw {
+    /// Puts the effect of a size into the rig; its sign and shape are drawn.
+    using Put = void (*)(reference::Departures& rig, double size, NoiseStream& draw);
+
     std::string_view effect;   ///< the catalogue's name
     std::string_view formula;  ///< empty for the plain one
     /// The size at which the reference rig's campaign shows it by one floor (r.m.s.) in some signal.
     /// Measured.
     double floor_size;
     double largest;  ///< beyond it a rig would be called broken
-    /// Puts the effect of a size into the rig; its sign and shape are drawn.
-    void (*put)(reference::Departures& rig, double size, NoiseStream& draw);
+    Put put;
 };
 
 /// In the order of the catalogue.

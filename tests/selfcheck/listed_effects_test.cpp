@@ -38,8 +38,14 @@ const std::vector<Pair>& pairs() {
         {"drive_gain", [](Departures& rig) { rig.drive.gain = 1.05; }, {1.05}},
         {"drive_delay", [](Departures& rig) { rig.drive.delay_s = 5.4e-3; }, {5.4}},
         {"drive_offset", [](Departures& rig) { rig.drive.offset_V = 0.2; }, {0.2}},
-        {"coulomb_friction", [](Departures& rig) { rig.friction.coulomb_V = 0.1; }, {0.1, 0.0}},
-        {"coulomb_friction", [](Departures& rig) { rig.friction.dead_zone_on_motion = 0.4; }, {0.0, 0.4}},
+        {"coulomb_friction", [](Departures& rig) { rig.friction.coulomb_V = 0.1; }, {0.1, 0.0, 0.0}},
+        {"coulomb_friction", [](Departures& rig) { rig.friction.dead_zone_on_motion = 0.4; }, {0.0, 0.4, 0.0}},
+        {"coulomb_friction",
+         [](Departures& rig) {
+             rig.friction.coulomb_V = 0.1;
+             rig.friction.creep_mm_per_s = 0.5;
+         },
+         {0.1, 0.0, 0.5}},
         {"stribeck_friction",
          [](Departures& rig) {
              rig.friction.stribeck_V = 0.3;
@@ -47,6 +53,14 @@ const std::vector<Pair>& pairs() {
              rig.friction.stribeck_exponent = 1.0;
          },
          {0.3, 12.0, 0.0}},
+        {"stribeck_friction",
+         [](Departures& rig) {
+             rig.friction.stribeck_V = 0.3;
+             rig.friction.stribeck_speed_mm_per_s = 12.0;
+             rig.friction.stribeck_exponent = 1.0;
+             rig.friction.creep_mm_per_s = 0.3;
+         },
+         {0.3, 12.0, 0.3}},
         {"viscous_friction",
          [](Departures& rig) { rig.friction.viscous_forward = rig.friction.viscous_backward = 1.2; },
          {0.2 * damping}},
@@ -68,7 +82,15 @@ const std::vector<Pair>& pairs() {
              rig.friction.patch_centre_mm = 110.0;
              rig.friction.patch_width_mm = 8.0;
          },
-         {0.2, 110.0, 8.0}},
+         {0.2, 110.0, 8.0, 0.0}},
+        {"rail_patch",
+         [](Departures& rig) {
+             rig.friction.patch_V = 0.2;
+             rig.friction.patch_centre_mm = 110.0;
+             rig.friction.patch_width_mm = 8.0;
+             rig.friction.creep_mm_per_s = 0.4;
+         },
+         {0.2, 110.0, 8.0, 0.4}},
         {"cogging",
          [](Departures& rig) {
              rig.mechanics.cogging_V = 0.2;
