@@ -17,11 +17,31 @@ constexpr std::string_view temperature_class = "ambient_temperature";
 /// on speed or direction, the harness's spring is long.
 struct Limit {
     std::string_view richer, plainer;
+    /// The plainer effect's size.
+    double (*size)(std::span<const double> richer, double middle_mm);
 };
-constexpr std::array limits{
-    Limit{"presliding", "coulomb_friction"}, Limit{"stribeck_friction", "coulomb_friction"},
-    Limit{"rail_patch", "coulomb_friction"}, Limit{"friction_asymmetry", "viscous_friction"},
-    Limit{"cable_force", "drive_offset"}};
+
+double level(std::span<const double> values, double /*middle_mm*/) {
+    return values[0];
+}
+double mean_of_directions(std::span<const double> values, double /*middle_mm*/) {
+    return 0.5 * (values[0] + values[1]);
+}
+double pull_in_the_middle(std::span<const double> values, double middle_mm) {
+    return values[0] * (values[1] - middle_mm);
+}
+
+constexpr std::array limits{Limit{"presliding", "coulomb_friction", level},
+                            Limit{"stribeck_friction", "coulomb_friction", level},
+                            Limit{"rail_patch", "coulomb_friction", level},
+                            Limit{"friction_asymmetry", "viscous_friction", mean_of_directions},
+                            Limit{"cable_force", "drive_offset", pull_in_the_middle}};
+
+const Limit* find_limit(std::string_view plainer, std::string_view richer) {
+    const auto* const found = std::ranges::find_if(
+        limits, [&](const Limit& limit) { return limit.plainer == plainer && limit.richer == richer; });
+    return found == limits.end() ? nullptr : found;
+}
 
 /// A typical size; where the catalogue has none but the image's looks grow with the parameter, a quarter of
 /// the largest.
@@ -115,16 +135,25 @@ std::string_view class_of(std::string_view effect) {
 }
 
 bool is_limit_of(std::string_view plainer, std::string_view richer) {
-    return std::ranges::any_of(
-        limits, [&](const Limit& limit) { return limit.plainer == plainer && limit.richer == richer; });
+    return find_limit(plainer, richer) != nullptr;
+}
+
+plant::EffectSetting plain_form(const plant::EffectSetting& richer, const plant::Effect& plainer,
+                                double middle_mm) {
+    plant::EffectSetting setting = plant::vanishing_setting(plainer);
+    const plant::EffectParameter& size = plainer.parameters.front();
+    setting.values.front() = std::clamp(
+        find_limit(plainer.name, richer.effect->name)->size(richer.values, middle_mm), size.low, size.high);
+    return setting;
 }
 
 std::vector<Refinement> refinements_of(const plant::Effect& effect) {
-    constexpr double hardly_seen = 4.0, in_any_motion = 16.0;
+    constexpr double hardly_seen = 2.0, seen = 4.0, in_any_motion = 16.0;
     std::vector<Refinement> found;
     for (std::size_t k = 0; k < effect.parameters.size(); ++k)
         if (const double least = effect.parameters[k].negligible; least > 0.0)
-            found.push_back({effect.parameters[k].name, k, {hardly_seen * least, in_any_motion * least}});
+            found.push_back(
+                {effect.parameters[k].name, k, {hardly_seen * least, seen * least, in_any_motion * least}});
     return found;
 }
 

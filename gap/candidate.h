@@ -53,4 +53,9 @@ std::string_view class_of(std::string_view effect);
 /// Whether an effect is what a richer one comes to where what sets that apart vanishes.
 bool is_limit_of(std::string_view plainer, std::string_view richer);
 
+/// A plainer effect that does roughly what a richer one does of which it is the limit.
+/// @param middle_mm  of the rail
+plant::EffectSetting plain_form(const plant::EffectSetting& richer, const plant::Effect& plainer,
+                                double middle_mm);
+
 }  // namespace fidservo::gap

@@ -69,6 +69,9 @@ void write_detections(Errors& errors, const Window& window, const TagRun& run,
     }
 }
 
+/// What is spent on a window whether it is wanted or not, in rows of a carriage followed in closed form.
+constexpr std::size_t rows_worth_a_window = 60;
+
 /// Predicts those signals of a run that are asked for.
 class RunPredictor {
   public:
@@ -81,9 +84,11 @@ class RunPredictor {
                   .subspan(parts.first_window[run], parts.first_window[run + 1] - parts.first_window[run])),
           wanted_(std::span(wanted).subspan(parts.first_window[run], windows_.size())),
           models_(models),
-          other_carriage_(other_carriage) {}
+          other_carriage_(other_carriage),
+          all_rows_(parts.recordings[run].rows.size()) {}
 
-    void predict(const std::array<bool, signal_count>& touched, Errors& errors) {
+    /// @return the effort, in rows
+    std::size_t predict(const std::array<bool, signal_count>& touched, Errors& errors) {
         std::array<bool, signal_count> signals{};
         for (std::size_t w = 0; w < windows_.size(); ++w) {
             const std::size_t signal = index_of(windows_[w].signal);
@@ -102,9 +107,26 @@ class RunPredictor {
         if (signals[index_of(Signal::image)] && models_.image) predict_images(errors);
         for (const Signal signal : {Signal::macro_command, Signal::micro_command})
             if (signals[index_of(signal)]) replay(signal, errors);
+        return effort(signals, needs_path);
     }
 
   private:
+    /// By how long each takes (bench/gap_bench.cpp).
+    std::size_t effort(const std::array<bool, signal_count>& signals, bool needs_path) const {
+        constexpr std::size_t step_by_step = 10, of_hall = 2;
+        const std::size_t per_row = models_.carriage.axis.whole_steps.duration_s > 0.0 ? 1 : step_by_step;
+        std::size_t rows = 0;
+        if (needs_path)
+            rows += per_row * all_rows_;
+        else if (signals[index_of(Signal::encoder)])
+            for (std::size_t w = 0; w < windows_.size(); ++w)
+                if (wanted_[w] != 0 && windows_[w].signal == Signal::encoder)
+                    rows += per_row * windows_[w].rows;
+        if (signals[index_of(Signal::hall)]) rows += of_hall * all_rows_;
+        if (signals[index_of(Signal::tag)]) rows += all_rows_;
+        return rows;
+    }
+
     const CarriagePath& path() const { return path_.position_mm.empty() ? links_.path : path_; }
 
     void write_counts(const std::vector<double>& predicted, Errors& errors) const {
@@ -180,6 +202,7 @@ class RunPredictor {
     std::span<const std::uint8_t> wanted_;
     const Models& models_;
     bool other_carriage_;
+    std::size_t all_rows_;
     CarriagePath path_;
 };
 
@@ -263,6 +286,12 @@ bool Evidence::platform_feels_carriage(const Hypothesis& hypothesis) const {
     return models_of(rig(), hypothesis).platform_feels_carriage;
 }
 
+double Evidence::effort() const {
+    std::size_t rows = 0;
+    for (const Recording& recording : parts_->recordings) rows += recording.rows.size();
+    return static_cast<double>(parts_->effort) / static_cast<double>(std::max<std::size_t>(rows, 1));
+}
+
 Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted) const {
     const Parts& parts = *parts_;
     FIDSERVO_DEMAND(wanted.size() == parts.windows.size());
@@ -278,8 +307,11 @@ Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted) cons
                       errors.begin() + static_cast<std::ptrdiff_t>(window.begin));
         }
         if (std::ranges::none_of(touched.signals, std::identity{})) return errors;
+        std::size_t rows = parts.windows.size() * rows_worth_a_window;
         for (std::size_t run = 0; run < parts.recordings.size(); ++run)
-            RunPredictor(parts, run, wanted, models, touched.carriage).predict(touched.signals, errors);
+            rows +=
+                RunPredictor(parts, run, wanted, models, touched.carriage).predict(touched.signals, errors);
+        parts_->effort += rows;
         return errors;
     } catch (const InputError&) {
         return {};

@@ -128,6 +128,10 @@ class Evidence {
     /// Empty if the hypothesis is none that a rig can have (the plant refuses it).
     Errors errors(const Hypothesis& hypothesis, const Wanted& wanted) const;
 
+    /// What all predictions since it was made have cost, whatever the machine: 1 is a carriage that was
+    /// followed along all recordings in closed form.
+    double effort() const;
+
   private:
     std::unique_ptr<Parts> parts_;
 };

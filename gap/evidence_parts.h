@@ -11,7 +11,9 @@
 #include "gap/tag_link.h"
 
 #include <array>
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -40,7 +42,8 @@ struct Evidence::Parts {
     HallRange hall_range;
     std::vector<Omission> omissions;
     std::vector<Course> courses;
-    Errors nominal;  ///< without a hypothesis
+    Errors nominal;                         ///< without a hypothesis
+    std::atomic<std::uint64_t> effort = 0;  ///< in rows (Evidence::effort)
 };
 
 /// Throws InputError where a recording cannot be of this rig.

@@ -41,9 +41,18 @@ Search::Search(const Evidence& evidence, const std::vector<Candidate>& candidate
                const SearchOptions& options)
     : candidates_(candidates),
       options_(options),
-      fitter_(evidence, options.windows, options.stop),
+      effort_at_start_(evidence.effort()),
+      fitter_(evidence, options.windows, [this] { return is_over(); }),
       memory_(candidates.size()),
       first_excess_(fitter_.excess(nothing().mean_squares)) {}
+
+bool Search::is_exhausted() const {
+    return fitter_.evidence().effort() - effort_at_start_ > options_.most_effort;
+}
+
+bool Search::is_over() const {
+    return (options_.stop && options_.stop()) || (!is_concluding_ && is_exhausted());
+}
 
 CrossFit Search::nothing() const {
     CrossFit cross;
@@ -61,12 +70,12 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         near_best(all, share_of_promise, least_gain, effort.fits, std::mem_fn(&Contender::promised));
     fit_simple_first(base, fitted);
     std::ranges::sort(fitted, std::greater{}, &Contender::gain);
-    const std::span leaders =
-        near_best(fitted, share_of_gain, 0.0, effort.leaders, std::mem_fn(&Contender::gain));
+    std::span leaders = near_best(fitted, share_of_gain, 0.0, effort.leaders, std::mem_fn(&Contender::gain));
     const Threads each = leaders.size() > 1 ? Threads::one : Threads::all;
     parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k], each); });
     std::ranges::sort(leaders, std::greater{}, &Contender::gain);
     if (!leaders.empty()) {
+        leaders = with_plain_forms(base, all, leaders.size());
         fit_closer(base, leaders.front());
         const auto chosen = leaders.begin() + static_cast<std::ptrdiff_t>(simplest(leaders));
         if (chosen != leaders.begin()) fit_closer(base, *chosen);
@@ -84,6 +93,18 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
             std::ranges::find(trials, &candidate, &Trial::candidate) == trials.end())
             trials.push_back({.candidate = &candidate});
     return trials;
+}
+
+std::span<Search::Contender> Search::with_plain_forms(const CrossFit& base, std::span<Contender> all,
+                                                      std::size_t leaders) const {
+    const Contender best = all.front();
+    for (std::size_t k = 1; k < all.size(); ++k) {
+        if (!is_limit_of(all[k].trial.candidate->effect->name, best.trial.candidate->effect->name)) continue;
+        fit_plain_form(base, best, all[k]);
+        if (all[k].trial.is_leader && k >= leaders) std::swap(all[k], all[leaders++]);
+    }
+    std::ranges::sort(all.first(leaders), std::greater{}, &Contender::gain);
+    return all.first(leaders);
 }
 
 CrossFit Search::with(const CrossFit& base, const Candidate& candidate) {

@@ -27,6 +27,8 @@ struct Effort {
 
 struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
+    /// After which it is exhausted (Evidence::effort): about 20 s of two cores for a campaign of 5 minutes.
+    double most_effort = 4500.0;
     std::function<bool()> stop =
         {};              ///< asked at every prediction; once true, what is returned is worth nothing
     double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search
@@ -36,6 +38,15 @@ struct SearchOptions {
 class Search {
   public:
     Search(const Evidence& evidence, const std::vector<Candidate>& candidates, const SearchOptions& options);
+    Search(const Search&) = delete;
+    Search& operator=(const Search&) = delete;
+
+    /// Whether the effort was spent. Then what the last call returned is worth nothing, and so is what
+    /// try_all and with return from then on.
+    bool is_exhausted() const;
+
+    /// Lets what is known be fitted and judged again, whatever the effort.
+    void conclude() { is_concluding_ = true; }
 
     CrossFit nothing() const;
 
@@ -96,6 +107,13 @@ class Search {
     void fit_first_half(const CrossFit& base, std::span<Contender* const> contenders) const;
     void judge_first_half(const CrossFit& base, Contender& contender) const;
     void fit_second_half(const CrossFit& base, Contender& contender, Threads threads) const;
+    /// From what a richer effect, of which it is the limit, has found on both halves: beside what the richer
+    /// one has taken it may promise nothing by itself. Keeps what it had if that is better.
+    void fit_plain_form(const CrossFit& base, const Contender& richer, Contender& plain) const;
+    /// The leaders, which come first and best first, with those that are limits of the best one fitted from
+    /// it.
+    std::span<Contender> with_plain_forms(const CrossFit& base, std::span<Contender> all,
+                                          std::size_t leaders) const;
     /// Where a fit from afar leaves more than the floor: again from where it ended, to the windows that say
     /// most there; of a wave by a simplex over all windows, as its losses have many minima. Where slopes do
     /// not lead there, by a simplex too: of encoder and camera, as the place within a count gives way up to
@@ -123,8 +141,13 @@ class Search {
     /// way are Coulomb friction, fitted a little better.
     std::size_t simplest(std::span<const Contender> leaders) const;
 
+    /// Asked at every prediction.
+    bool is_over() const;
+
     const std::vector<Candidate>& candidates_;
     SearchOptions options_;
+    double effort_at_start_;
+    bool is_concluding_ = false;
     CrossFitter fitter_;
     SearchMemory memory_;
     SignalExcess first_excess_;  ///< where nothing is known

@@ -114,6 +114,27 @@ void Search::fit_second_half(const CrossFit& base, Contender& contender, Threads
     judge_both_halves(base, contender);
 }
 
+void Search::fit_plain_form(const CrossFit& base, const Contender& richer, Contender& plain) const {
+    if (plain.coupled != richer.coupled) return;
+    const MacroParameters& rail = fitter_.evidence().rig().macro;
+    const double middle_mm = 0.5 * (rail.low_mm + rail.high_mm);
+    Finding finding = *plain.finding;
+    Contender found = plain;
+    found.finding = &finding;
+    parallel_for(2, [&](std::size_t side) {
+        Hypothesis start = richer.trial.fitted.of_half[side];
+        start.back() = plain_form(start.back(), *plain.trial.candidate->effect, middle_mm);
+        found.trial.fitted.of_half[side] =
+            fitter_.fit_places(side, start, plain.fitted_places(base), base.mean_squares).hypothesis;
+        finding.fitted[side] = found.part(found.trial.fitted.of_half[side]);
+    });
+    finding.is_close = false;
+    judge_both_halves(base, found);
+    if (found.gain() <= plain.gain()) return;
+    *plain.finding = std::move(finding);
+    plain.trial = std::move(found.trial);
+}
+
 void Search::fit_closer(const CrossFit& base, Contender& contender) const {
     const bool is_wave = contender.trial.candidate->wave.has_value();
     const std::string_view block = contender.trial.candidate->effect->block;
@@ -177,7 +198,8 @@ Search::Contender Search::refined(const CrossFit& base, const Contender& contend
         parallel_for(2, [&](std::size_t side) {
             Hypothesis& hypothesis = with.trial.fitted.of_half[side];
             hypothesis[place].values[parameter] = value;
-            hypothesis = fitted_from_there(base, with, side, usual_step);
+            for (const double step_scales : {usual_step, close_step})
+                hypothesis = fitted_from_there(base, with, side, step_scales);
         });
         judge_both_halves(base, with);
         if (with.gain() > std::max(best.gain(), contender.gain() + least_gain)) best = std::move(with);
@@ -185,8 +207,9 @@ Search::Contender Search::refined(const CrossFit& base, const Contender& contend
     const Hypothesis& hypothesis = contender.trial.fitted.of_half[0];
     for (const std::size_t place : contender.fitted_places(base))
         for (const Refinement& refinement : refinements_of(*hypothesis[place].effect))
-            if (!is_present(refinement, hypothesis))
-                for (const double value : refinement.values) fit_from(place, refinement.parameter, value);
+            for (const double value : refinement.values)
+                if (!is_present(refinement, hypothesis) && meet(off(best.trial.fitted), best.teachers()))
+                    fit_from(place, refinement.parameter, value);
     return best;
 }
 

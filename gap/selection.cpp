@@ -57,10 +57,13 @@ bool has_leader(const std::vector<Trial>& trials) {
 void grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step) {
     while (static_cast<int>(chain.choices.size()) < most_effects) {
         std::vector<Trial> trials = search.try_all(chain.fitted, chain.candidates());
+        if (search.is_exhausted()) return;
         if (first_step != nullptr) *first_step = trials;
         first_step = nullptr;
         if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) return;
-        chain = grown(search, std::move(chain), std::move(trials));
+        Chain longer = grown(search, chain, std::move(trials));
+        if (search.is_exhausted()) return;
+        chain = std::move(longer);
         if (search.is_at_floor(chain.fitted)) return;
     }
 }
@@ -95,6 +98,7 @@ bool exchange(Search& search, Chain& chain, bool changed) {
     const auto tested = [&] { return changed ? chain.choices.size() : chain.choices.size() - 1; };
     for (std::size_t k = 0; chain.choices.size() > 1 && k < tested();) {
         Chain rest = without(search, chain, k);
+        if (search.is_exhausted()) return changed;
         if (!search.is_real(rest.fitted, chain.fitted)) {
             chain = std::move(rest);
             changed = true;
@@ -104,13 +108,16 @@ bool exchange(Search& search, Chain& chain, bool changed) {
         if (search.leaves_little(chain.fitted))
             search.remember(rest.fitted, *chain.choices[k].candidate, chain.fitted, k);
         std::vector<Trial> trials = search.try_all(rest.fitted, rest.candidates());
+        if (search.is_exhausted()) return changed;
         const bool is_other = has_leader(trials) && trials.front().candidate != chain.choices[k].candidate;
         if (!is_other) {
             // The same again, with its alternatives as they are beside the whole rest.
             if (has_leader(trials)) chain.choices[k] = choice_of(search, rest.fitted, std::move(trials));
             ++k;
         } else if (replaces(search, trials.front(), chain, k) && exchanges++ < most_exchanges) {
-            chain = grown(search, std::move(rest), std::move(trials));
+            Chain other = grown(search, std::move(rest), std::move(trials));
+            if (search.is_exhausted()) return changed;
+            chain = std::move(other);
             changed = true;
             k = 0;
         } else {
@@ -168,6 +175,7 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     for (const Trial& single : singles) {
         const bool is_new = std::ranges::find(classes, single.candidate->class_name) == classes.end();
         const bool is_hopeless = from_nothing ? single.promised <= 0.0 : single.gain < least_gain;
+        if (search.is_exhausted()) break;
         if (is_hopeless || !is_new) continue;
         if (classes.size() == most_first) break;
         classes.push_back(single.candidate->class_name);
@@ -178,6 +186,7 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
         std::vector<Trial> trials = search.try_all(one.fitted, one.candidates(), effort);
         if (!has_leader(trials)) continue;
         Chain two = grown(search, one, std::move(trials));
+        if (search.is_exhausted()) break;
         if (!is_better(search, two, chain) ||
             (from_nothing && !search.nearly_clears(chain.fitted, two.fitted)))
             continue;
@@ -241,6 +250,8 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     grow(search, chain, options.most_effects, &selection.alone);
     const bool is_paired = pair_up(search, chain, options.most_effects);
     if (exchange(search, chain, is_paired)) grow(search, chain, options.most_effects, nullptr);
+    selection.is_cut_short = search.is_exhausted();
+    search.conclude();
     chain = weightiest_first(search, nameable(search, std::move(chain)));
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     for (std::size_t k = 1; k < chain.choices.size(); ++k)

@@ -138,8 +138,8 @@ class Motion {
         return whole_s > 0.0 && std::abs(duration_s - whole_s) < rounding_s;
     }
 
-    /// Whether forces change by straight lines there: bristles have bent as far as they do, a patch is far, and
-    /// what creeps slides or is nothing.
+    /// Whether forces change by straight lines there: bristles have bent as far as they do, a patch is far,
+    /// and what creeps slides or is nothing.
     bool is_straight(const State& x) const {
         const Friction& friction = p_.friction;
         return (!axis_.has_bristles || bend_ == direction_) && !friction.patch.reaches(x[place]) &&
