@@ -12,12 +12,15 @@ namespace fidservo::gap {
 namespace {
 
 /// Whether all readings lie within the travel that the rig file states, in its frame. Where they do not, the
-/// encoder counts from elsewhere, and an end of travel shows only by what happens there.
+/// encoder counts from elsewhere, and an end of travel shows only by what happens there. An encoder whose
+/// scale is off reads too much at the far end.
 bool is_homed(const std::vector<double>& reading_count, const MacroParameters& macro) {
-    constexpr double beyond_mm = 1.0;
+    constexpr double beyond_mm = 1.0, most_off = 0.05;
+    const double lowest_mm = macro.low_mm - beyond_mm;
+    const double highest_mm = macro.high_mm + beyond_mm + most_off * (macro.high_mm - macro.low_mm);
     return std::ranges::all_of(reading_count, [&](double count) {
         const double place_mm = count * macro.encoder_resolution_mm;
-        return !(place_mm < macro.low_mm - beyond_mm || place_mm > macro.high_mm + beyond_mm);
+        return !(place_mm < lowest_mm || place_mm > highest_mm);
     });
 }
 

@@ -8,6 +8,7 @@
 #include "plant/effects/catalogue.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -56,15 +57,20 @@ std::vector<plant::EffectSetting> rivals(const Choice& choice) {
     return settings;
 }
 
+/// @param halves  the same as fitted on each half: where fits end in any of many small valleys, they tell
+/// more
+///                of how sure a value is than the slopes at one do
 std::vector<FittedParameter> parameters_of(const plant::EffectSetting& setting,
+                                           const std::array<plant::EffectSetting, 2>& halves,
                                            const Eigen::MatrixXd& covariance, Eigen::Index first) {
     std::vector<FittedParameter> parameters;
     for (std::size_t k = 0; k < setting.values.size(); ++k) {
         const plant::EffectParameter& parameter = setting.effect->parameters[k];
         const Eigen::Index at = first + static_cast<Eigen::Index>(k);
-        if (setting.values[k] < parameter.negligible) continue;
+        if (parameter.is_negligible(setting.values[k])) continue;
+        const double apart = 0.5 * (halves[0].values[k] - halves[1].values[k]);
         parameters.push_back({std::string(parameter.name), std::string(parameter.unit), setting.values[k],
-                              std::sqrt(std::max(0.0, covariance(at, at)))});
+                              std::hypot(std::sqrt(std::max(0.0, covariance(at, at))), apart)});
     }
     return parameters;
 }
@@ -73,6 +79,7 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
                                        const Fit& fitted) {
     std::vector<FoundEffect> found;
     const std::vector<double>& before = selection.steps.front().mean_squares;
+    const std::array<Hypothesis, 2>& halves = selection.steps.back().of_half;
     Eigen::Index first = 0;
     for (std::size_t k = 0; k < selection.choices.size(); ++k) {
         const Choice& choice = selection.choices[k];
@@ -81,7 +88,8 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
         found.push_back({.effect = std::string(choice.candidate->effect->name),
                          .block = std::string(choice.candidate->effect->block),
                          .probability = probability_of_class(choice),
-                         .parameters = parameters_of(fitted.hypothesis[k], fitted.covariance, first),
+                         .parameters = parameters_of(fitted.hypothesis[k], {halves[0][k], halves[1][k]},
+                                                     fitted.covariance, first),
                          .indistinguishable_from = indistinguishable(choice),
                          .rivals = rivals(choice),
                          .gap_removed = total_gap(signal_gaps(evidence, before, after)).removed(),

@@ -70,7 +70,7 @@ void write_detections(Errors& errors, const Window& window, const TagRun& run,
 }
 
 /// What is spent on a window whether it is wanted or not, in rows of a carriage followed in closed form.
-constexpr std::size_t rows_worth_a_window = 60;
+constexpr std::size_t rows_worth_a_window = 20;
 
 /// Predicts those signals of a run that are asked for.
 class RunPredictor {
@@ -113,7 +113,7 @@ class RunPredictor {
   private:
     /// By how long each takes (bench/gap_bench.cpp).
     std::size_t effort(const std::array<bool, signal_count>& signals, bool needs_path) const {
-        constexpr std::size_t step_by_step = 10, of_hall = 2;
+        constexpr std::size_t step_by_step = 40, of_hall = 3;
         const std::size_t per_row = models_.carriage.axis.whole_steps.duration_s > 0.0 ? 1 : step_by_step;
         std::size_t rows = 0;
         if (needs_path)
@@ -289,7 +289,8 @@ bool Evidence::platform_feels_carriage(const Hypothesis& hypothesis) const {
 double Evidence::effort() const {
     std::size_t rows = 0;
     for (const Recording& recording : parts_->recordings) rows += recording.rows.size();
-    return static_cast<double>(parts_->effort) / static_cast<double>(std::max<std::size_t>(rows, 1));
+    constexpr std::size_t five_minutes = 300'000;
+    return static_cast<double>(parts_->effort) / static_cast<double>(std::max(rows, five_minutes));
 }
 
 Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted) const {

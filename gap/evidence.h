@@ -129,7 +129,7 @@ class Evidence {
     Errors errors(const Hypothesis& hypothesis, const Wanted& wanted) const;
 
     /// What all predictions since it was made have cost, whatever the machine: 1 is a carriage that was
-    /// followed along all recordings in closed form.
+    /// followed in closed form for 5 minutes, or along all recordings where they are longer.
     double effort() const;
 
   private:

@@ -21,7 +21,7 @@ class ScaledParameters {
     bool at_bound(std::size_t k) const { return values[k] <= low(k) || values[k] >= high(k); }
 
     /// Whether an effect is without it: nothing changes with it there.
-    bool is_absent(std::size_t k) const { return values[k] * scale(k) < all_[k]->negligible; }
+    bool is_absent(std::size_t k) const { return all_[k]->is_negligible(values[k] * scale(k)); }
 
     /// A value beyond a bound counts as at it.
     Hypothesis at(std::span<const double> scaled) const;

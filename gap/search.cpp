@@ -24,6 +24,12 @@ constexpr double least_share_of_first = 1e-3;
 /// Mean square in floors of what is far off.
 constexpr double far_off_square = 9.0;
 
+/// An encoder's false scale: its fits end in many small valleys, and what they miss is more than what tells
+/// it from others.
+bool hides_within_counts(const Candidate& candidate) {
+    return candidate.effect->block == "macro.encoder" && unrefined_parameters(*candidate.effect) == 1;
+}
+
 /// Of those sorted from the best on, the first that come near it, `most` at most.
 template <class Score>
 std::span<Search::Contender> near_best(std::span<Search::Contender> sorted, double share, double least,
@@ -47,11 +53,11 @@ Search::Search(const Evidence& evidence, const std::vector<Candidate>& candidate
       first_excess_(fitter_.excess(nothing().mean_squares)) {}
 
 bool Search::is_exhausted() const {
-    return fitter_.evidence().effort() - effort_at_start_ > options_.most_effort;
+    return is_limited_ && fitter_.evidence().effort() - effort_at_start_ > options_.most_effort;
 }
 
 bool Search::is_over() const {
-    return (options_.stop && options_.stop()) || (!is_concluding_ && is_exhausted());
+    return (options_.stop && options_.stop()) || is_exhausted();
 }
 
 CrossFit Search::nothing() const {
@@ -73,6 +79,8 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     std::span leaders = near_best(fitted, share_of_gain, 0.0, effort.leaders, std::mem_fn(&Contender::gain));
     const Threads each = leaders.size() > 1 ? Threads::one : Threads::all;
     parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k], each); });
+    for (Contender& leader : leaders)
+        if (hides_within_counts(*leader.trial.candidate)) fit_closer(base, leader);
     std::ranges::sort(leaders, std::greater{}, &Contender::gain);
     if (!leaders.empty()) {
         leaders = with_plain_forms(base, all, leaders.size());
@@ -254,8 +262,8 @@ int Search::shapes_far_off(const CrossFit& cross, std::size_t side) const {
     return count;
 }
 
-bool Search::nearly_clears(const CrossFit& without, const CrossFit& with) const {
-    return clears_a_signal(without, with, 0.98);
+bool Search::nearly_clears(const CrossFit& without, const CrossFit& with, double share) const {
+    return clears_a_signal(without, with, share);
 }
 
 bool Search::clears_a_signal(const CrossFit& without, const CrossFit& with, double share,

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct Trial {
     CrossFit fitted = {};
 };
 
+/// Two candidates that were added to a hypothesis at once; in it they are the last ones, in this order.
+struct Pair {
+    const Candidate *first, *second;
+    CrossFit fitted;
+};
+
 /// How many candidates of those that promise most a step fits, and how many of these on both halves.
 struct Effort {
     std::size_t fits = 8, leaders = 4;
@@ -27,8 +34,8 @@ struct Effort {
 
 struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
-    /// After which it is exhausted (Evidence::effort): about 20 s of two cores for a campaign of 5 minutes.
-    double most_effort = 4500.0;
+    /// After which it is exhausted (Evidence::effort): 10 to 25 s of two cores for a campaign of 5 minutes.
+    double most_effort = 16'000.0;
     std::function<bool()> stop =
         {};              ///< asked at every prediction; once true, what is returned is worth nothing
     double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search
@@ -41,12 +48,13 @@ class Search {
     Search(const Search&) = delete;
     Search& operator=(const Search&) = delete;
 
-    /// Whether the effort was spent. Then what the last call returned is worth nothing, and so is what
-    /// try_all and with return from then on.
+    /// Whether the effort was spent where it counts. Then what the last call returned is worth nothing, and
+    /// so is what try_all and with return from then on.
     bool is_exhausted() const;
 
-    /// Lets what is known be fitted and judged again, whatever the effort.
-    void conclude() { is_concluding_ = true; }
+    /// Whether the effort counts: not for the first effect, and not where what is known is fitted and judged
+    /// again.
+    void limit(bool is_limited) { is_limited_ = is_limited; }
 
     CrossFit nothing() const;
 
@@ -58,6 +66,11 @@ class Search {
 
     /// The base with a candidate that try_all has tried beside it, fitted on both halves.
     CrossFit with(const CrossFit& base, const Candidate& candidate);
+
+    /// Of all pairs of simple effects that meet in a signal that is off, added to a base, the one that
+    /// predicts the first half best; fitted on both. From typical sizes on: beside what one of the two has
+    /// been taken for alone, the other may promise nothing, and no slope leads out of there.
+    std::optional<Pair> best_pair(const CrossFit& base, std::span<const Candidate* const> added);
 
     /// Takes over from a whole, which is the base and a candidate at a place, what it has found for that one:
     /// try_all beside this base then fits only what promises about as much.
@@ -79,8 +92,8 @@ class Search {
     /// tags, from far off to the floor is no chance however few they are.
     bool is_real(const CrossFit& without, const CrossFit& with) const;
 
-    /// Whether a signal loses 98 % of what it exceeds its floor by.
-    bool nearly_clears(const CrossFit& without, const CrossFit& with) const;
+    /// Whether a signal loses a share of what it exceeds its floor by.
+    bool nearly_clears(const CrossFit& without, const CrossFit& with, double share = 0.98) const;
 
     /// Signals above their floors.
     SignalFlags off(const CrossFit& fitted) const;
@@ -97,6 +110,8 @@ class Search {
     struct Contender;
 
   private:
+    std::vector<const Candidate*> plain_contenders(const CrossFit& base,
+                                                   std::span<const Candidate* const> added) const;
     Contender contender(const CrossFit& base, const Candidate& candidate);
     /// Candidates that are not `added` and may improve a signal that is off.
     std::vector<Contender> contenders(const CrossFit& base, std::span<const Candidate* const> added);
@@ -147,7 +162,7 @@ class Search {
     const std::vector<Candidate>& candidates_;
     SearchOptions options_;
     double effort_at_start_;
-    bool is_concluding_ = false;
+    bool is_limited_ = false;
     CrossFitter fitter_;
     SearchMemory memory_;
     SignalExcess first_excess_;  ///< where nothing is known

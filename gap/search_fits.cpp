@@ -35,7 +35,7 @@ bool is_present(const Refinement& refinement, const Hypothesis& hypothesis) {
         const auto& parameters = setting.effect->parameters;
         const auto same = std::ranges::find(parameters, refinement.name, &plant::EffectParameter::name);
         return same != parameters.end() &&
-               setting.values[static_cast<std::size_t>(same - parameters.begin())] >= same->negligible;
+               !same->is_negligible(setting.values[static_cast<std::size_t>(same - parameters.begin())]);
     });
 }
 
@@ -207,10 +207,15 @@ Search::Contender Search::refined(const CrossFit& base, const Contender& contend
     const Hypothesis& hypothesis = contender.trial.fitted.of_half[0];
     for (const std::size_t place : contender.fitted_places(base))
         for (const Refinement& refinement : refinements_of(*hypothesis[place].effect))
-            for (const double value : refinement.values)
-                if (!is_present(refinement, hypothesis) && meet(off(best.trial.fitted), best.teachers()))
-                    fit_from(place, refinement.parameter, value);
-    return best;
+            if (!is_present(refinement, hypothesis))
+                for (const double value : refinement.values) fit_from(place, refinement.parameter, value);
+    if (best.gain() == contender.gain()) return best;
+    Contender closest = best;
+    parallel_for(2, [&](std::size_t side) {
+        closest.trial.fitted.of_half[side] = polished(best, side, contender.fitted_places(base));
+    });
+    judge_both_halves(base, closest);
+    return closest.gain() > best.gain() ? closest : best;
 }
 
 Hypothesis Search::polished(const Contender& contender, std::size_t side, const Places& places) const {

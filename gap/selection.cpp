@@ -64,6 +64,7 @@ void grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
         Chain longer = grown(search, chain, std::move(trials));
         if (search.is_exhausted()) return;
         chain = std::move(longer);
+        search.limit(true);
         if (search.is_at_floor(chain.fitted)) return;
     }
 }
@@ -153,6 +154,25 @@ bool is_better(const Search& search, const Chain& other, const Chain& chain) {
     return other.fitted.loss < chain.fitted.loss - least_gain;
 }
 
+/// Puts two simple effects at once beside the rest, where they clear a signal. Returns whether it did.
+bool take_in_pair(Search& search, Chain& chain, const Chain& rest) {
+    constexpr double all_but_nothing = 0.999;
+    std::optional<Pair> pair = search.best_pair(rest.fitted, rest.candidates());
+    if (!pair || search.is_exhausted() || !search.nearly_clears(rest.fitted, pair->fitted, all_but_nothing))
+        return false;
+    const auto trial = [](const Candidate& candidate, CrossFit fitted) {
+        return std::vector{Trial{.candidate = &candidate, .is_leader = true, .fitted = std::move(fitted)}};
+    };
+    CrossFit first = pair->fitted;
+    for (Hypothesis& hypothesis : first.of_half) hypothesis.pop_back();
+    search.fit_again(first, search.concerned_by(*pair->second, pair->fitted));
+    const Chain one = grown(search, rest, trial(*pair->first, std::move(first)));
+    Chain two = grown(search, one, trial(*pair->second, std::move(pair->fitted)));
+    if (search.is_exhausted() || !is_better(search, two, chain)) return false;
+    chain = std::move(two);
+    return true;
+}
+
 /// Where signals stay off their floors, what was taken in for them, one after the other, may be no step on
 /// the way to what there is: instead of it each of the best single effects, with what is best beside it.
 /// Where nothing was taken in, two effects may hide each other: what promises a little is tried as the first
@@ -166,6 +186,7 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     for (std::size_t k = chain.choices.size(); k-- > 0;)
         if (meet(teachers_of(*chain.choices[k].candidate->effect), off)) rest = without(search, rest, k);
     if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
+    if (take_in_pair(search, chain, rest) && search.is_at_floor(chain.fitted)) return true;
     const bool from_nothing = chain.choices.size() == rest.choices.size();
     const std::size_t most_first = from_nothing ? 6 : 3;
     std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates());
@@ -248,10 +269,11 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     Chain chain{{}, search.nothing()};
     selection.steps.push_back(chain.fitted);
     grow(search, chain, options.most_effects, &selection.alone);
+    search.limit(true);
     const bool is_paired = pair_up(search, chain, options.most_effects);
     if (exchange(search, chain, is_paired)) grow(search, chain, options.most_effects, nullptr);
     selection.is_cut_short = search.is_exhausted();
-    search.conclude();
+    search.limit(false);
     chain = weightiest_first(search, nameable(search, std::move(chain)));
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     for (std::size_t k = 1; k < chain.choices.size(); ++k)

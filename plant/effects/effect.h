@@ -31,8 +31,9 @@ struct EffectParameter {
     /// one. 0: it has no such parameter.
     double negligible = 0.0;
 
+    bool is_negligible(double value) const { return negligible > 0.0 && value < negligible; }
     /// The value that acts.
-    double acting(double value) const { return value < negligible ? low : value; }
+    double acting(double value) const { return is_negligible(value) ? low : value; }
 };
 
 struct Effect {

@@ -29,6 +29,54 @@ const FoundEffect& found(const Diagnosis& diagnosis, std::string_view name) {
     return *std::ranges::find(diagnosis.effects, name, &FoundEffect::effect);
 }
 
+/// From the small offset that it is taken for alone, a gain leads nowhere.
+TEST(Diagnosis, TwoEffectsThatHideEachOther_AreBothNamed) {
+    const Diagnosis diagnosis = diagnosed({"drive_offset:offset_V=-0.257", "drive_gain:factor=1.081"},
+                                          {"macro-sweep", "macro-pulses", "macro-square"},
+                                          {"drive_offset", "drive_gain", "friction_asymmetry", "payload"});
+    ASSERT_EQ(names(diagnosis), (std::vector<std::string>{"drive_gain", "drive_offset"}));
+    EXPECT_EQ(diagnosis.verdict, Verdict::explained);
+    EXPECT_NEAR(found(diagnosis, "drive_offset").parameters.front().value, -0.257, 1e-3);
+    EXPECT_NEAR(found(diagnosis, "drive_gain").parameters.front().value, 1.081, 1e-3);
+}
+
+/// From afar a creep speed only seems to do harm.
+TEST(Diagnosis, FrictionThatCreeps_IsFoundWithItsCreepSpeed) {
+    for (const std::string name : {"coulomb_friction", "stribeck_friction"}) {
+        const Diagnosis diagnosis = diagnosed({name + ":level_V=0.4,creep_mm_per_s=0.5"},
+                                              {"macro-sweep", "macro-pulses", "macro-square"},
+                                              {"coulomb_friction", "stribeck_friction", "drive_gain"});
+        ASSERT_EQ(names(diagnosis), std::vector<std::string>{name});
+        EXPECT_EQ(diagnosis.verdict, Verdict::explained) << name;
+        const auto& parameters = diagnosis.effects.front().parameters;
+        ASSERT_EQ(parameters.back().name, "creep_mm_per_s") << name;
+        EXPECT_NEAR(parameters.back().value, 0.5, 0.1) << name;
+    }
+}
+
+TEST(Diagnosis, FrictionThatDoesNotCreep_HasNoCreepSpeed) {
+    const Diagnosis diagnosis =
+        diagnosed({"coulomb_friction:level_V=0.3,dead_zone_share=0"},
+                  {"macro-sweep", "macro-pulses", "macro-square"}, {"coulomb_friction", "drive_gain"});
+    ASSERT_EQ(names(diagnosis), std::vector<std::string>{"coulomb_friction"});
+    for (const FittedParameter& parameter : diagnosis.effects.front().parameters)
+        EXPECT_NE(parameter.name, "creep_mm_per_s");
+}
+
+TEST(Diagnosis, SearchWhoseEffortIsSpent_KeepsWhatItHasFoundAndSaysSo) {
+    const Evidence evidence = campaign(effects({"drive_gain:factor=0.97", "airflow:factor=0.9"}),
+                                       {"macro-sweep", "macro-square", "micro-steps"});
+    DiagnosisOptions options{
+        .only = {"drive_gain", "payload", "airflow", "heater_gain"}, .without = {}, .selection = {}};
+    options.selection.search.most_effort = 1e-3;
+    const Diagnosis diagnosis = diagnose(evidence, options);
+    EXPECT_EQ(names(diagnosis).size(), 1U);
+    EXPECT_EQ(diagnosis.verdict, Verdict::partly_explained);
+    EXPECT_TRUE(std::ranges::any_of(diagnosis.notes, [](const std::string& note) {
+        return note.find("the search was ended") != std::string::npos;
+    }));
+}
+
 /// What it does in the middle of the rail hides within a count.
 TEST(Diagnosis, SmallFalseScaleOfEitherSign_IsFound) {
     for (const double factor : {0.9992, 1.0008}) {

@@ -1,8 +1,10 @@
 // What recordings of an independent model of the reference rig, and of a real drive, say about hypotheses
 // whose truth is known.
+#include "gap/diagnose.h"
 #include "gap/evidence.h"
 #include "src/config/rig_file.h"
 #include "tests/campaign.h"
+#include "tests/gap/effect_names.h"
 #include "tests/gap/effects.h"
 #include "tests/gap/root_mean_square.h"
 #include "tests/reference_rig.h"
@@ -88,6 +90,21 @@ TEST_F(Campaign, StribeckFriction_EncoderAndTagsTellTheTruthFromNothing) {
         effects({"stribeck_friction:level_V=0.399,speed_mm_per_s=12,creep_mm_per_s=0.37"});
     EXPECT_LT(in_floors(Signal::encoder, truth), 1.03);
     EXPECT_NEAR(in_floors(Signal::tag, truth), 1.0, 0.03);
+}
+
+using SlowCampaign = Campaign;
+
+TEST_F(SlowCampaign, StribeckFriction_IsExplainedWithItsCreep) {
+    read("stribeck_friction");
+    if (!evidence) return;
+    const Diagnosis diagnosis = diagnose(*evidence, {});
+    EXPECT_EQ(diagnosis.verdict, Verdict::explained);
+    ASSERT_EQ(testing::names(diagnosis), std::vector<std::string>{"stribeck_friction"});
+    const auto& parameters = diagnosis.effects.front().parameters;
+    ASSERT_EQ(parameters.size(), 3U);
+    EXPECT_NEAR(parameters[0].value, 0.4, 0.015);
+    EXPECT_NEAR(parameters[1].value, 12.0, 0.5);
+    EXPECT_NEAR(parameters[2].value, 0.4, 0.15);
 }
 
 TEST(Emps, PublishedFrictionAndOffset_ExplainMostOfTheErrorOfALinearMotor) {

@@ -50,6 +50,34 @@ TEST(StribeckFriction, WithCreepSpeed_LetsTheCarriageCreepWhereItWouldHold) {
     EXPECT_NEAR(v, gain * (0.1 - 0.2 * std::exp(-v / 12.0) * std::tanh(v / 0.4)), 1e-5);
 }
 
+/// Slow or fast, and in the same way where it slides in closed form.
+TEST(CoulombFriction, WithCreepSpeed_CreepsBelowItsLevelAndSlidesAsWithoutAboveIt) {
+    const MacroAxis creeping = endless_axis_with("coulomb_friction:level_V=0.2,creep_mm_per_s=0.4");
+    const MacroAxis rigid = endless_axis_with("coulomb_friction:level_V=0.2");
+    const double v = after(creeping, start(creeping, 0.0), 0.1, 500).velocity_mm_per_s;
+    EXPECT_NEAR(v, gain * (0.1 - 0.2 * std::tanh(v / 0.4)), 1e-5);
+    const MacroAxisState fast = after(creeping, start(creeping, 0.0), 1.0, 300);
+    EXPECT_NEAR(fast.velocity_mm_per_s, after(rigid, start(rigid, 0.0), 1.0, 300).velocity_mm_per_s, 1e-6);
+    EXPECT_NEAR(after(creeping, fast, 0.5, 500).position_mm - fast.position_mm,
+                after(rigid, fast, 0.5, 500).position_mm - fast.position_mm, 1e-6);
+}
+
+TEST(RailPatch, WithCreepSpeed_CreepsOverThePlace) {
+    const MacroAxis axis =
+        endless_axis_with("rail_patch:level_V=0.2,centre_mm=0,width_mm=50,creep_mm_per_s=0.4");
+    const double v = after(axis, start(axis, 0.0), 0.1, 500).velocity_mm_per_s;
+    EXPECT_GT(v, 0.2);
+    EXPECT_NEAR(v, gain * (0.1 - 0.2 * std::tanh(v / 0.4)), 1e-4);
+}
+
+TEST(FrictionEffects, ThatCreepTogether_CreepAsTheFastest) {
+    PlantParameters plant = plant_parameters(reference_rig());
+    const std::vector<EffectSetting> both{parse_effect("coulomb_friction:creep_mm_per_s=0.4"),
+                                          parse_effect("rail_patch:creep_mm_per_s=0.9")};
+    apply_effects(plant, both);
+    EXPECT_EQ(plant.axis.friction.creep_mm_per_s, 0.9);
+}
+
 TEST(FrictionAsymmetry, SteadySpeed_DependsOnTheDirection) {
     const MacroAxis axis =
         endless_axis_with("friction_asymmetry:right_V_s_per_mm=0.001,left_V_s_per_mm=-0.0005");
@@ -118,8 +146,10 @@ TEST(RailPatch, SteadySpeed_IsLowerOnThePatchOnly) {
 }
 
 TEST(FrictionEffects, MirroredCommands_GiveMirroredMotion) {
-    for (const char* effect : {"coulomb_friction", "stribeck_friction", "presliding", "belt_compliance",
-                               "backlash", "stribeck_friction:creep_mm_per_s=0.4"}) {
+    for (const char* effect :
+         {"coulomb_friction", "stribeck_friction", "presliding", "belt_compliance", "backlash",
+          "stribeck_friction:creep_mm_per_s=0.4", "coulomb_friction:creep_mm_per_s=0.4",
+          "rail_patch:centre_mm=0,creep_mm_per_s=0.4"}) {
         const MacroAxis axis = endless_axis_with(effect, true);
         MacroAxisState right = start(axis, 0.0), left = right;
         for (int k = 0; k < 3000; ++k) {

@@ -1,0 +1,66 @@
+#include "gap/candidate.h"
+
+#include "gap/scaled_parameters.h"
+#include "gap/slopes.h"
+#include "tests/gap/effects.h"
+
+#include <gtest/gtest.h>
+
+namespace fidservo {
+namespace {
+
+using namespace gap;
+using testing::effects;
+
+TEST(PlainForm, OfARicherEffect_HasAboutItsSize) {
+    const auto plain = [](std::string_view richer, const char* plainer) {
+        return plain_form(effects({richer}).front(), *plant::find_effect(plainer), 100.0).values.front();
+    };
+    EXPECT_DOUBLE_EQ(plain("presliding:level_V=0.2", "coulomb_friction"), 0.2);
+    EXPECT_DOUBLE_EQ(plain("stribeck_friction:level_V=0.3", "coulomb_friction"), 0.3);
+    EXPECT_DOUBLE_EQ(
+        plain("friction_asymmetry:right_V_s_per_mm=0.0002,left_V_s_per_mm=0.0004", "viscous_friction"),
+        0.0003);
+    EXPECT_NEAR(plain("cable_force:stiffness_V_per_mm=0.0002,centre_mm=600", "drive_offset"), 0.1, 1e-12)
+        << "a long spring pulls towards where it is slack";
+}
+
+TEST(PlainForm, IsThatOfALimitOnly) {
+    EXPECT_TRUE(is_limit_of("drive_offset", "cable_force"));
+    EXPECT_FALSE(is_limit_of("cable_force", "drive_offset"));
+    EXPECT_FALSE(is_limit_of("drive_gain", "cable_force"));
+}
+
+TEST(Refinements, AreCreepSpeedsAndCountAsNoParameter) {
+    for (const char* name : {"coulomb_friction", "stribeck_friction", "rail_patch"}) {
+        const plant::Effect& effect = *plant::find_effect(name);
+        const std::vector<Refinement> refinements = refinements_of(effect);
+        ASSERT_EQ(refinements.size(), 1U) << name;
+        EXPECT_EQ(refinements.front().name, "creep_mm_per_s");
+        EXPECT_EQ(unrefined_parameters(effect), effect.parameters.size() - 1);
+    }
+    EXPECT_TRUE(refinements_of(*plant::find_effect("presliding")).empty());
+}
+
+/// What an effect is without has no slope, and no prediction is spent on it; a negative value is no such
+/// thing.
+TEST(Slope, OfWhatAnEffectIsWithout_IsZeroUnasked) {
+    int asked = 0;
+    const Predict predict = [&](const Hypothesis& hypothesis) {
+        ++asked;
+        return Errors{static_cast<float>(hypothesis.front().values.back())};
+    };
+    const ScaledParameters rigid(effects({"coulomb_friction"}));
+    EXPECT_TRUE(rigid.is_absent(2));
+    EXPECT_EQ(slope(predict, rigid, 2, {0.0F}), Errors{0.0F});
+    EXPECT_EQ(asked, 0);
+    const ScaledParameters creeping(effects({"coulomb_friction:creep_mm_per_s=0.4"}));
+    EXPECT_FALSE(creeping.is_absent(2));
+    EXPECT_GT(slope(predict, creeping, 2, {0.4F}).front(), 0.0F);
+    const ScaledParameters wave(effects({"cogging:phase_rad=-1"}));
+    EXPECT_FALSE(wave.is_absent(2));
+    EXPECT_GT(slope(predict, wave, 2, {-1.0F}).front(), 0.0F);
+}
+
+}  // namespace
+}  // namespace fidservo
