@@ -384,11 +384,10 @@ void move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V,
 WholeSteps whole_steps(const MacroAxis& axis) {
     const Friction& friction = axis.parameters.friction;
     if (axis.parameters.standing.cogging_V != 0.0 || friction.stribeck_V != 0.0) return {};
-    MacroAxis sliding_far_from_patch = axis;
-    sliding_far_from_patch.parameters.friction.patch.level_V = 0.0;
-    sliding_far_from_patch.parameters.friction.creep_mm_per_s = 0.0;
-    return axis.has_belt ? Motion<4>::whole_steps(sliding_far_from_patch)
-                         : Motion<2>::whole_steps(sliding_far_from_patch);
+    MacroAxis sliding = axis;  // far from a patch
+    sliding.parameters.friction.patch.level_V = 0.0;
+    sliding.parameters.friction.creep_mm_per_s = 0.0;
+    return axis.has_belt ? Motion<4>::whole_steps(sliding) : Motion<2>::whole_steps(sliding);
 }
 
 void move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
