@@ -57,9 +57,9 @@ std::vector<plant::EffectSetting> rivals(const Choice& choice) {
     return settings;
 }
 
-/// @param halves  the same as fitted on each half: where fits end in any of many small valleys, they tell
-/// more
-///                of how sure a value is than the slopes at one do
+/// @param halves  the same as fitted on each half: where fits end in any of many small valleys, what these
+/// are
+///                apart by tells more of how sure a value is than the slopes at one of them
 std::vector<FittedParameter> parameters_of(const plant::EffectSetting& setting,
                                            const std::array<plant::EffectSetting, 2>& halves,
                                            const Eigen::MatrixXd& covariance, Eigen::Index first) {
@@ -191,6 +191,16 @@ bool lacks_place(const Selection& selection, const Remainder& whole) {
            std::ranges::none_of(selection.choices, knows_places);
 }
 
+/// Whether three causes or more of one stage, or of the camera, were put together.
+bool is_patchwork(const Selection& selection) {
+    constexpr std::ptrdiff_t many = 3;
+    return std::ranges::any_of(std::array{"macro.", "micro.", "camera."}, [&](std::string_view part) {
+        return std::ranges::count_if(selection.choices, [&](const Choice& choice) {
+                   return choice.candidate->effect->block.starts_with(part);
+               }) >= many;
+    });
+}
+
 /// How far the names of an explanation are to be trusted, and what is missing beside them.
 struct Doubt {
     double trust;
@@ -204,7 +214,8 @@ Doubt doubt_of(const Evidence& evidence, const Selection& selection, Remainder r
                double tail) {
     if (selection.choices.empty()) return {0.0, std::move(remainder)};
     const std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
-    const bool stands_in = whole && (has_stand_in(selection, *whole, 1) || lacks_place(selection, *whole));
+    const bool stands_in = is_patchwork(selection) ||
+                           (whole && (has_stand_in(selection, *whole, 1) || lacks_place(selection, *whole)));
     if (stands_in) trust = std::min(trust, trust_in_stand_in);
     if (whole && (stands_in || trust <= 0.5)) remainder.block = whole->block;
     return {trust, std::move(remainder)};

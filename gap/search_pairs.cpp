@@ -85,17 +85,21 @@ std::optional<Pair> Search::best_pair(const CrossFit& base, std::span<const Cand
     if (attempts.size() > most_fitted_on) attempts.resize(most_fitted_on);
     fit_on(further_iterations);
     if (attempts.empty()) return {};
-    const Attempt* const best = &attempts.front();
-    Pair pair{best->first, best->second, {}};
+    const Attempt& best = attempts.front();
+    Pair pair{best.first, best.second, {}};
     pair.fitted.mean_squares = base.mean_squares;
-    Hypothesis from = best->fitted.hypothesis;
+    Hypothesis found = part_of(best.fitted.hypothesis, best.places);
     // There and back: of two valleys beside each other a half may have missed the deeper one.
     for (const std::size_t side : {1, 0, 1}) {
-        from = fitter_
-                   .fit_places(side, from, best->places, pair.fitted.mean_squares,
-                               {.tolerance = 1e-7, .threads = Threads::all, .step_scales = close_step})
-                   .hypothesis;
-        pair.fitted.of_half[side] = from;
+        Hypothesis start = base.of_half[side];
+        start.resize(start.size() + 2);
+        pair.fitted.of_half[side] =
+            fitter_
+                .fit_places(side, with_part(std::move(start), best.places, found), best.places,
+                            pair.fitted.mean_squares,
+                            {.tolerance = 1e-7, .threads = Threads::all, .step_scales = close_step})
+                .hypothesis;
+        found = part_of(pair.fitted.of_half[side], best.places);
     }
     fitter_.judge(pair.fitted);
     return pair;
