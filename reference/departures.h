@@ -31,10 +31,10 @@ struct FrictionDepartures {
     std::optional<Bristles> bristles = {};  ///< an elastic contact; a rigid one without
     /// A lubricated contact: dry friction times tanh(v / creep), which holds nothing at rest. 0: none.
     double creep_mm_per_s = 0.0;
-    double viscous_forward = 1.0;           ///< factor on the file's damping while moving right
-    double viscous_backward = 1.0;          ///< likewise while moving left
-    double drag_V_s2_per_mm2 = 0.0;         ///< of the square of speed, as in air
-    double patch_V = 0.0;                   ///< dry friction in excess at the centre of a patch of the rail
+    double viscous_forward = 1.0;    ///< factor on the file's damping while moving right
+    double viscous_backward = 1.0;   ///< likewise while moving left
+    double drag_V_s2_per_mm2 = 0.0;  ///< of the square of speed, as in air
+    double patch_V = 0.0;            ///< dry friction in excess at the centre of a patch of the rail
     double patch_centre_mm = 100.0;
     double patch_width_mm = 5.0;  ///< standard deviation of its bell shape
 };

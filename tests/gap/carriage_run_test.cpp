@@ -36,7 +36,10 @@ TEST(CarriageRun, ReadingToAndFroBetweenTwoCounts_Stands) {
 }
 
 TEST(CarriageRun, ReadingThatGoesOnCountByCount_DoesNotStand) {
-    const CarriageRun run = run_of([](std::size_t k) { return 2000.0 + static_cast<double>(k / 30); });
+    const CarriageRun run = run_of([](std::size_t k) {
+        const std::size_t counts = k / 30;
+        return 2000.0 + static_cast<double>(counts);
+    });
     EXPECT_FALSE(run.stands[500]);
 }
 

@@ -39,7 +39,9 @@ const std::vector<Pair>& pairs() {
         {"drive_delay", [](Departures& rig) { rig.drive.delay_s = 5.4e-3; }, {5.4}},
         {"drive_offset", [](Departures& rig) { rig.drive.offset_V = 0.2; }, {0.2}},
         {"coulomb_friction", [](Departures& rig) { rig.friction.coulomb_V = 0.1; }, {0.1, 0.0, 0.0}},
-        {"coulomb_friction", [](Departures& rig) { rig.friction.dead_zone_on_motion = 0.4; }, {0.0, 0.4, 0.0}},
+        {"coulomb_friction",
+         [](Departures& rig) { rig.friction.dead_zone_on_motion = 0.4; },
+         {0.0, 0.4, 0.0}},
         {"coulomb_friction",
          [](Departures& rig) {
              rig.friction.coulomb_V = 0.1;
