@@ -34,8 +34,8 @@ struct Effort {
 
 struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
-    /// After which it is exhausted (Evidence::effort): 10 to 25 s of two cores for a campaign of 5 minutes.
-    double most_effort = 16'000.0;
+    /// After which it is exhausted (Evidence::effort): about 20 s of two cores for a campaign of 5 minutes.
+    double most_effort = 30'000.0;
     std::function<bool()> stop =
         {};              ///< asked at every prediction; once true, what is returned is worth nothing
     double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search

@@ -4,16 +4,20 @@
 #include "gap/search.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace fidservo::gap {
 namespace {
 
-/// What acts on the carriage, where friction lets go by jumps and slopes mislead, and has no shape that a fit
-/// would have to look for.
+/// What a fit finds from typical values, without looking for a shape: of the carriage, where friction lets go
+/// by jumps and slopes mislead, and of the wire, where one cause stands in for two; where each prediction is
+/// quick.
 bool is_plain(const Candidate& candidate) {
-    return !candidate.is_limit && candidate.effect->block.starts_with("macro.") &&
-           candidate.sizes.size() == unrefined_parameters(*candidate.effect);
+    const std::string_view block = candidate.effect->block;
+    const bool is_of_wire = block == "micro.heater" || block == "micro.hysteresis";
+    const bool knows_its_shape = candidate.sizes.size() == unrefined_parameters(*candidate.effect);
+    return !candidate.is_limit && (is_of_wire || (block.starts_with("macro.") && knows_its_shape));
 }
 
 /// At its typical sizes, and at the opposite ones where it has them.
