@@ -21,6 +21,9 @@ constexpr double tie_significance = 2.0;
 /// does not bring the signal to its floor.
 constexpr double least_share_of_first = 1e-3;
 
+/// Of the best one's gain, that a leader has at least.
+constexpr double share_of_gain = 0.5;
+
 /// Mean square in floors of what is far off.
 constexpr double far_off_square = 9.0;
 
@@ -68,7 +71,7 @@ CrossFit Search::nothing() const {
 
 std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candidate* const> added,
                                    const Effort& effort) {
-    constexpr double share_of_promise = 0.2, share_of_gain = 0.5;
+    constexpr double share_of_promise = 0.2;
     std::vector<Contender> all = contenders(base, added);
     look_at(base, all);
     std::ranges::sort(all, std::greater{}, &Contender::promised);
@@ -109,7 +112,7 @@ std::span<Search::Contender> Search::with_plain_forms(const CrossFit& base, std:
     for (std::size_t k = 1; k < all.size(); ++k) {
         if (!is_limit_of(all[k].trial.candidate->effect->name, best.trial.candidate->effect->name)) continue;
         fit_plain_form(base, best, all[k]);
-        if (all[k].trial.is_leader && k >= leaders) std::swap(all[k], all[leaders++]);
+        if (k >= leaders && all[k].gain() > share_of_gain * best.gain()) std::swap(all[k], all[leaders++]);
     }
     std::ranges::sort(all.first(leaders), std::greater{}, &Contender::gain);
     return all.first(leaders);
