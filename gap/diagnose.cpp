@@ -57,9 +57,8 @@ std::vector<plant::EffectSetting> rivals(const Choice& choice) {
     return settings;
 }
 
-/// @param halves  the same as fitted on each half: where fits end in any of many small valleys, what these
-/// are
-///                apart by tells more of how sure a value is than the slopes at one of them
+/// @param halves  as fitted on each half: where fits end in any of many small valleys, what they are apart by
+///                tells more of how sure a value is than the slopes at one of them
 std::vector<FittedParameter> parameters_of(const plant::EffectSetting& setting,
                                            const std::array<plant::EffectSetting, 2>& halves,
                                            const Eigen::MatrixXd& covariance, Eigen::Index first) {

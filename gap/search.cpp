@@ -152,14 +152,21 @@ Search::Contender Search::contender(const CrossFit& base, const Candidate& candi
     return {{.candidate = &candidate}, std::move(coupled), &finding};
 }
 
-std::vector<Search::Contender> Search::contenders(const CrossFit& base,
-                                                  std::span<const Candidate* const> added) {
+std::vector<const Candidate*> Search::in_question(const CrossFit& base,
+                                                  std::span<const Candidate* const> added) const {
     const SignalFlags wrong = off(base);
-    std::vector<Contender> all;
+    std::vector<const Candidate*> all;
     for (const Candidate& candidate : candidates_)
         if (std::ranges::find(added, &candidate) == added.end() &&
             meet(teachers_of(*candidate.effect), wrong))
-            all.push_back(contender(base, candidate));
+            all.push_back(&candidate);
+    return all;
+}
+
+std::vector<Search::Contender> Search::contenders(const CrossFit& base,
+                                                  std::span<const Candidate* const> added) {
+    std::vector<Contender> all;
+    for (const Candidate* candidate : in_question(base, added)) all.push_back(contender(base, *candidate));
     return all;
 }
 

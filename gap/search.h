@@ -110,10 +110,10 @@ class Search {
     struct Contender;
 
   private:
-    std::vector<const Candidate*> plain_contenders(const CrossFit& base,
-                                                   std::span<const Candidate* const> added) const;
     Contender contender(const CrossFit& base, const Candidate& candidate);
     /// Candidates that are not `added` and may improve a signal that is off.
+    std::vector<const Candidate*> in_question(const CrossFit& base,
+                                              std::span<const Candidate* const> added) const;
     std::vector<Contender> contenders(const CrossFit& base, std::span<const Candidate* const> added);
     /// Looks for values from which their fits may begin.
     void look_at(const CrossFit& base, std::span<Contender> contenders);
@@ -125,8 +125,8 @@ class Search {
     /// From what a richer effect, of which it is the limit, has found on both halves: beside what the richer
     /// one has taken it may promise nothing by itself. Keeps what it had if that is better.
     void fit_plain_form(const CrossFit& base, const Contender& richer, Contender& plain) const;
-    /// The leaders, which come first and best first, with those that are limits of the best one fitted from
-    /// it.
+    /// The leaders, which come first and best first, with the limits of the best one that were fitted from it
+    /// and gain as much as a leader has to.
     std::span<Contender> with_plain_forms(const CrossFit& base, std::span<Contender> all,
                                           std::size_t leaders) const;
     /// Where a fit from afar leaves more than the floor: again from where it ended, to the windows that say

@@ -42,19 +42,9 @@ struct Attempt {
 
 }  // namespace
 
-std::vector<const Candidate*> Search::plain_contenders(const CrossFit& base,
-                                                       std::span<const Candidate* const> added) const {
-    const SignalFlags wrong = off(base);
-    std::vector<const Candidate*> plain;
-    for (const Candidate& candidate : candidates_)
-        if (is_plain(candidate) && std::ranges::find(added, &candidate) == added.end() &&
-            meet(teachers_of(*candidate.effect), wrong))
-            plain.push_back(&candidate);
-    return plain;
-}
-
 std::optional<Pair> Search::best_pair(const CrossFit& base, std::span<const Candidate* const> added) {
-    const std::vector<const Candidate*> plain = plain_contenders(base, added);
+    std::vector<const Candidate*> plain = in_question(base, added);
+    std::erase_if(plain, [](const Candidate* candidate) { return !is_plain(*candidate); });
     std::vector<Attempt> attempts;
     for (std::size_t a = 0; a < plain.size(); ++a)
         for (std::size_t b = a + 1; b < plain.size(); ++b) {

@@ -32,9 +32,8 @@ extern constexpr Effect coulomb_friction{
         "instead of at "
         "the input. With a creep speed vc, tanh(v / vc) stands for sgn(v), and nothing is held.",
     .source =
-        "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994; Andersson et al., Tribology "
-        "Int. "
-        "40, 2007: tanh",
+        "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994; Andersson et al., "
+        "Tribology Int. 40, 2007: tanh",
     .parameters = parameters,
     .apply = apply,
 };
