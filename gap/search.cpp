@@ -112,7 +112,8 @@ std::span<Search::Contender> Search::with_plain_forms(const CrossFit& base, std:
     for (std::size_t k = 1; k < all.size(); ++k) {
         if (!is_limit_of(all[k].trial.candidate->effect->name, best.trial.candidate->effect->name)) continue;
         fit_plain_form(base, best, all[k]);
-        if (k >= leaders && all[k].gain() > share_of_gain * best.gain()) std::swap(all[k], all[leaders++]);
+        if (k >= leaders && all[k].trial.is_leader && all[k].gain() > share_of_gain * best.gain())
+            std::swap(all[k], all[leaders++]);
     }
     std::ranges::sort(all.first(leaders), std::greater{}, &Contender::gain);
     return all.first(leaders);

@@ -77,6 +77,25 @@ TEST(Diagnosis, SearchWhoseEffortIsSpent_KeepsWhatItHasFoundAndSaysSo) {
     }));
 }
 
+/// What one half of the runs teaches helps the other a little, and what that one teaches does harm.
+TEST(Diagnosis, HalvesThatContradictEachOther_AreEndedWithAnAnswer) {
+    std::vector<Recording> recordings;
+    for (const std::string_view kind : {"macro-square", "macro-sweep"})
+        for (const auto& [seed, more] : {std::pair(21, 0.0006), std::pair(22, 0.0036)}) {
+            const std::string setting =
+                fmt::format("friction_asymmetry:right_V_s_per_mm={},left_V_s_per_mm={}", more, -more);
+            const Hypothesis truth = effects({setting});
+            const std::string name = fmt::format("{}-{}", kind, seed);
+            const Rig& rig = reference_rig();
+            recordings.push_back(simulate(rig, truth, make_experiment(kind, rig, seed, name), name, seed));
+        }
+    const Diagnosis diagnosis =
+        diagnose({reference_rig(), std::move(recordings)},
+                 {.only = {"friction_asymmetry", "viscous_friction"}, .without = {}, .selection = {}});
+    EXPECT_NE(diagnosis.verdict, Verdict::no_gap);
+    EXPECT_NE(diagnosis.verdict, Verdict::explained);
+}
+
 /// What it does in the middle of the rail hides within a count.
 TEST(Diagnosis, SmallFalseScaleOfEitherSign_IsFound) {
     for (const double factor : {0.9992, 1.0008}) {
