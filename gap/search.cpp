@@ -51,7 +51,8 @@ Search::Search(const Evidence& evidence, const std::vector<Candidate>& candidate
     : candidates_(candidates),
       options_(options),
       effort_at_start_(evidence.effort()),
-      fitter_(evidence, options.windows, [this] { return is_over(); }),
+      fitter_(evidence, options.windows,
+              [this] { return (options_.stop && options_.stop()) || is_exhausted(); }),
       memory_(candidates.size()),
       first_excess_(fitter_.excess(nothing().mean_squares)) {}
 
@@ -59,8 +60,8 @@ bool Search::is_exhausted() const {
     return is_limited_ && fitter_.evidence().effort() - effort_at_start_ > options_.most_effort;
 }
 
-bool Search::is_over() const {
-    return (options_.stop && options_.stop()) || is_exhausted();
+void Search::throw_if_exhausted() const {
+    if (is_exhausted()) throw SearchExhausted();
 }
 
 CrossFit Search::nothing() const {
@@ -92,6 +93,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         if (chosen != leaders.begin()) fit_closer(base, *chosen);
         std::rotate(leaders.begin(), chosen, std::next(chosen));
     }
+    throw_if_exhausted();
 
     std::vector<Trial> trials;
     trials.reserve(candidates_.size());
@@ -123,7 +125,13 @@ CrossFit Search::with(const CrossFit& base, const Candidate& candidate) {
     Contender one = contender(base, candidate);
     fit_first_half(base, std::array{&one});
     fit_second_half(base, one, Threads::all);
+    throw_if_exhausted();
     return std::move(one.trial.fitted);
+}
+
+void Search::fit_again(CrossFit& cross, const SignalFlags& signals) const {
+    fitter_.fit_again(cross, signals);
+    throw_if_exhausted();
 }
 
 void Search::remember(const CrossFit& base, const Candidate& candidate, const CrossFit& whole,

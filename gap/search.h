@@ -5,6 +5,7 @@
 #include "gap/search_memory.h"
 
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <span>
@@ -36,9 +37,15 @@ struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
     /// After which it is exhausted (Evidence::effort): about 20 s of two cores for a campaign of 5 minutes.
     double most_effort = 30'000.0;
-    std::function<bool()> stop =
-        {};              ///< asked at every prediction; once true, what is returned is worth nothing
+    /// Asked at every prediction; once true, what is returned is worth nothing.
+    std::function<bool()> stop = {};
     double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search
+};
+
+/// The effort that a search may take was spent where it counts.
+class SearchExhausted : public std::exception {
+  public:
+    const char* what() const noexcept override { return "the effort of the search was spent"; }
 };
 
 /// A search over one set of recordings. Counts what it tries, and does nothing twice.
@@ -48,12 +55,8 @@ class Search {
     Search(const Search&) = delete;
     Search& operator=(const Search&) = delete;
 
-    /// Whether the effort was spent where it counts. Then what the last call returned is worth nothing, and
-    /// so is what try_all and with return from then on.
-    bool is_exhausted() const;
-
     /// Whether the effort counts: not for the first effect, and not where what is known is fitted and judged
-    /// again.
+    /// again. Where it counts and is spent, whatever fits throws SearchExhausted.
     void limit(bool is_limited) { is_limited_ = is_limited; }
 
     CrossFit nothing() const;
@@ -77,7 +80,7 @@ class Search {
     void remember(const CrossFit& base, const Candidate& candidate, const CrossFit& whole, std::size_t at);
 
     /// Fits those parameters of a cross fit again, from where they are, that meet some signals.
-    void fit_again(CrossFit& cross, const SignalFlags& signals) const { fitter_.fit_again(cross, signals); }
+    void fit_again(CrossFit& cross, const SignalFlags& signals) const;
 
     /// Signals at whose fits an effect of a cross fit has a say (gap/cross_fit.h).
     SignalFlags concerned_by(const Candidate& candidate, const CrossFit& whole) const {
@@ -156,8 +159,9 @@ class Search {
     /// way are Coulomb friction, fitted a little better.
     std::size_t simplest(std::span<const Contender> leaders) const;
 
-    /// Asked at every prediction.
-    bool is_over() const;
+    bool is_exhausted() const;
+    /// What was fitted since is worth nothing: fits end at once from then on.
+    void throw_if_exhausted() const;
 
     const std::vector<Candidate>& candidates_;
     SearchOptions options_;

@@ -96,6 +96,7 @@ std::optional<Pair> Search::best_pair(const CrossFit& base, std::span<const Cand
         found = part_of(pair.fitted.of_half[side], best.places);
     }
     fitter_.judge(pair.fitted);
+    throw_if_exhausted();
     return pair;
 }
 

@@ -57,13 +57,10 @@ bool has_leader(const std::vector<Trial>& trials) {
 void grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step) {
     while (static_cast<int>(chain.choices.size()) < most_effects) {
         std::vector<Trial> trials = search.try_all(chain.fitted, chain.candidates());
-        if (search.is_exhausted()) return;
         if (first_step != nullptr) *first_step = trials;
         first_step = nullptr;
         if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) return;
-        Chain longer = grown(search, chain, std::move(trials));
-        if (search.is_exhausted()) return;
-        chain = std::move(longer);
+        chain = grown(search, chain, std::move(trials));
         search.limit(true);
         if (search.is_at_floor(chain.fitted)) return;
     }
@@ -99,7 +96,6 @@ bool exchange(Search& search, Chain& chain, bool changed) {
     const auto tested = [&] { return changed ? chain.choices.size() : chain.choices.size() - 1; };
     for (std::size_t k = 0; chain.choices.size() > 1 && k < tested();) {
         Chain rest = without(search, chain, k);
-        if (search.is_exhausted()) return changed;
         if (!search.is_real(rest.fitted, chain.fitted)) {
             chain = std::move(rest);
             changed = true;
@@ -109,7 +105,6 @@ bool exchange(Search& search, Chain& chain, bool changed) {
         if (search.leaves_little(chain.fitted))
             search.remember(rest.fitted, *chain.choices[k].candidate, chain.fitted, k);
         std::vector<Trial> trials = search.try_all(rest.fitted, rest.candidates());
-        if (search.is_exhausted()) return changed;
         const bool is_other = has_leader(trials) && trials.front().candidate != chain.choices[k].candidate;
         if (!is_other) {
             // The same again, with its alternatives as they are beside the whole rest.
@@ -117,7 +112,6 @@ bool exchange(Search& search, Chain& chain, bool changed) {
             ++k;
         } else if (replaces(search, trials.front(), chain, k) && exchanges++ < most_exchanges) {
             Chain other = grown(search, std::move(rest), std::move(trials));
-            if (search.is_exhausted()) return changed;
             chain = std::move(other);
             changed = true;
             k = 0;
@@ -158,8 +152,7 @@ bool is_better(const Search& search, const Chain& other, const Chain& chain) {
 bool take_in_pair(Search& search, Chain& chain, const Chain& rest) {
     constexpr double all_but_nothing = 0.999;
     std::optional<Pair> pair = search.best_pair(rest.fitted, rest.candidates());
-    if (!pair || search.is_exhausted() || !search.nearly_clears(rest.fitted, pair->fitted, all_but_nothing))
-        return false;
+    if (!pair || !search.nearly_clears(rest.fitted, pair->fitted, all_but_nothing)) return false;
     const auto trial = [](const Candidate& candidate, CrossFit fitted) {
         return std::vector{Trial{.candidate = &candidate, .is_leader = true, .fitted = std::move(fitted)}};
     };
@@ -168,7 +161,7 @@ bool take_in_pair(Search& search, Chain& chain, const Chain& rest) {
     search.fit_again(first, search.concerned_by(*pair->second, pair->fitted));
     const Chain one = grown(search, rest, trial(*pair->first, std::move(first)));
     Chain two = grown(search, one, trial(*pair->second, std::move(pair->fitted)));
-    if (search.is_exhausted() || !is_better(search, two, chain)) return false;
+    if (!is_better(search, two, chain)) return false;
     chain = std::move(two);
     return true;
 }
@@ -196,7 +189,6 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     for (const Trial& single : singles) {
         const bool is_new = std::ranges::find(classes, single.candidate->class_name) == classes.end();
         const bool is_hopeless = from_nothing ? single.promised <= 0.0 : single.gain < least_gain;
-        if (search.is_exhausted()) break;
         if (is_hopeless || !is_new) continue;
         if (classes.size() == most_first) break;
         classes.push_back(single.candidate->class_name);
@@ -207,7 +199,6 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
         std::vector<Trial> trials = search.try_all(one.fitted, one.candidates(), effort);
         if (!has_leader(trials)) continue;
         Chain two = grown(search, one, std::move(trials));
-        if (search.is_exhausted()) break;
         if (!is_better(search, two, chain) ||
             (from_nothing && !search.nearly_clears(chain.fitted, two.fitted)))
             continue;
@@ -268,11 +259,14 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     Selection selection;
     Chain chain{{}, search.nothing()};
     selection.steps.push_back(chain.fitted);
-    grow(search, chain, options.most_effects, &selection.alone);
-    search.limit(true);
-    const bool is_paired = pair_up(search, chain, options.most_effects);
-    if (exchange(search, chain, is_paired)) grow(search, chain, options.most_effects, nullptr);
-    selection.is_cut_short = search.is_exhausted();
+    try {
+        grow(search, chain, options.most_effects, &selection.alone);
+        search.limit(true);
+        const bool is_paired = pair_up(search, chain, options.most_effects);
+        if (exchange(search, chain, is_paired)) grow(search, chain, options.most_effects, nullptr);
+    } catch (const SearchExhausted&) {
+        selection.is_cut_short = true;
+    }
     search.limit(false);
     chain = weightiest_first(search, nameable(search, std::move(chain)));
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
