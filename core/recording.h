@@ -5,7 +5,9 @@
 #include "core/detection.h"
 #include "core/time.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
@@ -37,6 +39,12 @@ struct FrameName {
     TimeNs time_ns;
     std::string filename;  ///< relative to the recording's cam0/data
 };
+
+/// The last row up to a time; the first one before all of them. Rows in the order of time, one at least.
+inline std::size_t row_at(const std::vector<StageRow>& rows, TimeNs time_ns) {
+    const auto after = std::ranges::upper_bound(rows, time_ns, {}, &StageRow::time_ns);
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, after - rows.begin() - 1));
+}
 
 struct Recording {
     std::string name;

@@ -180,6 +180,7 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
     std::vector<Candidate> found;
     for (const plant::Effect* effect : plant::effect_catalogue()) {
         if (effect->block == "camera.image" && !recorded[index_of(Signal::image)]) continue;
+        if (effect->block.starts_with("micro.") && !evidence.rig().micro) continue;
         const bool left_out = is_left_out(effect->name);
         if (left_out && !is_limit(effect->name)) continue;
         if (std::ranges::none_of(reach_of(*effect), [&](Signal s) { return recorded[index_of(s)]; }))

@@ -59,9 +59,18 @@ SlidingRow row_of(const Evidence& evidence, std::size_t run, std::size_t row, co
             row};
 }
 
-bool is_free(const MacroParameters& macro, double predicted_mm) {
-    return predicted_mm > macro.low_mm + macro.encoder_resolution_mm &&
+/// A reading that is further off than the rail is long is none.
+bool is_free(const MacroParameters& macro, double position_mm, double error_mm) {
+    const double predicted_mm = position_mm + error_mm;
+    return std::abs(error_mm) < macro.high_mm - macro.low_mm &&
+           predicted_mm > macro.low_mm + macro.encoder_resolution_mm &&
            predicted_mm < macro.high_mm - macro.encoder_resolution_mm;
+}
+
+/// Whether no row is missing among those that are smoothed over.
+bool is_without_break(const std::vector<StageRow>& rows, std::size_t row, double tick_s) {
+    const double ticks = static_cast<double>(2 * half_smoothing) + 0.5;
+    return seconds(rows[row + half_smoothing].time_ns - rows[row - half_smoothing].time_ns) < ticks * tick_s;
 }
 
 bool slides(const MacroParameters& macro, const SlidingRow& row, double edge_V) {
@@ -101,7 +110,8 @@ CarriageForces::CarriageForces(const Evidence& evidence, const Errors& errors, s
             const float error = errors[window.begin + k];
             const Eigen::Vector3d smooth = smoothing.at(&reading_mm[row]);
             const SlidingRow here = row_of(evidence, window.run, row, smooth);
-            if (!is_free(macro, here.position_mm + floor_mm * static_cast<double>(error)) ||
+            if (!is_without_break(evidence.recordings()[window.run].rows, row, evidence.rig().tick_s) ||
+                !is_free(macro, here.position_mm, floor_mm * static_cast<double>(error)) ||
                 !slides(macro, here, edge_V)) {
                 sliding = 0;
                 continue;

@@ -69,22 +69,33 @@ void fade_in(const WindowRows& window, const CarriagePath& lead, CarriagePath& p
     fade(path.acceleration_mm_per_s2, lead.acceleration_mm_per_s2);
 }
 
+namespace {
+
+/// Straight lines between known values, the first and last one before and after them; 0 where none is known.
+void bridge(std::vector<double>& values) {
+    const auto end = values.end();
+    auto before = end;
+    for (auto from = values.begin(); from != end;) {
+        const auto after = std::find_if(from, end, [](double value) { return std::isfinite(value); });
+        const double last = after != end ? *after : before != end ? *before : 0.0;
+        const double first = before != end ? *before : last;
+        const auto steps = static_cast<double>(after - from + 1);
+        for (auto value = from; value != after; ++value)
+            *value = std::lerp(first, last, static_cast<double>(value - from + 1) / steps);
+        if (after == end) return;
+        before = after;
+        from = after + 1;
+    }
+}
+
+}  // namespace
+
 void fill(const plant::Encoder& encoder, const CarriageRun& run, CarriagePath& path) {
     const std::size_t rows = path.position_mm.size();
-    double last_mm = 0.0;
-    for (std::size_t k = 0; k < rows; ++k) {
-        if (std::isfinite(run.reading_count[k])) {
-            last_mm = position_mm(encoder, run.reading_count[k]);
-            break;
-        }
-    }
-    for (std::size_t k = 0; k < rows; ++k) {
-        double& place_mm = path.position_mm[k];
-        if (!std::isfinite(place_mm))
-            place_mm =
-                std::isfinite(run.reading_count[k]) ? position_mm(encoder, run.reading_count[k]) : last_mm;
-        last_mm = place_mm;
-    }
+    for (std::size_t k = 0; k < rows; ++k)
+        if (!std::isfinite(path.position_mm[k]) && std::isfinite(run.reading_count[k]))
+            path.position_mm[k] = position_mm(encoder, run.reading_count[k]);
+    bridge(path.position_mm);
     constexpr std::size_t reach = 10;
     for (std::size_t k = 0; k < rows; ++k) {
         if (std::isfinite(path.velocity_mm_per_s[k])) continue;

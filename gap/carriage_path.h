@@ -32,7 +32,7 @@ void pull_to_counts(const plant::Encoder& encoder, const CarriageRun& run, const
 /// Fades from what the rows before a window show to what its own run shows there.
 void fade_in(const WindowRows& window, const CarriagePath& lead, CarriagePath& path);
 
-/// Fills rows outside of windows by the counts, and rows without a count by what was before.
+/// Fills rows outside of windows by the counts, and rows without a count by straight lines.
 void fill(const plant::Encoder& encoder, const CarriageRun& run, CarriagePath& path);
 
 }  // namespace fidservo::gap

@@ -20,11 +20,15 @@ constexpr double no_limit_V = std::numeric_limits<double>::infinity();
 /// under way; NaN where they do not yet.
 using Replay = std::function<std::vector<double>(const Stretch&)>;
 
-double square_sum(const std::vector<double>& errors) {
-    double sum = 0.0;
-    for (const double error : errors)
-        if (!std::isnan(error)) sum += error * error;
-    return sum;
+/// Of the rows that it says something of; infinite where that is none.
+double mean_square(const std::vector<double>& errors) {
+    double sum = 0.0, count = 0.0;
+    for (const double error : errors) {
+        if (std::isnan(error)) continue;
+        sum += error * error;
+        count += 1.0;
+    }
+    return count > 0.0 ? sum / count : std::numeric_limits<double>::infinity();
 }
 
 /// Whether a stretch begins where control goes on after rows that are missing.
@@ -45,7 +49,7 @@ ControllerRun best_run(const Recording& recording, const std::vector<bool>& usab
             std::vector<double> errors = replay(stretch);
             for (std::size_t i = 0; i < errors.size(); ++i)
                 errors[i] -= recording.rows[stretch.first + i].*command_V;
-            if (!best.empty() && square_sum(errors) >= square_sum(best)) continue;
+            if (!best.empty() && mean_square(errors) >= mean_square(best)) continue;
             best = std::move(errors);
         }
         for (const WindowRows& window : windows) {

@@ -59,13 +59,19 @@ Touched touched_by(const Hypothesis& hypothesis, const Models& models) {
     return touched;
 }
 
+/// An error, floors. What is further off is as wrong as can be: kept finite, so that sums of squares are.
+float stored(double error) {
+    constexpr double most = 1e9;
+    return static_cast<float>(std::clamp(error, -most, most));
+}
+
 void write_detections(Errors& errors, const Window& window, const TagRun& run,
                       const std::vector<CornerValues>& found) {
     std::size_t at = window.begin;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const CornerValues floors =
             found[i].cwiseQuotient(run.sightings[window.first_detection + i].floors_px);
-        for (const double value : floors) errors[at++] = static_cast<float>(value);
+        for (const double value : floors) errors[at++] = stored(value);
     }
 }
 
@@ -168,7 +174,7 @@ class RunPredictor {
             if (window.signal != Signal::image || wanted_[w] == 0) continue;
             std::size_t at = window.begin;
             for (std::size_t i = window.first_detection; at < window.end; ++i)
-                for (const double value : found[i]) errors[at++] = static_cast<float>(value);
+                for (const double value : found[i]) errors[at++] = stored(value);
         }
     }
 
@@ -186,7 +192,7 @@ class RunPredictor {
             const Window& window = windows_[w];
             if (window.signal != signal || wanted_[w] == 0) continue;
             for (std::size_t i = 0; i < window.rows; ++i)
-                errors[window.begin + i] = static_cast<float>(error(window.first_row + i));
+                errors[window.begin + i] = stored(error(window.first_row + i));
         }
     }
 

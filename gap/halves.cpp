@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 
 namespace fidservo::gap {
 
 namespace {
 
-/// @param half_of_run  -1: by stretches
-std::vector<std::uint8_t> halves(const Evidence& evidence, std::span<const int> half_of_run) {
+using RunOfSignal = std::pair<Signal, std::size_t>;
+
+/// @param half_of  runs that are not in it go by stretches
+std::vector<std::uint8_t> halves(const Evidence& evidence,
+                                 const std::map<RunOfSignal, std::uint8_t>& half_of) {
     constexpr std::size_t windows_in_stretch = 4;
     const std::vector<Window>& windows = evidence.windows();
     std::vector<std::uint8_t> half(windows.size());
@@ -19,9 +24,9 @@ std::vector<std::uint8_t> halves(const Evidence& evidence, std::span<const int> 
         const bool begins =
             w == 0 || windows[w].run != windows[w - 1].run || windows[w].signal != windows[w - 1].signal;
         in_run = begins ? 0 : in_run + 1;
-        const int of_run = half_of_run[windows[w].run];
-        half[w] = static_cast<std::uint8_t>(of_run >= 0 ? static_cast<std::size_t>(of_run)
-                                                        : in_run / windows_in_stretch % 2);
+        const auto of_run = half_of.find({windows[w].signal, windows[w].run});
+        half[w] = of_run != half_of.end() ? of_run->second
+                                          : static_cast<std::uint8_t>(in_run / windows_in_stretch % 2);
     }
     return half;
 }
@@ -29,18 +34,23 @@ std::vector<std::uint8_t> halves(const Evidence& evidence, std::span<const int> 
 }  // namespace
 
 std::vector<std::uint8_t> halves(const Evidence& evidence) {
-    std::map<std::string, std::vector<std::size_t>> runs_of;
-    for (std::size_t run = 0; run < evidence.recordings().size(); ++run)
-        runs_of[evidence.recordings()[run].experiment].push_back(run);
-    std::vector<int> half_of_run(evidence.recordings().size(), -1);
-    for (const auto& [experiment, runs] : runs_of)
-        if (runs.size() > 1)
-            for (std::size_t k = 0; k < runs.size(); ++k) half_of_run[runs[k]] = static_cast<int>(k % 2);
-    return halves(evidence, half_of_run);
+    std::map<std::pair<Signal, std::string>, std::set<std::size_t>> runs_of;
+    for (const Window& window : evidence.windows())
+        runs_of[{window.signal, evidence.recordings()[window.run].experiment}].insert(window.run);
+    std::map<RunOfSignal, std::uint8_t> half_of;
+    for (const auto& [kind, runs] : runs_of) {
+        if (runs.size() < 2) continue;
+        std::uint8_t side = 0;
+        for (const std::size_t run : runs) {
+            half_of[{kind.first, run}] = side;
+            side = 1 - side;
+        }
+    }
+    return halves(evidence, half_of);
 }
 
 std::vector<std::uint8_t> halves_of_each_run(const Evidence& evidence) {
-    return halves(evidence, std::vector<int>(evidence.recordings().size(), -1));
+    return halves(evidence, std::map<RunOfSignal, std::uint8_t>{});
 }
 
 Wanted instructive(std::span<const Window> windows, const Wanted& eligible,

@@ -9,8 +9,8 @@
 namespace fidservo::gap {
 
 /// Which half of the windows a window belongs to. Hypotheses are fitted on one half and judged on the other,
-/// both ways. Runs of one experiment go to different halves; where an experiment was run once, stretches of
-/// four windows do.
+/// both ways. Of a signal, the runs of one experiment that show it go to different halves; where one run
+/// shows it, stretches of four windows do.
 std::vector<std::uint8_t> halves(const Evidence& evidence);
 
 /// The same by stretches of every run: for what has a value of its own in each run.

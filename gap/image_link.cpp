@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -102,6 +103,12 @@ std::map<int, TagTrack> tracks_of(const Recording& recording) {
     return tracks;
 }
 
+/// Of a measured value that is worth nothing, as the spread of a strip that is one grey: NaN.
+double log_ratio(double predicted, double measured) {
+    const double ratio = std::log(predicted / measured);
+    return std::isfinite(ratio) ? ratio : std::numeric_limits<double>::quiet_NaN();
+}
+
 ImageSighting sighting_of(const TagAppearance& seen, const ImageMotion& motion,
                           const CameraParameters& camera, std::size_t second) {
     ImageSighting sighting{motion.tag->corners_px, motion.velocity_px_per_s, {}, second};
@@ -126,15 +133,11 @@ ImageSighting sighting_of(const TagAppearance& seen, const ImageMotion& motion,
 }
 
 std::vector<ImageWindow> frames_of(const Recording& recording) {
-    const auto row_at = [&](TimeNs time_ns) {
-        const auto after = std::ranges::upper_bound(recording.rows, time_ns, {}, &StageRow::time_ns);
-        return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, after - recording.rows.begin() - 1));
-    };
     std::vector<ImageWindow> frames;
     for (std::size_t i = 0; i < recording.appearances.size(); ++i) {
         const TimeNs time_ns = recording.appearances[i].time_ns;
         if (i == 0 || time_ns != recording.appearances[i - 1].time_ns) {
-            const std::size_t row = row_at(time_ns);
+            const std::size_t row = row_at(recording.rows, time_ns);
             if (i > 0) frames.back().end_row = row;
             frames.push_back({row, row + 1, i, i});
         }
@@ -150,13 +153,14 @@ ImageRun image_run(Recording& recording, const CameraParameters& camera) {
     if (recording.appearances.empty() || recording.rows.empty()) return run;
     std::map<int, TagTrack> tracks = tracks_of(recording);
     std::vector<TagAppearance> judged;
+    const TimeNs first_ns = recording.rows.front().time_ns, last_ns = recording.rows.back().time_ns;
     for (const TagAppearance& seen : recording.appearances) {
+        if (seen.time_ns < first_ns || seen.time_ns > last_ns) continue;
         const auto motion = motion_at(tracks[seen.tag_id], seen.time_ns, 1.0 / camera.frame_rate_hz);
         if (!motion) continue;
         judged.push_back(seen);
-        const double since_s = seconds(seen.time_ns - recording.rows.front().time_ns);
-        run.sightings.push_back(
-            sighting_of(seen, *motion, camera, static_cast<std::size_t>(std::max(0.0, since_s))));
+        const double since_s = seconds(seen.time_ns - first_ns);
+        run.sightings.push_back(sighting_of(seen, *motion, camera, static_cast<std::size_t>(since_s)));
     }
     recording.appearances = std::move(judged);
     run.windows = frames_of(recording);
@@ -177,16 +181,16 @@ std::vector<ImageErrors> image_errors(const ImageModel& model, const Recording& 
         ImageErrors& logs = errors.emplace_back();
         for (std::size_t k = 0; k < sides; ++k) {
             const TagSide& side = seen.sides[k];
-            logs[k] = std::log(edge_variance_px2(model, side.normal, sighting.velocity_px_per_s) /
-                               side.variance_px2);
-            const double bright = std::log(white_grey * light(model, side) / side.white_grey);
+            logs[k] = log_ratio(edge_variance_px2(model, side.normal, sighting.velocity_px_per_s),
+                                side.variance_px2);
+            const double bright = log_ratio(white_grey * light(model, side), side.white_grey);
             logs[first_light + k] = bright;
             if (std::isnan(bright)) continue;
             of_second.sum += bright;
             of_second.weights += 1.0;
         }
-        logs[white_noise] = std::log(noise_grey2(model, seen.white.grey) / seen.white.variance_grey2);
-        logs[black_noise] = std::log(noise_grey2(model, seen.black.grey) / seen.black.variance_grey2);
+        logs[white_noise] = log_ratio(noise_grey2(model, seen.white.grey), seen.white.variance_grey2);
+        logs[black_noise] = log_ratio(noise_grey2(model, seen.black.grey), seen.black.variance_grey2);
     }
     for (std::size_t i = 0; i < errors.size(); ++i) {
         const ImageSighting& sighting = run.sightings[i];

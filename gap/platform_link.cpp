@@ -201,7 +201,7 @@ void leave_out_unknown_wire(const Recording& recording, const HeaterParameters& 
             const bool is_pause =
                 pause_s > (row.micro_command_V == last_V ? longest_pause_s : longest_under_way_s);
             if (is_pause && cold_s < cold_taus * heater.cooling_tau_s) is_known = false;
-            if (is_pause) cold_s = std::min(cold_s, 0.0);
+            if (is_pause && !is_known) cold_s = 0.0;
             cold_s = row.micro_command_V > heater.onset_V ? 0.0 : cold_s + (is_pause ? 0.0 : pause_s);
             if (cold_s >= cold_taus * heater.cooling_tau_s) is_known = true;
             last_ns = row.time_ns;

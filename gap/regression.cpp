@@ -29,7 +29,7 @@ Eigen::MatrixXd gram_of(const Window& window, const Errors& errors, std::span<co
     count = static_cast<double>(rows.size());
     const auto height = static_cast<Eigen::Index>(rows.size());
     const auto width = static_cast<Eigen::Index>(columns.size());
-    Eigen::MatrixXf all(height, width + 1), unknown(height, static_cast<Eigen::Index>(nuisances.size()));
+    Eigen::MatrixXd all(height, width + 1), unknown(height, static_cast<Eigen::Index>(nuisances.size()));
     for (Eigen::Index i = 0; i < height; ++i) {
         const std::size_t row = rows[static_cast<std::size_t>(i)];
         for (Eigen::Index k = 0; k < width; ++k) all(i, k) = columns[static_cast<std::size_t>(k)].values[row];
@@ -37,10 +37,10 @@ Eigen::MatrixXd gram_of(const Window& window, const Errors& errors, std::span<co
         for (Eigen::Index k = 0; k < unknown.cols(); ++k)
             unknown(i, k) = nuisances[static_cast<std::size_t>(k)].values[row];
     }
-    const Eigen::MatrixXd full = (all.transpose() * all).cast<double>();
+    const Eigen::MatrixXd full = all.transpose() * all;
     if (unknown.cols() == 0 || height <= unknown.cols()) return full;
-    const Eigen::MatrixXd mixed = (unknown.transpose() * all).cast<double>();
-    const Eigen::MatrixXd own = (unknown.transpose() * unknown).cast<double>();
+    const Eigen::MatrixXd mixed = unknown.transpose() * all;
+    const Eigen::MatrixXd own = unknown.transpose() * unknown;
     return full - mixed.transpose() * own.completeOrthogonalDecomposition().solve(mixed);
 }
 

@@ -121,9 +121,11 @@ std::span<Search::Contender> Search::with_plain_forms(const CrossFit& base, std:
     return all.first(leaders);
 }
 
-CrossFit Search::with(const CrossFit& base, const Candidate& candidate) {
+std::optional<CrossFit> Search::with(const CrossFit& base, const Candidate& candidate) {
     Contender one = contender(base, candidate);
     fit_first_half(base, std::array{&one});
+    throw_if_exhausted();
+    if (one.finding->fitted[0].empty()) return {};
     fit_second_half(base, one, Threads::all);
     throw_if_exhausted();
     return std::move(one.trial.fitted);

@@ -37,7 +37,7 @@ struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
     /// After which it is exhausted (Evidence::effort): about 20 s of two cores for a campaign of 5 minutes.
     double most_effort = 30'000.0;
-    /// Asked at every prediction; once true, what is returned is worth nothing.
+    /// Asked at every prediction. Once true fits end at once, and what the search returns is worth nothing.
     std::function<bool()> stop = {};
     double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search
 };
@@ -67,8 +67,9 @@ class Search {
     std::vector<Trial> try_all(const CrossFit& base, std::span<const Candidate* const> added,
                                const Effort& effort = {});
 
-    /// The base with a candidate that try_all has tried beside it, fitted on both halves.
-    CrossFit with(const CrossFit& base, const Candidate& candidate);
+    /// The base with a candidate that try_all has tried beside it, fitted on both halves; none where nothing
+    /// that the plant can be fits it.
+    std::optional<CrossFit> with(const CrossFit& base, const Candidate& candidate);
 
     /// Of all pairs of simple effects that meet in a signal that is off, added to a base, the one that
     /// predicts the first half best; fitted on both. From typical sizes on: beside what one of the two has

@@ -4,6 +4,7 @@
 #include "gap/search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -78,7 +79,7 @@ std::optional<Pair> Search::best_pair(const CrossFit& base, std::span<const Cand
     fit_on(first_iterations);
     if (attempts.size() > most_fitted_on) attempts.resize(most_fitted_on);
     fit_on(further_iterations);
-    if (attempts.empty()) return {};
+    if (attempts.empty() || !std::isfinite(attempts.front().fitted.loss)) return {};
     const Attempt& best = attempts.front();
     Pair pair{best.first, best.second, {}};
     pair.fitted.mean_squares = base.mean_squares;

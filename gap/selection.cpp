@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <utility>
 
 namespace fidservo::gap {
@@ -192,9 +193,11 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
         if (is_hopeless || !is_new) continue;
         if (classes.size() == most_first) break;
         classes.push_back(single.candidate->class_name);
+        std::optional<CrossFit> fitted = search.with(rest.fitted, *single.candidate);
+        if (!fitted) continue;
         Trial first = single;
         first.is_leader = true;
-        first.fitted = search.with(rest.fitted, *single.candidate);
+        first.fitted = *std::move(fitted);
         const Chain one = grown(search, rest, {std::move(first)});
         std::vector<Trial> trials = search.try_all(one.fitted, one.candidates(), effort);
         if (!has_leader(trials)) continue;

@@ -18,9 +18,11 @@ constexpr std::size_t most_starts = 4;
 /// The candidate as the wave of a period.
 plant::EffectSetting setting_of(const Candidate& candidate, const PositionPeriod& period) {
     std::vector<double> values = candidate.shapes.front();
-    const bool is_force = candidate.effect->parameters[candidate.wave->amplitude].unit == "V";
+    const plant::EffectParameter& amplitude = candidate.effect->parameters[candidate.wave->amplitude];
+    const bool is_force = amplitude.unit == "V";
     const Wave& wave = is_force ? period.force_V : period.reading_mm;
-    values[candidate.wave->amplitude] = (is_force ? 1.0 : um_per_mm) * wave.amplitude;
+    values[candidate.wave->amplitude] =
+        std::clamp((is_force ? 1.0 : um_per_mm) * wave.amplitude, amplitude.low, amplitude.high);
     values[candidate.wave->period] = period.period_mm;
     values[candidate.wave->phase] = std::remainder(wave.phase_rad, 2.0 * std::numbers::pi);
     return {candidate.effect, std::move(values)};
@@ -41,7 +43,9 @@ std::array<plant::EffectSetting, 6> neighbours(const plant::EffectSetting& setti
     around.fill(setting);
     for (const std::size_t side : {0, 1}) {
         const double sign = side == 0 ? 1.0 : -1.0;
-        around[side].values[wave.amplitude] *= std::pow(steps.factor, sign);
+        double& amplitude = around[side].values[wave.amplitude];
+        amplitude = std::min(amplitude * std::pow(steps.factor, sign),
+                             setting.effect->parameters[wave.amplitude].high);
         around[2 + side].values[wave.phase] += sign * steps.phase_rad;
         std::vector<double>& values = around[4 + side].values;
         const double from_mm = values[wave.period];

@@ -155,10 +155,7 @@ std::vector<Quantity> quantities(const gap::Evidence& evidence, const Prediction
         const auto at_row = [&](const OfRow& quantity) -> OfRow {
             return [&evidence, quantity](std::size_t run, std::size_t detection) {
                 const Recording& recording = evidence.recordings()[run];
-                const double since_s =
-                    seconds(recording.detections[detection].time_ns - recording.rows.front().time_ns);
-                const auto row = static_cast<std::size_t>(std::max(0.0, since_s / recording.tick_s));
-                return quantity(run, std::min(row, recording.rows.size() - 1));
+                return quantity(run, row_at(recording.rows, recording.detections[detection].time_ns));
             };
         };
         const auto add_tags = [&](const char* name, const char* label, const OfRow& quantity) {

@@ -1,5 +1,6 @@
 #include "src/diagnose/frame_looks.h"
 
+#include "core/failure.h"
 #include "gap/parallel.h"
 #include "src/replay/images.h"
 #include "vision/tag_appearance.h"
@@ -45,13 +46,17 @@ struct Task {
     std::filesystem::path file;
     Detections detections;
     std::vector<TagAppearance> looks = {};
-    bool is_there = true;
+    bool is_readable = true;
 };
 
 void measure(Task& task) {
-    task.is_there = std::filesystem::exists(task.file);
-    if (task.is_there)
+    task.is_readable = std::filesystem::exists(task.file);
+    if (!task.is_readable) return;
+    try {
         task.looks = looks_of(task.detections, decode({.name = task.file.string(), .file = task.file}));
+    } catch (const InputError&) {
+        task.is_readable = false;
+    }
 }
 
 }  // namespace
@@ -126,11 +131,12 @@ std::vector<std::string> measure_frames(std::span<Recording> recordings,
     for (Task& task : tasks) {
         std::vector<TagAppearance>& all = recordings[task.recording].appearances;
         all.insert(all.end(), task.looks.begin(), task.looks.end());
-        if (!task.is_there) ++missing[task.recording];
+        if (!task.is_readable) ++missing[task.recording];
     }
     for (const auto& [k, count] : missing)
-        notes.push_back(fmt::format("{}: image: {} of the frames that cam0/data.csv lists are not there",
-                                    recordings[k].name, count));
+        notes.push_back(fmt::format(
+            "{}: image: {} of the frames that cam0/data.csv lists are not there or cannot be read",
+            recordings[k].name, count));
     return notes;
 }
 

@@ -20,8 +20,8 @@ std::vector<FrameName> chosen_frames(const Recording& recording, std::size_t mos
 void add_appearances(Recording& recording, TimeNs time_ns, const cv::Mat& image);
 
 /// Measures the detections of recordings in their frames, 1200 frames in all at most, shared evenly between
-/// the recordings that have some. One frame a thread is in memory. Throws InputError for a file that is no
-/// image; what is missing is in the result, a line for people each.
+/// the recordings that have some. One frame a thread is in memory. What is missing, or no image, is in the
+/// result, a line for people each.
 /// @param folders  of the recordings
 std::vector<std::string> measure_frames(std::span<Recording> recordings,
                                         std::span<const std::filesystem::path> folders);

@@ -3,6 +3,10 @@
 #include "gap/scaled_parameters.h"
 #include "gap/slopes.h"
 #include "tests/gap/effects.h"
+#include "tests/gap/simulated_campaign.h"
+
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -23,6 +27,22 @@ TEST(PlainForm, OfARicherEffect_HasAboutItsSize) {
         0.0003);
     EXPECT_NEAR(plain("cable_force:stiffness_V_per_mm=0.0002,centre_mm=600", "drive_offset"), 0.1, 1e-12)
         << "a long spring pulls towards where it is slack";
+}
+
+TEST(Candidates, OfARigWithoutAMicroStage_AreNoneOfIt) {
+    std::vector<Recording> recordings = testing::campaign({}, {"integrated"}).recordings();
+    for (Recording& recording : recordings) {
+        recording.columns.hall = recording.columns.micro_command = recording.columns.micro_setpoint = false;
+        for (StageRow& row : recording.rows)
+            row.hall_adc = row.micro_command_V = row.micro_setpoint_mm = not_in_force;
+    }
+    Rig rig = reference_rig();
+    rig.micro.reset();
+    const Evidence evidence(rig, std::move(recordings));
+    const std::vector<Candidate> tried = candidates(evidence, {}, {});
+    EXPECT_FALSE(tried.empty());
+    for (const Candidate& candidate : tried)
+        EXPECT_FALSE(candidate.effect->block.starts_with("micro.")) << candidate.effect->name;
 }
 
 TEST(PlainForm, IsThatOfALimitOnly) {

@@ -5,6 +5,7 @@
 #include "tests/gap/effect_names.h"
 #include "tests/gap/simulated_campaign.h"
 
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -176,14 +177,20 @@ TEST(SlowDiagnosis, WaveAlongTheRail_IsFoundWithItsPeriodAndPhase) {
     }
 }
 
+/// Wherever it is.
 TEST(Diagnosis, SearchThatIsStopped_Ends) {
-    DiagnosisOptions options;
-    int asked = 0;
-    options.selection.search.stop = [&] { return ++asked > 0; };
-    const Diagnosis diagnosis =
-        diagnose(campaign(effects({"drive_gain:factor=0.97"}), {"macro-sweep"}), options);
-    EXPECT_GT(asked, 0);
-    EXPECT_TRUE(diagnosis.effects.empty());
+    const Evidence evidence =
+        campaign(effects({"drive_gain:factor=1.01", "drive_offset:offset_V=0.05"}), {"macro-sweep"});
+    for (const int asked_before : {0, 30, 100, 300, 600, 900, 1200, 1500}) {
+        DiagnosisOptions options{.only = {"payload", "friction_asymmetry", "drive_delay", "cable_force"},
+                                 .without = {},
+                                 .selection = {}};
+        std::atomic<int> asked = 0;
+        options.selection.search.stop = [&] { return ++asked > asked_before; };
+        const Diagnosis diagnosis = diagnose(evidence, options);
+        EXPECT_GT(asked, asked_before);
+        EXPECT_TRUE(asked_before > 0 || diagnosis.effects.empty());
+    }
 }
 
 }  // namespace

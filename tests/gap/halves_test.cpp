@@ -1,7 +1,13 @@
 #include "gap/halves.h"
 
+#include "tests/gap/simulated_campaign.h"
+
 #include <limits>
+#include <map>
 #include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -36,6 +42,18 @@ TEST(InstructiveWindows, AreSomeOfLargeErrorAndAnEvenSpreadOfTheRest_OfEachSigna
 TEST(InstructiveWindows, FewerThanAskedFor_AreAllOfThem) {
     const std::vector<Window> windows(5);
     EXPECT_EQ(instructive(windows, Wanted(5, 1), std::vector(5, 1.0), 8), Wanted(5, 1));
+}
+
+/// Where one of two runs says nothing of a signal, stretches of the other one are fitted and judged.
+TEST(Halves, OfASignalThatOneRunShows_AreItsStretches) {
+    std::vector<Recording> recordings = testing::campaign({}, {"integrated"}).recordings();
+    recordings.front().detections.clear();
+    const Evidence evidence(reference_rig(), std::move(recordings));
+    const std::vector<std::uint8_t> half = halves(evidence);
+    std::map<Signal, std::set<std::uint8_t>> of_signal;
+    for (std::size_t w = 0; w < half.size(); ++w) of_signal[evidence.windows()[w].signal].insert(half[w]);
+    for (const Signal signal : {Signal::encoder, Signal::hall, Signal::tag})
+        EXPECT_EQ(of_signal[signal].size(), 2U) << name_of(signal);
 }
 
 }  // namespace

@@ -65,6 +65,26 @@ TEST(ImageLink, EachCause_ShowsInItsOwnValuesOnly) {
     EXPECT_EQ(off({.delay_s = 0.01, .readout_s = 0.01}), "..........");
 }
 
+/// Paper that a compressor has made one grey has no noise to compare.
+TEST(ImageLink, StripOfOneGrey_IsJudgedByItsOtherValuesOnly) {
+    Recording recording = looks_in_even_motion({});
+    for (TagAppearance& seen : recording.appearances) seen.white.variance_grey2 = 0.0;
+    const CameraParameters camera = *reference_rig().camera;
+    const ImageRun run = image_run(recording, camera);
+    for (const ImageErrors& errors : image_errors({camera, {}}, recording, run))
+        for (std::size_t k = 0; k < image_values; ++k)
+            EXPECT_EQ(std::isfinite(errors[k]), k != 8) << "value " << k;
+}
+
+TEST(ImageLink, FramesOfAnotherClock_AreNotJudged) {
+    Recording recording = looks_in_even_motion({});
+    constexpr TimeNs unix_time_ns = 1'700'000'000'000'000'000;
+    for (TagDetection& detection : recording.detections) detection.time_ns += unix_time_ns;
+    for (TagAppearance& seen : recording.appearances) seen.time_ns += unix_time_ns;
+    EXPECT_TRUE(image_run(recording, *reference_rig().camera).windows.empty());
+    EXPECT_TRUE(recording.appearances.empty());
+}
+
 TEST(ImageLink, EveryFrameWithNeighbours_IsAWindow) {
     Recording recording = looks_in_even_motion({});
     const ImageRun run = image_run(recording, *reference_rig().camera);

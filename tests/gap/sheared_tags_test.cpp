@@ -5,8 +5,10 @@
 #include "tests/gap/simulated_campaign.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace fidservo {
@@ -20,9 +22,32 @@ bool shows_shear(const Hypothesis& truth) {
     return tags_are_sheared(evidence, evidence.errors({}, everything(evidence)));
 }
 
+/// The next tag of the plate, seen a pitch beside.
+TagDetection beside(TagDetection tag) {
+    const Rig& rig = reference_rig();
+    const double side_px = (tag.corners_px[1] - tag.corners_px[0]).norm();
+    ++tag.tag_id;
+    for (Eigen::Vector2d& corner : tag.corners_px)
+        corner.x() += side_px / rig.fiducials->side_mm * rig.fiducials->pitch_x_mm;
+    return tag;
+}
+
 TEST(ShearedTags, ReadoutOfEitherSign_Shears) {
     EXPECT_TRUE(shows_shear(effects({"rolling_shutter:readout_ms=8"})));
     EXPECT_TRUE(shows_shear(effects({"rolling_shutter:readout_ms=-15"})));
+}
+
+/// Tags take turns in the list of detections where frames show two of them.
+TEST(ShearedTags, TwoTagsInEachFrame_ShearToo) {
+    for (const double readout_ms : {0.0, 8.0}) {
+        const Hypothesis truth = effects({fmt::format("rolling_shutter:readout_ms={}", readout_ms)});
+        Recording recording = testing::campaign(truth, {"micro-steps"}).recordings().front();
+        std::vector<TagDetection> both;
+        for (const TagDetection& tag : recording.detections) both.insert(both.end(), {tag, beside(tag)});
+        recording.detections = std::move(both);
+        const Evidence evidence(reference_rig(), {std::move(recording)});
+        EXPECT_EQ(tags_are_sheared(evidence, evidence.errors({}, everything(evidence))), readout_ms > 0.0);
+    }
 }
 
 TEST(ShearedTags, OtherCauses_DoNotShear) {
