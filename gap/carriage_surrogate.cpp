@@ -114,8 +114,10 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, dou
             const std::vector<double>& of_run = effective[at.run];
             return of_run[at.row >= ticks ? at.row - ticks : 0] - of_run[at.row];
         }));
-    add_hats(
-        columns, forces, Dependence::time, 6, [](const SlidingRow& at) { return at.time_s; }, share_passed);
+    const Quantity time_s = [](const SlidingRow& at) { return at.time_s; };
+    add_hats(columns, forces, Dependence::time, 6, time_s, share_passed);
+    add_hats(columns, forces, Dependence::time, 6, time_s,
+             [&](const SlidingRow& at) { return effective[at.run][at.row]; });
     surrogate.period_mm = period_mm;
     if (period_mm <= 0.0) return surrogate;
     if (!has_own_zeros(evidence)) {

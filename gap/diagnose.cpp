@@ -132,9 +132,21 @@ std::string likeliest_block(const Choice& choice) {
     return std::string(likeliest);
 }
 
+/// Likeliest first; of those that are as likely to a hundredth, what was accused first.
+void accuse(std::vector<BlockProbability>& where, const std::string& block, double probability) {
+    const auto known = std::ranges::find(where, block, &BlockProbability::block);
+    if (known != where.end())
+        known->probability = 1.0 - (1.0 - known->probability) * (1.0 - probability);
+    else
+        where.push_back({block, probability});
+    std::ranges::stable_sort(where, std::greater{}, [](const BlockProbability& accused) {
+        return std::lround(100.0 * accused.probability);
+    });
+}
+
 /// Of each block that one of its effects, as far as the choices tell, is part of the explanation.
 std::vector<BlockProbability> blocks_of(const Selection& selection, double trust) {
-    std::map<std::string, double> by_block;
+    std::vector<BlockProbability> where;
     for (const Choice& choice : selection.choices) {
         const std::vector<double> shares = shares_of(choice.alternatives, choice.loss_without);
         const std::string block_of_class = likeliest_block(choice);
@@ -144,13 +156,9 @@ std::vector<BlockProbability> blocks_of(const Selection& selection, double trust
             const bool is_of_class = candidate.class_name == choice.candidate->class_name;
             here[is_of_class ? block_of_class : std::string(candidate.effect->block)] += shares[k];
         }
-        for (const auto& [block, probability] : here)
-            by_block[block] = 1.0 - (1.0 - by_block[block]) * (1.0 - trust * probability);
+        for (const auto& [block, probability] : here) accuse(where, block, trust * probability);
     }
-    std::vector<BlockProbability> where;
-    for (const auto& [block, probability] : by_block)
-        if (probability > 1e-4) where.push_back({block, probability});
-    std::ranges::stable_sort(where, std::greater{}, &BlockProbability::probability);
+    std::erase_if(where, [](const BlockProbability& block) { return block.probability <= 1e-4; });
     return where;
 }
 
@@ -239,15 +247,6 @@ double certainty_of(const Remainder& missing) {
     constexpr double any_of_them = 0.5;
     const bool is_of_a_stage = missing.block.starts_with("macro.") || missing.block.starts_with("micro.");
     return is_of_a_stage && missing.depends_on.empty() ? any_of_them : 1.0;
-}
-
-void accuse(std::vector<BlockProbability>& where, const std::string& block, double probability) {
-    const auto known = std::ranges::find(where, block, &BlockProbability::block);
-    if (known != where.end())
-        known->probability = 1.0 - (1.0 - known->probability) * (1.0 - probability);
-    else
-        where.push_back({block, probability});
-    std::ranges::stable_sort(where, std::greater{}, &BlockProbability::probability);
 }
 
 }  // namespace

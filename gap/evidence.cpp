@@ -119,11 +119,11 @@ class RunPredictor {
   private:
     /// By how long each takes (bench/gap_bench.cpp).
     std::size_t effort(const std::array<bool, signal_count>& signals, bool needs_path) const {
-        constexpr std::size_t step_by_step = 40, of_hall = 10;
+        constexpr std::size_t step_by_step = 40, by_bristles = 160, of_hall = 10;
         const plant::MacroAxis& axis = models_.carriage.axis;
         const bool has_closed_form = axis.whole_steps.duration_s > 0.0 && !axis.has_bristles &&
                                      axis.parameters.friction.creep_mm_per_s == 0.0;
-        const std::size_t per_row = has_closed_form ? 1 : step_by_step;
+        const std::size_t per_row = has_closed_form ? 1 : axis.has_bristles ? by_bristles : step_by_step;
         std::size_t rows = 0;
         if (needs_path)
             rows += per_row * all_rows_;
