@@ -228,12 +228,20 @@ Doubt doubt_of(const Evidence& evidence, const Selection& selection, Remainder r
     return {trust, std::move(remainder)};
 }
 
+/// Whether the gap depends on one thing at most; a command that comes late lacks force by what the command
+/// and the speed change by.
+bool has_one_face(const Remainder& whole) {
+    const std::vector<std::string>& all = whole.depends_on;
+    return all.size() <= 1 || (all.size() == 2 && all[0] == name_of(Dependence::command_change) &&
+                               all[1] == name_of(Dependence::acceleration));
+}
+
 /// Of an explanation that leaves nothing: two causes of the carriage together can do what a third one does.
 /// Then one dependence is enough, of another block.
 std::optional<Doubt> doubt_of(const Evidence& evidence, const Selection& selection, double tail) {
     if (selection.choices.size() < 2) return {};
     std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
-    if (!whole || whole->depends_on.size() > 1 || !has_stand_in(selection, *whole, 2)) return {};
+    if (!whole || !has_one_face(*whole) || !has_stand_in(selection, *whole, 2)) return {};
     whole->text = fmt::format(
         "encoder: what is named predicts it, but its errors depend on {}: that is of {}, where nothing is "
         "named",
