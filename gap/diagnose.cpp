@@ -216,6 +216,10 @@ struct Doubt {
 
 constexpr double trust_in_stand_in = 0.3;
 
+/// Share of the gap. On two self-checks of 300 (seeds 2051, 2055) all 48 explanations that leave something
+/// and remove less than this were wrong, of those that remove more 43 of 69.
+constexpr double least_removed_by_the_cause = 0.85;
+
 /// Of an explanation that leaves something.
 Doubt doubt_of(const Evidence& evidence, const Selection& selection, Remainder remainder, double trust,
                double tail) {
@@ -280,7 +284,10 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
         diagnosis.unexplained = doubt->missing;
     }
     diagnosis.effects = found_effects(evidence, selection, fitted);
-    for (FoundEffect& effect : diagnosis.effects) effect.probability *= worth_of_names(trust);
+    const double trust_in_names = doubt && diagnosis.gap.removed() < least_removed_by_the_cause
+                                      ? std::min(trust, trust_in_stand_in)
+                                      : trust;
+    for (FoundEffect& effect : diagnosis.effects) effect.probability *= worth_of_names(trust_in_names);
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, trust);
     if (doubt)

@@ -99,6 +99,14 @@ TEST(Presliding, BelowBreakAway_BristlesBendAsTheForceDemandsAndSpringBack) {
     EXPECT_LT(after(axis, state, 0.0, 500).position_mm, state.position_mm - 0.005);
 }
 
+TEST(Presliding, LevelThatVanishes_LeavesNoDamping) {
+    const MacroAxis axis =
+        endless_axis_with("presliding:level_V=1e-7,distance_um=1000,damping_V_s_per_mm=0.05");
+    const MacroAxis without = endless_axis_with("presliding:level_V=0");
+    EXPECT_NEAR(after(axis, start(axis, 0.0), 0.3, 20).velocity_mm_per_s,
+                after(without, start(without, 0.0), 0.3, 20).velocity_mm_per_s, 1e-4);
+}
+
 TEST(Presliding, AboveBreakAway_SlidesAgainstTheLevel) {
     const MacroAxis axis = endless_axis_with("presliding:level_V=0.1,distance_um=20");
     EXPECT_LT(after(axis, start(axis, 0.0), 0.04, 1000).position_mm, 0.1);
