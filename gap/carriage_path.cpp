@@ -6,6 +6,27 @@
 
 namespace fidservo::gap {
 
+namespace {
+
+/// Straight lines between known values, the first and last one before and after them; 0 where none is known.
+void bridge(std::vector<double>& values) {
+    const auto end = values.end();
+    auto before = end;
+    for (auto from = values.begin(); from != end;) {
+        const auto after = std::find_if(from, end, [](double value) { return std::isfinite(value); });
+        const double last = after != end ? *after : before != end ? *before : 0.0;
+        const double first = before != end ? *before : last;
+        const auto steps = static_cast<double>(after - from + 1);
+        for (auto value = from; value != after; ++value)
+            *value = std::lerp(first, last, static_cast<double>(value - from + 1) / steps);
+        if (after == end) return;
+        before = after;
+        from = after + 1;
+    }
+}
+
+}  // namespace
+
 CarriagePath unknown_path(std::size_t rows) {
     const std::vector<double> unknown(rows, std::numeric_limits<double>::quiet_NaN());
     return {unknown, unknown, unknown};
@@ -68,27 +89,6 @@ void fade_in(const WindowRows& window, const CarriagePath& lead, CarriagePath& p
     fade(path.velocity_mm_per_s, lead.velocity_mm_per_s);
     fade(path.acceleration_mm_per_s2, lead.acceleration_mm_per_s2);
 }
-
-namespace {
-
-/// Straight lines between known values, the first and last one before and after them; 0 where none is known.
-void bridge(std::vector<double>& values) {
-    const auto end = values.end();
-    auto before = end;
-    for (auto from = values.begin(); from != end;) {
-        const auto after = std::find_if(from, end, [](double value) { return std::isfinite(value); });
-        const double last = after != end ? *after : before != end ? *before : 0.0;
-        const double first = before != end ? *before : last;
-        const auto steps = static_cast<double>(after - from + 1);
-        for (auto value = from; value != after; ++value)
-            *value = std::lerp(first, last, static_cast<double>(value - from + 1) / steps);
-        if (after == end) return;
-        before = after;
-        from = after + 1;
-    }
-}
-
-}  // namespace
 
 void fill(const plant::Encoder& encoder, const CarriageRun& run, CarriagePath& path) {
     const std::size_t rows = path.position_mm.size();

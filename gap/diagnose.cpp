@@ -210,12 +210,7 @@ bool is_patchwork(const Selection& selection) {
 
 /// On two self-checks of 300 (seeds 2051, 2055) all 48 explanations that leave something and remove less of
 /// the gap than this were wrong, of those that remove more 43 of 69.
-bool removes_little(const Evidence& evidence, const Selection& selection) {
-    constexpr double least_removed_by_the_cause = 0.85;
-    const std::vector<double>&before = selection.steps.front().mean_squares,
-          &after = selection.steps.back().mean_squares;
-    return total_gap(signal_gaps(evidence, before, after)).removed() < least_removed_by_the_cause;
-}
+constexpr double least_removed_by_the_cause = 0.85;
 
 /// How far the names of an explanation are to be trusted, and what is missing beside them.
 struct Doubt {
@@ -226,11 +221,11 @@ struct Doubt {
 constexpr double trust_in_stand_in = 0.3;
 
 /// Of an explanation that leaves something.
-Doubt doubt_of(const Evidence& evidence, const Selection& selection, Remainder remainder, double trust,
-               double tail) {
+Doubt doubt_of(const Evidence& evidence, const Selection& selection, const TotalGap& gap, Remainder remainder,
+               double trust, double tail) {
     if (selection.choices.empty()) return {0.0, std::move(remainder)};
     const std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
-    const bool stands_in = is_patchwork(selection) || removes_little(evidence, selection) ||
+    const bool stands_in = is_patchwork(selection) || gap.removed() < least_removed_by_the_cause ||
                            (whole && (has_stand_in(selection, *whole, 1) || lacks_place(selection, *whole)));
     if (stands_in) trust = std::min(trust, trust_in_stand_in);
     if (whole && (stands_in || trust <= 0.5)) remainder.block = whole->block;
@@ -281,9 +276,9 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
     const double tail = options.selection.search.tail;
     double trust = trust_in(typical_floors(evidence.windows(), explained.mean_squares));
     std::optional<Remainder> remainder = remainder_of(evidence, explained, tail);
-    const std::optional<Doubt> doubt = remainder
-                                           ? doubt_of(evidence, selection, std::move(*remainder), trust, tail)
-                                           : doubt_of(evidence, selection, tail);
+    const std::optional<Doubt> doubt =
+        remainder ? doubt_of(evidence, selection, diagnosis.gap, std::move(*remainder), trust, tail)
+                  : doubt_of(evidence, selection, tail);
     if (doubt) {
         trust = doubt->trust;
         diagnosis.unexplained = doubt->missing;

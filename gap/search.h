@@ -67,8 +67,8 @@ class Search {
     std::vector<Trial> try_all(const CrossFit& base, std::span<const Candidate* const> added,
                                const Effort& effort = {});
 
-    /// The base with a candidate that try_all has tried beside it, fitted on both halves; none where nothing
-    /// that the plant can be fits it.
+    /// The base with a candidate that try_all has tried beside it, fitted on both halves; none where no
+    /// prediction was possible: the plant refuses it, or the search was stopped.
     std::optional<CrossFit> with(const CrossFit& base, const Candidate& candidate);
 
     /// Of all pairs of simple effects that meet in a signal that is off, added to a base, the one that

@@ -2,12 +2,12 @@
 // those of a run that nothing happened to, byte for byte.
 #include "control/output_board.h"
 #include "tests/control_guardian/child_process.h"
+#include "tests/src/temporary_folder.h"
 
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,30 +21,24 @@ namespace {
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 using testing::ChildProcess;
+using testing::text_of;
 
 constexpr int exit_done = 0, exit_fault = 3;
-
-std::string text_of(const fs::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-}
 
 class SlowInterruptedRun : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
-        std::string pattern = (fs::temp_directory_path() / "interrupted-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
+        folder_ = std::make_unique<testing::TemporaryFolder>();
         ChildProcess whole(shell(program("whole")));
         ASSERT_EQ(whole.wait(), exit_done) << whole.output();
     }
-    static void TearDownTestSuite() { fs::remove_all(folder_); }
+    static void TearDownTestSuite() { folder_.reset(); }
 
     static std::vector<std::string> shell(const std::string& script) { return {"/bin/sh", "-c", script}; }
     static std::string program(const std::string& out) {
         return "exec '" FIDSERVO_PROGRAM "' inspect '" FIDSERVO_SOURCE_DIR
                "/tests/faults/drill.yaml' --out '" +
-               (folder_ / out).string() + "'";
+               (*folder_ / out).string() + "'";
     }
 
     /// Runs until a site has been measured.
@@ -54,11 +48,11 @@ class SlowInterruptedRun : public ::testing::Test {
         ChildProcess resumed(shell(program(out) + " --resume"));
         EXPECT_TRUE(resumed.output_ends(300s));
         EXPECT_EQ(resumed.wait(), exit_done) << resumed.output();
-        EXPECT_EQ(text_of(folder_ / out / "results.csv"), text_of(folder_ / "whole/results.csv"));
-        EXPECT_TRUE(fs::exists(folder_ / out / "report.html"));
+        EXPECT_EQ(text_of(*folder_ / out / "results.csv"), text_of(*folder_ / "whole/results.csv"));
+        EXPECT_TRUE(fs::exists(*folder_ / out / "report.html"));
     }
 
-    static inline fs::path folder_;
+    static inline std::unique_ptr<testing::TemporaryFolder> folder_;
 };
 
 TEST_F(SlowInterruptedRun, Killed_ResumesToTheSame) {
@@ -92,10 +86,11 @@ TEST_F(SlowInterruptedRun, FileTooLarge_SaysWhyAndResumesToTheSame) {
 }
 
 TEST_F(SlowInterruptedRun, StoppedOnTheLivePage_ResumesToTheSame) {
-    ChildProcess run(shell("export TMPDIR='" + folder_.string() + "'; " + program("live") + " --live 0"));
+    ChildProcess run(
+        shell("export TMPDIR='" + folder_->path().string() + "'; " + program("live") + " --live 0"));
     ASSERT_TRUE(is_past_first_site(run)) << run.output();
-    const fs::path board = folder_ / "board";
-    fs::create_hard_link(folder_ / ("fidservo-" + std::to_string(run.pid())) / "stage-outputs", board);
+    const fs::path board = *folder_ / "board";
+    fs::create_hard_link(*folder_ / ("fidservo-" + std::to_string(run.pid())) / "stage-outputs", board);
     const std::string mark = "live: http://127.0.0.1:";
     const auto at = run.output().find(mark);
     ASSERT_NE(at, std::string::npos) << run.output();
@@ -114,19 +109,19 @@ TEST_F(SlowInterruptedRun, StoppedOnTheLivePage_ResumesToTheSame) {
 
 /// A file system of 4 MB, in a mount namespace of the test's own.
 TEST_F(SlowInterruptedRun, DiskFull_SaysWhyAndResumesToTheSame) {
-    const std::string disk = (folder_ / "disk").string(), run = program("disk/run").substr(5);
+    const std::string disk = (*folder_ / "disk").string(), run = program("disk/run").substr(5);
     fs::create_directories(disk);
     const std::string script = "mount -t tmpfs -o size=4m none '" + disk + "' || exit 77; " + run +
                                "; echo first=$?; mount -o remount,size=200m '" + disk + "'; " + run +
                                " --resume; echo second=$?; cp '" + disk + "/run/results.csv' '" +
-                               (folder_ / "disk.csv").string() + "'";
+                               (*folder_ / "disk.csv").string() + "'";
     ChildProcess namespaced({"/usr/bin/unshare", "-rm", "/bin/sh", "-c", script});
     EXPECT_TRUE(namespaced.output_ends(300s));
     if (namespaced.wait() != 0) GTEST_SKIP() << "no mount namespaces here: " << namespaced.output();
     EXPECT_NE(namespaced.output().find("No space left on device"), std::string::npos) << namespaced.output();
     EXPECT_NE(namespaced.output().find("first=3"), std::string::npos) << namespaced.output();
     EXPECT_NE(namespaced.output().find("second=0"), std::string::npos) << namespaced.output();
-    EXPECT_EQ(text_of(folder_ / "disk.csv"), text_of(folder_ / "whole/results.csv"));
+    EXPECT_EQ(text_of(*folder_ / "disk.csv"), text_of(*folder_ / "whole/results.csv"));
 }
 
 }  // namespace
