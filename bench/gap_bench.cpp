@@ -4,6 +4,7 @@
 #include "src/config/rig_file.h"
 #include "src/recording/reader.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -26,7 +27,7 @@ const Evidence& campaign() {
     return evidence;
 }
 
-void predict(benchmark::State& state, const std::string& effect, Signal signal) {
+void predict(benchmark::State& state, const std::string& effects, Signal signal) {
     if (!std::filesystem::is_directory(std::filesystem::path(FIDSERVO_DATA_DIR) / "campaigns")) {
         state.SkipWithError("the shared data are absent");
         return;
@@ -34,8 +35,16 @@ void predict(benchmark::State& state, const std::string& effect, Signal signal) 
     Wanted wanted = everything(campaign());
     for (std::size_t w = 0; w < wanted.size(); ++w)
         wanted[w] = campaign().windows()[w].signal == signal ? 1 : 0;
-    const Hypothesis hypothesis{plant::parse_effect(effect)};
+    Hypothesis hypothesis;
+    for (std::size_t at = 0; at <= effects.size();) {
+        const std::size_t end = std::min(effects.find('+', at), effects.size());
+        hypothesis.push_back(plant::parse_effect(effects.substr(at, end - at)));
+        at = end + 1;
+    }
+    const double before = campaign().effort();
     for (auto _ : state) benchmark::DoNotOptimize(campaign().errors(hypothesis, wanted));
+    // What a search counts of it: as many a second whatever is predicted, if it counts rightly.
+    state.counters["effort/s"] = benchmark::Counter(campaign().effort() - before, benchmark::Counter::kIsRate);
 }
 
 BENCHMARK_CAPTURE(predict, encoder_drive_gain, "drive_gain:factor=1.02", Signal::encoder)
@@ -49,6 +58,10 @@ BENCHMARK_CAPTURE(predict, encoder_stribeck_creeping, "stribeck_friction:creep_m
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(predict, encoder_cogging, "cogging", Signal::encoder)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(predict, encoder_belt, "belt_compliance", Signal::encoder)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, encoder_belt_creeping, "belt_compliance+stribeck_friction:creep_mm_per_s=0.37",
+                  Signal::encoder)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, encoder_bristles, "presliding", Signal::encoder)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(predict, hall_airflow, "airflow:factor=0.8", Signal::hall)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(predict, hall_coupling, "macro_coupling", Signal::hall)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(predict, tag_pixel_scale, "pixel_scale", Signal::tag)->Unit(benchmark::kMillisecond);

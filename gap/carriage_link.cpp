@@ -28,21 +28,27 @@ bool is_at_rest(const plant::MacroAxis& axis, const plant::MacroAxisState& state
 }
 
 /// Runs the plant over rows; what it shows at row k goes to element k - origin.
-void run_rows(const CarriageModel& model, const CarriageRun& run, std::size_t first, std::size_t end,
-              plant::MacroAxisState& state, CarriagePath& motion, std::size_t origin = 0) {
+/// @return the effort, in rows
+std::size_t run_rows(const CarriageModel& model, const CarriageRun& run, std::size_t first, std::size_t end,
+                     plant::MacroAxisState& state, CarriagePath& motion, std::size_t origin = 0) {
+    // By how long a step takes beside a row in closed form (bench/gap_bench.cpp).
+    constexpr std::size_t of_step = 20, of_belt_step = 25;
     const plant::MacroAxis& axis = axis_of(model, run);
     const bool may_rest = axis.parameters.delay_s == 0.0;  // else commands are on their way
     bool was_at_rest = false, rests = false;
+    std::size_t steps = 0;
     for (std::size_t k = first; k < end; ++k) {
         const double before_mm = state.position_mm, before_mm_per_s = state.velocity_mm_per_s;
         motion.position_mm[k - origin] = before_mm;
         motion.velocity_mm_per_s[k - origin] = before_mm_per_s;
-        if (!rests || run.command_V[k] != run.command_V[k - 1]) plant::advance(axis, state, run.command_V[k]);
+        if (!rests || run.command_V[k] != run.command_V[k - 1])
+            steps += static_cast<std::size_t>(plant::advance(axis, state, run.command_V[k]));
         const bool is_now = is_at_rest(axis, state);
         rests = may_rest && is_now && was_at_rest;
         was_at_rest = is_now;
         motion.acceleration_mm_per_s2[k - origin] = (state.velocity_mm_per_s - before_mm_per_s) / run.tick_s;
     }
+    return end - first + steps * (axis.has_belt ? of_belt_step : of_step);
 }
 
 /// The state in which a stretch begins, before its counts correct it: at its first count; at rest, or as fast
@@ -97,6 +103,7 @@ class Lead {
     }
 
     const CarriagePath& motion() const { return motion_; }
+    std::size_t effort() const { return effort_; }
 
   private:
     plant::MacroAxisState play(const WindowRows& window, const plant::MacroAxisState& carried,
@@ -108,7 +115,7 @@ class Lead {
         state.position_mm += scale_mm * correction.place_count;
         state.velocity_mm_per_s += extra_mm_per_s;
         state.mechanism.driven_mm_per_s += extra_mm_per_s;
-        run_rows(model_, run_, window.lead, window.first, state, motion, window.lead);
+        effort_ += run_rows(model_, run_, window.lead, window.first, state, motion, window.lead);
         for (std::size_t i = 0; i < errors_.size(); ++i)
             errors_[i] = mean_reading_count(model_.encoder, motion.position_mm[i]) -
                          run_.reading_count[window.lead + i];
@@ -119,6 +126,7 @@ class Lead {
     const CarriageRun& run_;
     CarriagePath motion_, trial_;
     std::vector<double> errors_;
+    std::size_t effort_ = 0;  ///< so far, in rows
 };
 
 /// A run's window, and how the carriage comes there.
@@ -161,10 +169,10 @@ std::vector<bool> needed_windows(const CarriageModel& model, const CarriageRun& 
 }
 
 /// @param wanted  a flag for each window; empty: all
-std::vector<double> simulate(const CarriageModel& model, const CarriageRun& run,
-                             std::span<const std::uint8_t> wanted, CarriagePath* path) {
+PredictedCounts simulate(const CarriageModel& model, const CarriageRun& run,
+                         std::span<const std::uint8_t> wanted, CarriagePath* path) {
     const std::size_t rows = run.command_V.size();
-    std::vector<double> predicted(rows, nan);
+    PredictedCounts predicted{std::vector<double>(rows, nan)};
     CarriagePath motion = unknown_path(rows);
     Lead lead(model, run);
     const std::vector<Passage> all = passages(model.axis, run);
@@ -181,11 +189,11 @@ std::vector<double> simulate(const CarriageModel& model, const CarriageRun& run,
         is_carried = true;
         state = lead.enter(window, carried);
         const std::size_t next_lead = ends_stretch ? window.end : all[k + 1].window.lead;
-        run_rows(model, run, window.first, next_lead, state, motion);
+        predicted.effort += run_rows(model, run, window.first, next_lead, state, motion);
         carried = state;
-        run_rows(model, run, next_lead, window.end, state, motion);
+        predicted.effort += run_rows(model, run, next_lead, window.end, state, motion);
         for (std::size_t row = window.first; row < window.end; ++row)
-            predicted[row] = mean_reading_count(model.encoder, motion.position_mm[row]);
+            predicted.counts[row] = mean_reading_count(model.encoder, motion.position_mm[row]);
         if (path) {
             CarriagePath before = lead.motion();
             pull_to_counts(model.encoder, run, window, before, motion);
@@ -193,10 +201,11 @@ std::vector<double> simulate(const CarriageModel& model, const CarriageRun& run,
         }
         const bool leads_on = k + 1 < all.size() && all[k + 1].follows && needed[k + 1];
         if (ends_stretch && (path || leads_on)) {
-            run_rows(model, run, window.end, run.run_on_end[stretch], state, motion);
+            predicted.effort += run_rows(model, run, window.end, run.run_on_end[stretch], state, motion);
             carried = state;
         }
     }
+    predicted.effort += lead.effort();
     if (!path || rows == 0) return predicted;
     fill(model.encoder, run, motion);
     *path = std::move(motion);
@@ -213,12 +222,12 @@ CarriageModel carriage_model(const plant::PlantParameters& parameters) {
             plant::make_macro_axis(endless, parameters.tick_s), parameters.encoder};
 }
 
-std::vector<double> predicted_counts(const CarriageModel& model, const CarriageRun& run,
-                                     std::span<const std::uint8_t> wanted) {
+PredictedCounts predicted_counts(const CarriageModel& model, const CarriageRun& run,
+                                 std::span<const std::uint8_t> wanted) {
     return simulate(model, run, wanted, nullptr);
 }
 
-std::vector<double> predicted_counts(const CarriageModel& model, const CarriageRun& run, CarriagePath& path) {
+PredictedCounts predicted_counts(const CarriageModel& model, const CarriageRun& run, CarriagePath& path) {
     return simulate(model, run, {}, &path);
 }
 

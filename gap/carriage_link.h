@@ -16,6 +16,7 @@
 #include "gap/carriage_run.h"
 #include "plant/stage_plant.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,12 +33,17 @@ struct CarriageModel {
 /// Throws InputError as make_macro_axis does.
 CarriageModel carriage_model(const plant::PlantParameters& parameters);
 
-/// Reading before rounding in counts for the rows of the windows wanted; NaN elsewhere, or there too.
-/// @param wanted  a flag for each of the run's windows, stretch after stretch
-std::vector<double> predicted_counts(const CarriageModel& model, const CarriageRun& run,
-                                     std::span<const std::uint8_t> wanted);
+/// Readings before rounding, and what it took to predict them.
+struct PredictedCounts {
+    std::vector<double> counts;  ///< for the rows of the windows wanted; NaN elsewhere, or there too
+    std::size_t effort = 0;      ///< in rows of a carriage that is followed in closed form
+};
 
-/// The same for all windows, and the path.
-std::vector<double> predicted_counts(const CarriageModel& model, const CarriageRun& run, CarriagePath& path);
+/// @param wanted  a flag for each of the run's windows, stretch after stretch
+PredictedCounts predicted_counts(const CarriageModel& model, const CarriageRun& run,
+                                 std::span<const std::uint8_t> wanted);
+
+/// For all windows, and the path.
+PredictedCounts predicted_counts(const CarriageModel& model, const CarriageRun& run, CarriagePath& path);
 
 }  // namespace fidservo::gap

@@ -102,40 +102,22 @@ class RunPredictor {
         }
         const bool hall = signals[index_of(Signal::hall)], tag = signals[index_of(Signal::tag)];
         const bool needs_path = other_carriage_ && (tag || (hall && models_.platform_feels_carriage));
-        std::vector<double> counts;
+        PredictedCounts predicted;
         if (needs_path)
-            counts = predicted_counts(models_.carriage, links_.carriage, path_);
+            predicted = predicted_counts(models_.carriage, links_.carriage, path_);
         else if (signals[index_of(Signal::encoder)])
-            counts = predicted_counts(models_.carriage, links_.carriage, wanted_of(Signal::encoder));
-        if (signals[index_of(Signal::encoder)]) write_counts(counts, errors);
+            predicted = predicted_counts(models_.carriage, links_.carriage, wanted_of(Signal::encoder));
+        if (signals[index_of(Signal::encoder)]) write_counts(predicted.counts, errors);
         if (hall && links_.platform) predict_hall(errors);
         if (tag && models_.tag) predict_tags(errors);
         if (signals[index_of(Signal::image)] && models_.image) predict_images(errors);
         for (const Signal signal : {Signal::macro_command, Signal::micro_command})
             if (signals[index_of(signal)]) replay(signal, errors);
-        return effort(signals, needs_path);
+        constexpr std::size_t of_hall = 3;  // by how long it takes (bench/gap_bench.cpp)
+        return predicted.effort + (hall ? of_hall * all_rows_ : 0) + (tag ? all_rows_ : 0);
     }
 
   private:
-    /// By how long each takes (bench/gap_bench.cpp).
-    std::size_t effort(const std::array<bool, signal_count>& signals, bool needs_path) const {
-        constexpr std::size_t step_by_step = 40, by_bristles = 160, of_hall = 10;
-        const plant::MacroAxis& axis = models_.carriage.axis;
-        const bool has_closed_form = axis.whole_steps.duration_s > 0.0 && !axis.has_bristles &&
-                                     axis.parameters.friction.creep_mm_per_s == 0.0;
-        const std::size_t per_row = has_closed_form ? 1 : axis.has_bristles ? by_bristles : step_by_step;
-        std::size_t rows = 0;
-        if (needs_path)
-            rows += per_row * all_rows_;
-        else if (signals[index_of(Signal::encoder)])
-            for (std::size_t w = 0; w < windows_.size(); ++w)
-                if (wanted_[w] != 0 && windows_[w].signal == Signal::encoder)
-                    rows += per_row * windows_[w].rows;
-        if (signals[index_of(Signal::hall)]) rows += of_hall * all_rows_;
-        if (signals[index_of(Signal::tag)]) rows += all_rows_;
-        return rows;
-    }
-
     const CarriagePath& path() const { return path_.position_mm.empty() ? links_.path : path_; }
 
     void write_counts(const std::vector<double>& predicted, Errors& errors) const {

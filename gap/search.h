@@ -36,7 +36,7 @@ struct Effort {
 struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
     /// After which it is exhausted (Evidence::effort): about 20 s of two cores for a campaign of 5 minutes.
-    double most_effort = 30'000.0;
+    double most_effort = 9'000.0;
     /// Asked at every prediction. Once true fits end at once, and what the search returns is worth nothing.
     std::function<bool()> stop = {};
     double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search

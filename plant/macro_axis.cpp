@@ -95,10 +95,13 @@ void advance_in_closed_form(const MacroAxis& axis, MacroAxisState& state, double
     state.velocity_mm_per_s = after.velocity_mm_per_s;
 }
 
-void advance_by(const MacroAxis& axis, MacroAxisState& state, double command_V, double duration_s) {
-    if (axis.has_closed_form) return advance_in_closed_form(axis, state, command_V, duration_s);
+int advance_by(const MacroAxis& axis, MacroAxisState& state, double command_V, double duration_s) {
+    if (axis.has_closed_form) {
+        advance_in_closed_form(axis, state, command_V, duration_s);
+        return 0;
+    }
     const MacroAxisParameters& parameters = axis.parameters;
-    move(axis, state, drive_voltage_V(parameters, command_V) + parameters.drive_bias_V, duration_s);
+    return move(axis, state, drive_voltage_V(parameters, command_V) + parameters.drive_bias_V, duration_s);
 }
 
 }  // namespace
@@ -157,10 +160,12 @@ double effective_voltage_V(const MacroAxisParameters& parameters, double command
     return dead_zone_V(parameters.dead_zone, drive_V, parameters.dead_zone_on_motion);
 }
 
-void advance(const MacroAxis& axis, MacroAxisState& state, double command_V) {
+int advance(const MacroAxis& axis, MacroAxisState& state, double command_V) {
     if (axis.parameters.delay_s == 0.0) return advance_by(axis, state, command_V, axis.tick_s);
+    int steps = 0;
     pass(state.delay, axis.parameters.delay_s, axis.tick_s, command_V,
-         [&](double acting_V, double duration_s) { advance_by(axis, state, acting_V, duration_s); });
+         [&](double acting_V, double duration_s) { steps += advance_by(axis, state, acting_V, duration_s); });
+    return steps;
 }
 
 }  // namespace fidservo::plant

@@ -80,6 +80,7 @@ double drive_voltage_V(const MacroAxisParameters& parameters, double command_V);
 double effective_voltage_V(const MacroAxisParameters& parameters, double command_V);
 
 /// Moves the carriage by one tick under a held command in V.
-void advance(const MacroAxis& axis, MacroAxisState& state, double command_V);
+/// @return how many steps were integrated; 0 where there was an exact solution
+int advance(const MacroAxis& axis, MacroAxisState& state, double command_V);
 
 }  // namespace fidservo::plant

@@ -47,6 +47,7 @@ class Motion {
 
     const State& state() const { return x_; }
     double bend() const { return bend_; }
+    int steps() const { return steps_; }
 
     /// Begins a stretch of motion without events. Returns whether anything moves in it.
     bool begin() {
@@ -170,7 +171,8 @@ class Motion {
         return end;
     }
 
-    Step step_from(const State& first, double h) const {
+    Step step_from(const State& first, double h) {
+        ++steps_;
         return {dormand_prince_step([this](const State& x) { return rate(x); }, x_, first, h), h};
     }
 
@@ -271,7 +273,7 @@ class Motion {
 
     /// The shortest step found that ends just past an event, by regula falsi on the slack (Illinois: an end
     /// that stays counts half).
-    Step step_to_event(const State& first, Step late) const {
+    Step step_to_event(const State& first, Step late) {
         double early_s = 0.0, early_slack = slack(x_), late_slack = slack(late.end);
         while (early_slack <= 0.0) {  // it leaves one event for the next within the step
             if (late.duration_s < shortest_step_s) return late;
@@ -330,6 +332,7 @@ class Motion {
     double bend_;                                               ///< at x_
     double start_dry_V_ = 0.0;                                  ///< likewise, where there are bristles
     double trial_s_ = std::numeric_limits<double>::infinity();  ///< step to try next
+    int steps_ = 0;                                             ///< integrated
 
     // What stays as it is until the next event.
     double direction_ = 1.0;
@@ -355,7 +358,7 @@ void carry(const MacroAxis& axis, MacroAxisState& state, double driven_mm, doubl
 }
 
 template <std::size_t size>
-void move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
+int move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
     MechanismState& mechanism = state.mechanism;
     std::array<double, size> start{};
     start[place] = state.position_mm - mechanism.play_mm;
@@ -377,6 +380,7 @@ void move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V,
         mechanism.stretch_mm = motion.state()[stretch];
         mechanism.stretching_mm_per_s = motion.state()[motor] - motion.state()[speed];
     }
+    return motion.steps();
 }
 
 }  // namespace
@@ -390,11 +394,9 @@ WholeSteps whole_steps(const MacroAxis& axis) {
     return axis.has_belt ? Motion<4>::whole_steps(sliding) : Motion<2>::whole_steps(sliding);
 }
 
-void move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
-    if (axis.has_belt)
-        move_by_steps<4>(axis, state, drive_V, duration_s);
-    else
-        move_by_steps<2>(axis, state, drive_V, duration_s);
+int move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
+    return axis.has_belt ? move_by_steps<4>(axis, state, drive_V, duration_s)
+                         : move_by_steps<2>(axis, state, drive_V, duration_s);
 }
 
 }  // namespace fidservo::plant

@@ -40,6 +40,7 @@ WholeSteps whole_steps(const MacroAxis& axis);
 
 /// Moves the carriage under a held voltage of the drive, before standing forces and dead zone. Does not
 /// allocate.
-void move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s);
+/// @return how many steps were integrated, those that were given up included
+int move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s);
 
 }  // namespace fidservo::plant
