@@ -97,6 +97,8 @@ std::vector<double> grid_of(const plant::EffectParameter& parameter, const Trave
         for (const double factor : {0.2, 1.0, 5.0}) grid.push_back(within(factor * parameter.typical));
     } else if (parameter.low > 0.0 && parameter.high >= 20.0 * parameter.low) {
         for (const double factor : {0.4, 2.0}) grid.push_back(within(factor * parameter.typical));
+    } else if (parameter.low == 0.0 && parameter.typical == 1.0) {  // a share: all or nothing
+        grid = {1.0, 0.0};
     } else {
         grid.push_back(parameter.typical);
     }
@@ -150,10 +152,18 @@ plant::EffectSetting plain_form(const plant::EffectSetting& richer, const plant:
 std::vector<Refinement> refinements_of(const plant::Effect& effect) {
     constexpr double hardly_seen = 2.0, seen = 4.0, in_any_motion = 16.0;
     std::vector<Refinement> found;
-    for (std::size_t k = 0; k < effect.parameters.size(); ++k)
-        if (const double least = effect.parameters[k].negligible; least > 0.0)
-            found.push_back(
-                {effect.parameters[k].name, k, {hardly_seen * least, seen * least, in_any_motion * least}});
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+        const plant::EffectParameter& parameter = effect.parameters[k];
+        if (parameter.negligible <= 0.0) continue;
+        const double least = parameter.negligible, none = parameter.vanishing;
+        Refinement refinement{parameter.name, k, {}};
+        if (none == 0.0 && parameter.low == 0.0)
+            refinement.values = {hardly_seen * least, seen * least, in_any_motion * least};
+        else
+            for (const double end : {parameter.low, parameter.high})
+                if (end != none) refinement.values.push_back(0.5 * (none + end));
+        found.push_back(std::move(refinement));
+    }
     return found;
 }
 

@@ -2,8 +2,8 @@
 // Friction that acts on the carriage's motion, in volts, positive to the left when the carriage moves to the
 // right:
 //
-//     g(|v|, y) = Fc + Fs exp(-|v| / vs) + Fp exp(-((y - yp) / wp)^2 / 2)     Coulomb, Stribeck, rail patch
-//     F = sgn(v) g + c v                                                     c by direction
+//     g(|v|, y) = Fc + Fs exp(-(|v| / vs)^n) + Fp exp(-((y - yp) / wp)^2 / 2)     Coulomb, Stribeck, rail patch
+//     F = sgn(v) g + c v                                                         c by direction
 //
 // At v = 0 dry friction holds whatever is not above g(0, y), or a little more: hold_V. Friction that creeps
 // does not hold: with a creep speed vc, tanh(v / vc) stands for sgn(v) (Andersson et al., Tribology
@@ -44,6 +44,7 @@ struct Friction {
     double hold_V = 0.0;      ///< what is held at rest beyond g
     double stribeck_V = 0.0;  ///< beyond Coulomb friction, at rest
     double stribeck_mm_per_s = 1.0;
+    double stribeck_exponent = 1.0;  ///< n: 1 an exponential, 2 a bell
     RailPatch patch{};
     double creep_mm_per_s = 0.0;    ///< vc; 0: none, friction holds at rest
     double right_V_s_per_mm = 0.0;  ///< viscous, on motion to the right
@@ -66,11 +67,18 @@ inline bool acts(const Friction& friction) {
     return is_dry(friction) || friction.right_V_s_per_mm != 0.0 || friction.left_V_s_per_mm != 0.0;
 }
 
+/// Fs exp(-(|v| / vs)^n) in V.
+inline double stribeck_friction_V(const Friction& friction, double speed_mm_per_s) {
+    const double share = speed_mm_per_s / friction.stribeck_mm_per_s;
+    const double n = friction.stribeck_exponent;
+    const double power = n == 1.0 ? share : n == 2.0 ? share * share : std::pow(share, n);
+    return friction.stribeck_V * std::exp(-power);
+}
+
 /// g(|v|, y) in V.
 inline double dry_friction_V(const Friction& friction, double speed_mm_per_s, double position_mm) {
     double level_V = friction.coulomb_V;
-    if (friction.stribeck_V != 0.0)
-        level_V += friction.stribeck_V * std::exp(-speed_mm_per_s / friction.stribeck_mm_per_s);
+    if (friction.stribeck_V != 0.0) level_V += stribeck_friction_V(friction, speed_mm_per_s);
     if (friction.patch.reaches(position_mm)) {
         const double away = (position_mm - friction.patch.centre_mm) / friction.patch.width_mm;
         level_V += friction.patch.level_V * std::exp(-0.5 * away * away);

@@ -19,7 +19,8 @@ namespace fidservo::plant {
 struct SecondMass {
     double coupling = 0.0;
     double tau_s = 20.0;
-    double retention = 1.0;
+    double taken = 1.0;
+    double heating = 1.0;
 };
 
 /// Parameters and what follows from them for one tick. Immutable.
@@ -39,6 +40,7 @@ struct HeaterState {
     DelayLineState line = {};
 };
 
+/// Throws InputError where the mass would give back more than heats the wire.
 Heater make_heater(const HeaterParameters& parameters, double tick_s, const SecondMass& mass = {},
                    double delay_s = 0.0);
 

@@ -1,5 +1,6 @@
 #include "plant/thermal_pair.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -15,16 +16,28 @@ double difference_of_decays(double m, double d, double t) {
     return (std::exp((m + d) * t) - std::exp((m - d) * t)) / (2.0 * d);
 }
 
+/// s: of what the mass gives back, what warms the surroundings.
+double surrounding(const ThermalPair& pair) {
+    return pair.coupling * std::max(0.0, 1.0 - pair.taken);
+}
+
+/// Whether the heater, phi, drives the wire upwards.
+bool heats(const ThermalPair& pair, const Eigen::Vector2d& rise_degC, double phi_degC) {
+    return phi_degC > rise_degC.x() - surrounding(pair) * rise_degC.y();
+}
+
 /// One regime: the rates of the deviation from the equilibrium.
 struct Regime {
     Eigen::Matrix2d rates_per_s;
     Eigen::Vector2d equilibrium_degC;
 
-    Regime(const ThermalPair& pair, double tau_s, double phi_degC) {
-        const double a = pair.coupling * tau_s / pair.cooling_tau_s, r = pair.retention;
-        rates_per_s << -(1.0 + a) / tau_s, a / tau_s, r / pair.mass_tau_s, -1.0 / pair.mass_tau_s;
-        const double wire_degC = phi_degC / (1.0 + a * (1.0 - r));
-        equilibrium_degC = {wire_degC, r * wire_degC};
+    Regime(const ThermalPair& pair, bool heating, double phi_degC) {
+        const double tau_s = heating ? pair.heating_tau_s : pair.cooling_tau_s;
+        const double s = surrounding(pair), p = std::max(1.0, pair.taken);
+        const double e = (pair.coupling - s) * (heating ? pair.heating : 1.0) * tau_s / pair.cooling_tau_s;
+        rates_per_s << -(1.0 + e * p) / tau_s, (s + e) / tau_s, 1.0 / pair.mass_tau_s, -1.0 / pair.mass_tau_s;
+        const double at_last_degC = phi_degC / (1.0 - s + e * (p - 1.0));
+        equilibrium_degC = {at_last_degC, at_last_degC};
     }
 
     Eigen::Matrix2d decay(double time_s) const {
@@ -44,8 +57,10 @@ struct Regime {
         return after(rise_degC, decay(time_s));
     }
 
-    bool wire_rises(const Eigen::Vector2d& rise_degC) const {
-        return rates_per_s.row(0).dot(rise_degC - equilibrium_degC) > 0.0;
+    /// Whether q - s b rises, on which the regime depends.
+    bool comes_closer(const ThermalPair& pair, const Eigen::Vector2d& rise_degC) const {
+        const Eigen::Vector2d per_s = rates_per_s * (rise_degC - equilibrium_degC);
+        return per_s.x() - surrounding(pair) * per_s.y() > 0.0;
     }
 };
 
@@ -61,13 +76,16 @@ double end_of(const Condition& holds, double end_s) {
     return after_s;
 }
 
-/// When the wire passes phi, if it does within a time; it may come back before the end, as it turns at most
+/// When the regime ends, if it does within a time; it may come back before the end, as q - s b turns at most
 /// once.
-std::optional<double> passing_time_s(const Regime& regime, const Eigen::Vector2d& start_degC, double phi_degC,
-                                     bool heating, double end_s) {
-    const auto rises = [&](double time_s) { return regime.wire_rises(regime.after(start_degC, time_s)); };
+std::optional<double> passing_time_s(const ThermalPair& pair, const Regime& regime,
+                                     const Eigen::Vector2d& start_degC, double phi_degC, bool heating,
+                                     double end_s) {
+    const auto rises = [&](double time_s) {
+        return regime.comes_closer(pair, regime.after(start_degC, time_s));
+    };
     const auto keeps_side = [&](double time_s) {
-        return (phi_degC > regime.after(start_degC, time_s).x()) == heating;
+        return heats(pair, regime.after(start_degC, time_s), phi_degC) == heating;
     };
     const bool rises_first = rises(0.0);
     const double turn_s = rises(end_s) == rises_first
@@ -82,11 +100,11 @@ std::optional<double> passing_time_s(const Regime& regime, const Eigen::Vector2d
 
 Eigen::Vector2d advance(const ThermalPair& pair, const Eigen::Vector2d& rise_degC, double phi_degC,
                         double time_s) {
-    bool heating = phi_degC > rise_degC.x();
+    bool heating = heats(pair, rise_degC, phi_degC);
     Eigen::Vector2d now_degC = rise_degC;
     for (;;) {
-        const Regime regime(pair, heating ? pair.heating_tau_s : pair.cooling_tau_s, phi_degC);
-        const auto pass_s = passing_time_s(regime, now_degC, phi_degC, heating, time_s);
+        const Regime regime(pair, heating, phi_degC);
+        const auto pass_s = passing_time_s(pair, regime, now_degC, phi_degC, heating, time_s);
         if (!pass_s) return regime.after(now_degC, time_s);
         now_degC = regime.after(now_degC, *pass_s);
         time_s -= *pass_s;
@@ -95,17 +113,17 @@ Eigen::Vector2d advance(const ThermalPair& pair, const Eigen::Vector2d& rise_deg
 }
 
 ThermalPairTick thermal_pair_tick(const ThermalPair& pair, double time_s) {
-    return {pair, time_s, Regime(pair, pair.heating_tau_s, 0.0).decay(time_s),
-            Regime(pair, pair.cooling_tau_s, 0.0).decay(time_s)};
+    return {pair, time_s, Regime(pair, true, 0.0).decay(time_s), Regime(pair, false, 0.0).decay(time_s)};
 }
 
 Eigen::Vector2d advance(const ThermalPairTick& tick, const Eigen::Vector2d& rise_degC, double phi_degC) {
-    const bool heating = phi_degC > rise_degC.x();
-    const Regime regime(tick.pair, heating ? tick.pair.heating_tau_s : tick.pair.cooling_tau_s, phi_degC);
+    const bool heating = heats(tick.pair, rise_degC, phi_degC);
+    const Regime regime(tick.pair, heating, phi_degC);
     const Eigen::Vector2d end_degC =
         regime.after(rise_degC, heating ? tick.heating_decay : tick.cooling_decay);
-    const bool turns = regime.wire_rises(rise_degC) != regime.wire_rises(end_degC);
-    const bool keeps_side = (phi_degC > end_degC.x()) == heating;
+    const bool turns =
+        regime.comes_closer(tick.pair, rise_degC) != regime.comes_closer(tick.pair, end_degC);
+    const bool keeps_side = heats(tick.pair, end_degC, phi_degC) == heating;
     return turns || !keeps_side ? advance(tick.pair, rise_degC, phi_degC, tick.time_s) : end_degC;
 }
 

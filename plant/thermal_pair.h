@@ -1,17 +1,19 @@
 #pragma once
 // A wire and a second thermal mass (clamps, plates, mount) that takes heat from it and gives it back later:
 //
-//     dq/dt = (phi - q) / tau - a / tau_c (q - b)          q, b: wire and mass above ambient, degC
-//     tau_b db/dt = r q - b
+//     dq/dt = (phi - q + s b) / tau - h e / tau_c (p q - b)        q, b: wire and mass above ambient, degC
+//     tau_b db/dt = q - b,    b in units of what the wire brings it to at last
+//     s = a max(0, 1 - l),  e = a - s,  p = max(1, l)
 //
-// tau_c: the cooling time constant; a: conductance from the wire to the mass per conductance to the room; r:
-// the mass's steady rise per rise of the wire. tau is the heating time constant while phi > q, else the
-// cooling one. Both equations are linear within a regime and have real rates, so that a tick has a closed
-// form:
+// a: what the mass gives back, as conductance to it per conductance to the room; l: what it takes per what it
+// gives back. l = 1: it loses heat to the wire only; above, to the room too; below, it is in part the wire's
+// surroundings, which warm at no cost to the wire. tau is the heating time constant while phi > q - s b, else
+// the cooling one, tau_c; h a factor on the conductance while heating. Both equations are linear within a
+// regime and have real rates, so that a tick has a closed form:
 //
 //     y(t) = exp(m t) (cosh(d t) I + sinh(d t)/d (A - m I)) y(0),   m = tr A / 2,  d^2 = m^2 - det A,
 //
-// y the deviation from the equilibrium. Where the wire comes to phi within a tick, the time is found to
+// y the deviation from the equilibrium. Where the regime changes within a tick, the time is found to
 // rounding, and what is left of the tick has the other regime. Source: two lumped capacitances, Incropera,
 // DeWitt, Fundamentals of Heat and Mass Transfer, 6th ed., 2007, ch. 5; matrix exponential of a 2 x 2 matrix:
 // Bernstein, So, IEEE Trans. Automatic Control 38(8), 1993.
@@ -22,9 +24,10 @@ namespace fidservo::plant {
 struct ThermalPair {
     double heating_tau_s;
     double cooling_tau_s;
-    double coupling;    ///< a >= 0
-    double mass_tau_s;  ///< tau_b > 0
-    double retention;   ///< r, 0 .. 1
+    double coupling;       ///< a >= 0, less than 1 / (1 - l) where l < 1
+    double mass_tau_s;     ///< tau_b > 0
+    double taken = 1.0;    ///< l >= 0
+    double heating = 1.0;  ///< h > 0
 };
 
 /// Wire and mass above ambient in degC after a time under a constant phi (degC), however long.

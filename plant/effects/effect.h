@@ -13,6 +13,7 @@
 //   - sensors: their curves; heater and wire: their parameters; camera: its timing.
 #include "plant/stage_plant.h"
 
+#include <cmath>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -27,13 +28,13 @@ struct EffectParameter {
     double vanishing;  ///< without effect, exactly; of what only shapes the effect, the typical value
     double typical;    ///< where none is given
     std::string_view meaning;
-    /// Of what an effect may be without: values below this count as `low`, which is then also its typical
-    /// one. 0: it has no such parameter.
+    /// Of what an effect may be without: values this near to the vanishing one count as that, which is then
+    /// also its typical one. 0: it has no such parameter.
     double negligible = 0.0;
 
-    bool is_negligible(double value) const { return negligible > 0.0 && value < negligible; }
+    bool is_negligible(double value) const { return std::abs(value - vanishing) < negligible; }
     /// The value that acts.
-    double acting(double value) const { return is_negligible(value) ? low : value; }
+    double acting(double value) const { return is_negligible(value) ? vanishing : value; }
 };
 
 struct Effect {

@@ -28,7 +28,7 @@ TEST(HeatingLag, Heating_HasAnotherTimeConstantAndCoolingHasNot) {
 }
 
 TEST(SecondThermalMass, CoolingAfterALongHold_HasTheTwoRatesOfThePair) {
-    const StagePlant plant = plant_with("second_thermal_mass:coupling=0.4,mass_tau_s=15,retention=1");
+    const StagePlant plant = plant_with("second_thermal_mass:coupling=0.4,mass_tau_s=15,taken=1");
     StageState state = after(plant, 1.6, 600000);
     EXPECT_NEAR(rise_degC(state), 272.0 * 0.3, 1e-6) << "a mass that loses heat to the wire only costs none";
     EXPECT_NEAR(state.micro->heater.mass_rise_degC, 272.0 * 0.3, 1e-6);
