@@ -147,7 +147,8 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
     if (vanishes_on_a_half(contender.trial)) return;
     if (!clears_a_signal(base, contender.trial.fitted, is_wave ? worth_a_simplex : worth_it)) return;
     for (int time = 0; time < most_times && !finding.is_close; ++time) {
-        if (!meet(off(contender.trial.fitted), contender.teachers())) return;
+        // Also what only passes the change on: tags can tell more closely how the carriage moves than counts.
+        if (!meet(off(contender.trial.fitted), reached_by({contender.trial.fitted.of_half[0].back()}))) return;
         const auto fitted_by = [&](const auto& fit_side) {
             Contender closer = contender;
             parallel_for(2, [&](std::size_t side) { closer.trial.fitted.of_half[side] = fit_side(side); });
