@@ -44,7 +44,8 @@ void predict(benchmark::State& state, const std::string& effects, Signal signal)
     const double before = campaign().effort();
     for (auto _ : state) benchmark::DoNotOptimize(campaign().errors(hypothesis, wanted));
     // What a search counts of it: as many a second whatever is predicted, if it counts rightly.
-    state.counters["effort/s"] = benchmark::Counter(campaign().effort() - before, benchmark::Counter::kIsRate);
+    state.counters["effort/s"] =
+        benchmark::Counter(campaign().effort() - before, benchmark::Counter::kIsRate);
 }
 
 BENCHMARK_CAPTURE(predict, encoder_drive_gain, "drive_gain:factor=1.02", Signal::encoder)

@@ -156,13 +156,13 @@ std::vector<Refinement> refinements_of(const plant::Effect& effect) {
         const plant::EffectParameter& parameter = effect.parameters[k];
         if (parameter.negligible <= 0.0) continue;
         const double least = parameter.negligible, none = parameter.vanishing;
-        Refinement refinement{parameter.name, k, {}};
-        if (none == 0.0 && parameter.low == 0.0)
-            refinement.values = {hardly_seen * least, seen * least, in_any_motion * least};
-        else
-            for (const double end : {parameter.low, parameter.high})
-                if (end != none) refinement.values.push_back(0.5 * (none + end));
-        found.push_back(std::move(refinement));
+        std::vector<double> values{none + hardly_seen * least, none + seen * least,
+                                   none + in_any_motion * least};
+        if (parameter.low < none)
+            values = {none - in_any_motion * least, none + in_any_motion * least};
+        else if (none > 0.0)
+            values = {0.5 * (none + parameter.high)};
+        found.push_back({parameter.name, k, std::move(values)});
     }
     return found;
 }

@@ -36,7 +36,7 @@ struct Effort {
 struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
     /// After which it is exhausted (Evidence::effort): about 20 s of two cores for a campaign of 5 minutes.
-    double most_effort = 9'000.0;
+    double most_effort = 6'500.0;
     /// Asked at every prediction. Once true fits end at once, and what the search returns is worth nothing.
     std::function<bool()> stop = {};
     double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search
@@ -139,7 +139,7 @@ class Search {
     /// its end, and of what leaves nearly nothing of a signal's gap.
     void fit_closer(const CrossFit& base, Contender& contender) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
-                                 double step_scales) const;
+                                 double step_scales, Threads threads = Threads::one) const;
     /// With a refinement of what is fitted, from any of its values: where a fit has begun without, no slope
     /// leads to it, and from afar it only seems to do harm.
     Contender refined(const CrossFit& base, const Contender& contender) const;

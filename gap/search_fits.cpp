@@ -39,6 +39,34 @@ bool is_present(const Refinement& refinement, const Hypothesis& hypothesis) {
     });
 }
 
+/// A refinement at a value, of the effect at a place of a hypothesis.
+struct Refined {
+    std::size_t place, parameter;
+    std::string_view name;
+    double value;
+};
+
+/// One refinement, or two at once, of effects at some places of a hypothesis that lacks them.
+std::vector<std::vector<Refined>> ways_to_refine(const Hypothesis& hypothesis, const Places& places) {
+    std::vector<std::vector<Refined>> ways;
+    std::vector<Refined> lacking;
+    for (const std::size_t place : places)
+        for (const Refinement& refinement : refinements_of(*hypothesis[place].effect))
+            if (!is_present(refinement, hypothesis))
+                for (const double value : refinement.values)
+                    lacking.push_back({place, refinement.parameter, refinement.name, value});
+    for (const Refined& one : lacking) ways.push_back({one});
+    for (std::size_t a = 0; a < lacking.size(); ++a)
+        for (std::size_t b = a + 1; b < lacking.size(); ++b)
+            if (lacking[a].name != lacking[b].name) ways.push_back({lacking[a], lacking[b]});
+    return ways;
+}
+
+Hypothesis with_values(Hypothesis hypothesis, const std::vector<Refined>& added) {
+    for (const Refined& one : added) hypothesis[one.place].values[one.parameter] = one.value;
+    return hypothesis;
+}
+
 bool includes(const SignalFlags& all, const SignalFlags& some) {
     for (std::size_t s = 0; s < signal_count; ++s)
         if (some[s] && !all[s]) return false;
@@ -139,16 +167,17 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
     const bool is_wave = contender.trial.candidate->wave.has_value();
     const std::string_view block = contender.trial.candidate->effect->block;
     const bool moves_tags = block == "macro.encoder" || block.starts_with("camera.");
-    constexpr int most_times = 3;
+    constexpr int most_times = 4;
     // Shares of a signal's excess; the last one of the gain.
     constexpr double worth_it = 0.1, worth_a_simplex = 0.5, worth_refining = 0.9, nearly_all = 0.98;
-    constexpr double worth_another = 0.03;
+    constexpr double worth_another = 4.0 * least_gain;
     Finding& finding = *contender.finding;
     if (vanishes_on_a_half(contender.trial)) return;
     if (!clears_a_signal(base, contender.trial.fitted, is_wave ? worth_a_simplex : worth_it)) return;
     for (int time = 0; time < most_times && !finding.is_close; ++time) {
         // Also what only passes the change on: tags can tell more closely how the carriage moves than counts.
-        if (!meet(off(contender.trial.fitted), reached_by({contender.trial.fitted.of_half[0].back()}))) return;
+        if (!meet(off(contender.trial.fitted), reached_by({contender.trial.fitted.of_half[0].back()})))
+            return;
         const auto fitted_by = [&](const auto& fit_side) {
             Contender closer = contender;
             parallel_for(2, [&](std::size_t side) { closer.trial.fitted.of_half[side] = fit_side(side); });
@@ -156,25 +185,27 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
             return closer;
         };
         const Places last{base.of_half[0].size()};
-        const auto by_simplex = [&](std::size_t side) { return polished(contender, side, last); };
+        const auto by_simplex = [&](const Contender& from) {
+            return fitted_by([&](std::size_t side) { return polished(from, side, last); });
+        };
         const auto by_slopes = [&](double step_scales) {
             return fitted_by(
                 [&](std::size_t side) { return fitted_from_there(base, contender, side, step_scales); });
         };
-        Contender closer = is_wave ? fitted_by(by_simplex) : by_slopes(usual_step);
+        Contender closer = is_wave ? by_simplex(contender) : by_slopes(usual_step);
         const auto or_else = [&](Contender other) {
             if (other.gain() > closer.gain()) closer = std::move(other);
         };
         const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
+        if (is_off() && clears_a_signal(base, closer.trial.fitted, worth_refining))
+            or_else(refined(base, closer));
         if (!is_wave && is_off() && (moves_tags || clears_a_signal(base, closer.trial.fitted, nearly_all)))
-            or_else(fitted_by(by_simplex));
+            or_else(by_simplex(closer));
         if (is_off() && !contender.coupled.empty() && clears_a_signal(base, closer.trial.fitted, nearly_all))
             or_else(fitted_by(
                 [&](std::size_t side) { return polished(closer, side, contender.fitted_places(base)); }));
-        if (is_off() && clears_a_signal(base, closer.trial.fitted, worth_refining))
-            or_else(refined(base, closer));
-        finding.is_close = closer.gain() < (1.0 + worth_another) * contender.gain() + least_gain;
+        finding.is_close = closer.gain() < contender.gain() + worth_another;
         if (closer.gain() <= contender.gain()) return;
         for (std::size_t side = 0; side < 2; ++side)
             finding.fitted[side] = contender.part(closer.trial.fitted.of_half[side]);
@@ -184,39 +215,54 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
 }
 
 Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
-                                     double step_scales) const {
+                                     double step_scales, Threads threads) const {
     const CrossFit& fitted = contender.trial.fitted;
     return fitter_
-        .fit_places(side, fitted.of_half[side], contender.fitted_places(base), fitted.mean_squares,
-                    {.tolerance = 1e-7, .step_scales = step_scales})
+        .fit_places(
+            side, fitted.of_half[side], contender.fitted_places(base), fitted.mean_squares,
+            {.most_iterations = 40, .tolerance = 1e-7, .threads = threads, .step_scales = step_scales})
         .hypothesis;
 }
 
 Search::Contender Search::refined(const CrossFit& base, const Contender& contender) const {
-    Contender best = contender;
-    const auto fit_from = [&](std::size_t place, std::size_t parameter, double value) {
-        Contender with = contender;
-        parallel_for(2, [&](std::size_t side) {
-            Hypothesis& hypothesis = with.trial.fitted.of_half[side];
-            hypothesis[place].values[parameter] = value;
-            for (const double step_scales : {usual_step, close_step})
-                hypothesis = fitted_from_there(base, with, side, step_scales);
-        });
-        judge_both_halves(base, with);
-        if (with.gain() > std::max(best.gain(), contender.gain() + least_gain)) best = std::move(with);
+    constexpr int first_iterations = 4;
+    const CrossFit& fitted = contender.trial.fitted;
+    const Places places = contender.fitted_places(base);
+    const auto fitted_on_first = [&](const Hypothesis& start, int most_iterations) {
+        return fitter_.fit_places(0, start, places, fitted.mean_squares,
+                                  {.most_iterations = most_iterations});
     };
-    const Hypothesis& hypothesis = contender.trial.fitted.of_half[0];
-    for (const std::size_t place : contender.fitted_places(base))
-        for (const Refinement& refinement : refinements_of(*hypothesis[place].effect))
-            if (!is_present(refinement, hypothesis))
-                for (const double value : refinement.values) fit_from(place, refinement.parameter, value);
-    if (best.gain() == contender.gain()) return best;
-    Contender closest = best;
-    parallel_for(2, [&](std::size_t side) {
-        closest.trial.fitted.of_half[side] = polished(best, side, contender.fitted_places(base));
+    struct Attempt {
+        std::size_t added;
+        Hypothesis start;
+        Fit fitted = {};
+    };
+    std::vector<Attempt> attempts;
+    for (const std::vector<Refined>& added : ways_to_refine(fitted.of_half[0], places))
+        attempts.push_back({added.size(), with_values(fitted.of_half[0], added)});
+    if (attempts.empty()) return contender;
+    parallel_for(attempts.size(), [&](std::size_t k) {
+        attempts[k].fitted = fitted_on_first(attempts[k].start, first_iterations);
     });
-    judge_both_halves(base, closest);
-    return closest.gain() > best.gain() ? closest : best;
+    // Of those that do about as well the one that adds least.
+    const double least_loss = std::ranges::min_element(attempts, {}, [](const Attempt& one) {
+                                  return one.fitted.loss;
+                              })->fitted.loss;
+    std::erase_if(attempts, [&](const Attempt& one) { return one.fitted.loss > least_loss + least_gain; });
+    const Attempt& best = *std::ranges::min_element(attempts, {}, &Attempt::added);
+    if (best.fitted.loss >= fitted_on_first(fitted.of_half[0], 0).loss) return contender;
+    Contender with = contender;
+    Hypothesis found = part_of(best.fitted.hypothesis, places);
+    // There and back: of two valleys beside each other a half may have missed the deeper one.
+    for (const std::size_t side : {0, 1, 0}) {
+        Hypothesis& hypothesis = with.trial.fitted.of_half[side];
+        hypothesis = with_part(std::move(hypothesis), places, found);
+        for (const double step_scales : {usual_step, close_step})
+            hypothesis = fitted_from_there(base, with, side, step_scales, Threads::all);
+        found = part_of(hypothesis, places);
+    }
+    judge_both_halves(base, with);
+    return with.gain() > contender.gain() + least_gain ? with : contender;
 }
 
 Hypothesis Search::polished(const Contender& contender, std::size_t side, const Places& places) const {

@@ -2,8 +2,8 @@
 // Friction that acts on the carriage's motion, in volts, positive to the left when the carriage moves to the
 // right:
 //
-//     g(|v|, y) = Fc + Fs exp(-(|v| / vs)^n) + Fp exp(-((y - yp) / wp)^2 / 2)     Coulomb, Stribeck, rail patch
-//     F = sgn(v) g + c v                                                         c by direction
+//     g(|v|, y) = Fc + Fs exp(-(|v| / vs)^n) + Fp exp(-(|y - yp| / wp)^m / 2)     Coulomb, Stribeck, rail
+//     patch F = sgn(v) g + c v                                                         c by direction
 //
 // At v = 0 dry friction holds whatever is not above g(0, y), or a little more: hold_V. Friction that creeps
 // does not hold: with a creep speed vc, tanh(v / vc) stands for sgn(v) (Andersson et al., Tribology
@@ -26,11 +26,19 @@
 
 namespace fidservo::plant {
 
-/// Where on the rail friction is raised, as a bell of standard deviation width_mm.
+/// Where on the rail friction is raised: a bell of standard deviation width_mm, or steeper at its edges.
 struct RailPatch {
     double level_V = 0.0;
     double centre_mm = 0.0;
     double width_mm = 1.0;
+    double exponent = 2.0;  ///< m >= 2
+
+    /// In V.
+    double friction_V(double position_mm) const {
+        const double away = (position_mm - centre_mm) / width_mm;
+        return level_V *
+               std::exp(-0.5 * (exponent == 2.0 ? away * away : std::pow(std::abs(away), exponent)));
+    }
 
     /// Farther away exp(-32) or less of it is left, which counts as nothing.
     bool reaches(double position_mm) const {
@@ -79,10 +87,7 @@ inline double stribeck_friction_V(const Friction& friction, double speed_mm_per_
 inline double dry_friction_V(const Friction& friction, double speed_mm_per_s, double position_mm) {
     double level_V = friction.coulomb_V;
     if (friction.stribeck_V != 0.0) level_V += stribeck_friction_V(friction, speed_mm_per_s);
-    if (friction.patch.reaches(position_mm)) {
-        const double away = (position_mm - friction.patch.centre_mm) / friction.patch.width_mm;
-        level_V += friction.patch.level_V * std::exp(-0.5 * away * away);
-    }
+    if (friction.patch.reaches(position_mm)) level_V += friction.patch.friction_V(position_mm);
     return level_V;
 }
 

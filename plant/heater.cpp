@@ -32,7 +32,8 @@ Heater make_heater(const HeaterParameters& parameters, double tick_s, const Seco
     FIDSERVO_DEMAND(tick_s > 0.0 && parameters.heating_tau_s > 0.0 && parameters.cooling_tau_s > 0.0);
     FIDSERVO_DEMAND(mass.coupling >= 0.0 && mass.tau_s > 0.0 && delay_s >= 0.0);
     if (mass.coupling * (1.0 - mass.taken) >= 1.0)
-        throw InputError("second_thermal_mass: gives back more than it takes, and heats the wire without end");
+        throw InputError(
+            "second_thermal_mass: gives back more than it takes, and heats the wire without end");
     return {parameters,
             -std::expm1(-tick_s / parameters.heating_tau_s),
             -std::expm1(-tick_s / parameters.cooling_tau_s),

@@ -121,8 +121,7 @@ Eigen::Vector2d advance(const ThermalPairTick& tick, const Eigen::Vector2d& rise
     const Regime regime(tick.pair, heating, phi_degC);
     const Eigen::Vector2d end_degC =
         regime.after(rise_degC, heating ? tick.heating_decay : tick.cooling_decay);
-    const bool turns =
-        regime.comes_closer(tick.pair, rise_degC) != regime.comes_closer(tick.pair, end_degC);
+    const bool turns = regime.comes_closer(tick.pair, rise_degC) != regime.comes_closer(tick.pair, end_degC);
     const bool keeps_side = heats(tick.pair, end_degC, phi_degC) == heating;
     return turns || !keeps_side ? advance(tick.pair, rise_degC, phi_degC, tick.time_s) : end_degC;
 }

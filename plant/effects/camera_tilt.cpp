@@ -7,13 +7,13 @@ namespace fidservo::plant::effects {
 namespace {
 
 constexpr EffectParameter parameters[] = {
-    {"about_u_deg", "deg", -3.0, 3.0, 0.0, 0.5,
+    {"about_u_deg", "deg", -10.0, 10.0, 0.0, 0.5,
      "part of the rotation vector along the image's rows; right-handed, z towards the plate"},
-    {"about_v_deg", "deg", -3.0, 3.0, 0.0, 0.5, "part along its columns"},
-    {"aside_u_mm", "mm", -2.0, 2.0, 0.0, 0.2,
+    {"about_v_deg", "deg", -10.0, 10.0, 0.0, 0.5, "part along its columns"},
+    {"aside_u_mm", "mm", -4.0, 4.0, 0.0, 0.2,
      "how far what it looks at lies aside on the plate, along the image's rows: 0 where the axis is in the "
      "plate"},
-    {"aside_v_mm", "mm", -2.0, 2.0, 0.0, 0.2, "the same along its columns"},
+    {"aside_v_mm", "mm", -4.0, 4.0, 0.0, 0.2, "the same along its columns"},
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
