@@ -40,7 +40,9 @@ std::string_view view_block(const Pattern& pattern, std::optional<Dependence> de
     if (dependence == Dependence::contraction) return "micro.hall";
     if (dependence == Dependence::image_place) return "camera.geometry";
     if (dependence == Dependence::motion_by_row) return "camera.image";
-    if (dependence == Dependence::plate_place || dependence == Dependence::tag_size) return "plate";
+    if (dependence == Dependence::plate_place || dependence == Dependence::tag_size ||
+        dependence == Dependence::tag_itself)
+        return "plate";
     return is_displacement(pattern) ? "camera.timing" : "camera.geometry";
 }
 

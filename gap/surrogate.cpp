@@ -5,7 +5,7 @@
 namespace fidservo::gap {
 
 std::string_view name_of(Dependence dependence) {
-    constexpr std::array<std::string_view, 20> names{"velocity",
+    constexpr std::array<std::string_view, 21> names{"velocity",
                                                      "direction",
                                                      "position",
                                                      "position, periodic",
@@ -24,6 +24,7 @@ std::string_view name_of(Dependence dependence) {
                                                      "place in the image",
                                                      "place on the plate",
                                                      "size of the tag",
+                                                     "which tag it is",
                                                      "how fast tags move, row by row"};
     return names.at(static_cast<std::size_t>(dependence));
 }

@@ -33,6 +33,7 @@ enum class Dependence : std::uint8_t {
     image_place,
     plate_place,
     tag_size,
+    tag_itself,     ///< a displacement of its own for each tag
     motion_by_row,  ///< of a tag in the image: gap/sheared_tags.h
 };
 

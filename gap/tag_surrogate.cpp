@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include <Eigen/LU>
@@ -15,6 +17,7 @@ namespace {
 
 /// What a detection offers to the functions below.
 struct Sight {
+    std::size_t run;
     const TagSighting& tag;
     double position_mm, velocity_mm_per_s, contraction_mm, time_s;
 };
@@ -29,7 +32,7 @@ Sight sight_of(const Evidence& evidence, std::size_t run, std::size_t detection)
         rows, tag.stamp_s, {}, [&](const StageRow& row) { return seconds(row.time_ns - start_ns); });
     const auto next = static_cast<std::size_t>(after - rows.begin());
     const std::size_t row = next > 0 ? next - 1 : 0, before = row > look_back ? row - look_back : 0;
-    Sight found{tag, course.position_mm[row], course.velocity_mm_per_s[row], 0.0, tag.stamp_s};
+    Sight found{run, tag, course.position_mm[row], course.velocity_mm_per_s[row], 0.0, tag.stamp_s};
     if (!course.contraction_mm.empty() && std::isfinite(course.contraction_mm[row])) {
         found.contraction_mm = course.contraction_mm[row];
         if (row > before)
@@ -59,6 +62,18 @@ class Columns {
             const CornerValues there = turned(sight.tag, pattern(sight)).cwiseQuotient(sight.tag.floors_px);
             for (Eigen::Index i = 0; i < there.size(); ++i) values[i] = static_cast<float>(there[i]);
         });
+    }
+
+    /// Centres of the tags that several recordings show, mm: what one of them says of a tag, another can
+    /// judge.
+    std::vector<Eigen::Vector2d> shared_tags() const {
+        std::map<std::pair<double, double>, std::set<std::size_t>> runs_of;
+        for (const auto& [at, sight] : sights_)
+            runs_of[{sight.tag.centre_mm.x(), sight.tag.centre_mm.y()}].insert(sight.run);
+        std::vector<Eigen::Vector2d> centres_mm;
+        for (const auto& [centre_mm, runs] : runs_of)
+            if (runs.size() > 1) centres_mm.emplace_back(centre_mm.first, centre_mm.second);
+        return centres_mm;
     }
 
     Column along(Dependence group, const Along& place) const {
@@ -106,6 +121,30 @@ CornerValues larger(const Sight& sight) {
     for (int c = 0; c < 4; ++c)
         values.segment<2>(2 * c) = (sight.tag.corners_px.segment<2>(2 * c) - middle).normalized();
     return values;
+}
+
+/// All corners at right angles to the stage's motion in the image.
+CornerValues across(const Sight& sight) {
+    const CornerValues motion = turned(sight.tag, CornerValues::Unit(0));
+    CornerValues values;
+    for (int c = 0; c < 4; ++c) values.segment<2>(2 * c) = Eigen::Vector2d(-motion[2 * c + 1], motion[2 * c]);
+    return values;
+}
+
+/// Where tags are not where the plate's description has them. A plate of another pitch displaces them along
+/// the motion, one that is turned across it, both in proportion to a tag's place on the plate, wherever in
+/// the image it is seen. Tags that are each misplaced by themselves show across the motion alone, where no
+/// false reading of the stages can displace them.
+void add_plate(std::vector<Column>& columns, const Columns& make) {
+    columns.push_back(make.along(Dependence::plate_place,
+                                 [](const Sight& sight) { return 1e-2 * sight.tag.centre_mm.x(); }));
+    columns.push_back(make.of_corners(Dependence::plate_place, [](const Sight& sight) {
+        return CornerValues(1e-2 * sight.tag.centre_mm.x() * across(sight));
+    }));
+    for (const Eigen::Vector2d& centre_mm : make.shared_tags())
+        columns.push_back(make.of_corners(Dependence::tag_itself, [&](const Sight& sight) {
+            return CornerValues(sight.tag.centre_mm == centre_mm ? across(sight) : CornerValues::Zero());
+        }));
 }
 
 void add_hats(std::vector<Column>& columns, const Columns& make, Dependence group, std::size_t count,
@@ -197,8 +236,7 @@ Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors) {
                  [](const Sight& sight) { return sight.contraction_mm; });
     add_image_places(columns, make, evidence.rig().camera->geometry);
     columns.push_back(make.of_corners(Dependence::tag_size, larger));
-    columns.push_back(make.along(Dependence::plate_place,
-                                 [](const Sight& sight) { return 1e-2 * sight.tag.centre_mm.x(); }));
+    add_plate(columns, make);
     return surrogate;
 }
 

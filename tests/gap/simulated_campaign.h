@@ -15,9 +15,10 @@
 
 namespace fidservo::testing {
 
-/// What a rig with effects records, two runs of each experiment, beside the reference rig's file.
-inline gap::Evidence campaign(const gap::Hypothesis& truth, std::initializer_list<std::string_view> kinds,
-                              const Rig& true_rig = reference_rig()) {
+/// What a rig with effects records, two runs of each experiment.
+inline std::vector<Recording> recordings_of(const gap::Hypothesis& truth,
+                                            std::initializer_list<std::string_view> kinds,
+                                            const Rig& true_rig = reference_rig()) {
     std::vector<Recording> recordings;
     for (const std::string_view kind : kinds)
         for (const std::uint64_t seed : {21, 22}) {
@@ -25,7 +26,13 @@ inline gap::Evidence campaign(const gap::Hypothesis& truth, std::initializer_lis
             recordings.push_back(
                 simulate(true_rig, truth, make_experiment(kind, true_rig, seed, name), name, seed));
         }
-    return {reference_rig(), std::move(recordings)};
+    return recordings;
+}
+
+/// The same, beside the reference rig's file.
+inline gap::Evidence campaign(const gap::Hypothesis& truth, std::initializer_list<std::string_view> kinds,
+                              const Rig& true_rig = reference_rig()) {
+    return {reference_rig(), recordings_of(truth, kinds, true_rig)};
 }
 
 }  // namespace fidservo::testing

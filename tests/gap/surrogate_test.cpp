@@ -1,8 +1,13 @@
 // What a remainder depends on, and which block that accuses, where the effect is withheld.
+#include "core/random.h"
 #include "gap/diagnose.h"
 #include "tests/gap/simulated_campaign.h"
 
+#include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,6 +36,37 @@ TEST(Surrogate, TagsOfAnotherSize_AccuseThePlate) {
     rig.fiducials->side_mm *= 1.003;
     const Diagnosis diagnosis = unnamed(rig, {}, {"rest", "micro-servo"}, "clock_skew");
     EXPECT_EQ(first_dependence(diagnosis), "size of the tag");
+    EXPECT_EQ(diagnosis.where.front().block, "plate");
+}
+
+/// What all corners of a detection are displaced by in the image, px, by the tag's number.
+Diagnosis with_tags_displaced(const std::function<Eigen::Vector2d(int)>& displacement_px) {
+    std::vector<Recording> recordings = testing::recordings_of({}, {"macro-square", "integrated"});
+    for (Recording& recording : recordings)
+        for (TagDetection& detection : recording.detections)
+            for (Eigen::Vector2d& corner : detection.corners_px) corner += displacement_px(detection.tag_id);
+    return diagnose(Evidence(reference_rig(), std::move(recordings)),
+                    {.only = {"clock_skew"}, .without = {}, .selection = {}});
+}
+
+TEST(Surrogate, PlateThatIsTurned_IsToldFromACameraThatIs) {
+    constexpr double turned_rad = 0.004, px_per_mm = 250.0, pitch_mm = 2.0;
+    const Diagnosis plate = with_tags_displaced(
+        [](int id) { return Eigen::Vector2d(0.0, turned_rad * px_per_mm * (pitch_mm * id - 100.0)); });
+    EXPECT_EQ(plate.where.front().block, "plate") << first_dependence(plate);
+    const Diagnosis camera = unnamed(reference_rig(), testing::effects({"camera_rotation:angle_deg=0.5"}),
+                                     {"macro-square", "integrated"}, "clock_skew");
+    EXPECT_EQ(first_dependence(camera), "place in the image");
+    EXPECT_EQ(camera.where.front().block, "camera.geometry");
+}
+
+TEST(Surrogate, TagsThatAreMisplacedEachByItself_AccuseThePlate) {
+    const Diagnosis diagnosis = with_tags_displaced([](int id) {
+        NoiseStream random(static_cast<std::uint64_t>(id), "misprint");
+        const double u_px = random.normal(), v_px = random.normal();
+        return Eigen::Vector2d(u_px, v_px);
+    });
+    EXPECT_EQ(first_dependence(diagnosis), "which tag it is");
     EXPECT_EQ(diagnosis.where.front().block, "plate");
 }
 
