@@ -8,19 +8,22 @@ namespace {
 
 std::string_view carriage_block(std::optional<Dependence> dependence) {
     if (dependence == Dependence::command || dependence == Dependence::command_change ||
-        dependence == Dependence::nothing || dependence == Dependence::time)
+        dependence == Dependence::command_period || dependence == Dependence::nothing ||
+        dependence == Dependence::time)
         return "macro.drive";
     if (dependence == Dependence::velocity || dependence == Dependence::direction ||
-        dependence == Dependence::position_friction)
+        dependence == Dependence::position_friction || dependence == Dependence::way_friction ||
+        dependence == Dependence::standing)
         return "macro.friction";
     return "macro.mechanics";
 }
 
 std::string_view platform_block(std::optional<Dependence> dependence) {
-    if (dependence == Dependence::macro_command || dependence == Dependence::acceleration)
+    if (dependence == Dependence::macro_command || dependence == Dependence::acceleration ||
+        dependence == Dependence::platform_place || dependence == Dependence::turns_of_wire)
         return "micro.mechanics";
-    if (dependence == Dependence::contraction || dependence == Dependence::direction ||
-        dependence == Dependence::minor_loops)
+    if (dependence == Dependence::contraction || dependence == Dependence::contraction_before ||
+        dependence == Dependence::direction || dependence == Dependence::minor_loops)
         return "micro.hysteresis";
     return "micro.heater";
 }
@@ -40,8 +43,8 @@ std::string_view view_block(const Pattern& pattern, std::optional<Dependence> de
     if (dependence == Dependence::contraction) return "micro.hall";
     if (dependence == Dependence::image_place) return "camera.geometry";
     if (dependence == Dependence::motion_by_row) return "camera.image";
-    if (dependence == Dependence::plate_place || dependence == Dependence::tag_size ||
-        dependence == Dependence::tag_itself)
+    if (dependence == Dependence::plate_place || dependence == Dependence::plate_turn ||
+        dependence == Dependence::tag_size || dependence == Dependence::tag_itself)
         return "plate";
     return is_displacement(pattern) ? "camera.timing" : "camera.geometry";
 }

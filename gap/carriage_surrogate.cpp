@@ -2,12 +2,14 @@
 #include "gap/carriage_forces.h"
 #include "gap/hat_functions.h"
 #include "gap/surrogate.h"
+#include "gap/wave_of_force.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <span>
 
 namespace fidservo::gap {
 namespace {
@@ -75,6 +77,46 @@ void add_waves(std::vector<Column>& columns, const CarriageForces& forces, doubl
     }
 }
 
+/// Steps of a converter make the force that is lacking a saw's teeth of the command; a pulley that runs out
+/// of true gives it a periodic share of what the drive pushes with.
+/// @param effective_V  of effective_V()
+void add_waves_of_drive(std::vector<Column>& columns, const CarriageForces& forces,
+                        const Quantity& share_passed, const Quantity& effective_V) {
+    constexpr double shortest_V = 0.1, longest_V = 1.0, shortest_mm = 5.0, longest_mm = 50.0;
+    const auto add = [&](Dependence dependence, const Quantity& quantity, const Quantity& factor,
+                         double shortest, double longest, std::span<const double> harmonics) {
+        const WaveOfForce wave = strongest_wave(forces, quantity, factor, shortest, longest);
+        if (wave.share < least_share_of_wave) return;
+        for (const double harmonic : harmonics)
+            for (const double phase : {0.0, 0.5 * std::numbers::pi})
+                columns.push_back(force(forces, dependence, [&](const SlidingRow& at) {
+                    return factor(at) *
+                           std::sin(2.0 * std::numbers::pi * harmonic * quantity(at) / wave.period + phase);
+                }));
+    };
+    add(
+        Dependence::command_period, [](const SlidingRow& at) { return at.command_V; }, share_passed,
+        shortest_V, longest_V, std::array{1.0, 2.0});
+    add(
+        Dependence::position_drive, [](const SlidingRow& at) { return at.position_mm; }, effective_V,
+        shortest_mm, longest_mm, std::array{1.0});
+}
+
+/// Way gone from a recording's first row on, row by row of every recording, mm.
+std::vector<std::vector<double>> way_mm(const Evidence& evidence) {
+    std::vector<std::vector<double>> all;
+    for (std::size_t run = 0; run < evidence.recordings().size(); ++run) {
+        std::vector<double>& of_run = all.emplace_back();
+        double way = 0.0;
+        for (const float velocity : evidence.course(run).velocity_mm_per_s) {
+            if (std::isfinite(velocity))
+                way += std::abs(static_cast<double>(velocity)) * evidence.rig().tick_s;
+            of_run.push_back(way);
+        }
+    }
+    return all;
+}
+
 }  // namespace
 
 bool has_own_zeros(const Evidence& evidence) {
@@ -116,8 +158,13 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, dou
         }));
     const Quantity time_s = [](const SlidingRow& at) { return at.time_s; };
     add_hats(columns, forces, Dependence::time, 6, time_s, share_passed);
-    add_hats(columns, forces, Dependence::time, 6, time_s,
-             [&](const SlidingRow& at) { return effective[at.run][at.row]; });
+    const Quantity drive_V = [&](const SlidingRow& at) { return effective[at.run][at.row]; };
+    add_hats(columns, forces, Dependence::time, 6, time_s, drive_V);
+    const std::vector<std::vector<double>> way = way_mm(evidence);
+    add_hats(
+        columns, forces, Dependence::way_friction, 6,
+        [&](const SlidingRow& at) { return way[at.run][at.row]; }, direction);
+    add_waves_of_drive(columns, forces, share_passed, drive_V);
     surrogate.period_mm = period_mm;
     if (period_mm <= 0.0) return surrogate;
     if (!has_own_zeros(evidence)) {

@@ -1,5 +1,6 @@
 #include "gap/hat_functions.h"
 #include "gap/surrogate.h"
+#include "gap/wire_path.h"
 #include "plant/effects/catalogue.h"
 #include "plant/platform_swing.h"
 
@@ -74,23 +75,6 @@ class Columns {
     std::size_t size_ = 0;
 };
 
-/// What the wire's temperature was before, as far as a body of some time constant remembers it: of each
-/// recording, row by row.
-std::vector<std::vector<float>> remembered_degC(const Evidence& evidence, double memory_s) {
-    const double share = -std::expm1(-evidence.rig().tick_s / memory_s);
-    std::vector<std::vector<float>> of_run;
-    for (std::size_t run = 0; run < evidence.recordings().size(); ++run) {
-        std::vector<float> values = evidence.course(run).temperature_degC;
-        double memory = values.empty() ? 0.0 : static_cast<double>(values.front());
-        for (float& value : values) {
-            if (std::isfinite(value)) memory += share * (static_cast<double>(value) - memory);
-            value = static_cast<float>(memory);
-        }
-        of_run.push_back(std::move(values));
-    }
-    return of_run;
-}
-
 /// What a small effect does to the errors.
 Errors tangent(const Evidence& evidence, std::string_view effect, double value) {
     const Wanted wanted = everything(evidence);
@@ -100,12 +84,39 @@ Errors tangent(const Evidence& evidence, std::string_view effect, double value) 
     return without;
 }
 
+std::vector<std::vector<float>> of_each_run(
+    const Evidence& evidence, const std::function<std::vector<float>(std::size_t run)>& values) {
+    std::vector<std::vector<float>> all;
+    for (std::size_t run = 0; run < evidence.recordings().size(); ++run) all.push_back(values(run));
+    return all;
+}
+
+/// What lies between the wire and the readings, whatever the temperature. With play between wire and platform
+/// the platform stays where it is after each turn of the wire, for the same way at any temperature; a wire
+/// that creeps follows itself with a lag, also where its end states are reached and warmth changes nothing.
+void add_wire_paths(std::vector<Column>& columns, const Columns& make, const Evidence& evidence) {
+    const auto wire_mm = of_each_run(evidence, [&](std::size_t run) { return wire_path_mm(evidence, run); });
+    const auto add = [&](Dependence group, const std::function<std::vector<float>(std::size_t)>& changed) {
+        const auto changed_mm = of_each_run(evidence, changed);
+        columns.push_back(make.of(group, [&](const Window& window, std::size_t k, const Row&) {
+            const std::size_t row = window.first_row + k;
+            return changed_mm[window.run][row] - wire_mm[window.run][row];
+        }));
+    };
+    for (const double play_mm : {0.02, 0.05, 0.1, 0.2})
+        add(Dependence::turns_of_wire, [&](std::size_t run) { return behind_play(wire_mm[run], play_mm); });
+    for (const double lag_s : {0.5, 1.0, 2.0, 4.0, 8.0})
+        add(Dependence::contraction_before,
+            [&](std::size_t run) { return behind_lag(wire_mm[run], lag_s, evidence.rig().tick_s); });
+}
+
 }  // namespace
 
 Surrogate platform_surrogate(const Evidence& evidence) {
     const Columns make(evidence);
     Surrogate surrogate{Signal::hall, {}, {}};
     std::vector<Column>& columns = surrogate.columns;
+    const double tick_s = evidence.rig().tick_s;
     const Errors warmth = tangent(evidence, "ambient_temperature", 1.0);
     const Errors stroke = tangent(evidence, "stroke_change", 1.01);
     const auto add_hats = [&](Dependence group, std::size_t count, const Errors* by,
@@ -117,19 +128,24 @@ Surrogate platform_surrogate(const Evidence& evidence) {
                 return hat(knots, j, quantity(at)) * (by != nullptr ? (*by)[window.begin + k] : 1.0);
             }));
     };
-    add_hats(Dependence::contraction, 10, nullptr, [](const Row& at) { return at.contraction_mm; });
-    add_hats(Dependence::contraction, 5, &stroke, [](const Row& at) { return at.contraction_mm; });
+    add_hats(Dependence::platform_place, 10, nullptr, [](const Row& at) { return at.contraction_mm; });
+    columns.push_back(make.of(Dependence::contraction, [&](const Window& window, std::size_t k, const Row&) {
+        return stroke[window.begin + k];
+    }));
     add_hats(Dependence::time, 6, nullptr, [](const Row& at) { return at.time_s; });
     add_hats(Dependence::temperature, 8, &warmth, [](const Row& at) { return at.temperature_degC; });
     add_hats(Dependence::command, 8, &warmth, [](const Row& at) { return at.command_V; });
     for (const double memory_s : {0.2, 0.6, 2.0, 6.0, 20.0}) {
-        const auto remembered = remembered_degC(evidence, memory_s);
+        const auto remembered = of_each_run(evidence, [&](std::size_t run) {
+            return behind_lag(evidence.course(run).temperature_degC, memory_s, tick_s);
+        });
         columns.push_back(
             make.of(Dependence::temperature_before, [&](const Window& window, std::size_t k, const Row& at) {
                 return 1e-2 * (remembered[window.run][window.first_row + k] - at.temperature_degC) *
                        warmth[window.begin + k];
             }));
     }
+    add_wire_paths(columns, make, evidence);
     columns.push_back(make.of(Dependence::direction, [&](const Window& window, std::size_t k, const Row& at) {
         return at.direction * warmth[window.begin + k];
     }));

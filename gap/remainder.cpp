@@ -4,6 +4,7 @@
 #include "gap/carriage_forces.h"
 #include "gap/gap_size.h"
 #include "gap/halves.h"
+#include "gap/held_carriage.h"
 #include "gap/minor_loops.h"
 #include "gap/period_search.h"
 #include "gap/sheared_tags.h"
@@ -49,7 +50,7 @@ Dependences dependences(const Evidence& evidence, Signal signal, const Surrogate
 }
 
 /// What friction does where the carriage hardly moves shows at the edge of the dead zone only: it is looked
-/// for there where nothing is found elsewhere.
+/// for there where nothing is found elsewhere, and at last where the carriage is held though it is pushed.
 Dependences dependences_of_carriage(const Evidence& evidence, const Errors& errors,
                                     std::span<const std::uint8_t> usual_half, double tail) {
     const std::vector<std::uint8_t> half = has_own_zeros(evidence)
@@ -61,8 +62,9 @@ Dependences dependences_of_carriage(const Evidence& evidence, const Errors& erro
     for (const double edge_V : {usual_edge_V, 0.0}) {
         const Surrogate surrogate = carriage_surrogate(evidence, errors, edge_V, period);
         found = dependences(evidence, Signal::encoder, surrogate, surrogate.errors, half, tail);
-        if (!found.groups.empty()) break;
+        if (!found.groups.empty()) return found;
     }
+    if (carriage_is_held(evidence)) found.groups = {static_cast<int>(Dependence::standing)};
     return found;
 }
 

@@ -5,7 +5,7 @@
 namespace fidservo::gap {
 
 std::string_view name_of(Dependence dependence) {
-    constexpr std::array<std::string_view, 21> names{"velocity",
+    constexpr std::array<std::string_view, 29> names{"velocity",
                                                      "direction",
                                                      "position",
                                                      "position, periodic",
@@ -13,16 +13,24 @@ std::string_view name_of(Dependence dependence) {
                                                      "acceleration",
                                                      "command",
                                                      "changes of the command",
+                                                     "command, periodic",
                                                      "nothing: a constant force",
                                                      "time",
                                                      "temperature",
                                                      "temperature before",
                                                      "turns between the wire's end states",
                                                      "contraction",
+                                                     "contraction before",
+                                                     "place of the platform",
+                                                     "way since the wire turned",
                                                      "macro command",
                                                      "position, against the motion",
+                                                     "position, periodic, times the drive's force",
+                                                     "way gone so far, against the motion",
+                                                     "whether it stands or slides",
                                                      "place in the image",
                                                      "place on the plate",
+                                                     "place on the plate, across the motion",
                                                      "size of the tag",
                                                      "which tag it is",
                                                      "how fast tags move, row by row"};

@@ -22,16 +22,24 @@ enum class Dependence : std::uint8_t {
     acceleration,
     command,
     command_change,  ///< what came before the command that is in force
+    command_period,  ///< the steps of a converter
     nothing,         ///< a constant
     time,
     temperature,
     temperature_before,  ///< as bodies of some time constants remember it
     minor_loops,         ///< between the wire's end states: gap/minor_loops.h
-    contraction,
+    contraction,         ///< of the platform, in proportion to it; of tags, any function of it
+    contraction_before,  ///< the wire follows itself with a lag
+    platform_place,      ///< any function of it, the same for heating and cooling
+    turns_of_wire,       ///< the way since the wire turned
     macro_command,
     position_friction,  ///< a friction that depends on the place
+    position_drive,     ///< a periodic share of what the drive pushes with
+    way_friction,       ///< a friction that depends on the way gone so far
+    standing,           ///< gap/held_carriage.h
     image_place,
     plate_place,
+    plate_turn,  ///< a displacement across the motion in proportion to the place on the plate
     tag_size,
     tag_itself,     ///< a displacement of its own for each tag
     motion_by_row,  ///< of a tag in the image: gap/sheared_tags.h

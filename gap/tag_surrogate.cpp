@@ -138,7 +138,7 @@ CornerValues across(const Sight& sight) {
 void add_plate(std::vector<Column>& columns, const Columns& make) {
     columns.push_back(make.along(Dependence::plate_place,
                                  [](const Sight& sight) { return 1e-2 * sight.tag.centre_mm.x(); }));
-    columns.push_back(make.of_corners(Dependence::plate_place, [](const Sight& sight) {
+    columns.push_back(make.of_corners(Dependence::plate_turn, [](const Sight& sight) {
         return CornerValues(1e-2 * sight.tag.centre_mm.x() * across(sight));
     }));
     for (const Eigen::Vector2d& centre_mm : make.shared_tags())

@@ -33,6 +33,9 @@ TEST(Accusation, ActuatorSpoilsItsOwnPredictionOnly) {
     EXPECT_EQ(accused_block(wire, Signal::hall, Dependence::temperature), "micro.heater");
     EXPECT_EQ(accused_block(wire, Signal::hall, Dependence::direction), "micro.hysteresis");
     EXPECT_EQ(accused_block(wire, Signal::hall, Dependence::acceleration), "micro.mechanics");
+    EXPECT_EQ(accused_block(wire, Signal::hall, Dependence::contraction_before), "micro.hysteresis");
+    EXPECT_EQ(accused_block(wire, Signal::hall, Dependence::platform_place), "micro.mechanics");
+    EXPECT_EQ(accused_block(wire, Signal::hall, Dependence::turns_of_wire), "micro.mechanics");
     EXPECT_EQ(accused_block(wire, Signal::hall, {}), "micro.heater");
 }
 

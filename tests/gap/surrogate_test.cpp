@@ -1,8 +1,11 @@
 // What a remainder depends on, and which block that accuses, where the effect is withheld.
+#include "core/hall.h"
 #include "core/random.h"
 #include "gap/diagnose.h"
 #include "tests/gap/simulated_campaign.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -122,6 +125,62 @@ TEST(Surrogate, BodyThatStoresHeat_AccusesTheHeater) {
 }
 
 /// A longer stroke is no other heater, though a warmer wire contracts further too.
+using Change = std::function<void(Recording&)>;
+
+/// Of recordings of the reference rig that are changed, at recorded commands.
+Diagnosis of_changed(std::initializer_list<std::string_view> kinds, const Change& change) {
+    std::vector<Recording> recordings = testing::recordings_of({}, kinds);
+    for (Recording& recording : recordings) change(recording);
+    return diagnose(Evidence(reference_rig(), std::move(recordings)),
+                    {.only = {"clock_skew"}, .without = {}, .selection = {}});
+}
+
+/// Recordings of the wire and its Hall reading without tags, with the platform moved from x to moved_mm(x),
+/// row after row.
+Diagnosis of_moved_platform(const std::function<std::function<double(double)>()>& begin) {
+    return of_changed({"micro-steps", "micro-triangle"}, [&](Recording& recording) {
+        const HallParameters& hall = reference_rig().micro->hall;
+        const auto moved_mm = begin();
+        recording.detections.clear();
+        for (StageRow& row : recording.rows) {
+            const double place_mm = hall_position_mm_of_adc(hall, row.hall_adc);
+            const double moved_lsb =
+                (moved_mm(place_mm) - place_mm) * hall_slope_V_per_mm(hall, place_mm) / hall_lsb_V(hall);
+            row.hall_adc = std::round(row.hall_adc + moved_lsb);
+        }
+    });
+}
+
+TEST(Surrogate, PlatformThatMeetsASpring_AccusesTheMechanics) {
+    const Diagnosis diagnosis = of_moved_platform(
+        [] { return [](double wire_mm) { return wire_mm - 0.1 * std::max(0.0, wire_mm - 2.5); }; });
+    EXPECT_EQ(first_dependence(diagnosis), "place of the platform");
+    EXPECT_EQ(diagnosis.where.front().block, "micro.mechanics");
+}
+
+TEST(Surrogate, PlayBetweenWireAndPlatform_AccusesTheMechanics) {
+    const Diagnosis diagnosis = of_moved_platform([] {
+        return [place_mm = 0.0](double wire_mm) mutable {
+            constexpr double half_mm = 0.04;
+            return place_mm = std::clamp(place_mm, wire_mm - half_mm, wire_mm + half_mm);
+        };
+    });
+    EXPECT_EQ(first_dependence(diagnosis), "way since the wire turned");
+    EXPECT_EQ(diagnosis.where.front().block, "micro.mechanics");
+}
+
+TEST(Surrogate, WireThatCreeps_AccusesTheHysteresis) {
+    const Diagnosis diagnosis = of_moved_platform([] {
+        return [slow_mm = 0.0](double wire_mm) mutable {
+            constexpr double share = 0.05, tau_s = 3.0, tick_s = 1e-3;
+            slow_mm += (wire_mm - slow_mm) * tick_s / tau_s;
+            return wire_mm + share * (slow_mm - wire_mm);
+        };
+    });
+    EXPECT_EQ(first_dependence(diagnosis), "contraction before");
+    EXPECT_EQ(diagnosis.where.front().block, "micro.hysteresis");
+}
+
 TEST(Surrogate, LongerStroke_AccusesTheHysteresis) {
     for (const char* stroke : {"stroke_change:factor=1.013", "stroke_change:factor=0.93"}) {
         const Diagnosis diagnosis = unnamed(reference_rig(), testing::effects({stroke}),

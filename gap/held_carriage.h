@@ -1,0 +1,15 @@
+#pragma once
+// Whether something holds a carriage that the drive would move.
+//
+// Friction at rest shows in no force that a sliding carriage lacks (gap/carriage_forces.h). It shows where
+// the carriage stands although its command is beyond the dead zone's edge.
+#include "gap/evidence.h"
+
+namespace fidservo::gap {
+
+/// Whether it stands like that, away from the ends of the rail, for longer than its inertia and play of a
+/// millimetre explain: at five times or more the rig file's drive would have moved it on by more than that
+/// after a time constant.
+bool carriage_is_held(const Evidence& evidence);
+
+}  // namespace fidservo::gap
