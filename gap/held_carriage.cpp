@@ -4,15 +4,18 @@
 #include "gap/carriage_run.h"
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace fidservo::gap {
 namespace {
 
-/// How often a carriage stands while it is pushed further than play explains.
-int times_held(const Recording& recording, const MacroParameters& macro) {
+/// The ways, in mm, by which a carriage that stands is pushed on, of those that are longer than play
+/// explains.
+std::vector<double> ways_lost_mm(const Recording& recording, const MacroParameters& macro) {
     constexpr double play_mm = 1.0, from_ends_mm = 1.0;
     const double tick_s = recording.tick_s, tau_s = -tick_s / std::log(macro.velocity_pole);
-    int times = 0;
+    std::vector<double> ways_mm;
     double stood_s = 0.0, lost_mm = 0.0, last_V = 0.0, last_count = 0.0;
     for (const StageRow& row : recording.rows) {
         const double push_V = dead_zone_V(macro.dead_zone, row.macro_command_V);
@@ -23,21 +26,27 @@ int times_held(const Recording& recording, const MacroParameters& macro) {
         const double before_mm = stands ? lost_mm : 0.0;
         lost_mm = before_mm;
         if (stood_s > tau_s) lost_mm += macro.velocity_gain_mm_per_s_per_V * std::abs(push_V) * tick_s;
-        if (before_mm <= play_mm && lost_mm > play_mm) ++times;
+        if (before_mm <= play_mm && lost_mm > play_mm) ways_mm.push_back(lost_mm);
+        if (before_mm > play_mm) ways_mm.back() = lost_mm;
         last_V = push_V;
         last_count = count;
     }
-    return times;
+    return ways_mm;
 }
 
 }  // namespace
 
 bool carriage_is_held(const Evidence& evidence) {
-    constexpr int fewest = 5;
-    int times = 0;
+    constexpr std::size_t fewest = 2;
+    constexpr double least_mm = 5.0;
+    std::size_t times = 0;
+    double sum_mm = 0.0;
     for (const Recording& recording : evidence.recordings())
-        times += times_held(recording, evidence.rig().macro);
-    return times >= fewest;
+        for (const double way_mm : ways_lost_mm(recording, evidence.rig().macro)) {
+            ++times;
+            sum_mm += way_mm;
+        }
+    return times >= fewest && sum_mm > least_mm;
 }
 
 }  // namespace fidservo::gap

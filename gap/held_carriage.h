@@ -8,7 +8,7 @@
 namespace fidservo::gap {
 
 /// Whether it stands like that, away from the ends of the rail, for longer than its inertia and play of a
-/// millimetre explain: at five times or more the rig file's drive would have moved it on by more than that
+/// millimetre explain: twice or more, and by 5 mm in all that the rig file's drive would have moved it on by
 /// after a time constant.
 bool carriage_is_held(const Evidence& evidence);
 

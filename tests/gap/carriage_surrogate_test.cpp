@@ -111,7 +111,7 @@ TEST(SurrogateOfCarriage, FrictionThatRunsIn_AccusesTheFriction) {
 }
 
 Forces with_stiction(double command_V, const Carriage& at) {
-    constexpr double most_V = 0.9, dwell_s = 0.3;
+    constexpr double most_V = 0.8, dwell_s = 0.4;
     return {push_V(command_V),
             at.velocity_mm_per_s == 0.0 ? most_V * -std::expm1(-at.stood_s / dwell_s) : 0.0};
 }
