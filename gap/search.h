@@ -139,10 +139,13 @@ class Search {
     /// its end, and of what leaves nearly nothing of a signal's gap.
     void fit_closer(const CrossFit& base, Contender& contender) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
-                                 double step_scales, Threads threads = Threads::one) const;
+                                 double step_scales) const;
     /// With a refinement of what is fitted, from any of its values: where a fit has begun without, no slope
     /// leads to it, and from afar it only seems to do harm.
     Contender refined(const CrossFit& base, const Contender& contender) const;
+    /// With what it fits from such a start of the first half, then from there on the other one: of two
+    /// valleys beside each other that may miss the deeper one by itself.
+    Contender fitted_on(const CrossFit& base, const Contender& contender, const Hypothesis& start) const;
     Hypothesis polished(const Contender& contender, std::size_t side, const Places& places) const;
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
     /// Whether some signal loses such a share of its excess, and comes to its floor or loses at least such a

@@ -215,54 +215,64 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
 }
 
 Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
-                                     double step_scales, Threads threads) const {
+                                     double step_scales) const {
     const CrossFit& fitted = contender.trial.fitted;
     return fitter_
-        .fit_places(
-            side, fitted.of_half[side], contender.fitted_places(base), fitted.mean_squares,
-            {.most_iterations = 40, .tolerance = 1e-7, .threads = threads, .step_scales = step_scales})
+        .fit_places(side, fitted.of_half[side], contender.fitted_places(base), fitted.mean_squares,
+                    {.most_iterations = 40, .tolerance = 1e-7, .step_scales = step_scales})
         .hypothesis;
 }
 
 Search::Contender Search::refined(const CrossFit& base, const Contender& contender) const {
     constexpr int first_iterations = 4;
-    const CrossFit& fitted = contender.trial.fitted;
-    const Places places = contender.fitted_places(base);
-    const auto fitted_on_first = [&](const Hypothesis& start, int most_iterations) {
-        return fitter_.fit_places(0, start, places, fitted.mean_squares,
-                                  {.most_iterations = most_iterations});
-    };
+    constexpr std::size_t most_fitted_on = 3;
     struct Attempt {
         std::size_t added;
         Hypothesis start;
-        Fit fitted = {};
+        double loss = 0.0;
+        Contender with = {};
     };
+    const CrossFit& fitted = contender.trial.fitted;
+    const Places places = contender.fitted_places(base);
     std::vector<Attempt> attempts;
     for (const std::vector<Refined>& added : ways_to_refine(fitted.of_half[0], places))
         attempts.push_back({added.size(), with_values(fitted.of_half[0], added)});
-    if (attempts.empty()) return contender;
     parallel_for(attempts.size(), [&](std::size_t k) {
-        attempts[k].fitted = fitted_on_first(attempts[k].start, first_iterations);
+        Fit first = fitter_.fit_places(0, attempts[k].start, places, fitted.mean_squares,
+                                       {.most_iterations = first_iterations});
+        attempts[k].start = std::move(first.hypothesis);
+        attempts[k].loss = first.loss;
     });
-    // Of those that do about as well the one that adds least.
-    const double least_loss = std::ranges::min_element(attempts, {}, [](const Attempt& one) {
-                                  return one.fitted.loss;
-                              })->fitted.loss;
-    std::erase_if(attempts, [&](const Attempt& one) { return one.fitted.loss > least_loss + least_gain; });
-    const Attempt& best = *std::ranges::min_element(attempts, {}, &Attempt::added);
-    if (best.fitted.loss >= fitted_on_first(fitted.of_half[0], 0).loss) return contender;
+    std::ranges::sort(attempts, {}, &Attempt::loss);
+    if (attempts.size() > most_fitted_on) attempts.resize(most_fitted_on);
+    parallel_for(attempts.size(),
+                 [&](std::size_t k) { attempts[k].with = fitted_on(base, contender, attempts[k].start); });
+    Contender best = contender;
+    std::ranges::stable_sort(attempts, {}, &Attempt::added);
+    for (const Attempt& attempt : attempts)
+        if (attempt.with.gain() > best.gain() + least_gain) best = attempt.with;
+    if (best.gain() == contender.gain()) return contender;
+    Contender closest = best;
+    parallel_for(
+        2, [&](std::size_t side) { closest.trial.fitted.of_half[side] = polished(best, side, places); });
+    judge_both_halves(base, closest);
+    return closest.gain() > best.gain() ? closest : best;
+}
+
+Search::Contender Search::fitted_on(const CrossFit& base, const Contender& contender,
+                                    const Hypothesis& start) const {
+    const Places places = contender.fitted_places(base);
     Contender with = contender;
-    Hypothesis found = part_of(best.fitted.hypothesis, places);
-    // There and back: of two valleys beside each other a half may have missed the deeper one.
-    for (const std::size_t side : {0, 1, 0}) {
+    Hypothesis found = part_of(start, places);
+    for (const std::size_t side : {0, 1}) {
         Hypothesis& hypothesis = with.trial.fitted.of_half[side];
         hypothesis = with_part(std::move(hypothesis), places, found);
         for (const double step_scales : {usual_step, close_step})
-            hypothesis = fitted_from_there(base, with, side, step_scales, Threads::all);
+            hypothesis = fitted_from_there(base, with, side, step_scales);
         found = part_of(hypothesis, places);
     }
     judge_both_halves(base, with);
-    return with.gain() > contender.gain() + least_gain ? with : contender;
+    return with;
 }
 
 Hypothesis Search::polished(const Contender& contender, std::size_t side, const Places& places) const {

@@ -51,13 +51,26 @@ TEST(PlainForm, IsThatOfALimitOnly) {
     EXPECT_FALSE(is_limit_of("drive_gain", "cable_force"));
 }
 
-TEST(Refinements, AreCreepSpeedsAndCountAsNoParameter) {
-    for (const char* name : {"coulomb_friction", "stribeck_friction", "rail_patch"}) {
+TEST(Refinements, AreWhatAnEffectMayBeWithoutAndCountAsNoParameter) {
+    using Names = std::vector<std::string_view>;
+    const std::map<std::string_view, Names> expected{{"coulomb_friction", {"creep_mm_per_s"}},
+                                                     {"stribeck_friction", {"creep_mm_per_s", "exponent"}},
+                                                     {"rail_patch", {"creep_mm_per_s", "edge"}},
+                                                     {"second_thermal_mass", {"heating"}},
+                                                     {"hall_offset", {"shift_um"}}};
+    for (const auto& [name, refined] : expected) {
         const plant::Effect& effect = *plant::find_effect(name);
-        const std::vector<Refinement> refinements = refinements_of(effect);
-        ASSERT_EQ(refinements.size(), 1U) << name;
-        EXPECT_EQ(refinements.front().name, "creep_mm_per_s");
-        EXPECT_EQ(unrefined_parameters(effect), effect.parameters.size() - 1);
+        Names names;
+        for (const Refinement& refinement : refinements_of(effect)) {
+            names.push_back(refinement.name);
+            const plant::EffectParameter& parameter = effect.parameters[refinement.parameter];
+            for (const double value : refinement.values) {
+                EXPECT_TRUE(value >= parameter.low && value <= parameter.high) << name << " " << value;
+                EXPECT_FALSE(parameter.is_negligible(value)) << name << " " << value;
+            }
+        }
+        EXPECT_EQ(names, refined) << name;
+        EXPECT_EQ(unrefined_parameters(effect), effect.parameters.size() - refined.size()) << name;
     }
     EXPECT_TRUE(refinements_of(*plant::find_effect("presliding")).empty());
 }
