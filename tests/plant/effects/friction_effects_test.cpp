@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -40,6 +41,18 @@ TEST(StribeckFriction, SteadySpeed_LiesOnTheCurve) {
         EXPECT_NEAR(v, gain * (voltage_V - std::copysign(0.2 * std::exp(-std::abs(v) / 12.0), v)), 1e-4);
     }
     EXPECT_EQ(after(axis, start(axis, 0.0), 0.1999, 100).position_mm, 0.0) << "held";
+}
+
+TEST(StribeckFriction, WithExponent_LiesOnThatCurve) {
+    for (const double exponent : {1.5, 2.0, 3.0}) {
+        const MacroAxis axis = endless_axis_with("stribeck_friction:level_V=0.2,speed_mm_per_s=12,exponent=" +
+                                                 std::to_string(exponent));
+        for (const double voltage_V : {0.21, -0.4}) {
+            const double v = after(axis, start(axis, 0.0), voltage_V, 3000).velocity_mm_per_s;
+            const double dry_V = 0.2 * std::exp(-std::pow(std::abs(v) / 12.0, exponent));
+            EXPECT_NEAR(v, gain * (voltage_V - std::copysign(dry_V, v)), 1e-3) << exponent;
+        }
+    }
 }
 
 TEST(StribeckFriction, WithCreepSpeed_LetsTheCarriageCreepWhereItWouldHold) {
@@ -139,6 +152,13 @@ TEST(Presliding, BesideOtherFriction_IsLuGreOfConstantStiffness) {
         }
         ASSERT_NEAR(state.position_mm, y, 2e-3) << "tick " << k;
     }
+}
+
+TEST(RailPatch, WithSteepEdges_IsLevelBetweenThem) {
+    const Friction friction{.patch = {.level_V = 0.2, .centre_mm = 50.0, .width_mm = 10.0, .exponent = 8.0}};
+    EXPECT_NEAR(dry_friction_V(friction, 1.0, 45.0), 0.2 * std::exp(-0.5 / 256.0), 1e-12);
+    EXPECT_NEAR(dry_friction_V(friction, 1.0, 60.0), 0.2 * std::exp(-0.5), 1e-12);
+    EXPECT_LT(dry_friction_V(friction, 1.0, 65.0), 1e-5);
 }
 
 TEST(RailPatch, SteadySpeed_IsLowerOnThePatchOnly) {

@@ -1,6 +1,7 @@
 #include "tests/plant/effects/effect_rig.h"
 
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -42,6 +43,34 @@ TEST(SecondThermalMass, CoolingAfterALongHold_HasTheTwoRatesOfThePair) {
         const double t = 0.001 * k;
         EXPECT_NEAR(rise_degC(state), P * std::exp(-fast * t) + Q * std::exp(-slow * t), 1e-6) << t;
     }
+}
+
+/// The published equations of a mount that is the wire's surroundings, and of one that exchanges heat as fast
+/// as the wire heats, by Euler's method in steps of 1 us.
+TEST(SecondThermalMass, AsSurroundingsOrWithinTheWiresOwnRate_FollowsThoseEquations) {
+    constexpr double share = 0.2, mass_tau_s = 5.0, heating_tau_s = 0.55, cooling_tau_s = 1.0, step_s = 1e-6;
+    const auto rise_after = [&](bool surrounds) {
+        double wire = 0.0, mass = 0.0;
+        for (int k = 0; k < 3'000'000; ++k) {
+            const double phi = k < 2'000'000 ? 272.0 * 0.3 : 0.0;
+            const double around = surrounds ? share * mass : 0.0,
+                         given = surrounds ? 0.0 : share * (wire - mass);
+            const double tau_s = phi > wire - around ? heating_tau_s : cooling_tau_s;
+            const double wire_rate = (phi - (wire - around) - given) / tau_s;
+            mass += step_s / mass_tau_s * (wire - mass);
+            wire += step_s * wire_rate;
+        }
+        return wire;
+    };
+    const auto plant_after = [&](const std::string& effect) {
+        const StagePlant plant = plant_with("second_thermal_mass:coupling=0.2,mass_tau_s=5," + effect);
+        StageState state = after(plant, 1.6, 2000);
+        for (int k = 0; k < 1000; ++k) advance(plant, state, 0.0, 0.0);
+        return rise_degC(state);
+    };
+    EXPECT_NEAR(plant_after("taken=0"), rise_after(true), 1e-3);
+    EXPECT_NEAR(plant_after("heating=" + std::to_string(cooling_tau_s / heating_tau_s)), rise_after(false),
+                1e-3);
 }
 
 TEST(SecondThermalMass, ColdMass_DrawsHeatAtFirst) {

@@ -58,6 +58,14 @@ TEST(HallOffset, Voltage_IsShifted) {
                     mean_reading_lsb(nominal.micro->hall, x_mm) + 0.05 * 4096.0 / 5.0, 1e-9);
 }
 
+TEST(HallOffset, MagnetAside_ReadsAsThePlatformFartherOn) {
+    const StagePlant plant = plant_with("hall_offset:offset_V=0,shift_um=80");
+    const StagePlant nominal = make_stage_plant(reference_rig());
+    for (const double x_mm : {0.5, 1.3, 3.5})
+        EXPECT_NEAR(mean_reading_lsb(plant.micro->hall, x_mm),
+                    mean_reading_lsb(nominal.micro->hall, x_mm + 0.08), 1e-9);
+}
+
 TEST(HallNonlinearity, Curve_KeepsItsCentreAndEndsAndBendsBetween) {
     const StagePlant plant = plant_with("hall_nonlinearity:cubic_shift=0.08");
     const StagePlant nominal = make_stage_plant(reference_rig());
