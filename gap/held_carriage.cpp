@@ -14,6 +14,7 @@ namespace {
 /// explains.
 std::vector<double> ways_lost_mm(const Recording& recording, const MacroParameters& macro) {
     constexpr double play_mm = 1.0, from_ends_mm = 1.0;
+    constexpr double edge_V = 0.05;  // any small force holds a carriage that hardly pushes
     const double tick_s = recording.tick_s, tau_s = -tick_s / std::log(macro.velocity_pole);
     std::vector<double> ways_mm;
     double stood_s = 0.0, lost_mm = 0.0, last_V = 0.0, last_count = 0.0;
@@ -25,7 +26,10 @@ std::vector<double> ways_lost_mm(const Recording& recording, const MacroParamete
         stood_s = stands ? stood_s + tick_s : 0.0;
         const double before_mm = stands ? lost_mm : 0.0;
         lost_mm = before_mm;
-        if (stood_s > tau_s) lost_mm += macro.velocity_gain_mm_per_s_per_V * std::abs(push_V) * tick_s;
+        const DeadZoneBranch branch = dead_zone_branch(macro.dead_zone, row.macro_command_V);
+        const bool is_clear = dead_zone_slack_V(macro.dead_zone, branch, row.macro_command_V) > edge_V;
+        if (stood_s > tau_s && is_clear)
+            lost_mm += macro.velocity_gain_mm_per_s_per_V * std::abs(push_V) * tick_s;
         if (before_mm <= play_mm && lost_mm > play_mm) ways_mm.push_back(lost_mm);
         if (before_mm > play_mm) ways_mm.back() = lost_mm;
         last_V = push_V;

@@ -120,9 +120,10 @@ TEST(SurrogateOfCarriage, FrictionThatOnlyHolds_AccusesTheFriction) {
     expect_accused(with_stiction, "stands or slides", "macro.friction");
 }
 
-TEST(HeldCarriage, IsToldFromOneThatPlayOrInertiaKeeps) {
+TEST(HeldCarriage, IsToldFromOneThatPlayInertiaOrASmallForceKeeps) {
     EXPECT_TRUE(carriage_is_held({reference_rig(), recordings_under(with_stiction)}));
-    for (const std::string_view effect : {"", "backlash", "payload", "belt_compliance", "drive_delay"}) {
+    for (const std::string_view effect : {"", "backlash", "payload", "belt_compliance", "drive_delay",
+                                          "cogging:amplitude_V=0.002,period_mm=4,phase_rad=1"}) {
         const Hypothesis truth = effect.empty() ? Hypothesis{} : testing::effects({effect});
         EXPECT_FALSE(carriage_is_held(
             testing::campaign(truth, {"macro-sweep", "macro-pulses", "macro-square", "integrated"})))
