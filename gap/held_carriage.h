@@ -1,9 +1,9 @@
 #pragma once
 // Whether something holds a carriage that the drive would move.
 //
-// Friction at rest shows in no force that a sliding carriage lacks (gap/carriage_forces.h). It shows where the
-// carriage stands although its command is clearly beyond the dead zone's edge: at the edge itself any small
-// force keeps it there.
+// Friction at rest shows in no force that a sliding carriage lacks (gap/carriage_forces.h). It shows where
+// the carriage stands although its command is clearly beyond the dead zone's edge: at the edge itself any
+// small force keeps it there.
 #include "gap/evidence.h"
 
 namespace fidservo::gap {
