@@ -48,13 +48,14 @@ struct Refined {
 
 /// One refinement, or two at once, of effects at some places of a hypothesis that lacks them.
 std::vector<std::vector<Refined>> ways_to_refine(const Hypothesis& hypothesis, const Places& places) {
-    std::vector<std::vector<Refined>> ways;
     std::vector<Refined> lacking;
     for (const std::size_t place : places)
         for (const Refinement& refinement : refinements_of(*hypothesis[place].effect))
             if (!is_present(refinement, hypothesis))
                 for (const double value : refinement.values)
                     lacking.push_back({place, refinement.parameter, refinement.name, value});
+    std::vector<std::vector<Refined>> ways;
+    ways.reserve(lacking.size() * (lacking.size() + 1) / 2);
     for (const Refined& one : lacking) ways.push_back({one});
     for (std::size_t a = 0; a < lacking.size(); ++a)
         for (std::size_t b = a + 1; b < lacking.size(); ++b)

@@ -11,7 +11,6 @@
 #include <optional>
 
 namespace fidservo::plant {
-
 namespace {
 
 constexpr std::size_t place = 0, speed = 1, stretch = 2, motor = 3;  // mm, mm/s, mm, mm/s
@@ -24,7 +23,6 @@ constexpr double speed_tolerance_mm_per_s = 1e-6;
 constexpr double rest_mm_per_s = 1e-9;
 
 constexpr double shortest_step_s = 1e-10;
-
 /// Bristles that lack less than this share of their bend slide.
 constexpr double fully_bent = 1e-8;
 

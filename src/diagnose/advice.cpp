@@ -146,6 +146,8 @@ struct DependenceAdvice {
 constexpr DependenceAdvice dependences[] = {
     {"velocity", "Friction, damping or back-EMF of another kind: look at bearings, lubricant and belt."},
     {"direction", "Something that turns over with the motion: play, a dragging wiper or cable, hysteresis."},
+    {"position, periodic, times the drive's force",
+     "What turns between motor and carriage: a pulley or a shaft that runs out of true once per turn."},
     {"position, periodic",
      "Something that repeats along the way: compare the period with the pitch of motor poles, pulley teeth, "
      "screw and encoder scale."},
@@ -156,6 +158,7 @@ constexpr DependenceAdvice dependences[] = {
     {"acceleration", "Mass, or something loose or elastic that swings: look at mounts, screws and flexures."},
     {"changes of the command", "A delay between the program and the drive: buffers, a slow bus, a filter."},
     {"nothing", "A constant force or voltage: an offset of the amplifier, a tilted rail."},
+    {"command, periodic", "The converter that sets the voltage: missing bits, coarse steps."},
     {"command", "The amplifier: saturation, a dead zone or a gain that is not constant."},
     {"time", "Something that drifts during a run: warming up, a sagging supply, draughts."},
     {"temperature", "Heat flow or the wire's table: supply, contacts, clamps, draughts, a tired wire."},
@@ -163,6 +166,19 @@ constexpr DependenceAdvice dependences[] = {
      "The wire's memory of partial heatings is another than the rig file's table says: identify the "
      "hysteresis "
      "again, with small loops among the large ones."},
+    {"contraction before", "The wire creeps after itself: load, age, a wire that slips in its clamps."},
+    {"place of the platform",
+     "Something that the platform meets on its way: a stop, a spring, a stiff cable."},
+    {"way since the wire turned", "Play between wire and platform: clamps, crimps, hinges."},
+    {"way gone so far, against the motion",
+     "Friction that changes as the stage runs in: lubricant, a new or a worn bearing; let it run for some "
+     "minutes first."},
+    {"whether it stands or slides",
+     "Friction that holds a resting carriage for longer than it brakes a sliding one: dried lubricant, a "
+     "sticky "
+     "seal."},
+    {"place on the plate, across the motion", "The plate is turned against the stage's axis: square it up."},
+    {"which tag it is", "Tags are not where they should be: measure the print, or print the plate again."},
     {"contraction", "The Hall sensor's curve: its magnet's place and tilt, iron near by."},
     {"macro command",
      "The macro drive's current gets into a sensor: ground return, shielding, lead routing."},
