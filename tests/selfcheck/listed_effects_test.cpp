@@ -54,7 +54,7 @@ const std::vector<Pair>& pairs() {
              rig.friction.stribeck_speed_mm_per_s = 12.0;
              rig.friction.stribeck_exponent = 1.0;
          },
-         {0.3, 12.0, 0.0}},
+         {0.3, 12.0, 0.0, 1.0}},
         {"stribeck_friction",
          [](Departures& rig) {
              rig.friction.stribeck_V = 0.3;
@@ -62,7 +62,15 @@ const std::vector<Pair>& pairs() {
              rig.friction.stribeck_exponent = 1.0;
              rig.friction.creep_mm_per_s = 0.3;
          },
-         {0.3, 12.0, 0.3}},
+         {0.3, 12.0, 0.3, 1.0}},
+        {"stribeck_friction",
+         [](Departures& rig) {
+             rig.friction.stribeck_V = 0.3;
+             rig.friction.stribeck_speed_mm_per_s = 20.0;
+             rig.friction.stribeck_exponent = 2.0;
+             rig.friction.creep_mm_per_s = 0.5;
+         },
+         {0.3, 20.0, 0.5, 2.0}},
         {"viscous_friction",
          [](Departures& rig) { rig.friction.viscous_forward = rig.friction.viscous_backward = 1.2; },
          {0.2 * damping}},
@@ -84,7 +92,7 @@ const std::vector<Pair>& pairs() {
              rig.friction.patch_centre_mm = 110.0;
              rig.friction.patch_width_mm = 8.0;
          },
-         {0.2, 110.0, 8.0, 0.0}},
+         {0.2, 110.0, 8.0, 0.0, 2.0}},
         {"rail_patch",
          [](Departures& rig) {
              rig.friction.patch_V = 0.2;
@@ -92,7 +100,7 @@ const std::vector<Pair>& pairs() {
              rig.friction.patch_width_mm = 8.0;
              rig.friction.creep_mm_per_s = 0.4;
          },
-         {0.2, 110.0, 8.0, 0.4}},
+         {0.2, 110.0, 8.0, 0.4, 2.0}},
         {"cogging",
          [](Departures& rig) {
              rig.mechanics.cogging_V = 0.2;
@@ -128,7 +136,7 @@ const std::vector<Pair>& pairs() {
          },
          {1.0, 25.0, 0.05}},
         {"hall_gain", [](Departures& rig) { rig.hall.gain = 1.05; }, {1.05}},
-        {"hall_offset", [](Departures& rig) { rig.hall.offset_V = 0.1; }, {0.1}},
+        {"hall_offset", [](Departures& rig) { rig.hall.offset_V = 0.1; }, {0.1, 0.0}},
         {"hall_nonlinearity", [](Departures& rig) { rig.hall.cubic = 0.08; }, {0.08}},
         {"hall_drift", [](Departures& rig) { rig.hall.drift_V_per_s = 2e-3; }, {2.0}},
         {"hall_crosstalk", [](Departures& rig) { rig.hall.crosstalk_V_per_V = 0.01; }, {10.0}},
