@@ -75,7 +75,7 @@ class Columns {
     std::size_t size_ = 0;
 };
 
-/// What a small effect does to the errors.
+/// What an effect does to the errors.
 Errors tangent(const Evidence& evidence, std::string_view effect, double value) {
     const Wanted wanted = everything(evidence);
     Errors without = evidence.errors({}, wanted);
@@ -129,11 +129,18 @@ Surrogate platform_surrogate(const Evidence& evidence) {
             }));
     };
     add_hats(Dependence::platform_place, 10, nullptr, [](const Row& at) { return at.contraction_mm; });
-    columns.push_back(make.of(Dependence::contraction, [&](const Window& window, std::size_t k, const Row&) {
-        return stroke[window.begin + k];
-    }));
+    add_hats(Dependence::contraction, 8, &stroke, [](const Row& at) { return at.time_s; });
     add_hats(Dependence::time, 6, nullptr, [](const Row& at) { return at.time_s; });
     add_hats(Dependence::temperature, 8, &warmth, [](const Row& at) { return at.temperature_degC; });
+    // Where heat is far off, the wire ends up elsewhere on its loops than any slope says.
+    for (const double factor : {0.75, 0.85, 1.15}) {
+        constexpr double about_a_degree = 0.02;
+        const Errors far_off = tangent(evidence, "heater_gain", factor);
+        columns.push_back(
+            make.of(Dependence::temperature, [&](const Window& window, std::size_t k, const Row&) {
+                return about_a_degree / std::abs(factor - 1.0) * far_off[window.begin + k];
+            }));
+    }
     add_hats(Dependence::command, 8, &warmth, [](const Row& at) { return at.command_V; });
     for (const double memory_s : {0.2, 0.6, 2.0, 6.0, 20.0}) {
         const auto remembered = of_each_run(evidence, [&](std::size_t run) {

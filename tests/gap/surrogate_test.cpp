@@ -124,6 +124,16 @@ TEST(Surrogate, BodyThatStoresHeat_AccusesTheHeater) {
     EXPECT_EQ(diagnosis.where.front().block, "micro.heater") << first_dependence(diagnosis);
 }
 
+/// It hardly contracts, as if its stroke were short.
+TEST(Surrogate, WireThatIsHeatedFarTooLittle_AccusesTheHeater) {
+    for (const char* effect : {"heater_gain:factor=0.7", "heater_gain:factor=0.55", "airflow:factor=0.5"}) {
+        const Diagnosis diagnosis = unnamed(reference_rig(), testing::effects({effect}),
+                                            {"micro-steps", "micro-triangle", "micro-servo"}, "clock_skew");
+        EXPECT_EQ(diagnosis.where.front().block, "micro.heater")
+            << effect << ": " << first_dependence(diagnosis);
+    }
+}
+
 /// A longer stroke is no other heater, though a warmer wire contracts further too.
 using Change = std::function<void(Recording&)>;
 
