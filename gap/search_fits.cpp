@@ -169,7 +169,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
     const std::string_view block = contender.trial.candidate->effect->block;
     const bool moves_tags = block == "macro.encoder" || block.starts_with("camera.");
     constexpr int most_times = 4;
-    // Shares of a signal's excess; the last one of the gain.
+    // Shares of a signal's excess; of loss.
     constexpr double worth_it = 0.1, worth_a_simplex = 0.5, worth_refining = 0.9, nearly_all = 0.98;
     constexpr double worth_another = 4.0 * least_gain;
     Finding& finding = *contender.finding;
