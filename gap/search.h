@@ -140,8 +140,8 @@ class Search {
     void fit_closer(const CrossFit& base, Contender& contender) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                  double step_scales) const;
-    /// With one or two refinements of what is fitted, from any of their values: where a fit has begun without,
-    /// no slope leads to them, and from afar they only seem to do harm.
+    /// With one or two refinements of what is fitted, from any of their values: where a fit has begun
+    /// without, no slope leads to them, and from afar they only seem to do harm.
     Contender refined(const CrossFit& base, const Contender& contender) const;
     /// With what it fits from such a start of the first half, then from there on the other one: of two
     /// valleys beside each other that may miss the deeper one by itself.
