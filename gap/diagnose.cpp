@@ -212,6 +212,9 @@ bool is_patchwork(const Selection& selection) {
 /// the gap than this were wrong, of those that remove more 43 of 69.
 constexpr double least_removed_by_the_cause = 0.85;
 
+/// What removes more than this is no stand-in: those of the self-checks removed .995 at most.
+constexpr double most_removed_by_stand_in = 0.999;
+
 /// How far the names of an explanation are to be trusted, and what is missing beside them.
 struct Doubt {
     double trust;
@@ -226,7 +229,8 @@ Doubt doubt_of(const Evidence& evidence, const Selection& selection, const Total
     if (selection.choices.empty()) return {0.0, std::move(remainder)};
     const std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
     const bool stands_in = is_patchwork(selection) || gap.removed() < least_removed_by_the_cause ||
-                           (whole && (has_stand_in(selection, *whole, 1) || lacks_place(selection, *whole)));
+                           (gap.removed() < most_removed_by_stand_in && whole &&
+                            (has_stand_in(selection, *whole, 1) || lacks_place(selection, *whole)));
     if (stands_in) trust = std::min(trust, trust_in_stand_in);
     if (whole && (stands_in || trust <= 0.5)) remainder.block = whole->block;
     return {trust, std::move(remainder)};

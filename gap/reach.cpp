@@ -1,4 +1,5 @@
 #include "gap/evidence.h"
+#include "plant/effects/catalogue.h"
 
 namespace fidservo::gap {
 
@@ -9,9 +10,7 @@ namespace {
 std::vector<Signal> reach_of_image_effect(const plant::Effect& effect) {
     plant::PlantParameters parameters;
     parameters.camera.emplace();
-    std::vector<double> typical;
-    for (const plant::EffectParameter& parameter : effect.parameters) typical.push_back(parameter.typical);
-    effect.apply(parameters, typical);
+    effect.apply(parameters, plant::typical_setting(effect).values);
     if (parameters.camera->readout_s != 0.0) return {Signal::tag};
     if (parameters.camera->extra_exposure_s != 0.0) return {Signal::tag, Signal::image};
     return {Signal::image};

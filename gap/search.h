@@ -36,7 +36,7 @@ struct Effort {
 struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
     /// After which it is exhausted (Evidence::effort): about 20 s of two cores for a campaign of 5 minutes.
-    double most_effort = 6'500.0;
+    double most_effort = 5'500.0;
     /// Asked at every prediction. Once true fits end at once, and what the search returns is worth nothing.
     std::function<bool()> stop = {};
     double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search
@@ -71,9 +71,13 @@ class Search {
     /// prediction was possible: the plant refuses it, or the search was stopped.
     std::optional<CrossFit> with(const CrossFit& base, const Candidate& candidate);
 
-    /// Of all pairs of simple effects that meet in a signal that is off, added to a base, the one that
-    /// predicts the first half best; fitted on both. From typical sizes on: beside what one of the two has
-    /// been taken for alone, the other may promise nothing, and no slope leads out of there.
+    /// Of the pairs that balance the forces of a carriage best (gap/force_pairs.h), added to a base, the one
+    /// that predicts the first half best; fitted on both.
+    std::optional<Pair> balanced_pair(const CrossFit& base, std::span<const Candidate* const> added);
+
+    /// The same of all pairs of simple effects that meet in a signal that is off, from typical sizes on:
+    /// beside what one of the two has been taken for alone, the other may promise nothing, and no slope leads
+    /// out of there.
     std::optional<Pair> best_pair(const CrossFit& base, std::span<const Candidate* const> added);
 
     /// Takes over from a whole, which is the base and a candidate at a place, what it has found for that one:
@@ -114,6 +118,15 @@ class Search {
     struct Contender;
 
   private:
+    struct PairAttempt;
+    PairAttempt attempt(const CrossFit& base, const Candidate& first, const Candidate& second,
+                        Hypothesis settings) const;
+    std::vector<PairAttempt> by_force(const CrossFit& base, std::vector<const Candidate*> candidates) const;
+    std::vector<PairAttempt> by_typical_sizes(const CrossFit& base,
+                                              std::vector<const Candidate*> candidates) const;
+    /// On both halves, from such a start of the first one.
+    void fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start) const;
+    std::optional<Pair> best_of(const CrossFit& base, std::vector<PairAttempt> attempts);
     Contender contender(const CrossFit& base, const Candidate& candidate);
     /// Candidates that are not `added` and may improve a signal that is off.
     std::vector<const Candidate*> in_question(const CrossFit& base,
@@ -136,8 +149,13 @@ class Search {
     /// Where a fit from afar leaves more than the floor: again from where it ended, to the windows that say
     /// most there; of a wave by a simplex over all windows, as its losses have many minima. Where slopes do
     /// not lead there, by a simplex too: of encoder and camera, as the place within a count gives way up to
-    /// its end, and of what leaves nearly nothing of a signal's gap.
-    void fit_closer(const CrossFit& base, Contender& contender) const;
+    /// its end, and of what leaves nearly nothing of a signal's gap. Ends after a share of the search's
+    /// effort: a single effect that is not close by then may be a compromise of two.
+    void fit_closer(const CrossFit& base, Contender& contender, double share_of_effort = 0.25) const;
+    /// The pair with both fitted closer.
+    Pair closer(const CrossFit& base, Pair pair) const;
+    /// The pair with an effect's limit in its place, where it does no worse than by chance.
+    Pair in_plain_form(const CrossFit& base, Pair pair) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                  double step_scales) const;
     /// With one or two refinements of what is fitted, from any of their values: where a fit has begun

@@ -164,7 +164,7 @@ void Search::fit_plain_form(const CrossFit& base, const Contender& richer, Conte
     plain.trial = std::move(found.trial);
 }
 
-void Search::fit_closer(const CrossFit& base, Contender& contender) const {
+void Search::fit_closer(const CrossFit& base, Contender& contender, double share_of_effort) const {
     const bool is_wave = contender.trial.candidate->wave.has_value();
     const std::string_view block = contender.trial.candidate->effect->block;
     const bool moves_tags = block == "macro.encoder" || block.starts_with("camera.");
@@ -175,7 +175,11 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
     Finding& finding = *contender.finding;
     if (vanishes_on_a_half(contender.trial)) return;
     if (!clears_a_signal(base, contender.trial.fitted, is_wave ? worth_a_simplex : worth_it)) return;
-    for (int time = 0; time < most_times && !finding.is_close; ++time) {
+    const double effort_at_start = fitter_.evidence().effort();
+    const auto is_worn_out = [&] {
+        return fitter_.evidence().effort() - effort_at_start > share_of_effort * options_.most_effort;
+    };
+    for (int time = 0; time < most_times && !finding.is_close && !is_worn_out(); ++time) {
         // Also what only passes the change on: tags can tell more closely how the carriage moves than counts.
         if (!meet(off(contender.trial.fitted), reached_by({contender.trial.fitted.of_half[0].back()})))
             return;
@@ -199,11 +203,13 @@ void Search::fit_closer(const CrossFit& base, Contender& contender) const {
         };
         const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
-        if (is_off() && clears_a_signal(base, closer.trial.fitted, worth_refining))
+        if (is_off() && !is_worn_out() && clears_a_signal(base, closer.trial.fitted, worth_refining))
             or_else(refined(base, closer));
-        if (!is_wave && is_off() && (moves_tags || clears_a_signal(base, closer.trial.fitted, nearly_all)))
+        if (!is_wave && is_off() && !is_worn_out() &&
+            (moves_tags || clears_a_signal(base, closer.trial.fitted, nearly_all)))
             or_else(by_simplex(closer));
-        if (is_off() && !contender.coupled.empty() && clears_a_signal(base, closer.trial.fitted, nearly_all))
+        if (is_off() && !is_worn_out() && !contender.coupled.empty() &&
+            clears_a_signal(base, closer.trial.fitted, nearly_all))
             or_else(fitted_by(
                 [&](std::size_t side) { return polished(closer, side, contender.fitted_places(base)); }));
         finding.is_close = closer.gain() < contender.gain() + worth_another;

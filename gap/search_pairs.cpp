@@ -1,7 +1,9 @@
 // Two effects at once, where each hides the other.
 #include "gap/contender.h"
+#include "gap/force_pairs.h"
 #include "gap/parallel.h"
 #include "gap/search.h"
+#include "gap/starts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,71 +36,158 @@ std::vector<plant::EffectSetting> typical_of_both_signs(const Candidate& candida
     return settings;
 }
 
-struct Attempt {
+/// Whether the balance of a carriage's forces shows it.
+bool is_balanced(const Candidate& candidate) {
+    return !candidate.is_limit && shows_in_balance(*candidate.effect);
+}
+
+}  // namespace
+
+struct Search::PairAttempt {
     const Candidate *first, *second;
     Places places;  ///< to fit, the two last
     Hypothesis start;
     Fit fitted = {};
 };
 
-}  // namespace
+Search::PairAttempt Search::attempt(const CrossFit& base, const Candidate& first, const Candidate& second,
+                                    Hypothesis settings) const {
+    Places places = coupled_with(base.of_half[0], *first.effect);
+    Hypothesis start = base.of_half[0];
+    for (plant::EffectSetting& setting : settings) {
+        places.push_back(start.size());
+        start.push_back(std::move(setting));
+    }
+    return {&first, &second, std::move(places), std::move(start)};
+}
 
-std::optional<Pair> Search::best_pair(const CrossFit& base, std::span<const Candidate* const> added) {
-    std::vector<const Candidate*> plain = in_question(base, added);
-    std::erase_if(plain, [](const Candidate* candidate) { return !is_plain(*candidate); });
-    std::vector<Attempt> attempts;
-    for (std::size_t a = 0; a < plain.size(); ++a)
-        for (std::size_t b = a + 1; b < plain.size(); ++b) {
-            const Candidate &first = *plain[a], &second = *plain[b];
-            if (first.class_name == second.class_name ||
+std::vector<Search::PairAttempt> Search::by_force(const CrossFit& base,
+                                                  std::vector<const Candidate*> candidates) const {
+    std::erase_if(candidates, [](const Candidate* candidate) { return !is_balanced(*candidate); });
+    if (candidates.size() < 2) return {};
+    SignalFlags encoder{};
+    encoder[index_of(Signal::encoder)] = true;
+    const Evidence& evidence = fitter_.evidence();
+    const Wanted wanted = only_of(evidence.windows(), fitter_.half(0), encoder);
+    const AlongRail along = seen_along_rail(evidence, base.of_half[0], wanted, candidates);
+    std::vector<PairAttempt> attempts;
+    for (ForcePair& pair :
+         strongest_force_pairs(evidence, wanted, base.of_half[0], candidates, along.periods))
+        for (Hypothesis& start : pair.starts)
+            attempts.push_back(attempt(base, *pair.first, *pair.second, std::move(start)));
+    return attempts;
+}
+
+std::vector<Search::PairAttempt> Search::by_typical_sizes(const CrossFit& base,
+                                                          std::vector<const Candidate*> candidates) const {
+    std::erase_if(candidates, [](const Candidate* candidate) { return !is_plain(*candidate); });
+    std::vector<PairAttempt> attempts;
+    for (std::size_t a = 0; a < candidates.size(); ++a)
+        for (std::size_t b = a + 1; b < candidates.size(); ++b) {
+            const Candidate &first = *candidates[a], &second = *candidates[b];
+            if (first.class_name == second.class_name || (is_balanced(first) && is_balanced(second)) ||
                 !meet(teachers_of(*first.effect), teachers_of(*second.effect)))
                 continue;
-            ++trials_;
-            Places places = coupled_with(base.of_half[0], *first.effect);
-            for (const std::size_t place : {base.of_half[0].size(), base.of_half[0].size() + 1})
-                places.push_back(place);
             for (const plant::EffectSetting& one : typical_of_both_signs(first))
-                for (const plant::EffectSetting& other : typical_of_both_signs(second)) {
-                    Hypothesis start = base.of_half[0];
-                    start.push_back(one);
-                    start.push_back(other);
-                    attempts.push_back({&first, &second, places, std::move(start)});
-                }
+                for (const plant::EffectSetting& other : typical_of_both_signs(second))
+                    attempts.push_back(attempt(base, first, second, {one, other}));
         }
+    return attempts;
+}
+
+std::optional<Pair> Search::best_of(const CrossFit& base, std::vector<PairAttempt> attempts) {
     const auto fit_on = [&](int most_iterations) {
         parallel_for(attempts.size(), [&](std::size_t k) {
-            Attempt& attempt = attempts[k];
+            PairAttempt& attempt = attempts[k];
             attempt.fitted = fitter_.fit_places(0, attempt.start, attempt.places, base.mean_squares,
                                                 {.most_iterations = most_iterations});
             attempt.start = attempt.fitted.hypothesis;
         });
-        std::ranges::sort(attempts, {}, [](const Attempt& attempt) { return attempt.fitted.loss; });
+        std::ranges::sort(attempts, {}, [](const PairAttempt& attempt) { return attempt.fitted.loss; });
     };
     constexpr int first_iterations = 4, further_iterations = 12;
     constexpr std::size_t most_fitted_on = 4;
+    trials_ += static_cast<int>(attempts.size());
     fit_on(first_iterations);
     if (attempts.size() > most_fitted_on) attempts.resize(most_fitted_on);
     fit_on(further_iterations);
     if (attempts.empty() || !std::isfinite(attempts.front().fitted.loss)) return {};
-    const Attempt& best = attempts.front();
+    const PairAttempt& best = attempts.front();
     Pair pair{best.first, best.second, {}};
     pair.fitted.mean_squares = base.mean_squares;
-    Hypothesis found = part_of(best.fitted.hypothesis, best.places);
+    fit_pair(base, pair, best.fitted.hypothesis);
+    throw_if_exhausted();
+    const auto take = [&](Pair other) {
+        if (!is_exhausted()) pair = std::move(other);
+    };
+    take(closer(base, pair));
+    take(in_plain_form(base, pair));
+    return pair;
+}
+
+void Search::fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start) const {
+    Places places = coupled_with(base.of_half[0], *pair.first->effect);
+    for (const std::size_t added : {0, 1}) places.push_back(base.of_half[0].size() + added);
+    Hypothesis found = part_of(start, places);
     // There and back: of two valleys beside each other a half may have missed the deeper one.
     for (const std::size_t side : {1, 0, 1}) {
-        Hypothesis start = base.of_half[side];
-        start.resize(start.size() + 2);
+        Hypothesis whole = base.of_half[side];
+        whole.resize(whole.size() + 2);
         pair.fitted.of_half[side] =
             fitter_
-                .fit_places(side, with_part(std::move(start), best.places, found), best.places,
+                .fit_places(side, with_part(std::move(whole), places, found), places,
                             pair.fitted.mean_squares,
                             {.tolerance = 1e-7, .threads = Threads::all, .step_scales = close_step})
                 .hypothesis;
-        found = part_of(pair.fitted.of_half[side], best.places);
+        found = part_of(pair.fitted.of_half[side], places);
     }
     fitter_.judge(pair.fitted);
-    throw_if_exhausted();
+}
+
+Pair Search::closer(const CrossFit& base, Pair pair) const {
+    constexpr double share_of_effort = 0.5;
+    CrossFit with_first = base;
+    for (std::size_t side = 0; side < 2; ++side)
+        with_first.of_half[side].assign(pair.fitted.of_half[side].begin(),
+                                        pair.fitted.of_half[side].end() - 1);
+    Finding finding;
+    Contender second{{.candidate = pair.second, .gain = base.loss - pair.fitted.loss, .fitted = pair.fitted},
+                     coupled_with(with_first.of_half[0], *pair.second->effect),
+                     &finding};
+    for (std::size_t side = 0; side < 2; ++side)
+        finding.fitted[side] = second.part(pair.fitted.of_half[side]);
+    fit_closer(with_first, second, share_of_effort);
+    pair.fitted = std::move(second.trial.fitted);
     return pair;
+}
+
+Pair Search::in_plain_form(const CrossFit& base, Pair pair) const {
+    const MacroParameters& rail = fitter_.evidence().rig().macro;
+    const double middle_mm = 0.5 * (rail.low_mm + rail.high_mm);
+    for (const Candidate& plainer : candidates_)
+        for (const Candidate* Pair::*const place : {&Pair::first, &Pair::second}) {
+            if (!is_limit_of(plainer.effect->name, (pair.*place)->effect->name) ||
+                plainer.class_name == pair.first->class_name || plainer.class_name == pair.second->class_name)
+                continue;
+            Pair plain = pair;
+            plain.*place = &plainer;
+            Hypothesis start = pair.fitted.of_half[0];
+            plant::EffectSetting& setting = start[start.size() - (place == &Pair::first ? 2 : 1)];
+            setting = plain_form(setting, *plainer.effect, middle_mm);
+            fit_pair(base, plain, start);
+            if (!nearly_clears(base, plain.fitted)) continue;
+            plain = closer(base, std::move(plain));
+            if (!is_real(plain.fitted, pair.fitted)) pair = std::move(plain);
+        }
+    return pair;
+}
+
+std::optional<Pair> Search::balanced_pair(const CrossFit& base, std::span<const Candidate* const> added) {
+    return best_of(base, by_force(base, in_question(base, added)));
+}
+
+std::optional<Pair> Search::best_pair(const CrossFit& base, std::span<const Candidate* const> added) {
+    return best_of(base, by_typical_sizes(base, in_question(base, added)));
 }
 
 }  // namespace fidservo::gap

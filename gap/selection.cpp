@@ -54,19 +54,6 @@ bool has_leader(const std::vector<Trial>& trials) {
     return !trials.empty() && trials.front().is_leader;
 }
 
-/// Takes in what is best, as long as it is no chance.
-void grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step) {
-    while (static_cast<int>(chain.choices.size()) < most_effects) {
-        std::vector<Trial> trials = search.try_all(chain.fitted, chain.candidates());
-        if (first_step != nullptr) *first_step = trials;
-        first_step = nullptr;
-        if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) return;
-        chain = grown(search, chain, std::move(trials));
-        search.limit(true);
-        if (search.is_at_floor(chain.fitted)) return;
-    }
-}
-
 /// The chain without one of its effects, fitted anew.
 Chain without(const Search& search, const Chain& chain, std::size_t left_out) {
     Chain shorter = chain;
@@ -76,6 +63,93 @@ Chain without(const Search& search, const Chain& chain, std::size_t left_out) {
     for (Hypothesis& hypothesis : shorter.fitted.of_half) hypothesis.erase(hypothesis.begin() + at);
     search.fit_again(shorter.fitted, concerned);
     return shorter;
+}
+
+/// Candidates of one chain that the other lacks.
+std::vector<const Candidate*> only_in(const Chain& one, const Chain& other) {
+    std::vector<const Candidate*> found = one.candidates();
+    std::erase_if(found, [&](const Candidate* candidate) {
+        return std::ranges::find(other.choices, candidate, &Choice::candidate) != other.choices.end();
+    });
+    return found;
+}
+
+/// Whether a chain is another one with a richer effect in the place of its limit.
+bool refines(const Chain& richer, const Chain& plainer) {
+    const auto more = only_in(richer, plainer), less = only_in(plainer, richer);
+    return more.size() == 1 && less.size() == 1 &&
+           is_limit_of(less.front()->effect->name, more.front()->effect->name);
+}
+
+/// Whether another chain explains better: the shorter or plainer one unless the other one's gain is no
+/// chance.
+bool is_better(const Search& search, const Chain& other, const Chain& chain) {
+    if (other.choices.size() < chain.choices.size() || refines(chain, other))
+        return !search.is_real(other.fitted, chain.fitted);
+    if (other.choices.size() > chain.choices.size() || refines(other, chain))
+        return search.is_real(chain.fitted, other.fitted);
+    return other.fitted.loss < chain.fitted.loss - least_gain;
+}
+
+/// Puts two effects at once beside the rest, where they clear a share of a signal. Returns whether it did.
+bool take_in_pair(Search& search, Chain& chain, const Chain& rest, std::optional<Pair> pair, double share) {
+    if (!pair || !search.nearly_clears(rest.fitted, pair->fitted, share)) return false;
+    const auto trial = [](const Candidate& candidate, CrossFit fitted) {
+        return std::vector{Trial{.candidate = &candidate, .is_leader = true, .fitted = std::move(fitted)}};
+    };
+    search.limit(false);
+    CrossFit first = pair->fitted;
+    for (Hypothesis& hypothesis : first.of_half) hypothesis.pop_back();
+    search.fit_again(first, search.concerned_by(*pair->second, pair->fitted));
+    const Chain one = grown(search, rest, trial(*pair->first, std::move(first)));
+    Chain two = grown(search, one, trial(*pair->second, std::move(pair->fitted)));
+    search.limit(true);
+    if (!is_better(search, two, chain)) return false;
+    chain = std::move(two);
+    return true;
+}
+
+/// The chain without what has a say in some signals.
+Chain rest_of(const Search& search, const Chain& chain, const SignalFlags& signals) {
+    Chain rest = chain;
+    for (std::size_t k = chain.choices.size(); k-- > 0;)
+        if (meet(teachers_of(*chain.choices[k].candidate->effect), signals)) rest = without(search, rest, k);
+    return rest;
+}
+
+/// Where a carriage stays off, what balances its forces best instead of what was taken in for it.
+/// @return whether anything changed
+bool balance(Search& search, Chain& chain, int most_effects) {
+    constexpr double nearly_all = 0.98;
+    SignalFlags encoder{};
+    encoder[index_of(Signal::encoder)] = search.off(chain.fitted)[index_of(Signal::encoder)];
+    if (encoder == SignalFlags{}) return false;
+    const Chain rest = rest_of(search, chain, encoder);
+    if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
+    return take_in_pair(search, chain, rest, search.balanced_pair(rest.fitted, rest.candidates()),
+                        nearly_all);
+}
+
+/// Takes in what is best, as long as it is no chance; for a carriage that one effect leaves off, two at once.
+/// @return whether a pair took the place of something
+bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step) {
+    bool is_balanced = false, is_paired = false;
+    while (static_cast<int>(chain.choices.size()) < most_effects) {
+        std::vector<Trial> trials = search.try_all(chain.fitted, chain.candidates());
+        if (first_step != nullptr) *first_step = trials;
+        first_step = nullptr;
+        if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) return is_paired;
+        chain = grown(search, chain, std::move(trials));
+        search.limit(true);
+        const bool moves_carriage =
+            teachers_of(*chain.choices.back().candidate->effect)[index_of(Signal::encoder)];
+        if (moves_carriage && !is_balanced) {
+            is_balanced = true;
+            is_paired = balance(search, chain, most_effects);
+        }
+        if (search.is_at_floor(chain.fitted)) return is_paired;
+    }
+    return is_paired;
 }
 
 /// Whether another effect explains better in the place of one: a plainer form of it unless the richer one's
@@ -123,50 +197,6 @@ bool exchange(Search& search, Chain& chain, bool changed) {
     return changed;
 }
 
-/// Candidates of one chain that the other lacks.
-std::vector<const Candidate*> only_in(const Chain& one, const Chain& other) {
-    std::vector<const Candidate*> found = one.candidates();
-    std::erase_if(found, [&](const Candidate* candidate) {
-        return std::ranges::find(other.choices, candidate, &Choice::candidate) != other.choices.end();
-    });
-    return found;
-}
-
-/// Whether a chain is another one with a richer effect in the place of its limit.
-bool refines(const Chain& richer, const Chain& plainer) {
-    const auto more = only_in(richer, plainer), less = only_in(plainer, richer);
-    return more.size() == 1 && less.size() == 1 &&
-           is_limit_of(less.front()->effect->name, more.front()->effect->name);
-}
-
-/// Whether another chain explains better: the shorter or plainer one unless the other one's gain is no
-/// chance.
-bool is_better(const Search& search, const Chain& other, const Chain& chain) {
-    if (other.choices.size() < chain.choices.size() || refines(chain, other))
-        return !search.is_real(other.fitted, chain.fitted);
-    if (other.choices.size() > chain.choices.size() || refines(other, chain))
-        return search.is_real(chain.fitted, other.fitted);
-    return other.fitted.loss < chain.fitted.loss - least_gain;
-}
-
-/// Puts two simple effects at once beside the rest, where they clear a signal. Returns whether it did.
-bool take_in_pair(Search& search, Chain& chain, const Chain& rest) {
-    constexpr double all_but_nothing = 0.999;
-    std::optional<Pair> pair = search.best_pair(rest.fitted, rest.candidates());
-    if (!pair || !search.nearly_clears(rest.fitted, pair->fitted, all_but_nothing)) return false;
-    const auto trial = [](const Candidate& candidate, CrossFit fitted) {
-        return std::vector{Trial{.candidate = &candidate, .is_leader = true, .fitted = std::move(fitted)}};
-    };
-    CrossFit first = pair->fitted;
-    for (Hypothesis& hypothesis : first.of_half) hypothesis.pop_back();
-    search.fit_again(first, search.concerned_by(*pair->second, pair->fitted));
-    const Chain one = grown(search, rest, trial(*pair->first, std::move(first)));
-    Chain two = grown(search, one, trial(*pair->second, std::move(pair->fitted)));
-    if (!is_better(search, two, chain)) return false;
-    chain = std::move(two);
-    return true;
-}
-
 /// Where signals stay off their floors, what was taken in for them, one after the other, may be no step on
 /// the way to what there is: instead of it each of the best single effects, with what is best beside it.
 /// Where nothing was taken in, two effects may hide each other: what promises a little is tried as the first
@@ -176,12 +206,15 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     constexpr Effort effort{.fits = 3, .leaders = 1};
     const SignalFlags off = search.off(chain.fitted);
     if (off == SignalFlags{}) return false;
-    Chain rest = chain;
-    for (std::size_t k = chain.choices.size(); k-- > 0;)
-        if (meet(teachers_of(*chain.choices[k].candidate->effect), off)) rest = without(search, rest, k);
+    constexpr double all_but_nothing = 0.999;
+    const Chain rest = rest_of(search, chain, off);
     if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
-    if (take_in_pair(search, chain, rest) && search.is_at_floor(chain.fitted)) return true;
     const bool from_nothing = chain.choices.size() == rest.choices.size();
+    if (from_nothing && balance(search, chain, most_effects)) return true;
+    if (take_in_pair(search, chain, rest, search.best_pair(rest.fitted, rest.candidates()),
+                     all_but_nothing) &&
+        search.is_at_floor(chain.fitted))
+        return true;
     const std::size_t most_first = from_nothing ? 6 : 3;
     std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates());
     if (from_nothing) std::ranges::stable_sort(singles, std::greater{}, &Trial::promised);
@@ -263,9 +296,10 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     Chain chain{{}, search.nothing()};
     selection.steps.push_back(chain.fitted);
     try {
-        grow(search, chain, options.most_effects, &selection.alone);
+        bool is_paired = grow(search, chain, options.most_effects, &selection.alone);
         search.limit(true);
-        const bool is_paired = pair_up(search, chain, options.most_effects);
+        if (!is_paired || !search.leaves_little(chain.fitted))
+            is_paired = pair_up(search, chain, options.most_effects) || is_paired;
         if (exchange(search, chain, is_paired)) grow(search, chain, options.most_effects, nullptr);
     } catch (const SearchExhausted&) {
         selection.is_cut_short = true;

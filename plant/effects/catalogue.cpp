@@ -84,6 +84,12 @@ const Effect* find_effect(std::string_view name) {
     return found == catalogue.end() ? nullptr : *found;
 }
 
+EffectSetting typical_setting(const Effect& effect) {
+    EffectSetting setting{&effect, {}};
+    for (const EffectParameter& parameter : effect.parameters) setting.values.push_back(parameter.typical);
+    return setting;
+}
+
 EffectSetting vanishing_setting(const Effect& effect) {
     EffectSetting setting{&effect, {}};
     for (const EffectParameter& parameter : effect.parameters) setting.values.push_back(parameter.vanishing);

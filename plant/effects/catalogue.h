@@ -22,6 +22,9 @@ EffectSetting parse_effect(std::string_view text);
 /// InputError like parse_effect.
 EffectSetting setting_of(const StatedEffect& stated);
 
+/// All parameters at their typical values.
+EffectSetting typical_setting(const Effect& effect);
+
 /// A setting that changes nothing.
 EffectSetting vanishing_setting(const Effect& effect);
 

@@ -72,8 +72,7 @@ EffectSetting parse(std::string_view text, std::string_view where) {
     const Effect* effect = find_effect(take_until(rest, ':'));
     if (effect == nullptr) fail(where, "no such effect; known: " + known_effects());
 
-    EffectSetting setting{effect, {}};
-    for (const EffectParameter& parameter : effect->parameters) setting.values.push_back(parameter.typical);
+    EffectSetting setting = typical_setting(*effect);
     if (!has_parameters) return setting;
     if (rest.empty() || rest.back() == ',')
         fail(where, "PARAMETER=VALUE is missing; allowed: " + known_parameters(*effect));

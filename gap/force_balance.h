@@ -1,0 +1,35 @@
+#pragma once
+// Whether the forces of a hypothesis balance along the way that a carriage was recorded to go, without
+// following it.
+//
+//     V(w(u, y)) - F(v, y) - (tau dv/dt + v) / K = 0
+//
+// under the truth, with place and velocity from the readings, as a mean over short supports
+// (gap/carriage_forces.h). Every force is in it as it is: what two causes do adds up, and no start in time
+// leads a fit astray, as it does where friction lets a carriage go by jumps. Not seen are play, a belt, how
+// far bristles are bent, and all that shows only where the carriage stands.
+#include "gap/carriage_forces.h"
+
+namespace fidservo::gap {
+
+class ForceBalance {
+  public:
+    /// @param wanted  windows of the encoder that are looked at
+    ForceBalance(const Evidence& evidence, const Wanted& wanted);
+
+    /// The force that each support has in excess, over its standard deviation by the floor of the readings;
+    /// laid out like Errors, at the value of the support's middle row, NaN elsewhere.
+    Errors excess(const Hypothesis& hypothesis) const;
+
+    /// The middles of the supports in Errors.
+    const std::vector<CarriageForces::Support>& supports() const { return forces_.supports(); }
+
+  private:
+    const Evidence& evidence_;
+    CarriageForces forces_;
+};
+
+/// Whether an effect changes forces of the carriage, not just how they reach it.
+bool shows_in_balance(const plant::Effect& effect);
+
+}  // namespace fidservo::gap

@@ -1,0 +1,300 @@
+#include "gap/force_pairs.h"
+
+#include "gap/fit.h"
+#include "gap/parallel.h"
+#include "gap/score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <Eigen/Dense>
+
+namespace fidservo::gap {
+namespace {
+
+constexpr double quarter_turn = 0.5 * std::numbers::pi;
+
+/// An effect of one shape, of which only sizes are unknown; of a wave sine and cosine are.
+struct Shape {
+    const Candidate* candidate;
+    std::vector<double> values;  ///< without the sizes
+    std::vector<std::size_t> sizes;
+    std::vector<plant::EffectSetting> units;  ///< what the columns are of
+    Eigen::Index first = 0;                   ///< of its columns
+    Eigen::Index columns() const { return static_cast<Eigen::Index>(units.size()); }
+};
+
+/// With some of its sizes, the others vanishing: least squares know no bounds.
+Shape shape_of(const Candidate& candidate, const std::vector<double>& values,
+               std::vector<std::size_t> sizes) {
+    Shape shape{&candidate, values, std::move(sizes), {}};
+    for (const std::size_t size : candidate.sizes)
+        shape.values[size] = candidate.effect->parameters[size].vanishing;
+    for (const std::size_t size : shape.sizes) {
+        std::vector<double> unit = shape.values;
+        unit[size] = values[size];
+        shape.units.push_back({candidate.effect, std::move(unit)});
+    }
+    return shape;
+}
+
+Shape shape_of(const Candidate& candidate, double period_mm) {
+    Shape shape{&candidate, candidate.shapes.front(), {candidate.wave->amplitude}, {}};
+    shape.values[candidate.wave->period] = period_mm;
+    for (const double phase_rad : {0.0, quarter_turn}) {
+        std::vector<double> unit = shape.values;
+        unit[candidate.wave->phase] = phase_rad;
+        shape.units.push_back({candidate.effect, std::move(unit)});
+    }
+    return shape;
+}
+
+/// At shares of its typical sizes; nothing where a bound forbids that.
+std::optional<plant::EffectSetting> sized(const Shape& shape, const Eigen::VectorXd& shares) {
+    const Candidate& candidate = *shape.candidate;
+    plant::EffectSetting setting{candidate.effect, shape.values};
+    if (candidate.wave) {
+        setting.values[candidate.wave->amplitude] *= shares.norm();
+        setting.values[candidate.wave->phase] = std::atan2(shares(1), shares(0));
+    } else {
+        for (std::size_t k = 0; k < shape.sizes.size(); ++k) {
+            const std::size_t size = shape.sizes[k];
+            const double none = setting.values[size];
+            setting.values[size] =
+                none + shares(static_cast<Eigen::Index>(k)) * (shape.units[k].values[size] - none);
+        }
+    }
+    for (const std::size_t size : shape.sizes) {
+        const plant::EffectParameter& parameter = candidate.effect->parameters[size];
+        if (setting.values[size] < parameter.low || setting.values[size] > parameter.high) return {};
+    }
+    return setting;
+}
+
+/// Inner products of what shapes do to the balance, and of the excess, the last column.
+class Products {
+  public:
+    Products(const ForceBalance& balance, std::span<const Window> windows, const Wanted& counted,
+             const Hypothesis& base, std::span<Shape> shapes) {
+        Eigen::Index width = 0;
+        std::vector<const plant::EffectSetting*> units;
+        for (Shape& shape : shapes) {
+            shape.first = width;
+            width += shape.columns();
+            for (const plant::EffectSetting& unit : shape.units) units.push_back(&unit);
+        }
+        const Errors excess = balance.excess(base);
+        const auto count = static_cast<Eigen::Index>(balance.supports().size());
+        Eigen::VectorXd weights = Eigen::VectorXd::Zero(count);
+        const std::vector<double> squares = mean_squares(windows, excess);
+        Eigen::Index k = 0;
+        for (std::size_t w = 0; w < windows.size(); ++w) {
+            const Eigen::Index begin = k;
+            while (k < count && slot(balance, k) < windows[w].end) ++k;
+            if (counted[w] != 0 && k > begin)
+                weights.segment(begin, k - begin)
+                    .setConstant(1.0 / std::sqrt(static_cast<double>(k - begin) * (1.0 + squares[w])));
+        }
+        Eigen::MatrixXd columns(count, width + 1);
+        const auto fill = [&](Eigen::Index column, const Errors& values, double sign) {
+            for (Eigen::Index i = 0; i < count; ++i) {
+                const auto at = static_cast<std::size_t>(slot(balance, i));
+                columns(i, column) = weights(i) * (sign * static_cast<double>(values[at]) -
+                                                   (sign > 0.0 ? static_cast<double>(excess[at]) : 0.0));
+            }
+        };
+        fill(width, excess, -1.0);
+        parallel_for(units.size(), [&](std::size_t unit) {
+            Hypothesis with = base;
+            with.push_back(*units[unit]);
+            fill(static_cast<Eigen::Index>(unit), balance.excess(with), 1.0);
+        });
+        products_ = columns.transpose() * columns;
+    }
+
+    double of_excess() const { return products_(products_.rows() - 1, products_.rows() - 1); }
+
+    struct Solution {
+        Eigen::VectorXd shares;
+        double left;  ///< of the squares
+    };
+
+    Solution solve(const Shape& one, const Shape& other) const {
+        const Eigen::Index width = one.columns() + other.columns();
+        std::vector<Eigen::Index> at;
+        for (const Shape* shape : {&one, &other})
+            for (Eigen::Index k = 0; k < shape->columns(); ++k) at.push_back(shape->first + k);
+        const Eigen::MatrixXd normal = products_(at, at);
+        const Eigen::VectorXd right = products_(at, products_.rows() - 1);
+        const Eigen::LDLT<Eigen::MatrixXd> solver(normal + 1e-9 * normal.trace() *
+                                                               Eigen::MatrixXd::Identity(width, width));
+        Solution solution{solver.solve(right), 0.0};
+        solution.left = of_excess() - solution.shares.dot(right);
+        return solution;
+    }
+
+    /// Whether a shape does anything to the balance.
+    bool shows(const Shape& shape) const {
+        return products_.diagonal().segment(shape.first, shape.columns()).minCoeff() > 1e-6 * of_excess();
+    }
+
+  private:
+    static std::size_t slot(const ForceBalance& balance, Eigen::Index support) {
+        return balance.supports()[static_cast<std::size_t>(support)].slot;
+    }
+
+    Eigen::MatrixXd products_;
+};
+
+std::vector<Shape> shapes_of(std::span<const Candidate* const> candidates,
+                             std::span<const PositionPeriod> periods) {
+    std::vector<Shape> shapes;
+    for (const Candidate* candidate : candidates)
+        if (candidate->wave)
+            for (const PositionPeriod& period : periods)
+                shapes.push_back(shape_of(*candidate, period.period_mm));
+        else
+            for (const std::vector<double>& values : candidate->shapes) {
+                shapes.push_back(shape_of(*candidate, values, candidate->sizes));
+                if (candidate->sizes.size() > 1)
+                    for (const std::size_t size : candidate->sizes)
+                        shapes.push_back(shape_of(*candidate, values, {size}));
+            }
+    return shapes;
+}
+
+/// The pairs that balance best along their shapes, as they are there.
+std::vector<ForcePair> best_along_shapes(const Products& products, std::span<const Shape> shapes) {
+    std::vector<ForcePair> pairs;
+    for (const Shape& one : shapes)
+        for (const Shape& other : shapes) {
+            if (one.candidate >= other.candidate || one.candidate->class_name == other.candidate->class_name)
+                continue;
+            const Products::Solution solution = products.solve(one, other);
+            const auto known = std::ranges::find_if(pairs, [&](const ForcePair& pair) {
+                return pair.first == one.candidate && pair.second == other.candidate;
+            });
+            if (known != pairs.end() && known->loss <= solution.left) continue;
+            const auto first = sized(one, solution.shares.head(one.columns())),
+                       second = sized(other, solution.shares.tail(other.columns()));
+            if (!first || !second) continue;
+            ForcePair pair{one.candidate, other.candidate, {*first, *second}, solution.left};
+            if (known != pairs.end())
+                *known = std::move(pair);
+            else
+                pairs.push_back(std::move(pair));
+        }
+    std::ranges::sort(pairs, {}, &ForcePair::loss);
+    return pairs;
+}
+
+/// From there on in all parameters, and in those that an effect may be without.
+class BalanceFit {
+  public:
+    BalanceFit(const ForceBalance& balance, std::span<const Window> windows, const Wanted& wanted,
+               const Hypothesis& base)
+        : windows_(windows), wanted_(wanted), predict_([&](const Hypothesis& settings) {
+              Hypothesis whole = base;
+              whole.insert(whole.end(), settings.begin(), settings.end());
+              return balance.excess(whole);
+          }) {}
+
+    void fit(ForcePair& pair) const { take(gap::fit(predict_, windows_, wanted_, pair.settings), pair); }
+
+    void refine(ForcePair& pair) const {
+        const ForcePair plain = pair;
+        for (std::size_t place = 0; place < plain.settings.size(); ++place)
+            for (const Refinement& refinement : refinements_of(*plain.settings[place].effect))
+                for (const double value : refinement.values) {
+                    Hypothesis start = plain.settings;
+                    start[place].values[refinement.parameter] = value;
+                    Fit refined = gap::fit(predict_, windows_, wanted_, start);
+                    if (refined.loss < pair.loss - least_gain) take(std::move(refined), pair);
+                }
+    }
+
+    /// Whether each of the two takes away a good part of what the other leaves alone.
+    bool needs_both(const ForcePair& pair) const {
+        constexpr double most_left = 0.8;
+        return std::ranges::all_of(pair.settings, [&](const plant::EffectSetting& alone) {
+            return pair.loss < most_left * gap::fit(predict_, windows_, wanted_, {alone}).loss;
+        });
+    }
+
+    /// With all values of those parameters that the balance does not depend on.
+    std::vector<Hypothesis> with_unseen(const ForcePair& pair) const {
+        std::vector<Hypothesis> all{pair.settings};
+        const Errors here = predict_(pair.settings);
+        for (const std::size_t place : {0, 1}) {
+            const Candidate& candidate = place == 0 ? *pair.first : *pair.second;
+            for (std::size_t k = 0; k < candidate.effect->parameters.size(); ++k) {
+                std::vector<Hypothesis> more;
+                for (const Hypothesis& start : all) {
+                    std::vector<double> values{start[place].values[k]};
+                    for (const std::vector<double>& shape : candidate.shapes) {
+                        Hypothesis other = pair.settings;
+                        other[place].values[k] = shape[k];
+                        if (std::ranges::find(values, shape[k]) == values.end() &&
+                            is_same(here, predict_(other)))
+                            values.push_back(shape[k]);
+                    }
+                    for (const double value : values) {
+                        more.push_back(start);
+                        more.back()[place].values[k] = value;
+                    }
+                }
+                all = std::move(more);
+            }
+        }
+        return all;
+    }
+
+  private:
+    static void take(Fit fitted, ForcePair& pair) {
+        pair.settings = std::move(fitted.hypothesis);
+        pair.loss = fitted.loss;
+    }
+
+    static bool is_same(const Errors& one, const Errors& other) {
+        return std::ranges::equal(one, other, [](float left, float right) {
+            return left == right || (std::isnan(left) && std::isnan(right));
+        });
+    }
+
+    std::span<const Window> windows_;
+    const Wanted& wanted_;
+    Predict predict_;
+};
+
+}  // namespace
+
+std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wanted& wanted,
+                                             const Hypothesis& base,
+                                             std::span<const Candidate* const> candidates,
+                                             std::span<const PositionPeriod> periods) {
+    constexpr std::size_t most_fitted = 8, most_pairs = 4;
+    const ForceBalance balance(evidence, wanted);
+    if (balance.supports().empty()) return {};
+    std::vector<Shape> shapes = shapes_of(candidates, periods);
+    const std::vector<Window>& windows = evidence.windows();
+    const Products products(balance, windows, wanted, base, shapes);
+    std::erase_if(shapes, [&](const Shape& shape) { return !products.shows(shape); });
+    std::vector<ForcePair> pairs = best_along_shapes(products, shapes);
+    const BalanceFit balanced(balance, windows, wanted, base);
+    const auto keep_best = [&](std::size_t most) {
+        std::ranges::sort(pairs, {}, &ForcePair::loss);
+        if (pairs.size() > most) pairs.resize(most);
+    };
+    keep_best(most_fitted);
+    parallel_for(pairs.size(), [&](std::size_t k) { balanced.fit(pairs[k]); });
+    keep_best(most_pairs);
+    parallel_for(pairs.size(), [&](std::size_t k) { balanced.refine(pairs[k]); });
+    keep_best(most_pairs);
+    std::erase_if(pairs, [&](const ForcePair& pair) { return !balanced.needs_both(pair); });
+    for (ForcePair& pair : pairs) pair.starts = balanced.with_unseen(pair);
+    return pairs;
+}
+
+}  // namespace fidservo::gap
