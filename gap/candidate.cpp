@@ -86,7 +86,9 @@ std::vector<double> sizes_of(const plant::Effect& effect, const plant::EffectPar
 std::vector<double> grid_of(const plant::EffectParameter& parameter, const TravelledRange& range) {
     const auto within = [&](double value) { return std::clamp(value, parameter.low, parameter.high); };
     std::vector<double> grid;
-    if (parameter.unit == "Hz") {
+    if (parameter.is_choice) {
+        grid = {parameter.high, parameter.low};
+    } else if (parameter.unit == "Hz") {
         constexpr double ratio = 1.15;  // of neighbours: half the width of a resonance of damping ratio 0.07
         for (double value = parameter.low; value < parameter.high; value *= ratio) grid.push_back(value);
     } else if (parameter.unit == "mm" && parameter.low < 0.0) {
@@ -168,7 +170,8 @@ std::vector<Refinement> refinements_of(const plant::Effect& effect) {
 }
 
 std::size_t unrefined_parameters(const plant::Effect& effect) {
-    return effect.parameters.size() - refinements_of(effect).size();
+    const auto choices = std::ranges::count_if(effect.parameters, &plant::EffectParameter::is_choice);
+    return effect.parameters.size() - refinements_of(effect).size() - static_cast<std::size_t>(choices);
 }
 
 std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std::string> only,

@@ -36,7 +36,7 @@ struct Candidate {
 /// What no candidate's shape has: it is looked for once the rest is known.
 std::vector<Refinement> refinements_of(const plant::Effect& effect);
 
-/// How many parameters an effect has without its refinements.
+/// How many parameters an effect has without its refinements and choices.
 std::size_t unrefined_parameters(const plant::Effect& effect);
 
 /// Effects of the catalogue that the rig can have and a recorded signal can show; camera.image effects

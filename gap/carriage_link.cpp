@@ -75,37 +75,71 @@ class Lead {
           trial_(motion_),
           errors_(motion_.position_mm.size()) {}
 
+    /// From where it was carried to. At the start of a recording, where that does not lead through the
+    /// counts, also from rest and from other places in the first count: over a force along the rail these
+    /// decide which way it goes.
     /// @return the state at the window's first row
     plant::MacroAxisState enter(const WindowRows& window, const plant::MacroAxisState& carried) {
-        constexpr int most_rounds = 3;
-        constexpr double enough_count = 0.01;
-        const bool is_linear = model_.axis.has_closed_form && model_.encoder.ripple.amplitude_mm == 0.0;
-        const double ticks_per_tau = model_.axis.parameters.time_constant_s / run_.tick_s;
-        StartCorrection done;
-        plant::MacroAxisState end = play(window, carried, done, motion_);
-        double loss = std::numeric_limits<double>::infinity();
-        for (int round = 0; round < most_rounds; ++round) {
-            const StartCorrection better = estimate_start(errors_, done, ticks_per_tau);
-            if (round == 0) loss = start_loss(errors_, done);
-            const double change =
-                std::hypot(better.place_count - done.place_count, better.coast_count - done.coast_count);
-            if (change < enough_count && round > 0) break;
-            const auto trial_end = play(window, carried, better, trial_);
-            const double trial_loss = is_linear ? 0.0 : start_loss(errors_, better);
-            if (trial_loss > loss) break;
-            loss = trial_loss;
-            done = better;
-            end = trial_end;
-            std::swap(motion_, trial_);
-            if (is_linear) break;
+        constexpr double enough = 1.0;
+        Way best = corrected(window, carried);
+        if (window.lead > 0 || is_linear() || best.loss <= enough) return best.end;
+        CarriagePath path = motion_;
+        const auto try_from = [&](const plant::MacroAxisState& other) {
+            const Way way = corrected(window, other);
+            if (way.loss >= best.loss) return;
+            best = way;
+            path = motion_;
+        };
+        plant::MacroAxisState at_rest = carried;
+        at_rest.velocity_mm_per_s = at_rest.mechanism.driven_mm_per_s = 0.0;
+        const double loss_when_carried = best.loss;
+        try_from(at_rest);
+        const bool from_rest = best.loss < loss_when_carried;
+        for (const double beside_count : {-0.2, 0.2, -0.4, 0.4}) {
+            plant::MacroAxisState beside = from_rest ? at_rest : carried;
+            beside.position_mm += beside_count * mm_per_count(model_.encoder, carried.position_mm);
+            try_from(beside);
         }
-        return end;
+        motion_ = std::move(path);
+        return best.end;
     }
 
     const CarriagePath& motion() const { return motion_; }
     std::size_t effort() const { return effort_; }
 
   private:
+    struct Way {
+        plant::MacroAxisState end;
+        double loss;
+    };
+
+    bool is_linear() const {
+        return model_.axis.has_closed_form && model_.encoder.ripple.amplitude_mm == 0.0;
+    }
+
+    Way corrected(const WindowRows& window, const plant::MacroAxisState& carried) {
+        constexpr int most_rounds = 3;
+        constexpr double enough_count = 0.01;
+        const double ticks_per_tau = model_.axis.parameters.time_constant_s / run_.tick_s;
+        StartCorrection done;
+        Way way{play(window, carried, done, motion_), std::numeric_limits<double>::infinity()};
+        for (int round = 0; round < most_rounds; ++round) {
+            const StartCorrection better = estimate_start(errors_, done, ticks_per_tau);
+            if (round == 0) way.loss = start_loss(errors_, done);
+            const double change =
+                std::hypot(better.place_count - done.place_count, better.coast_count - done.coast_count);
+            if (change < enough_count && round > 0) break;
+            const auto trial_end = play(window, carried, better, trial_);
+            const double trial_loss = is_linear() ? 0.0 : start_loss(errors_, better);
+            if (trial_loss > way.loss) break;
+            way = {trial_end, trial_loss};
+            done = better;
+            std::swap(motion_, trial_);
+            if (is_linear()) break;
+        }
+        return way;
+    }
+
     plant::MacroAxisState play(const WindowRows& window, const plant::MacroAxisState& carried,
                                const StartCorrection& correction, CarriagePath& motion) {
         const double scale_mm = mm_per_count(model_.encoder, carried.position_mm);
@@ -188,6 +222,7 @@ PredictedCounts simulate(const CarriageModel& model, const CarriageRun& run,
         if (!is_carried || !follows) carried = first_state(model, run, window.lead);
         is_carried = true;
         state = lead.enter(window, carried);
+        state.position_mm += model.start_offset_count * mm_per_count(model.encoder, state.position_mm);
         const std::size_t next_lead = ends_stretch ? window.end : all[k + 1].window.lead;
         predicted.effort += run_rows(model, run, window.first, next_lead, state, motion);
         carried = state;
@@ -219,7 +254,7 @@ CarriageModel carriage_model(const plant::PlantParameters& parameters) {
     endless.low_mm = -std::numeric_limits<double>::infinity();
     endless.high_mm = std::numeric_limits<double>::infinity();
     return {plant::make_macro_axis(parameters.axis, parameters.tick_s),
-            plant::make_macro_axis(endless, parameters.tick_s), parameters.encoder};
+            plant::make_macro_axis(endless, parameters.tick_s), parameters.encoder, 0.0};
 }
 
 PredictedCounts predicted_counts(const CarriageModel& model, const CarriageRun& run,

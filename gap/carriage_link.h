@@ -28,6 +28,7 @@ struct CarriageModel {
     plant::MacroAxis axis;
     plant::MacroAxis endless_axis;  ///< without ends of travel, for readings from an unknown origin
     plant::Encoder encoder;
+    double start_offset_count = 0.0;  ///< by which windows begin beside the place that fits best
 };
 
 /// Throws InputError as make_macro_axis does.

@@ -55,6 +55,10 @@ Touched touched_by(const Hypothesis& hypothesis, const Models& models) {
         for (const Signal signal : reach_of(*setting.effect)) touched.signals[index_of(signal)] = true;
         if (setting.effect->block.starts_with("macro.")) touched.carriage = true;
     }
+    if (models.carriage.start_offset_count != 0.0) {
+        touched.carriage = true;
+        touched.signals[index_of(Signal::encoder)] = touched.signals[index_of(Signal::tag)] = true;
+    }
     if (touched.carriage && models.platform_feels_carriage) touched.signals[index_of(Signal::hall)] = true;
     return touched;
 }
@@ -284,11 +288,12 @@ double Evidence::effort() const {
     return static_cast<double>(parts_->effort) / static_cast<double>(std::max(rows, five_minutes));
 }
 
-Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted) const {
+Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted, double start_offset_count) const {
     const Parts& parts = *parts_;
     FIDSERVO_DEMAND(wanted.size() == parts.windows.size());
     try {
-        const Models models = models_of(parts.rig, hypothesis);
+        Models models = models_of(parts.rig, hypothesis);
+        models.carriage.start_offset_count = start_offset_count;
         const Touched touched = touched_by(hypothesis, models);
         Errors errors(parts.values, std::numeric_limits<float>::quiet_NaN());
         for (std::size_t w = 0; w < parts.windows.size(); ++w) {

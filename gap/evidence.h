@@ -126,7 +126,8 @@ class Evidence {
     /// Predictions of a hypothesis; values of windows that are not wanted are NaN.
     /// Deterministic, const and safe to call from several threads at once.
     /// Empty if the hypothesis is none that a rig can have (the plant refuses it).
-    Errors errors(const Hypothesis& hypothesis, const Wanted& wanted) const;
+    /// @param start_offset_count  by which the carriage begins each window beside the place that fits best
+    Errors errors(const Hypothesis& hypothesis, const Wanted& wanted, double start_offset_count = 0.0) const;
 
     /// What all predictions since it was made have cost, whatever the machine: 1 is a carriage that was
     /// followed in closed form for 5 minutes, or along all recordings where they are longer.

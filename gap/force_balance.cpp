@@ -48,10 +48,14 @@ Errors ForceBalance::excess(const Hypothesis& hypothesis) const {
     plant::apply_effects(parameters, hypothesis);
     const double stretch = parameters.encoder.resolution_mm / evidence_.rig().macro.encoder_resolution_mm;
     const auto late = static_cast<std::size_t>(std::lround(parameters.axis.delay_s / parameters.tick_s));
+    // At a row the readings are of the instant between two commands.
     const Column column = forces_.of_force(0, [&](const SlidingRow& row) {
         const std::vector<StageRow>& rows = evidence_.recordings()[row.run].rows;
-        return excess_V(parameters.axis, stretch, rows[row.row - std::min(late, row.row)].macro_command_V,
-                        row);
+        const auto with_command = [&](std::size_t ago) {
+            return excess_V(parameters.axis, stretch, rows[row.row - std::min(ago, row.row)].macro_command_V,
+                            row);
+        };
+        return 0.5 * (with_command(late) + with_command(late + 1));
     });
     Errors excess(column.values.size(), not_a_number);
     for (const CarriageForces::Support& support : supports())

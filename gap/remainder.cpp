@@ -11,7 +11,9 @@
 #include "gap/surrogate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,15 +25,18 @@ namespace {
 /// What is above this is a gap, whether or not anything is found that it depends on.
 constexpr double clear_floors = 1.25;
 
-/// Errors of what was fitted on the other half.
+/// Errors of what was fitted on the other half, where they are judged.
 Errors held_out_errors(const Evidence& evidence, const CrossFit& explained,
                        std::span<const std::uint8_t> half) {
     const Wanted wanted = everything(evidence);
     Errors errors = evidence.errors(explained.of_half[1], wanted);
     const Errors other = evidence.errors(explained.of_half[0], wanted);
+    constexpr float not_judged = std::numeric_limits<float>::quiet_NaN();
     for (std::size_t w = 0; w < half.size(); ++w)
-        if (half[w] == 1)
-            for (std::size_t k = evidence.windows()[w].begin; k < evidence.windows()[w].end; ++k)
+        for (std::size_t k = evidence.windows()[w].begin; k < evidence.windows()[w].end; ++k)
+            if (std::isnan(explained.mean_squares[w]))
+                errors[k] = not_judged;
+            else if (half[w] == 1)
                 errors[k] = other[k];
     return errors;
 }

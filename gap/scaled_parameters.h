@@ -20,8 +20,10 @@ class ScaledParameters {
     double high(std::size_t k) const { return all_[k]->high / scale(k); }
     bool at_bound(std::size_t k) const { return values[k] <= low(k) || values[k] >= high(k); }
 
-    /// Whether an effect is without it: nothing changes with it there.
-    bool is_absent(std::size_t k) const { return all_[k]->is_negligible(values[k] * scale(k)); }
+    /// Whether nothing changes with it there: an effect is without it, or it is a choice.
+    bool is_level(std::size_t k) const {
+        return all_[k]->is_choice || all_[k]->is_negligible(values[k] * scale(k));
+    }
 
     /// A value beyond a bound counts as at it.
     Hypothesis at(std::span<const double> scaled) const;

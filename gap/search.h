@@ -158,6 +158,8 @@ class Search {
     Pair in_plain_form(const CrossFit& base, Pair pair) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                  double step_scales) const;
+    /// A wave, from the best of many values.
+    Contender scattered(const CrossFit& base, const Contender& contender) const;
     /// With one or two refinements of what is fitted, from any of their values: where a fit has begun
     /// without, no slope leads to them, and from afar they only seem to do harm.
     Contender refined(const CrossFit& base, const Contender& contender) const;

@@ -3,8 +3,10 @@
 #include "gap/parallel.h"
 #include "gap/polish.h"
 #include "gap/search.h"
+#include "gap/wave_scatter.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <string_view>
@@ -202,6 +204,8 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, double share
             if (other.gain() > closer.gain()) closer = std::move(other);
         };
         const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
+        if (is_wave && is_off() && clears_a_signal(base, closer.trial.fitted, nearly_all))
+            or_else(scattered(base, closer));
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
         if (is_off() && !is_worn_out() && clears_a_signal(base, closer.trial.fitted, worth_refining))
             or_else(refined(base, closer));
@@ -287,6 +291,32 @@ Hypothesis Search::polished(const Contender& contender, std::size_t side, const 
     const Wanted wanted = only_of(windows, fitter_.half(side), contender.teachers());
     return polish(fitter_.predictor(wanted), windows, wanted, contender.trial.fitted.of_half[side], places)
         .hypothesis;
+}
+
+Search::Contender Search::scattered(const CrossFit& base, const Contender& contender) const {
+    const std::vector<Window>& windows = fitter_.evidence().windows();
+    const std::size_t place = base.of_half[0].size();
+    const std::array<Hypothesis, 2>& of_half = contender.trial.fitted.of_half;
+    Contender there = contender;
+    parallel_for(2, [&](std::size_t side) {
+        const Wanted wanted =
+            fitter_.instructive_of(side, contender.teachers(), contender.trial.fitted.mean_squares);
+        there.trial.fitted.of_half[side] =
+            scatter_wave(fitter_.predictor(wanted), windows, wanted, of_half[side], place).hypothesis;
+    });
+    // The other one may have come to a deeper valley.
+    std::array<Contender, 2> from{there, there};
+    std::swap(from[1].trial.fitted.of_half[0], from[1].trial.fitted.of_half[1]);
+    for (Contender& start : from) {
+        parallel_for(2, [&](std::size_t side) {
+            Hypothesis whole = of_half[side];
+            whole[place] = start.trial.fitted.of_half[side][place];
+            start.trial.fitted.of_half[side] = std::move(whole);
+            start.trial.fitted.of_half[side] = polished(start, side, {place});
+        });
+        judge_both_halves(base, start);
+    }
+    return from[from[1].gain() > from[0].gain() ? 1 : 0];
 }
 
 void Search::judge_both_halves(const CrossFit& base, Contender& contender) const {

@@ -4,7 +4,7 @@ namespace fidservo::gap {
 
 Errors slope(const Predict& predict, const ScaledParameters& parameters, std::size_t k, const Errors& errors,
              double step_scales) {
-    if (parameters.is_absent(k)) return Errors(errors.size(), 0.0F);
+    if (parameters.is_level(k)) return Errors(errors.size(), 0.0F);
     std::vector<double> beside = parameters.values;
     const double step = beside[k] + step_scales <= parameters.high(k) ? step_scales : -step_scales;
     beside[k] += step;

@@ -93,11 +93,9 @@ class CameraPlace {
         const plant::MicroStageParameters& micro = *model_.micro;
         const plant::HallDisturbance& disturbance = micro.hall_disturbance;
         double voltage_V = between(reading_->reading_lsb, at) * hall_lsb_V(micro.hall);
-        if (!disturbance.is_none()) {
-            constexpr double limit_V = plant::HallDisturbance::drift_limit_V;
-            voltage_V -= std::clamp(disturbance.drift_V_per_s * at_s, -limit_V, limit_V) +
+        if (!disturbance.is_none())
+            voltage_V -= disturbance.drift_V(at_s) +
                          disturbance.leak_V_per_V * model_.drive_gain * between(reading_->drive_V, at);
-        }
         return hall_position_mm(micro.hall, voltage_V);
     }
 

@@ -11,9 +11,7 @@ namespace {
 double hall_disturbance_V(const MicroStage& stage, const MicroStageState& state) {
     const HallDisturbance& disturbance = stage.hall_disturbance;
     if (disturbance.is_none()) return 0.0;
-    constexpr double limit_V = HallDisturbance::drift_limit_V;
-    return std::clamp(disturbance.drift_V_per_s * seconds(state.time_ns), -limit_V, limit_V) +
-           disturbance.leak_V_per_V * state.drive_V;
+    return disturbance.drift_V(seconds(state.time_ns)) + disturbance.leak_V_per_V * state.drive_V;
 }
 
 }  // namespace

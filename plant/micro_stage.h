@@ -3,7 +3,7 @@
 // the wire, and swings about it when the carriage accelerates:
 //
 //     x = stroke factor * Preisach(T - table shift) + z           z: plant/platform_swing.h
-//     V = Hall(x) + clamp(drift t, -1 V, 1 V) + leak * u          t from the start, u: the macro drive's
+//     V = Hall(x) + drift(t) + leak * u                           t from the start, u: the macro drive's
 //     voltage
 #include "core/preisach.h"
 #include "core/time.h"
@@ -11,6 +11,8 @@
 #include "plant/heater.h"
 #include "plant/platform_swing.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -18,9 +20,17 @@ namespace fidservo::plant {
 
 /// What comes to the Hall sensor's voltage beside the platform's position.
 struct HallDisturbance {
-    static constexpr double drift_limit_V = 1.0;
-    double drift_V_per_s = 0.0;
-    double leak_V_per_V = 0.0;  ///< of the macro drive
+    double drift_V_per_s = 0.0;   ///< of the zero, at first
+    double settling_per_s = 0.0;  ///< rate at which that settles; 0: never
+    double leak_V_per_V = 0.0;    ///< of the macro drive
+
+    /// Rate t, or rate (1 - exp(-settling t)) / settling; 1 V at most.
+    double drift_V(double time_s) const {
+        constexpr double limit_V = 1.0;
+        const double grown_s =
+            settling_per_s == 0.0 ? time_s : -std::expm1(-settling_per_s * time_s) / settling_per_s;
+        return std::clamp(drift_V_per_s * grown_s, -limit_V, limit_V);
+    }
 
     bool is_none() const { return drift_V_per_s == 0.0 && leak_V_per_V == 0.0; }
 };

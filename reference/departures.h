@@ -101,10 +101,13 @@ struct FlexureDepartures {
 };
 
 struct HallDepartures {
-    double gain = 1.0;  ///< factor on the curve about its middle voltage
+    double gain = 1.0;    ///< factor on the curve about its middle voltage
+    double supply = 1.0;  ///< factor on the whole voltage
     double offset_V = 0.0;
     double cubic = 0.0;  ///< added to the file's coefficient
+    double cube = 0.0;   ///< of s^3, in spans
     double drift_V_per_s = 0.0;
+    double drift_settling_s = 0.0;   ///< time constant with which it ends; 0: never
     double crosstalk_V_per_V = 0.0;  ///< of the held motor command
     double warm_V_per_degC = 0.0;    ///< of the wire's temperature above the nominal room
 };

@@ -20,9 +20,12 @@ std::int64_t encoder_count(double resolution_mm, const EncoderDepartures& depart
 double hall_volts(const HallParameters& hall, const HallDepartures& departures, const HallInput& input) {
     const double s = (input.platform_mm - hall.centre_mm) / hall.half_range_mm;
     const double cubic = hall.cubic + departures.cubic;
-    const double curve_V = hall.span_V * s * ((1.0 + cubic) - cubic * s * s);
-    return hall.mid_V + departures.gain * curve_V + departures.offset_V +
-           departures.drift_V_per_s * input.time_s + departures.crosstalk_V_per_V * input.macro_V +
+    const double curve_V = hall.span_V * s * ((1.0 + cubic) - (cubic - departures.cube) * s * s);
+    const double settling_s = departures.drift_settling_s;
+    const double drifted_s =
+        settling_s > 0.0 ? settling_s * (1.0 - std::exp(-input.time_s / settling_s)) : input.time_s;
+    return departures.supply * (hall.mid_V + departures.gain * curve_V) + departures.offset_V +
+           departures.drift_V_per_s * drifted_s + departures.crosstalk_V_per_V * input.macro_V +
            departures.warm_V_per_degC * input.warmer_degC;
 }
 

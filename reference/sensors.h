@@ -20,8 +20,8 @@ struct HallInput {
 };
 
 /// Voltage before noise and rounding:
-/// V = mid + gain span ((1 + c) s - c s^3) + offset + drift t + crosstalk u + warm (T - Ta),  s = (x -
-/// centre) / half range.
+/// V = supply (mid + gain span ((1 + c) s - c s^3 + d s^3)) + offset + drift(t) + crosstalk u
+///     + warm (T - Ta),  s = (x - centre) / half range; drift(t) a rate times t, or times what it settles to.
 double hall_volts(const HallParameters& hall, const HallDepartures& departures, const HallInput& input);
 
 /// The ADC's reading, 0 .. 2^bits - 1, of a voltage with noise.

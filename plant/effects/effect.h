@@ -31,7 +31,9 @@ struct EffectParameter {
     /// Of what an effect may be without: values this near to the vanishing one count as that, which is then
     /// also its typical one. 0: it has no such parameter.
     double negligible = 0.0;
+    bool is_choice = false;  ///< only its bounds are meant: the nearer one
 
+    bool is_high(double value) const { return value - low > high - value; }
     bool is_negligible(double value) const { return std::abs(value - vanishing) < negligible; }
     /// The value that acts.
     double acting(double value) const { return is_negligible(value) ? vanishing : value; }

@@ -6,10 +6,22 @@ namespace {
 
 constexpr EffectParameter parameters[] = {
     {"factor", "", 0.5, 1.5, 1.0, 1.02, "slope per nominal slope"},
+    {.name = "about_mid",
+     .unit = "",
+     .low = 0.0,
+     .high = 1.0,
+     .vanishing = 1.0,
+     .typical = 1.0,
+     .meaning = "1: about the middle voltage; 0: about 0 V",
+     .is_choice = true},
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
-    plant.micro->hall.span_V *= values[0];
+    HallParameters& hall = plant.micro->hall;
+    if (parameters[1].is_high(values[1]))
+        hall.span_V *= values[0];
+    else
+        hall.adc_range_V /= values[0];
 }
 
 }  // namespace
@@ -17,7 +29,10 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect hall_gain{
     .name = "hall_gain",
     .block = "micro.hall",
-    .text = "The sensor's slope differs by a factor: V = mid + factor * (nominal V - mid).",
+    .text =
+        "The sensor's slope differs by a factor: V = mid + factor * (nominal V - mid). "
+        "Or the whole voltage does, V = factor * nominal V, as of a ratiometric sensor whose supply is "
+        "not the converter's reference.",
     .source = "Ramsden, Hall-Effect Sensors, 2nd ed., 2006: sensitivity spread",
     .parameters = parameters,
     .apply = apply,

@@ -6,10 +6,22 @@ namespace {
 
 constexpr EffectParameter parameters[] = {
     {"cubic_shift", "", -0.3, 0.3, 0.0, 0.03, "added to the curve's cubic coefficient"},
+    {.name = "ends_stay",
+     .unit = "",
+     .low = 0.0,
+     .high = 1.0,
+     .vanishing = 1.0,
+     .typical = 1.0,
+     .meaning = "1: the ends of the range stay; 0: the slope in its middle",
+     .is_choice = true},
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
-    plant.micro->hall.cubic += values[0];
+    HallParameters& hall = plant.micro->hall;
+    hall.cubic += values[0];
+    if (parameters[1].is_high(values[1])) return;
+    hall.span_V *= 1.0 - values[0];
+    hall.cubic /= 1.0 - values[0];
 }
 
 }  // namespace
@@ -19,7 +31,8 @@ extern constexpr Effect hall_nonlinearity{
     .block = "micro.hall",
     .text =
         "The sensor's curve is more or less S-shaped: V = mid + span s (1 + (nominal cubic + shift) (1 - "
-        "s^2)); centre and ends of the range stay.",
+        "s^2)); centre and ends of the range stay. Or V = nominal V - span shift s^3: centre and slope there "
+        "stay.",
     .source = "Ramsden, Hall-Effect Sensors, 2nd ed., 2006: non-linearity of a sliding magnet's field",
     .parameters = parameters,
     .apply = apply,

@@ -151,14 +151,25 @@ void macro_coupling(Departures& rig, double size, NoiseStream& draw) {
 void hall_gain(Departures& rig, double size, NoiseStream& draw) {
     rig.hall.gain = factor(draw, size);
 }
+/// Of a ratiometric sensor.
+void hall_supply(Departures& rig, double size, NoiseStream& draw) {
+    rig.hall.supply = factor(draw, size);
+}
 void hall_offset(Departures& rig, double size_V, NoiseStream& draw) {
     rig.hall.offset_V = random_sign(draw) * size_V;
 }
 void hall_nonlinearity(Departures& rig, double size, NoiseStream& draw) {
     rig.hall.cubic = random_sign(draw) * size;
 }
+void hall_cube(Departures& rig, double size, NoiseStream& draw) {
+    rig.hall.cube = random_sign(draw) * size;
+}
 void hall_drift(Departures& rig, double size_V_per_s, NoiseStream& draw) {
     rig.hall.drift_V_per_s = random_sign(draw) * size_V_per_s;
+}
+void hall_warm_up(Departures& rig, double size_V_per_s, NoiseStream& draw) {
+    hall_drift(rig, size_V_per_s, draw);
+    rig.hall.drift_settling_s = log_uniform(draw, 5.0, 20.0);
 }
 void hall_crosstalk(Departures& rig, double size_V_per_V, NoiseStream& draw) {
     rig.hall.crosstalk_V_per_V = random_sign(draw) * size_V_per_V;
@@ -221,9 +232,12 @@ constexpr std::array draws{
     EffectDraw{"stroke_change", "", 5.7e-4, 0.15, stroke_change},
     EffectDraw{"macro_coupling", "", 1.3e-1, 2.0, macro_coupling},
     EffectDraw{"hall_gain", "", 5.5e-4, 0.2, hall_gain},
+    EffectDraw{"hall_gain", "supply", 2.6e-4, 0.1, hall_supply},
     EffectDraw{"hall_offset", "", 6.6e-6, 0.3, hall_offset},
     EffectDraw{"hall_nonlinearity", "", 1.9e-3, 0.2, hall_nonlinearity},
+    EffectDraw{"hall_nonlinearity", "cube", 5e-4, 0.1, hall_cube},
     EffectDraw{"hall_drift", "", 3.5e-5, 5e-3, hall_drift},
+    EffectDraw{"hall_drift", "settling", 6e-5, 5e-3, hall_warm_up},
     EffectDraw{"hall_crosstalk", "", 5.2e-4, 0.02, hall_crosstalk},
     EffectDraw{"pixel_scale", "", 1.3e-4, 0.1, pixel_scale},
     EffectDraw{"camera_rotation", "", 1.2e-4, 5.0 * rad_per_deg, camera_rotation},

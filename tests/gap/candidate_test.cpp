@@ -57,7 +57,8 @@ TEST(Refinements, AreWhatAnEffectMayBeWithoutAndCountAsNoParameter) {
                                                      {"stribeck_friction", {"creep_mm_per_s", "exponent"}},
                                                      {"rail_patch", {"creep_mm_per_s", "edge"}},
                                                      {"second_thermal_mass", {"heating"}},
-                                                     {"hall_offset", {"shift_um"}}};
+                                                     {"hall_offset", {"shift_um"}},
+                                                     {"hall_drift", {"settling_per_s"}}};
     for (const auto& [name, refined] : expected) {
         const plant::Effect& effect = *plant::find_effect(name);
         Names names;
@@ -84,14 +85,14 @@ TEST(Slope, OfWhatAnEffectIsWithout_IsZeroUnasked) {
         return Errors{static_cast<float>(hypothesis.front().values.back())};
     };
     const ScaledParameters rigid(effects({"coulomb_friction"}));
-    EXPECT_TRUE(rigid.is_absent(2));
+    EXPECT_TRUE(rigid.is_level(2));
     EXPECT_EQ(slope(predict, rigid, 2, {0.0F}), Errors{0.0F});
     EXPECT_EQ(asked, 0);
     const ScaledParameters creeping(effects({"coulomb_friction:creep_mm_per_s=0.4"}));
-    EXPECT_FALSE(creeping.is_absent(2));
+    EXPECT_FALSE(creeping.is_level(2));
     EXPECT_GT(slope(predict, creeping, 2, {0.4F}).front(), 0.0F);
     const ScaledParameters wave(effects({"cogging:phase_rad=-1"}));
-    EXPECT_FALSE(wave.is_absent(2));
+    EXPECT_FALSE(wave.is_level(2));
     EXPECT_GT(slope(predict, wave, 2, {-1.0F}).front(), 0.0F);
 }
 

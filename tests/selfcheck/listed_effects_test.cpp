@@ -135,10 +135,18 @@ const std::vector<Pair>& pairs() {
              rig.flexure = {1.0, 25.0, 0.05};
          },
          {1.0, 25.0, 0.05}},
-        {"hall_gain", [](Departures& rig) { rig.hall.gain = 1.05; }, {1.05}},
+        {"hall_gain", [](Departures& rig) { rig.hall.gain = 1.05; }, {1.05, 1.0}},
+        {"hall_gain", [](Departures& rig) { rig.hall.supply = 1.05; }, {1.05, 0.0}},
         {"hall_offset", [](Departures& rig) { rig.hall.offset_V = 0.1; }, {0.1, 0.0}},
-        {"hall_nonlinearity", [](Departures& rig) { rig.hall.cubic = 0.08; }, {0.08}},
-        {"hall_drift", [](Departures& rig) { rig.hall.drift_V_per_s = 2e-3; }, {2.0}},
+        {"hall_nonlinearity", [](Departures& rig) { rig.hall.cubic = 0.08; }, {0.08, 1.0}},
+        {"hall_nonlinearity", [](Departures& rig) { rig.hall.cube = 0.04; }, {-0.04, 0.0}},
+        {"hall_drift", [](Departures& rig) { rig.hall.drift_V_per_s = 2e-3; }, {2.0, 0.0}},
+        {"hall_drift",
+         [](Departures& rig) {
+             rig.hall.drift_V_per_s = 4e-3;
+             rig.hall.drift_settling_s = 8.0;
+         },
+         {4.0, 0.125}},
         {"hall_crosstalk", [](Departures& rig) { rig.hall.crosstalk_V_per_V = 0.01; }, {10.0}},
         {"pixel_scale", [](Departures& rig) { rig.camera.scale = 1.02; }, {1.02}},
         {"camera_rotation",

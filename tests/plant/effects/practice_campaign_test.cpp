@@ -23,7 +23,8 @@ double estimated_value(const Effect& effect, const Recording& recording) {
     double low = effect.parameters[0].low, high = effect.parameters[0].high;
     const double shrink = 1.0 / std::numbers::phi;
     const auto rms_lsb = [&](double value) {
-        const EffectSetting setting{&effect, {value}};
+        EffectSetting setting = typical_setting(effect);
+        setting.values.front() = value;
         return hall_residual(make_stage_plant(reference_rig(), {&setting, 1}), recording).rms_lsb;
     };
     constexpr double resolution = 1e-6;
@@ -47,7 +48,8 @@ TEST_P(PracticeCampaign, ValueOfOneRecording_ExplainsTheOthersToTheNoiseFloor) {
     const auto estimated_on = std::ranges::find(recordings, "micro-triangle-1",
                                                 [](const auto& path) { return path.filename().string(); });
     ASSERT_NE(estimated_on, recordings.end());
-    const EffectSetting setting{&effect, {estimated_value(effect, read_recording(*estimated_on))}};
+    EffectSetting setting = typical_setting(effect);
+    setting.values.front() = estimated_value(effect, read_recording(*estimated_on));
     const StagePlant nominal = make_stage_plant(reference_rig());
     const StagePlant plant = make_stage_plant(reference_rig(), {&setting, 1});
 

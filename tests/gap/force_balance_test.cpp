@@ -1,0 +1,144 @@
+// Whether forces balance along recorded ways, and which two effects of a carriage make them.
+#include "gap/force_balance.h"
+
+#include "gap/candidate.h"
+#include "gap/force_pairs.h"
+#include "gap/score.h"
+#include "gap/starts.h"
+#include "tests/gap/simulated_campaign.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+namespace {
+
+using namespace gap;
+using testing::campaign;
+using testing::effects;
+
+Wanted encoder_of(const Evidence& evidence) {
+    SignalFlags encoder{};
+    encoder[index_of(Signal::encoder)] = true;
+    return only_of(evidence.windows(), everything(evidence), encoder);
+}
+
+double root_mean_square(const Errors& excess) {
+    double sum = 0.0, count = 0.0;
+    for (const float value : excess) {
+        if (std::isnan(value)) continue;
+        sum += static_cast<double>(value) * value;
+        count += 1.0;
+    }
+    return std::sqrt(sum / count);
+}
+
+class OfAnEffect : public ::testing::TestWithParam<std::string_view> {};
+
+/// Smoothing over 17 readings leaves less of the rounding than the standard deviation is of.
+TEST_P(OfAnEffect, ForcesBalance_WhereTheHypothesisIsTheTruth) {
+    const Hypothesis truth = effects({GetParam()});
+    const Evidence evidence = campaign(truth, {"macro-sweep", "macro-pulses"});
+    const ForceBalance balance(evidence, encoder_of(evidence));
+    ASSERT_GT(balance.supports().size(), 300U);
+    const double with_file = root_mean_square(balance.excess({})),
+                 with_truth = root_mean_square(balance.excess(truth));
+    EXPECT_LT(with_truth, 1.0);
+    EXPECT_GT(with_file, 3.0 * with_truth);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, OfAnEffect,
+                         ::testing::Values("drive_gain:factor=0.9", "drive_offset:offset_V=0.2",
+                                           "drive_delay:delay_ms=5", "coulomb_friction:level_V=0.3",
+                                           "stribeck_friction:level_V=0.5,speed_mm_per_s=60", "payload:mass_factor=1.5",
+                                           "viscous_friction:damping_V_s_per_mm=0.002",
+                                           "rail_patch:level_V=0.5", "cogging:amplitude_V=0.3,period_mm=12.7",
+                                           "cable_force:stiffness_V_per_mm=0.005",
+                                           "encoder_scale:factor=1.1"));
+
+TEST(ForceBalance, PlayAndBelt_DoNotShow) {
+    for (const plant::Effect* effect : plant::effect_catalogue())
+        EXPECT_EQ(shows_in_balance(*effect), effect->block.starts_with("macro.") &&
+                                                 effect->name != "backlash" &&
+                                                 effect->name != "belt_compliance")
+            << effect->name;
+}
+
+std::vector<ForcePair> pairs_of(const Evidence& evidence) {
+    const std::vector<Candidate> all = candidates(evidence, {}, {});
+    std::vector<const Candidate*> of_carriage;
+    for (const Candidate& candidate : all)
+        if (shows_in_balance(*candidate.effect)) of_carriage.push_back(&candidate);
+    const Wanted wanted = encoder_of(evidence);
+    std::vector<ForcePair> pairs = strongest_force_pairs(
+        evidence, wanted, {}, of_carriage, seen_along_rail(evidence, {}, wanted, of_carriage).periods);
+    for (ForcePair& pair : pairs) pair.first = pair.second = nullptr;  // of candidates that are gone
+    return pairs;
+}
+
+/// Where two effects hide each other: single ones leave a tenth of the gap and more.
+TEST(ForcePairs, TwoEffects_ComeBackWithTheirSizes) {
+    const std::vector<ForcePair> pairs = pairs_of(
+        campaign(effects({"drive_gain:factor=0.92", "coulomb_friction:level_V=0.234,dead_zone_share=0"}),
+                 {"macro-sweep", "macro-pulses", "macro-square"}));
+    const auto found = std::ranges::find_if(pairs, [](const ForcePair& pair) {
+        return std::ranges::any_of(pair.settings, [](const plant::EffectSetting& setting) {
+            return setting.effect->name == "coulomb_friction";
+        });
+    });
+    ASSERT_NE(found, pairs.end());
+    for (const plant::EffectSetting& setting : found->settings) {
+        if (setting.effect->name == "coulomb_friction") {
+            EXPECT_NEAR(setting.values[0], 0.234, 0.01);
+        } else {
+            ASSERT_EQ(setting.effect->name, "drive_gain");
+            EXPECT_NEAR(setting.values[0], 0.92, 0.005);
+        }
+    }
+}
+
+TEST(ForcePairs, WaveBesideFrictionThatFallsWithSpeed_ComesBackFirst) {
+    const std::vector<ForcePair> pairs =
+        pairs_of(campaign(effects({"cogging:amplitude_V=0.35,period_mm=5.08,phase_rad=1",
+                                   "stribeck_friction:level_V=0.4,speed_mm_per_s=30"}),
+                          {"macro-sweep", "macro-pulses", "macro-square"}));
+    ASSERT_FALSE(pairs.empty());
+    for (const plant::EffectSetting& setting : pairs.front().settings) {
+        if (setting.effect->name == "cogging") {
+            EXPECT_NEAR(setting.values[0], 0.35, 0.07);  // smoothed over 17 ms
+            EXPECT_NEAR(setting.values[1], 5.08, 0.05);
+        } else {
+            ASSERT_EQ(setting.effect->name, "stribeck_friction");
+            EXPECT_NEAR(setting.values[0], 0.4, 0.15);
+        }
+    }
+}
+
+TEST(ForcePairs, BendOfBristles_WhichTheBalanceDoesNotShow_IsLeftOpen) {
+    const std::vector<ForcePair> pairs =
+        pairs_of(campaign(effects({"presliding:level_V=0.3,distance_um=200", "rail_patch:level_V=0.5"}),
+                          {"macro-sweep", "macro-pulses", "macro-square"}));
+    const auto found = std::ranges::find_if(pairs, [](const ForcePair& pair) {
+        return std::ranges::any_of(pair.settings, [](const plant::EffectSetting& setting) {
+            return setting.effect->name == "presliding";
+        });
+    });
+    ASSERT_NE(found, pairs.end());
+    EXPECT_EQ(found->starts.size(), 3U);
+}
+
+TEST(ForcePairs, OneEffect_NeedsNoSecond) {
+    EXPECT_TRUE(pairs_of(campaign(effects({"drive_gain:factor=0.92"}),
+                                  {"macro-sweep", "macro-pulses", "macro-square"}))
+                    .empty());
+}
+
+}  // namespace
+
+}  // namespace fidservo
