@@ -3,7 +3,7 @@
 #include "gap/gap_size.h"
 #include "gap/posterior.h"
 #include "gap/remainder.h"
-#include "gap/surrogate.h"
+#include "gap/trust.h"
 #include "gap/undecided.h"
 #include "gap/unpredictable.h"
 #include "plant/effects/catalogue.h"
@@ -167,107 +167,6 @@ std::vector<BlockProbability> blocks_of(const Selection& selection, double trust
     return where;
 }
 
-/// Whether what accuses a block shows in the same way as an effect of another one. The forces that a carriage
-/// lacks tell its blocks apart well; of the view, the tags' own size and their places are told from all else.
-/// An encoder whose readings the tags contradict, and its own model too, is no matter of the view.
-bool could_be(std::string_view named_block, const Remainder& whole) {
-    if (whole.block == "macro.encoder" && named_block == "camera.geometry") return true;
-    if (whole.depends_on.empty()) return false;
-    if (whole.block == "plate")
-        return (named_block.starts_with("camera.") || named_block == "macro.encoder") &&
-               whole.depends_on.size() == 1;
-    return named_block.starts_with("macro.") && whole.block.starts_with("macro.");
-}
-
-/// Whether what is named stands in for something else: the gap as a whole depends on what accuses a block
-/// that none of the names has.
-/// @param least_names  of those that could be it, below which they are believed
-bool has_stand_in(const Selection& selection, const Remainder& whole, std::ptrdiff_t least_names) {
-    const auto block_of = [](const Choice& choice) {
-        return std::string_view(choice.candidate->effect->block);
-    };
-    return std::ranges::count_if(selection.choices,
-                                 [&](const Choice& choice) { return could_be(block_of(choice), whole); }) >=
-               least_names &&
-           std::ranges::none_of(selection.choices,
-                                [&](const Choice& choice) { return block_of(choice) == whole.block; });
-}
-
-/// Whether the gap as a whole is friction at a place, and nothing that is named knows places.
-bool lacks_place(const Selection& selection, const Remainder& whole) {
-    const auto knows_places = [](const Choice& choice) {
-        return std::ranges::find(choice.candidate->effect->parameters, "mm", &plant::EffectParameter::unit) !=
-               choice.candidate->effect->parameters.end();
-    };
-    return !whole.depends_on.empty() && whole.depends_on.front() == name_of(Dependence::position_friction) &&
-           std::ranges::none_of(selection.choices, knows_places);
-}
-
-/// Whether three causes or more of one stage, or of the camera, were put together.
-bool is_patchwork(const Selection& selection) {
-    constexpr std::ptrdiff_t many = 3;
-    return std::ranges::any_of(std::array{"macro.", "micro.", "camera."}, [&](std::string_view part) {
-        return std::ranges::count_if(selection.choices, [&](const Choice& choice) {
-                   return choice.candidate->effect->block.starts_with(part);
-               }) >= many;
-    });
-}
-
-/// On two self-checks of 300 (seeds 2051, 2055) all 48 explanations that leave something and remove less of
-/// the gap than this were wrong, of those that remove more 43 of 69.
-constexpr double least_removed_by_the_cause = 0.85;
-
-/// What removes more than this is no stand-in: those of the self-checks removed .995 at most.
-constexpr double most_removed_by_stand_in = 0.999;
-
-/// How far the names of an explanation are to be trusted, and what is missing beside them.
-struct Doubt {
-    double trust;
-    Remainder missing;
-};
-
-constexpr double trust_in_stand_in = 0.3;
-
-/// What leaves something and removes less than this is as well something else of its kind: bristles called
-/// Coulomb friction, drag that grows with the square of speed called viscous. On three self-checks the four
-/// such names that were believed were wrong, of the twelve that remove more none.
-constexpr double removed_by_the_cause = 0.998, trust_in_its_kind = 0.9;
-
-/// Of an explanation that leaves something.
-Doubt doubt_of(const Evidence& evidence, const Selection& selection, const TotalGap& gap, Remainder remainder,
-               double trust, double tail) {
-    if (selection.choices.empty()) return {0.0, std::move(remainder)};
-    const std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
-    const bool stands_in = is_patchwork(selection) || gap.removed() < least_removed_by_the_cause ||
-                           (gap.removed() < most_removed_by_stand_in && whole &&
-                            (has_stand_in(selection, *whole, 1) || lacks_place(selection, *whole)));
-    if (stands_in) trust = std::min(trust, trust_in_stand_in);
-    if (gap.removed() < removed_by_the_cause) trust = std::min(trust, trust_in_its_kind);
-    if (whole && (stands_in || trust <= 0.5)) remainder.block = whole->block;
-    return {trust, std::move(remainder)};
-}
-
-/// Whether the gap depends on one thing at most; a command that comes late lacks force by what the command
-/// and the speed change by.
-bool has_one_face(const Remainder& whole) {
-    const std::vector<std::string>& all = whole.depends_on;
-    return all.size() <= 1 || (all.size() == 2 && all[0] == name_of(Dependence::command_change) &&
-                               all[1] == name_of(Dependence::acceleration));
-}
-
-/// Of an explanation that leaves nothing: two causes of the carriage together can do what a third one does.
-/// Then one dependence is enough, of another block.
-std::optional<Doubt> doubt_of(const Evidence& evidence, const Selection& selection, double tail) {
-    if (selection.choices.size() < 2) return {};
-    std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
-    if (!whole || !has_one_face(*whole) || !has_stand_in(selection, *whole, 2)) return {};
-    whole->text = fmt::format(
-        "encoder: what is named predicts it, but its errors depend on {}: that is of {}, where nothing is "
-        "named",
-        whole->depends_on.front(), whole->block);
-    return Doubt{trust_in_stand_in, std::move(*whole)};
-}
-
 /// How sure it is which block of a stage's stretch is accused where nothing is named: if the errors depend on
 /// nothing that was found, any of them may be it.
 double certainty_of(const Remainder& missing) {
@@ -302,31 +201,23 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
     diagnosis.hypothesis = fitted.hypothesis;
     diagnosis.signals = signal_gaps(evidence, nothing.mean_squares, explained.mean_squares);
     diagnosis.gap = total_gap(diagnosis.signals);
-    const double tail = options.selection.search.tail;
-    double trust = trust_in(typical_floors(evidence.windows(), explained.mean_squares));
-    std::optional<Remainder> remainder = remainder_of(evidence, explained, tail);
-    const std::optional<Doubt> doubt =
-        remainder ? doubt_of(evidence, selection, diagnosis.gap, std::move(*remainder), trust, tail)
-                  : doubt_of(evidence, selection, tail);
-    if (doubt) {
-        trust = doubt->trust;
-        diagnosis.unexplained = doubt->missing;
-    }
+    const Trust trust = trust_of(evidence, selection, diagnosis.gap, options.selection.search.tail);
+    diagnosis.unexplained = trust.missing;
     diagnosis.effects = found_effects(evidence, selection, fitted);
-    for (FoundEffect& effect : diagnosis.effects) effect.probability *= worth_of_names(trust);
+    for (FoundEffect& effect : diagnosis.effects) effect.probability *= worth_of_names(trust.in_names);
     diagnosis.candidates = tried_effects(evidence, selection);
-    diagnosis.where = blocks_of(selection, trust);
-    if (doubt)
-        accuse(diagnosis.where, doubt->missing.block,
-               (1.0 - trust) * (selection.choices.empty() ? certainty_of(doubt->missing) : 1.0));
+    diagnosis.where = blocks_of(selection, trust.in_names);
+    if (trust.missing)
+        accuse(diagnosis.where, trust.missing->block,
+               (1.0 - trust.in_names) * (selection.choices.empty() ? certainty_of(*trust.missing) : 1.0));
     if (diagnosis.unexplained && selection.choices.empty()) {
         const std::string wanting = what_is_wanting(evidence, selection);
         if (!wanting.empty()) diagnosis.unexplained->text += "; " + wanting;
     }
     if (selection.choices.empty())
-        diagnosis.verdict = doubt ? Verdict::unexplained : Verdict::no_gap;
+        diagnosis.verdict = trust.missing ? Verdict::unexplained : Verdict::no_gap;
     else
-        diagnosis.verdict = doubt ? Verdict::partly_explained : Verdict::explained;
+        diagnosis.verdict = trust.missing ? Verdict::partly_explained : Verdict::explained;
     diagnosis.notes = undecided(evidence, tried, selection);
     if (left_out > 0)
         diagnosis.notes.push_back(
