@@ -70,6 +70,16 @@ Hypothesis with_values(Hypothesis hypothesis, const std::vector<Refined>& added)
     return hypothesis;
 }
 
+/// Whether it has chosen what is not usual.
+bool is_unusual(const plant::EffectSetting& setting) {
+    const auto& parameters = setting.effect->parameters;
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+        if (parameters[k].is_choice &&
+            parameters[k].is_high(setting.values[k]) != parameters[k].is_high(parameters[k].vanishing))
+            return true;
+    return false;
+}
+
 bool includes(const SignalFlags& all, const SignalFlags& some) {
     for (std::size_t s = 0; s < signal_count; ++s)
         if (some[s] && !all[s]) return false;
@@ -111,14 +121,29 @@ void Search::fit_first_half(const CrossFit& base, std::span<Contender* const> co
                                                 contender.fitted_places(base), base.mean_squares);
     });
     std::map<const Contender*, double> least_loss;
+    std::map<const Contender*, const Attempt*> usual;
     for (const Attempt& attempt : attempts) {
         constexpr double none_yet = std::numeric_limits<double>::infinity();
-        double& least = least_loss.try_emplace(attempt.contender, none_yet).first->second;
+        const Contender* const contender = attempt.contender;
+        const Attempt*& best_usual = usual[contender];
+        if (!is_unusual(attempt.fitted.hypothesis.back()) &&
+            (best_usual == nullptr || attempt.fitted.loss < best_usual->fitted.loss))
+            best_usual = &attempt;
+        double& least = least_loss.try_emplace(contender, none_yet).first->second;
         if (attempt.fitted.loss >= least) continue;
         least = attempt.fitted.loss;
-        attempt.contender->finding->fitted[0] = attempt.contender->part(attempt.fitted.hypothesis);
+        contender->finding->fitted[0] = contender->part(attempt.fitted.hypothesis);
     }
     parallel_for(contenders.size(), [&](std::size_t k) { judge_first_half(base, *contenders[k]); });
+    // An unusual choice may stand in for what is still missing, unless it leaves nothing.
+    for (const auto& [contender, attempt] : usual) {
+        Hypothesis& found = contender->finding->fitted[0];
+        if (attempt == nullptr || found.empty() || !is_unusual(found.back()) ||
+            !meet(off(contender->trial.fitted), contender->teachers()))
+            continue;
+        found = contender->part(attempt->fitted.hypothesis);
+        judge_first_half(base, *attempt->contender);
+    }
 }
 
 void Search::judge_first_half(const CrossFit& base, Contender& contender) const {
