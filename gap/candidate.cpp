@@ -143,7 +143,8 @@ bool is_limit_of(std::string_view plainer, std::string_view richer) {
 }
 
 plant::EffectSetting plain_form(const plant::EffectSetting& richer, const plant::Effect& plainer,
-                                double middle_mm) {
+                                const MacroParameters& rail) {
+    const double middle_mm = 0.5 * (rail.low_mm + rail.high_mm);
     plant::EffectSetting setting = plant::vanishing_setting(plainer);
     const plant::EffectParameter& size = plainer.parameters.front();
     setting.values.front() = std::clamp(

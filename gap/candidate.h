@@ -54,8 +54,8 @@ std::string_view class_of(std::string_view effect);
 bool is_limit_of(std::string_view plainer, std::string_view richer);
 
 /// A plainer effect that does roughly what a richer one does of which it is the limit.
-/// @param middle_mm  of the rail
+/// @param rail  in whose middle a spring pulls as the constant force does
 plant::EffectSetting plain_form(const plant::EffectSetting& richer, const plant::Effect& plainer,
-                                double middle_mm);
+                                const MacroParameters& rail);
 
 }  // namespace fidservo::gap

@@ -177,4 +177,21 @@ std::vector<float> CarriageForces::values(const std::function<double(const Slidi
     return found;
 }
 
+std::vector<double> support_weights(const Evidence& evidence,
+                                    std::span<const CarriageForces::Support> supports, const Errors& values) {
+    std::vector<double> weights;
+    weights.reserve(supports.size());
+    for (const Window& window : evidence.windows()) {
+        std::size_t end = weights.size();
+        double squares = 0.0;
+        for (; end < supports.size() && supports[end].slot < window.end; ++end) {
+            const double value = values[supports[end].slot];
+            squares += value * value;
+        }
+        const auto count = static_cast<double>(end - weights.size());
+        weights.resize(end, 1.0 / std::sqrt(count + squares));
+    }
+    return weights;
+}
+
 }  // namespace fidservo::gap

@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace fidservo::gap {
@@ -79,5 +80,11 @@ class CarriageForces {
     std::vector<Support> supports_;
     Errors lacking_;
 };
+
+/// Of each support, 1 / sqrt(n + sum of squares) over the n supports of its window: windows weighted as in
+/// gap/score.h.
+/// @param values  at the supports' middles
+std::vector<double> support_weights(const Evidence& evidence,
+                                    std::span<const CarriageForces::Support> supports, const Errors& values);
 
 }  // namespace fidservo::gap

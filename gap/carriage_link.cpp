@@ -86,17 +86,16 @@ class Lead {
         CarriagePath path = motion_;
         const auto try_from = [&](const plant::MacroAxisState& other) {
             const Way way = corrected(window, other);
-            if (way.loss >= best.loss) return;
+            if (way.loss >= best.loss) return false;
             best = way;
             path = motion_;
+            return true;
         };
         plant::MacroAxisState at_rest = carried;
         at_rest.velocity_mm_per_s = at_rest.mechanism.driven_mm_per_s = 0.0;
-        const double loss_when_carried = best.loss;
-        try_from(at_rest);
-        const bool from_rest = best.loss < loss_when_carried;
+        const plant::MacroAxisState& from = try_from(at_rest) ? at_rest : carried;
         for (const double beside_count : {-0.2, 0.2, -0.4, 0.4}) {
-            plant::MacroAxisState beside = from_rest ? at_rest : carried;
+            plant::MacroAxisState beside = from;
             beside.position_mm += beside_count * mm_per_count(model_.encoder, carried.position_mm);
             try_from(beside);
         }
@@ -254,7 +253,7 @@ CarriageModel carriage_model(const plant::PlantParameters& parameters) {
     endless.low_mm = -std::numeric_limits<double>::infinity();
     endless.high_mm = std::numeric_limits<double>::infinity();
     return {plant::make_macro_axis(parameters.axis, parameters.tick_s),
-            plant::make_macro_axis(endless, parameters.tick_s), parameters.encoder, 0.0};
+            plant::make_macro_axis(endless, parameters.tick_s), parameters.encoder};
 }
 
 PredictedCounts predicted_counts(const CarriageModel& model, const CarriageRun& run,

@@ -31,6 +31,12 @@ Places coupled_through(const Hypothesis& hypothesis, SignalFlags signals) {
 
 }  // namespace
 
+SignalFlags only(Signal signal) {
+    SignalFlags flags{};
+    flags[index_of(signal)] = true;
+    return flags;
+}
+
 SignalFlags teachers_of(const plant::Effect& effect) {
     SignalFlags teach = flags_of(reach_of(effect));
     if (effect.block.starts_with("macro.") && effect.block != "macro.encoder")

@@ -11,6 +11,8 @@ namespace fidservo::gap {
 
 using SignalFlags = std::array<bool, signal_count>;
 
+SignalFlags only(Signal signal);
+
 /// Signals from which the parameters of an effect are learnt: those whose prediction it changes at first
 /// hand. What moves the carriage shows in the tags as well, but says there what the encoder has said;
 /// so does a longer exposure, which the image tells.

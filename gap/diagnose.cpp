@@ -2,7 +2,6 @@
 
 #include "gap/gap_size.h"
 #include "gap/posterior.h"
-#include "gap/remainder.h"
 #include "gap/trust.h"
 #include "gap/undecided.h"
 #include "gap/unpredictable.h"
@@ -69,8 +68,7 @@ std::vector<FittedParameter> parameters_of(const plant::EffectSetting& setting,
         const plant::EffectParameter& parameter = setting.effect->parameters[k];
         const Eigen::Index at = first + static_cast<Eigen::Index>(k);
         if (parameter.is_negligible(setting.values[k]) ||
-            (parameter.is_choice &&
-             parameter.is_high(setting.values[k]) == parameter.is_high(parameter.vanishing)))
+            (parameter.is_choice && !parameter.is_unusual(setting.values[k])))
             continue;
         const double apart = 0.5 * (halves[0].values[k] - halves[1].values[k]);
         parameters.push_back({std::string(parameter.name), std::string(parameter.unit), setting.values[k],

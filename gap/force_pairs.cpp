@@ -76,8 +76,8 @@ std::optional<plant::EffectSetting> sized(const Shape& shape, const Eigen::Vecto
 /// Inner products of what shapes do to the balance, and of the excess, the last column.
 class Products {
   public:
-    Products(const ForceBalance& balance, std::span<const Window> windows, const Wanted& counted,
-             const Hypothesis& base, std::span<Shape> shapes) {
+    Products(const Evidence& evidence, const ForceBalance& balance, const Hypothesis& base,
+             std::span<Shape> shapes) {
         Eigen::Index width = 0;
         std::vector<const plant::EffectSetting*> units;
         for (Shape& shape : shapes) {
@@ -86,30 +86,21 @@ class Products {
             for (const plant::EffectSetting& unit : shape.units) units.push_back(&unit);
         }
         const Errors excess = balance.excess(base);
-        const auto count = static_cast<Eigen::Index>(balance.supports().size());
-        Eigen::VectorXd weights = Eigen::VectorXd::Zero(count);
-        const std::vector<double> squares = mean_squares(windows, excess);
-        Eigen::Index k = 0;
-        for (std::size_t w = 0; w < windows.size(); ++w) {
-            const Eigen::Index begin = k;
-            while (k < count && slot(balance, k) < windows[w].end) ++k;
-            if (counted[w] != 0 && k > begin)
-                weights.segment(begin, k - begin)
-                    .setConstant(1.0 / std::sqrt(static_cast<double>(k - begin) * (1.0 + squares[w])));
-        }
-        Eigen::MatrixXd columns(count, width + 1);
-        const auto fill = [&](Eigen::Index column, const Errors& values, double sign) {
-            for (Eigen::Index i = 0; i < count; ++i) {
-                const auto at = static_cast<std::size_t>(slot(balance, i));
-                columns(i, column) = weights(i) * (sign * static_cast<double>(values[at]) -
-                                                   (sign > 0.0 ? static_cast<double>(excess[at]) : 0.0));
-            }
+        const std::vector<double> weights = support_weights(evidence, balance.supports(), excess);
+        Eigen::MatrixXd columns(static_cast<Eigen::Index>(weights.size()), width + 1);
+        const auto fill = [&](Eigen::Index column, const auto& value_at) {
+            for (std::size_t i = 0; i < weights.size(); ++i)
+                columns(static_cast<Eigen::Index>(i), column) =
+                    weights[i] * value_at(balance.supports()[i].slot);
         };
-        fill(width, excess, -1.0);
+        fill(width, [&](std::size_t slot) { return -static_cast<double>(excess[slot]); });
         parallel_for(units.size(), [&](std::size_t unit) {
-            Hypothesis with = base;
-            with.push_back(*units[unit]);
-            fill(static_cast<Eigen::Index>(unit), balance.excess(with), 1.0);
+            Hypothesis whole = base;
+            whole.push_back(*units[unit]);
+            const Errors with = balance.excess(whole);
+            fill(static_cast<Eigen::Index>(unit), [&](std::size_t slot) {
+                return static_cast<double>(with[slot]) - static_cast<double>(excess[slot]);
+            });
         });
         products_ = columns.transpose() * columns;
     }
@@ -141,10 +132,6 @@ class Products {
     }
 
   private:
-    static std::size_t slot(const ForceBalance& balance, Eigen::Index support) {
-        return balance.supports()[static_cast<std::size_t>(support)].slot;
-    }
-
     Eigen::MatrixXd products_;
 };
 
@@ -165,7 +152,7 @@ std::vector<Shape> shapes_of(std::span<const Candidate* const> candidates,
     return shapes;
 }
 
-/// The pairs that balance best along their shapes, as they are there.
+/// The pairs that balance best along their shapes, as they are there; their losses are the squares left.
 std::vector<ForcePair> best_along_shapes(const Products& products, std::span<const Shape> shapes) {
     std::vector<ForcePair> pairs;
     for (const Shape& one : shapes)
@@ -230,21 +217,19 @@ class BalanceFit {
         for (const std::size_t place : {0, 1}) {
             const Candidate& candidate = place == 0 ? *pair.first : *pair.second;
             for (std::size_t k = 0; k < candidate.effect->parameters.size(); ++k) {
+                std::vector<double> values{pair.settings[place].values[k]};
+                for (const std::vector<double>& shape : candidate.shapes) {
+                    Hypothesis other = pair.settings;
+                    other[place].values[k] = shape[k];
+                    if (std::ranges::find(values, shape[k]) == values.end() && is_same(here, predict_(other)))
+                        values.push_back(shape[k]);
+                }
                 std::vector<Hypothesis> more;
-                for (const Hypothesis& start : all) {
-                    std::vector<double> values{start[place].values[k]};
-                    for (const std::vector<double>& shape : candidate.shapes) {
-                        Hypothesis other = pair.settings;
-                        other[place].values[k] = shape[k];
-                        if (std::ranges::find(values, shape[k]) == values.end() &&
-                            is_same(here, predict_(other)))
-                            values.push_back(shape[k]);
-                    }
+                for (const Hypothesis& start : all)
                     for (const double value : values) {
                         more.push_back(start);
                         more.back()[place].values[k] = value;
                     }
-                }
                 all = std::move(more);
             }
         }
@@ -279,7 +264,7 @@ std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wan
     if (balance.supports().empty()) return {};
     std::vector<Shape> shapes = shapes_of(candidates, periods);
     const std::vector<Window>& windows = evidence.windows();
-    const Products products(balance, windows, wanted, base, shapes);
+    const Products products(evidence, balance, base, shapes);
     std::erase_if(shapes, [&](const Shape& shape) { return !products.shows(shape); });
     std::vector<ForcePair> pairs = best_along_shapes(products, shapes);
     const BalanceFit balanced(balance, windows, wanted, base);

@@ -22,9 +22,9 @@ class PatchFit {
   public:
     PatchFit(const Evidence& evidence, const CarriageForces& forces) : forces_(forces) {
         const auto count = static_cast<Eigen::Index>(forces.supports().size());
-        lacking_.resize(count);
-        weights_.resize(count);
-        find_weights(evidence);
+        const std::vector<double> weights = support_weights(evidence, forces.supports(), forces.lacking());
+        weights_ = Eigen::Map<const Eigen::VectorXd>(weights.data(), count);
+        lacking_ = weighted(forces.lacking());
         placeless_.resize(count, placeless);
         placeless_.col(0) = weighted([](const SlidingRow& row) { return row.passed; });
         placeless_.col(1) = weighted([](const SlidingRow& row) { return row.direction; });
@@ -45,32 +45,18 @@ class PatchFit {
     }
 
   private:
-    void find_weights(const Evidence& evidence) {
-        const std::vector<CarriageForces::Support>& supports = forces_.supports();
-        std::size_t w = 0, begin = 0;
-        for (std::size_t k = 0; k <= supports.size(); ++k) {
-            if (k < supports.size() && supports[k].slot < evidence.windows()[w].end) continue;
-            double squares = 0.0;
-            for (std::size_t i = begin; i < k; ++i) squares += square(forces_.lacking()[supports[i].slot]);
-            const double weight = 1.0 / std::sqrt(static_cast<double>(k - begin) + squares);
-            for (std::size_t i = begin; i < k; ++i) {
-                const auto at = static_cast<Eigen::Index>(i);
-                weights_(at) = weight;
-                lacking_(at) = weight * static_cast<double>(forces_.lacking()[supports[i].slot]);
-            }
-            begin = k;
-            while (k < supports.size() && supports[k].slot >= evidence.windows()[w].end) ++w;
-        }
-    }
-    static double square(double value) { return value * value; }
-
     /// What supports show where the truth has a force that the prediction lacks.
     Eigen::VectorXd weighted(const Force& force_V) const {
-        const Column column = forces_.of_force(0, [&](const SlidingRow& row) { return force_V(row); });
-        Eigen::VectorXd values(weights_.size());
-        for (Eigen::Index k = 0; k < values.size(); ++k)
-            values(k) = weights_(k) * column.values[forces_.supports()[static_cast<std::size_t>(k)].slot];
-        return values;
+        return weighted(forces_.of_force(0, force_V).values);
+    }
+
+    /// @param values  at the supports' middles
+    Eigen::VectorXd weighted(const std::vector<float>& values) const {
+        Eigen::VectorXd product(weights_.size());
+        for (Eigen::Index k = 0; k < product.size(); ++k)
+            product(k) = weights_(k) *
+                         static_cast<double>(values[forces_.supports()[static_cast<std::size_t>(k)].slot]);
+        return product;
     }
 
     const CarriageForces& forces_;

@@ -267,9 +267,7 @@ bool Search::clears_each_half(const CrossFit& without, const CrossFit& with) con
 
 int Search::shapes_far_off(const CrossFit& cross, std::size_t side) const {
     const std::vector<Window>& windows = fitter_.evidence().windows();
-    SignalFlags tags{};
-    tags[index_of(Signal::tag)] = true;
-    const Wanted wanted = only_of(windows, fitter_.half(side), tags);
+    const Wanted wanted = only_of(windows, fitter_.half(side), only(Signal::tag));
     const Errors errors = fitter_.evidence().errors(cross.of_half[1 - side], wanted);
     int count = 0;
     for (std::size_t w = 0; w < windows.size(); ++w) {

@@ -74,9 +74,7 @@ Hypothesis with_values(Hypothesis hypothesis, const std::vector<Refined>& added)
 bool is_unusual(const plant::EffectSetting& setting) {
     const auto& parameters = setting.effect->parameters;
     for (std::size_t k = 0; k < parameters.size(); ++k)
-        if (parameters[k].is_choice &&
-            parameters[k].is_high(setting.values[k]) != parameters[k].is_high(parameters[k].vanishing))
-            return true;
+        if (parameters[k].is_unusual(setting.values[k])) return true;
     return false;
 }
 
@@ -172,14 +170,13 @@ void Search::fit_second_half(const CrossFit& base, Contender& contender, Threads
 
 void Search::fit_plain_form(const CrossFit& base, const Contender& richer, Contender& plain) const {
     if (plain.coupled != richer.coupled) return;
-    const MacroParameters& rail = fitter_.evidence().rig().macro;
-    const double middle_mm = 0.5 * (rail.low_mm + rail.high_mm);
     Finding finding = *plain.finding;
     Contender found = plain;
     found.finding = &finding;
     parallel_for(2, [&](std::size_t side) {
         Hypothesis start = richer.trial.fitted.of_half[side];
-        start.back() = plain_form(start.back(), *plain.trial.candidate->effect, middle_mm);
+        start.back() =
+            plain_form(start.back(), *plain.trial.candidate->effect, fitter_.evidence().rig().macro);
         found.trial.fitted.of_half[side] =
             fitter_.fit_places(side, start, plain.fitted_places(base), base.mean_squares).hypothesis;
         finding.fitted[side] = found.part(found.trial.fitted.of_half[side]);

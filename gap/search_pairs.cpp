@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -41,6 +42,13 @@ bool is_balanced(const Candidate& candidate) {
     return !candidate.is_limit && shows_in_balance(*candidate.effect);
 }
 
+/// Places to fit of a base with two added that meet, the first one given.
+Places fitted_with_pair(const CrossFit& base, const Candidate& first) {
+    Places places = coupled_with(base.of_half[0], *first.effect);
+    for (const std::size_t added : {0, 1}) places.push_back(base.of_half[0].size() + added);
+    return places;
+}
+
 }  // namespace
 
 struct Search::PairAttempt {
@@ -52,24 +60,20 @@ struct Search::PairAttempt {
 
 Search::PairAttempt Search::attempt(const CrossFit& base, const Candidate& first, const Candidate& second,
                                     Hypothesis settings) const {
-    Places places = coupled_with(base.of_half[0], *first.effect);
     Hypothesis start = base.of_half[0];
-    for (plant::EffectSetting& setting : settings) {
-        places.push_back(start.size());
-        start.push_back(std::move(setting));
-    }
-    return {&first, &second, std::move(places), std::move(start)};
+    std::ranges::move(settings, std::back_inserter(start));
+    return {&first, &second, fitted_with_pair(base, first), std::move(start)};
 }
 
 std::vector<Search::PairAttempt> Search::by_force(const CrossFit& base,
                                                   std::vector<const Candidate*> candidates) const {
     std::erase_if(candidates, [](const Candidate* candidate) { return !is_balanced(*candidate); });
     if (candidates.size() < 2) return {};
-    SignalFlags encoder{};
-    encoder[index_of(Signal::encoder)] = true;
     const Evidence& evidence = fitter_.evidence();
-    const Wanted wanted = only_of(evidence.windows(), fitter_.half(0), encoder);
-    const AlongRail along = seen_along_rail(evidence, base.of_half[0], wanted, candidates);
+    const Wanted wanted = only_of(evidence.windows(), fitter_.half(0), only(Signal::encoder));
+    std::vector<const Candidate*> waves = candidates;
+    std::erase_if(waves, [](const Candidate* candidate) { return !candidate->wave; });
+    const AlongRail along = seen_along_rail(evidence, base.of_half[0], wanted, waves);
     std::vector<PairAttempt> attempts;
     for (ForcePair& pair :
          strongest_force_pairs(evidence, wanted, base.of_half[0], candidates, along.periods))
@@ -126,8 +130,7 @@ std::optional<Pair> Search::best_of(const CrossFit& base, std::vector<PairAttemp
 }
 
 void Search::fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start) const {
-    Places places = coupled_with(base.of_half[0], *pair.first->effect);
-    for (const std::size_t added : {0, 1}) places.push_back(base.of_half[0].size() + added);
+    const Places places = fitted_with_pair(base, *pair.first);
     Hypothesis found = part_of(start, places);
     // There and back: of two valleys beside each other a half may have missed the deeper one.
     for (const std::size_t side : {1, 0, 1}) {
@@ -162,8 +165,6 @@ Pair Search::closer(const CrossFit& base, Pair pair) const {
 }
 
 Pair Search::in_plain_form(const CrossFit& base, Pair pair) const {
-    const MacroParameters& rail = fitter_.evidence().rig().macro;
-    const double middle_mm = 0.5 * (rail.low_mm + rail.high_mm);
     for (const Candidate& plainer : candidates_)
         for (const Candidate* Pair::*const place : {&Pair::first, &Pair::second}) {
             if (!is_limit_of(plainer.effect->name, (pair.*place)->effect->name) ||
@@ -173,7 +174,7 @@ Pair Search::in_plain_form(const CrossFit& base, Pair pair) const {
             plain.*place = &plainer;
             Hypothesis start = pair.fitted.of_half[0];
             plant::EffectSetting& setting = start[start.size() - (place == &Pair::first ? 2 : 1)];
-            setting = plain_form(setting, *plainer.effect, middle_mm);
+            setting = plain_form(setting, *plainer.effect, fitter_.evidence().rig().macro);
             fit_pair(base, plain, start);
             if (!nearly_clears(base, plain.fitted)) continue;
             plain = closer(base, std::move(plain));

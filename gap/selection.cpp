@@ -121,10 +121,8 @@ Chain rest_of(const Search& search, const Chain& chain, const SignalFlags& signa
 /// @return whether anything changed
 bool balance(Search& search, Chain& chain, int most_effects) {
     constexpr double nearly_all = 0.98;
-    SignalFlags encoder{};
-    encoder[index_of(Signal::encoder)] = search.off(chain.fitted)[index_of(Signal::encoder)];
-    if (encoder == SignalFlags{}) return false;
-    const Chain rest = rest_of(search, chain, encoder);
+    if (!search.off(chain.fitted)[index_of(Signal::encoder)]) return false;
+    const Chain rest = rest_of(search, chain, only(Signal::encoder));
     if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
     return take_in_pair(search, chain, rest, search.balanced_pair(rest.fitted, rest.candidates()),
                         nearly_all);

@@ -42,9 +42,9 @@ std::vector<bool> unpredictable_windows(const Evidence& evidence, const CrossFit
     const std::vector<std::uint8_t> half = halves(evidence);
     std::vector<bool> found(windows.size(), false);
     for (std::size_t side = 0; side < 2; ++side) {
-        Wanted wanted(windows.size(), 0);
+        Wanted wanted = only_of(windows, everything(evidence), only(Signal::encoder));
         for (std::size_t w = 0; w < windows.size(); ++w)
-            wanted[w] = half[w] != side && windows[w].signal == Signal::encoder ? 1 : 0;
+            if (half[w] == side) wanted[w] = 0;
         std::array<Errors, offsets_count.size()> errors;
         parallel_for(errors.size(), [&](std::size_t k) {
             errors[k] = evidence.errors(fitted.of_half[side], wanted, offsets_count[k]);

@@ -34,6 +34,8 @@ struct EffectParameter {
     bool is_choice = false;  ///< only its bounds are meant: the nearer one
 
     bool is_high(double value) const { return value - low > high - value; }
+    /// Whether it is a choice of what is not the vanishing value.
+    bool is_unusual(double value) const { return is_choice && is_high(value) != is_high(vanishing); }
     bool is_negligible(double value) const { return std::abs(value - vanishing) < negligible; }
     /// The value that acts.
     double acting(double value) const { return is_negligible(value) ? vanishing : value; }

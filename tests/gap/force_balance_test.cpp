@@ -3,13 +3,11 @@
 
 #include "gap/candidate.h"
 #include "gap/force_pairs.h"
-#include "gap/score.h"
 #include "gap/starts.h"
+#include "tests/gap/root_mean_square.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,21 +20,10 @@ namespace {
 using namespace gap;
 using testing::campaign;
 using testing::effects;
+using testing::rms;
 
 Wanted encoder_of(const Evidence& evidence) {
-    SignalFlags encoder{};
-    encoder[index_of(Signal::encoder)] = true;
-    return only_of(evidence.windows(), everything(evidence), encoder);
-}
-
-double root_mean_square(const Errors& excess) {
-    double sum = 0.0, count = 0.0;
-    for (const float value : excess) {
-        if (std::isnan(value)) continue;
-        sum += static_cast<double>(value) * value;
-        count += 1.0;
-    }
-    return std::sqrt(sum / count);
+    return only_of(evidence.windows(), everything(evidence), only(Signal::encoder));
 }
 
 class OfAnEffect : public ::testing::TestWithParam<std::string_view> {};
@@ -47,20 +34,19 @@ TEST_P(OfAnEffect, ForcesBalance_WhereTheHypothesisIsTheTruth) {
     const Evidence evidence = campaign(truth, {"macro-sweep", "macro-pulses"});
     const ForceBalance balance(evidence, encoder_of(evidence));
     ASSERT_GT(balance.supports().size(), 300U);
-    const double with_file = root_mean_square(balance.excess({})),
-                 with_truth = root_mean_square(balance.excess(truth));
+    const double with_file = rms(evidence, balance.excess({}), Signal::encoder),
+                 with_truth = rms(evidence, balance.excess(truth), Signal::encoder);
     EXPECT_LT(with_truth, 1.0);
     EXPECT_GT(with_file, 3.0 * with_truth);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, OfAnEffect,
-                         ::testing::Values("drive_gain:factor=0.9", "drive_offset:offset_V=0.2",
-                                           "drive_delay:delay_ms=5", "coulomb_friction:level_V=0.3",
-                                           "stribeck_friction:level_V=0.5,speed_mm_per_s=60", "payload:mass_factor=1.5",
-                                           "viscous_friction:damping_V_s_per_mm=0.002",
-                                           "rail_patch:level_V=0.5", "cogging:amplitude_V=0.3,period_mm=12.7",
-                                           "cable_force:stiffness_V_per_mm=0.005",
-                                           "encoder_scale:factor=1.1"));
+INSTANTIATE_TEST_SUITE_P(
+    Each, OfAnEffect,
+    ::testing::Values("drive_gain:factor=0.9", "drive_offset:offset_V=0.2", "drive_delay:delay_ms=5",
+                      "coulomb_friction:level_V=0.3", "stribeck_friction:level_V=0.5,speed_mm_per_s=60",
+                      "payload:mass_factor=1.5", "viscous_friction:damping_V_s_per_mm=0.002",
+                      "rail_patch:level_V=0.5", "cogging:amplitude_V=0.3,period_mm=12.7",
+                      "cable_force:stiffness_V_per_mm=0.005", "encoder_scale:factor=1.1"));
 
 TEST(ForceBalance, PlayAndBelt_DoNotShow) {
     for (const plant::Effect* effect : plant::effect_catalogue())
@@ -82,25 +68,29 @@ std::vector<ForcePair> pairs_of(const Evidence& evidence) {
     return pairs;
 }
 
+const plant::EffectSetting* find_setting(const ForcePair& pair, std::string_view effect) {
+    const auto found = std::ranges::find_if(
+        pair.settings, [&](const plant::EffectSetting& setting) { return setting.effect->name == effect; });
+    return found == pair.settings.end() ? nullptr : &*found;
+}
+
+const ForcePair* find_with(const std::vector<ForcePair>& pairs, std::string_view effect) {
+    const auto found = std::ranges::find_if(
+        pairs, [&](const ForcePair& pair) { return find_setting(pair, effect) != nullptr; });
+    return found == pairs.end() ? nullptr : &*found;
+}
+
 /// Where two effects hide each other: single ones leave a tenth of the gap and more.
 TEST(ForcePairs, TwoEffects_ComeBackWithTheirSizes) {
     const std::vector<ForcePair> pairs = pairs_of(
         campaign(effects({"drive_gain:factor=0.92", "coulomb_friction:level_V=0.234,dead_zone_share=0"}),
                  {"macro-sweep", "macro-pulses", "macro-square"}));
-    const auto found = std::ranges::find_if(pairs, [](const ForcePair& pair) {
-        return std::ranges::any_of(pair.settings, [](const plant::EffectSetting& setting) {
-            return setting.effect->name == "coulomb_friction";
-        });
-    });
-    ASSERT_NE(found, pairs.end());
-    for (const plant::EffectSetting& setting : found->settings) {
-        if (setting.effect->name == "coulomb_friction") {
-            EXPECT_NEAR(setting.values[0], 0.234, 0.01);
-        } else {
-            ASSERT_EQ(setting.effect->name, "drive_gain");
-            EXPECT_NEAR(setting.values[0], 0.92, 0.005);
-        }
-    }
+    const ForcePair* const found = find_with(pairs, "coulomb_friction");
+    ASSERT_NE(found, nullptr);
+    EXPECT_NEAR(find_setting(*found, "coulomb_friction")->values[0], 0.234, 0.01);
+    const plant::EffectSetting* const gain = find_setting(*found, "drive_gain");
+    ASSERT_NE(gain, nullptr);
+    EXPECT_NEAR(gain->values[0], 0.92, 0.005);
 }
 
 TEST(ForcePairs, WaveBesideFrictionThatFallsWithSpeed_ComesBackFirst) {
@@ -109,27 +99,21 @@ TEST(ForcePairs, WaveBesideFrictionThatFallsWithSpeed_ComesBackFirst) {
                                    "stribeck_friction:level_V=0.4,speed_mm_per_s=30"}),
                           {"macro-sweep", "macro-pulses", "macro-square"}));
     ASSERT_FALSE(pairs.empty());
-    for (const plant::EffectSetting& setting : pairs.front().settings) {
-        if (setting.effect->name == "cogging") {
-            EXPECT_NEAR(setting.values[0], 0.35, 0.07);  // smoothed over 17 ms
-            EXPECT_NEAR(setting.values[1], 5.08, 0.05);
-        } else {
-            ASSERT_EQ(setting.effect->name, "stribeck_friction");
-            EXPECT_NEAR(setting.values[0], 0.4, 0.15);
-        }
-    }
+    const plant::EffectSetting *const wave = find_setting(pairs.front(), "cogging"),
+                                      *const friction = find_setting(pairs.front(), "stribeck_friction");
+    ASSERT_NE(wave, nullptr);
+    ASSERT_NE(friction, nullptr);
+    EXPECT_NEAR(wave->values[0], 0.35, 0.07);  // smoothed over 17 ms
+    EXPECT_NEAR(wave->values[1], 5.08, 0.05);
+    EXPECT_NEAR(friction->values[0], 0.4, 0.15);
 }
 
 TEST(ForcePairs, BendOfBristles_WhichTheBalanceDoesNotShow_IsLeftOpen) {
     const std::vector<ForcePair> pairs =
         pairs_of(campaign(effects({"presliding:level_V=0.3,distance_um=200", "rail_patch:level_V=0.5"}),
                           {"macro-sweep", "macro-pulses", "macro-square"}));
-    const auto found = std::ranges::find_if(pairs, [](const ForcePair& pair) {
-        return std::ranges::any_of(pair.settings, [](const plant::EffectSetting& setting) {
-            return setting.effect->name == "presliding";
-        });
-    });
-    ASSERT_NE(found, pairs.end());
+    const ForcePair* const found = find_with(pairs, "presliding");
+    ASSERT_NE(found, nullptr);
     EXPECT_EQ(found->starts.size(), 3U);
 }
 
