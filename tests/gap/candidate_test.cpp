@@ -3,8 +3,8 @@
 #include "gap/scaled_parameters.h"
 #include "gap/slopes.h"
 #include "tests/gap/effects.h"
-#include "tests/reference_rig.h"
 #include "tests/gap/simulated_campaign.h"
+#include "tests/reference_rig.h"
 
 #include <utility>
 #include <vector>
@@ -19,8 +19,7 @@ using testing::effects;
 
 TEST(PlainForm, OfARicherEffect_HasAboutItsSize) {
     const auto plain = [](std::string_view richer, const char* plainer) {
-        return plain_form(effects({richer}).front(), *plant::find_effect(plainer),
-                          reference_rig().macro)
+        return plain_form(effects({richer}).front(), *plant::find_effect(plainer), reference_rig().macro)
             .values.front();
     };
     EXPECT_DOUBLE_EQ(plain("presliding:level_V=0.2", "coulomb_friction"), 0.2);
