@@ -173,14 +173,15 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
 
     ceres::Problem::Options how;
     how.evaluation_callback = &linearised;
+    how.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;  // it takes none of what no block uses
+    ceres::CauchyLoss loss(1.0);
     ceres::Problem problem(how);
-    auto* const loss = new ceres::CauchyLoss(1.0);  // owned by the problem
     for (std::size_t w = 0; w < windows.size(); ++w) {
         if (counted[w] == 0) continue;
         std::vector<std::size_t> rows = counted_rows(windows[w], linearised.errors);
         if (rows.empty()) continue;
         problem.AddResidualBlock(
-            new WindowErrors(linearised, std::move(rows), static_cast<int>(parameters.size())), loss,
+            new WindowErrors(linearised, std::move(rows), static_cast<int>(parameters.size())), &loss,
             parameters.values.data());
     }
     if (problem.NumResidualBlocks() == 0) return result;

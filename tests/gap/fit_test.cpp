@@ -6,6 +6,7 @@
 #include "tests/gap/equal_windows.h"
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -72,6 +73,18 @@ TEST(Fit, StepBeyondABound_IsCutThere_AndTheWayBackIsFound) {
     const Fit found =
         fit(bent, windows, Wanted(windows_count, 1), {plant::parse_effect("drive_gain:factor=0.9")});
     EXPECT_NEAR(found.hypothesis.front().values.front(), 1.3, 1e-3);
+}
+
+// With a value at the start and none in a window there is a problem without a block, which once kept the
+// loss.
+TEST(Fit, WindowsWithoutAValue_GiveTheStartBack) {
+    const Predict knows_nothing = [](const Hypothesis&) {
+        return Errors(windows_count * values, std::numeric_limits<float>::quiet_NaN());
+    };
+    const Fit found =
+        fit(knows_nothing, windows, Wanted(windows_count, 1), {plant::parse_effect("drive_gain:factor=1.1")});
+    EXPECT_EQ(found.hypothesis.front().values.front(), 1.1);
+    EXPECT_EQ(found.covariance(0, 0), 0.0);
 }
 
 TEST(Fit, RefusedHypothesis_IsGivenBackAsItIs) {
