@@ -1,19 +1,27 @@
 #include "gap/accusation.h"
 
+#include "gap/tag_sight.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace fidservo::gap {
 namespace {
 
+/// Floors along the motion of tags that stand.
+constexpr double far_at_rest = 3.0;
+
+/// Stages that move less than this displace no tag by their time, mm/s.
+constexpr double at_rest_mm_per_s = 1.0;
+
 std::string_view carriage_block(std::optional<Dependence> dependence) {
-    if (dependence == Dependence::command || dependence == Dependence::command_change ||
-        dependence == Dependence::command_period || dependence == Dependence::nothing ||
-        dependence == Dependence::time)
+    if (dependence == Dependence::command || dependence == Dependence::command_share ||
+        dependence == Dependence::command_change || dependence == Dependence::command_period ||
+        dependence == Dependence::nothing || dependence == Dependence::time)
         return "macro.drive";
-    if (dependence == Dependence::velocity || dependence == Dependence::direction ||
-        dependence == Dependence::position_friction || dependence == Dependence::way_friction ||
-        dependence == Dependence::standing)
+    if (dependence == Dependence::velocity || dependence == Dependence::velocity_share ||
+        dependence == Dependence::direction || dependence == Dependence::position_friction ||
+        dependence == Dependence::way_friction || dependence == Dependence::standing)
         return "macro.friction";
     return "macro.mechanics";
 }
@@ -25,6 +33,8 @@ std::string_view platform_block(std::optional<Dependence> dependence) {
     if (dependence == Dependence::contraction || dependence == Dependence::contraction_before ||
         dependence == Dependence::direction || dependence == Dependence::minor_loops)
         return "micro.hysteresis";
+    // A shift in time that is the same whatever the wire does is none of the wire's.
+    if (dependence == Dependence::time) return "micro.hall";
     return "micro.heater";
 }
 
@@ -38,15 +48,20 @@ bool is_displacement(const Pattern& pattern) {
 
 std::string_view view_block(const Pattern& pattern, std::optional<Dependence> dependence) {
     if (dependence == Dependence::velocity) return "camera.timing";
-    if (dependence == Dependence::position || dependence == Dependence::reading_period)
+    if (dependence == Dependence::position || dependence == Dependence::position_share ||
+        dependence == Dependence::reading_period)
         return "macro.encoder";
     if (dependence == Dependence::contraction) return "micro.hall";
-    if (dependence == Dependence::image_place) return "camera.geometry";
+    if (dependence == Dependence::image_place || dependence == Dependence::image_share)
+        return "camera.geometry";
     if (dependence == Dependence::motion_by_row) return "camera.image";
     if (dependence == Dependence::plate_place || dependence == Dependence::plate_turn ||
         dependence == Dependence::tag_size || dependence == Dependence::tag_itself)
         return "plate";
-    return is_displacement(pattern) ? "camera.timing" : "camera.geometry";
+    if (!is_displacement(pattern)) return "camera.geometry";
+    // A time that is wrong displaces nothing that stands, and a tag that is off by more than a count the
+    // encoder has not seen where it is.
+    return pattern.tag_at_rest > far_at_rest ? "macro.encoder" : "camera.timing";
 }
 
 bool off(const Pattern& pattern, Signal signal) {
@@ -78,18 +93,25 @@ Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, co
         const std::size_t s = index_of(gap.signal);
         pattern.floors[s] = gap.after / gap.floor / std::sqrt(expected[s] / counts[s]);
     }
-    double along = 0.0, across = 0.0, count = 0.0;
+    double along = 0.0, across = 0.0, count = 0.0, at_rest = 0.0, count_at_rest = 0.0;
     for (const Window& window : evidence.windows()) {
         if (window.signal != Signal::tag) continue;
         for (std::size_t k = window.begin; k + corner_values <= window.end; k += corner_values) {
             if (std::isnan(errors[k])) continue;
-            along += std::pow(errors[k], 2);
+            const double square = std::pow(errors[k], 2);
+            along += square;
+            const std::size_t detection = window.first_detection + (k - window.begin) / corner_values;
+            if (std::abs(sight_of(evidence, window.run, detection).velocity_mm_per_s) < at_rest_mm_per_s) {
+                at_rest += square;
+                count_at_rest += 1.0;
+            }
             for (std::size_t i = 1; i < corner_values; ++i) across += std::pow(errors[k + i], 2);
             count += 1.0;
         }
     }
     if (count == 0.0) return pattern;
     pattern.tag_along = std::sqrt(along / count);
+    if (count_at_rest > 0.0) pattern.tag_at_rest = std::sqrt(at_rest / count_at_rest);
     pattern.tag_across = std::sqrt(across / (count * (corner_values - 1)));
     return pattern;
 }

@@ -141,6 +141,8 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, dou
     const Quantity acceleration = [](const SlidingRow& at) { return at.acceleration_mm_per_s2; };
     add_hats(columns, forces, Dependence::velocity, 12,
              [](const SlidingRow& at) { return at.velocity_mm_per_s; });
+    columns.push_back(
+        force(forces, Dependence::velocity_share, [](const SlidingRow& at) { return at.velocity_mm_per_s; }));
     columns.push_back(force(forces, Dependence::direction, direction));
     columns.push_back(force(forces, Dependence::nothing, share_passed));
     add_hats(columns, forces, Dependence::position, 16, position_mm, share_passed);
@@ -150,6 +152,8 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, dou
     add_hats(
         columns, forces, Dependence::command, 12, [](const SlidingRow& at) { return at.command_V; },
         share_passed);
+    columns.push_back(
+        force(forces, Dependence::command_share, passed([](const SlidingRow& at) { return at.command_V; })));
     const std::vector<std::vector<double>> effective = effective_V(evidence);
     for (const std::size_t ticks : late_ticks)
         columns.push_back(force(forces, Dependence::command_change, [&, ticks](const SlidingRow& at) {

@@ -131,6 +131,7 @@ Surrogate platform_surrogate(const Evidence& evidence) {
     add_hats(Dependence::platform_place, 10, nullptr, [](const Row& at) { return at.contraction_mm; });
     add_hats(Dependence::contraction, 8, &stroke, [](const Row& at) { return at.time_s; });
     add_hats(Dependence::time, 6, nullptr, [](const Row& at) { return at.time_s; });
+    add_hats(Dependence::warmth_over_time, 6, &warmth, [](const Row& at) { return at.time_s; });
     add_hats(Dependence::temperature, 8, &warmth, [](const Row& at) { return at.temperature_degC; });
     // Where heat is far off, the wire ends up elsewhere on its loops than any slope says.
     for (const double factor : {0.75, 0.85, 1.15}) {

@@ -103,7 +103,8 @@ Remainder remainder_of_signal(const SignalGap& gap, const Pattern& pattern, cons
         std::string name(name_of(dependence));
         if (dependence == Dependence::position_period || dependence == Dependence::reading_period)
             name += fmt::format(" ({:.3g} mm)", found.period_mm);
-        remainder.depends_on.push_back(std::move(name));
+        if (std::ranges::find(remainder.depends_on, name) == remainder.depends_on.end())
+            remainder.depends_on.push_back(std::move(name));
     }
     remainder.text =
         fmt::format("{}: {:.3g} {} r.m.s. ({:.3g} floors) remain that no effect explains; {}",

@@ -5,7 +5,7 @@
 namespace fidservo::gap {
 
 std::string_view name_of(Dependence dependence) {
-    constexpr std::array<std::string_view, 29> names{"velocity",
+    constexpr std::array<std::string_view, 34> names{"velocity",
                                                      "direction",
                                                      "position",
                                                      "position, periodic",
@@ -33,7 +33,12 @@ std::string_view name_of(Dependence dependence) {
                                                      "place on the plate, across the motion",
                                                      "size of the tag",
                                                      "which tag it is",
-                                                     "how fast tags move, row by row"};
+                                                     "how fast tags move, row by row",
+                                                     "velocity",
+                                                     "command",
+                                                     "position",
+                                                     "place in the image",
+                                                     "time"};
     return names.at(static_cast<std::size_t>(dependence));
 }
 

@@ -41,10 +41,16 @@ enum class Dependence : std::uint8_t {
     plate_place,
     plate_turn,  ///< a displacement across the motion in proportion to the place on the plate
     tag_size,
-    tag_itself,     ///< a displacement of its own for each tag
-    motion_by_row,  ///< of a tag in the image: gap/sheared_tags.h
+    tag_itself,        ///< a displacement of its own for each tag
+    motion_by_row,     ///< of a tag in the image: gap/sheared_tags.h
+    velocity_share,    ///< in proportion to it, where any function of it has too much freedom to be seen
+    command_share,     ///< likewise
+    position_share,    ///< likewise
+    image_share,       ///< likewise of the place in the image, from its middle
+    warmth_over_time,  ///< what the wire does with a warmth that changes in time
 };
 
+/// Those in proportion to a quantity have the name of any function of it.
 std::string_view name_of(Dependence dependence);
 
 struct Surrogate {

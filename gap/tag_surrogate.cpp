@@ -1,6 +1,6 @@
 #include "gap/hat_functions.h"
 #include "gap/surrogate.h"
-#include "gap/tag_link.h"
+#include "gap/tag_sight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,35 +15,8 @@
 namespace fidservo::gap {
 namespace {
 
-/// What a detection offers to the functions below.
-struct Sight {
-    std::size_t run;
-    const TagSighting& tag;
-    double position_mm, velocity_mm_per_s, contraction_mm, time_s;
-};
-
-Sight sight_of(const Evidence& evidence, std::size_t run, std::size_t detection) {
-    constexpr std::size_t look_back = 20;
-    const TagSighting& tag = evidence.sighting(run, detection);
-    const Course& course = evidence.course(run);
-    const std::vector<StageRow>& rows = evidence.recordings()[run].rows;
-    const TimeNs start_ns = rows.front().time_ns;
-    const auto after = std::ranges::upper_bound(
-        rows, tag.stamp_s, {}, [&](const StageRow& row) { return seconds(row.time_ns - start_ns); });
-    const auto next = static_cast<std::size_t>(after - rows.begin());
-    const std::size_t row = next > 0 ? next - 1 : 0, before = row > look_back ? row - look_back : 0;
-    Sight found{run, tag, course.position_mm[row], course.velocity_mm_per_s[row], 0.0, tag.stamp_s};
-    if (!course.contraction_mm.empty() && std::isfinite(course.contraction_mm[row])) {
-        found.contraction_mm = course.contraction_mm[row];
-        if (row > before)
-            found.velocity_mm_per_s += (course.contraction_mm[row] - course.contraction_mm[before]) /
-                                       (evidence.rig().tick_s * static_cast<double>(row - before));
-    }
-    return found;
-}
-
-using Pattern = std::function<CornerValues(const Sight&)>;  ///< of corners, px
-using Along = std::function<double(const Sight&)>;          ///< along the motion, px
+using Pattern = std::function<CornerValues(const TagSight&)>;  ///< of corners, px
+using Along = std::function<double(const TagSight&)>;          ///< along the motion, px
 
 class Columns {
   public:
@@ -58,7 +31,7 @@ class Columns {
     }
 
     Column of_corners(Dependence group, const Pattern& pattern) const {
-        return over_sights(group, [&](const Sight& sight, float* values) {
+        return over_sights(group, [&](const TagSight& sight, float* values) {
             const CornerValues there = turned(sight.tag, pattern(sight)).cwiseQuotient(sight.tag.floors_px);
             for (Eigen::Index i = 0; i < there.size(); ++i) values[i] = static_cast<float>(there[i]);
         });
@@ -77,7 +50,7 @@ class Columns {
     }
 
     Column along(Dependence group, const Along& place) const {
-        return over_sights(group, [&](const Sight& sight, float* values) {
+        return over_sights(group, [&](const TagSight& sight, float* values) {
             values[0] = static_cast<float>(place(sight) / sight.tag.floors_px[0]);
         });
     }
@@ -90,20 +63,20 @@ class Columns {
     }
 
   private:
-    Column over_sights(Dependence group, const std::function<void(const Sight&, float*)>& fill) const {
+    Column over_sights(Dependence group, const std::function<void(const TagSight&, float*)>& fill) const {
         Column column{static_cast<int>(group), std::vector<float>(size_, 0.0F)};
         for (const auto& [at, sight] : sights_) fill(sight, &column.values[at]);
         return column;
     }
 
     std::size_t size_ = 0;
-    std::vector<std::pair<std::size_t, Sight>> sights_;  ///< with where their values begin in Errors
+    std::vector<std::pair<std::size_t, TagSight>> sights_;  ///< with where their values begin in Errors
 };
 
 /// A pattern by where a corner is from the image's middle, in halves of its width.
 Pattern by_image_place(const CameraGeometry& camera,
                        const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& shift) {
-    return [&camera, shift](const Sight& sight) {
+    return [&camera, shift](const TagSight& sight) {
         CornerValues values;
         for (int c = 0; c < 4; ++c)
             values.segment<2>(2 * c) =
@@ -114,7 +87,7 @@ Pattern by_image_place(const CameraGeometry& camera,
 }
 
 /// The tag larger about its own middle.
-CornerValues larger(const Sight& sight) {
+CornerValues larger(const TagSight& sight) {
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     for (int c = 0; c < 4; ++c) middle += 0.25 * sight.tag.corners_px.segment<2>(2 * c);
     CornerValues values;
@@ -124,7 +97,7 @@ CornerValues larger(const Sight& sight) {
 }
 
 /// All corners at right angles to the stage's motion in the image.
-CornerValues across(const Sight& sight) {
+CornerValues across(const TagSight& sight) {
     const CornerValues motion = turned(sight.tag, CornerValues::Unit(0));
     CornerValues values;
     for (int c = 0; c < 4; ++c) values.segment<2>(2 * c) = Eigen::Vector2d(-motion[2 * c + 1], motion[2 * c]);
@@ -137,12 +110,12 @@ CornerValues across(const Sight& sight) {
 /// false reading of the stages can displace them.
 void add_plate(std::vector<Column>& columns, const Columns& make) {
     columns.push_back(make.along(Dependence::plate_place,
-                                 [](const Sight& sight) { return 1e-2 * sight.tag.centre_mm.x(); }));
-    columns.push_back(make.of_corners(Dependence::plate_turn, [](const Sight& sight) {
+                                 [](const TagSight& sight) { return 1e-2 * sight.tag.centre_mm.x(); }));
+    columns.push_back(make.of_corners(Dependence::plate_turn, [](const TagSight& sight) {
         return CornerValues(1e-2 * sight.tag.centre_mm.x() * across(sight));
     }));
     for (const Eigen::Vector2d& centre_mm : make.shared_tags())
-        columns.push_back(make.of_corners(Dependence::tag_itself, [&](const Sight& sight) {
+        columns.push_back(make.of_corners(Dependence::tag_itself, [&](const TagSight& sight) {
             return CornerValues(sight.tag.centre_mm == centre_mm ? across(sight) : CornerValues::Zero());
         }));
 }
@@ -153,14 +126,14 @@ void add_hats(std::vector<Column>& columns, const Columns& make, Dependence grou
     if (knots.size() < 2) return;
     for (std::size_t k = 0; k < knots.size(); ++k)
         columns.push_back(
-            make.along(group, [&, k](const Sight& sight) { return hat(knots, k, quantity(sight)); }));
+            make.along(group, [&, k](const TagSight& sight) { return hat(knots, k, quantity(sight)); }));
 }
 
 /// The period in the carriage's position that takes most of the errors along the motion, with each window's
 /// mean free; 0 where there are none.
 double strongest_period_mm(const Evidence& evidence, const Errors& errors, const Columns& make) {
     constexpr double shortest_mm = 1.0, longest_mm = 50.0;
-    const std::vector<float> places = make.all([](const Sight& sight) { return sight.position_mm; });
+    const std::vector<float> places = make.all([](const TagSight& sight) { return sight.position_mm; });
     if (places.empty()) return 0.0;
     const auto [low, high] = std::ranges::minmax(places);
     const double step_per_mm = 0.25 / std::max(longest_mm, static_cast<double>(high - low));
@@ -216,24 +189,30 @@ void add_image_places(std::vector<Column>& columns, const Columns& make, const C
 Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors) {
     const Columns make(evidence);
     Surrogate surrogate{
-        Signal::tag, {}, {make.along(Dependence::position, [](const Sight&) { return 1.0; })}};
+        Signal::tag, {}, {make.along(Dependence::position, [](const TagSight&) { return 1.0; })}};
     surrogate.as_good = 0.95;
     std::vector<Column>& columns = surrogate.columns;
-    columns.push_back(
-        make.along(Dependence::velocity, [](const Sight& sight) { return 1e-2 * sight.velocity_mm_per_s; }));
-    columns.push_back(make.along(Dependence::velocity, [](const Sight& sight) {
+    columns.push_back(make.along(Dependence::velocity,
+                                 [](const TagSight& sight) { return 1e-2 * sight.velocity_mm_per_s; }));
+    columns.push_back(make.along(Dependence::velocity, [](const TagSight& sight) {
         return 1e-3 * sight.time_s * sight.velocity_mm_per_s;
     }));
-    add_hats(columns, make, Dependence::position, 16, [](const Sight& sight) { return sight.position_mm; });
+    add_hats(columns, make, Dependence::position, 16,
+             [](const TagSight& sight) { return sight.position_mm; });
+    columns.push_back(make.along(Dependence::position_share,
+                                 [](const TagSight& sight) { return 1e-2 * sight.position_mm; }));
     surrogate.period_mm = strongest_period_mm(evidence, errors, make);
     if (surrogate.period_mm > 0.0)
         for (const double phase : {0.0, 0.5 * std::numbers::pi})
-            columns.push_back(make.along(Dependence::reading_period, [&](const Sight& sight) {
+            columns.push_back(make.along(Dependence::reading_period, [&](const TagSight& sight) {
                 return std::sin(2.0 * std::numbers::pi * sight.position_mm / surrogate.period_mm + phase);
             }));
     if (evidence.rig().micro)
         add_hats(columns, make, Dependence::contraction, 8,
-                 [](const Sight& sight) { return sight.contraction_mm; });
+                 [](const TagSight& sight) { return sight.contraction_mm; });
+    columns.push_back(make.of_corners(
+        Dependence::image_share,
+        by_image_place(evidence.rig().camera->geometry, [](const Eigen::Vector2d& at) { return at; })));
     add_image_places(columns, make, evidence.rig().camera->geometry);
     columns.push_back(make.of_corners(Dependence::tag_size, larger));
     add_plate(columns, make);

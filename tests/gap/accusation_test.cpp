@@ -11,7 +11,7 @@ using namespace gap;
 
 /// Floors of encoder, Hall reading and tags, and of the tags' motion along and across.
 Pattern pattern(double encoder, double hall, double tag, double along, double across) {
-    Pattern pattern{{}, along, across};
+    Pattern pattern{.floors = {}, .tag_along = along, .tag_across = across};
     pattern.floors[index_of(Signal::encoder)] = encoder;
     pattern.floors[index_of(Signal::hall)] = hall;
     pattern.floors[index_of(Signal::tag)] = tag;
@@ -65,6 +65,19 @@ TEST(Accusation, TagsAlone_AccuseTheCamera) {
     EXPECT_EQ(accused_block(tilted, Signal::tag, {}), "camera.geometry");
     EXPECT_EQ(accused_block(tilted, Signal::tag, Dependence::motion_by_row), "camera.image");
     EXPECT_FALSE(tags_are_innocent(late));
+}
+
+TEST(Accusation, TagsThatAreDisplacedWhileNothingMoves_AreNoMatterOfTime) {
+    Pattern displaced = pattern(0.4, 1.0, 8.2, 23.0, 1.0);
+    displaced.tag_at_rest = 20.0;
+    EXPECT_EQ(accused_block(displaced, Signal::tag, {}), "macro.encoder");
+    EXPECT_EQ(accused_block(displaced, Signal::tag, Dependence::velocity), "camera.timing");
+}
+
+TEST(Accusation, ShiftInTimeOfTheReadingAlone_AccusesTheSensor_OneOfTheWireTheHeater) {
+    const Pattern drifting = pattern(0.4, 2.8, 1.0, 1.0, 1.0);
+    EXPECT_EQ(accused_block(drifting, Signal::hall, Dependence::time), "micro.hall");
+    EXPECT_EQ(accused_block(drifting, Signal::hall, Dependence::warmth_over_time), "micro.heater");
 }
 
 }  // namespace
