@@ -77,7 +77,7 @@ std::vector<double> sizes_of(const plant::Effect& effect, const plant::EffectPar
     const auto times = [&](double factor) {
         return parameter.vanishing + factor * (parameter.typical - parameter.vanishing);
     };
-    if (parameter.unit == "um/V") return {times(1.0), times(4.0)};
+    if (parameter.unit == "um/V") return {times(4.0), times(16.0)};
     if (effect.block == "macro.encoder") return {times(1.0), times(0.1), times(-0.1)};
     return {typical_of(effect, parameter)};
 }

@@ -42,13 +42,15 @@ class Smoothing {
     Eigen::Matrix<double, 3, Eigen::Dynamic> weights_;
 };
 
-SlidingRow row_of(const Evidence& evidence, std::size_t run, std::size_t row, const Eigen::Vector3d& smooth) {
+SlidingRow row_of(const Evidence& evidence, std::size_t run, std::size_t row, double reading_mm,
+                  const Eigen::Vector3d& smooth) {
     const std::vector<StageRow>& rows = evidence.recordings()[run].rows;
     const double tick_s = evidence.rig().tick_s, velocity = smooth(1) / tick_s;
     const double command_V = rows[row].macro_command_V;
     const DeadZone& zone = evidence.rig().macro.dead_zone;
     const bool pushes = dead_zone_branch(zone, command_V) != DeadZoneBranch::inside;
-    return {smooth(0),
+    return {reading_mm,
+            smooth(0),
             velocity,
             2.0 * smooth(2) / (tick_s * tick_s),
             std::copysign(1.0, velocity),
@@ -79,15 +81,6 @@ bool slides(const MacroParameters& macro, const SlidingRow& row, double edge_V) 
            std::abs(dead_zone_slack_V(macro.dead_zone, branch, row.command_V)) > edge_V;
 }
 
-/// Recorded places row by row, mm.
-std::vector<double> readings_mm(const Recording& recording, const MacroParameters& macro) {
-    std::vector<double> all;
-    all.reserve(recording.rows.size());
-    for (const StageRow& row : recording.rows)
-        all.push_back(macro.encoder_resolution_mm * reading_count(row, macro));
-    return all;
-}
-
 }  // namespace
 
 CarriageForces::CarriageForces(const Evidence& evidence, const Errors& errors, std::size_t half_support,
@@ -109,7 +102,7 @@ CarriageForces::CarriageForces(const Evidence& evidence, const Errors& errors, s
             if (row < half_smoothing || row + half_smoothing >= reading_mm.size()) continue;
             const float error = errors[window.begin + k];
             const Eigen::Vector3d smooth = smoothing.at(&reading_mm[row]);
-            const SlidingRow here = row_of(evidence, window.run, row, smooth);
+            const SlidingRow here = row_of(evidence, window.run, row, reading_mm[row], smooth);
             if (!is_without_break(evidence.recordings()[window.run].rows, row, evidence.rig().tick_s) ||
                 !is_free(macro, here.position_mm, floor_mm * static_cast<double>(error)) ||
                 !slides(macro, here, edge_V)) {
@@ -140,13 +133,16 @@ void CarriageForces::find_weights(const Rig& rig, double floor_mm, std::size_t h
         // the second one, which stands for a large number.
         const double first = (phi(ticks + 1.0) - phi(ticks - 1.0)) / (2.0 * tick_s);
         const double second = (phi(ticks + 1.0) - 2.0 * phi(ticks) + phi(ticks - 1.0)) / (tick_s * tick_s);
-        of_reading_.push_back(tick_s * (tau_s * second - first) / rig.macro.velocity_gain_mm_per_s_per_V);
+        of_velocity_.push_back(-tick_s * first);
+        of_acceleration_.push_back(tick_s * second);
+        of_reading_.push_back((tau_s * of_acceleration_.back() + of_velocity_.back()) /
+                              rig.macro.velocity_gain_mm_per_s_per_V);
         // A command acts from its row to the next.
         of_force_.push_back(tick_s * phi(ticks + 0.5));
         variance += std::pow(floor_mm * of_reading_.back(), 2);
     }
-    for (double& weight : of_reading_) weight /= std::sqrt(variance);
-    for (double& weight : of_force_) weight /= std::sqrt(variance);
+    for (std::vector<double>* weights : {&of_reading_, &of_force_, &of_velocity_, &of_acceleration_})
+        for (double& weight : *weights) weight /= std::sqrt(variance);
 }
 
 Column CarriageForces::column(int group, const std::vector<double>& weights,
@@ -167,6 +163,16 @@ Column CarriageForces::of_force(int group, const std::function<double(const Slid
 
 Column CarriageForces::of_reading(int group, const std::function<double(const SlidingRow&)>& error_mm) const {
     return column(group, of_reading_, error_mm);
+}
+
+double CarriageForces::deviation_of(double V_per_mm_per_s2, double V_per_mm_per_s) const {
+    const auto square = [](const std::vector<double>& weights) {
+        return std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
+    };
+    // One is even, the other odd.
+    return std::sqrt((V_per_mm_per_s2 * V_per_mm_per_s2 * square(of_acceleration_) +
+                      V_per_mm_per_s * V_per_mm_per_s * square(of_velocity_)) /
+                     square(of_reading_));
 }
 
 std::vector<float> CarriageForces::values(const std::function<double(const SlidingRow&)>& quantity) const {

@@ -23,8 +23,9 @@ namespace fidservo::gap {
 
 /// What is known of a row of a recording in which the carriage slides, from the readings.
 struct SlidingRow {
-    double position_mm, velocity_mm_per_s, acceleration_mm_per_s2;
-    double direction;  ///< -1 or 1
+    double reading_mm;                                              ///< as it is
+    double position_mm, velocity_mm_per_s, acceleration_mm_per_s2;  ///< smoothed
+    double direction;                                               ///< -1 or 1
     double command_V;
     double passed;  ///< share of a force beside the command that the dead zone lets through: dV/du
     double time_s;  ///< from the recording's first row
@@ -57,6 +58,15 @@ class CarriageForces {
     /// The same for what a prediction of a false reading has in excess, mm.
     Column of_reading(int group, const std::function<double(const SlidingRow&)>& error_mm) const;
 
+    /// The mean velocity and acceleration of each support, in mm/s and mm/s^2 over the same standard
+    /// deviation: by parts from the readings as they are.
+    Column mean_velocity() const { return column(0, of_velocity_, reading_mm); }
+    Column mean_acceleration() const { return column(0, of_acceleration_, reading_mm); }
+
+    /// Of what a mean acceleration and velocity come to, in V per mm/s^2 and per mm/s, by the floor of the
+    /// readings, over that by the rig file.
+    double deviation_of(double V_per_mm_per_s2, double V_per_mm_per_s) const;
+
     /// All values of a quantity.
     std::vector<float> values(const std::function<double(const SlidingRow&)>& quantity) const;
 
@@ -75,8 +85,11 @@ class CarriageForces {
     Column column(int group, const std::vector<double>& weights,
                   const std::function<double(const SlidingRow&)>& quantity) const;
 
-    std::vector<double> of_force_, of_reading_;  ///< a support's weights, row by row, for V and mm
-    std::vector<SlidingRow> rows_;               ///< of stretches that slide, one after the other
+    static double reading_mm(const SlidingRow& row) { return row.reading_mm; }
+
+    std::vector<double> of_force_, of_reading_;          ///< a support's weights, row by row, for V and mm
+    std::vector<double> of_velocity_, of_acceleration_;  ///< for mm
+    std::vector<SlidingRow> rows_;                       ///< of stretches that slide, one after the other
     std::vector<Support> supports_;
     Errors lacking_;
 };

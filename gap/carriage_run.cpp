@@ -86,6 +86,14 @@ double reading_count(const StageRow& row, const MacroParameters& macro) {
                                             : row.position_mm / macro.encoder_resolution_mm;
 }
 
+std::vector<double> readings_mm(const Recording& recording, const MacroParameters& macro) {
+    std::vector<double> all;
+    all.reserve(recording.rows.size());
+    for (const StageRow& row : recording.rows)
+        all.push_back(macro.encoder_resolution_mm * reading_count(row, macro));
+    return all;
+}
+
 CarriageRun carriage_run(const Recording& recording, const MacroParameters& macro) {
     CarriageRun run;
     run.tick_s = recording.tick_s;

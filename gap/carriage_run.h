@@ -27,6 +27,9 @@ struct CarriageRun {
 /// A row's count; where the position was recorded, position / resolution.
 double reading_count(const StageRow& row, const MacroParameters& macro);
 
+/// Recorded places row by row, mm; NaN where missing.
+std::vector<double> readings_mm(const Recording& recording, const MacroParameters& macro);
+
 CarriageRun carriage_run(const Recording& recording, const MacroParameters& macro);
 
 /// Prediction minus reading in counts. Where the reading stands, a place that rounds to it is as good as any

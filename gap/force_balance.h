@@ -4,11 +4,17 @@
 //
 //     V(w(u, y)) - F(v, y) - (tau dv/dt + v) / K = 0
 //
+// and where a belt pulls the carriage (plant/transmission.h), whose motor follows from V and that way,
+//
+//     q / K - F(v, y) - (1 - m) tau dv/dt / K = 0
+//
 // under the truth, with place and velocity from the readings, as a mean over short supports
 // (gap/carriage_forces.h). Every force is in it as it is: what two causes do adds up, and no start in time
-// leads a fit astray, as it does where friction lets a carriage go by jumps. Not seen are play, a belt, how
-// far bristles are bent, and all that shows only where the carriage stands.
+// leads a fit astray, as it does where friction lets a carriage go by jumps. Not seen are play, how far
+// bristles are bent, and all that shows only where the carriage stands.
 #include "gap/carriage_forces.h"
+
+#include <vector>
 
 namespace fidservo::gap {
 
@@ -17,9 +23,13 @@ class ForceBalance {
     /// @param wanted  windows of the encoder that are looked at
     ForceBalance(const Evidence& evidence, const Wanted& wanted);
 
-    /// The force that each support has in excess, over its standard deviation by the floor of the readings;
-    /// laid out like Errors, at the value of the support's middle row, NaN elsewhere.
+    /// The force that each support has in excess, over 2.5 standard deviations by the floor of the readings
+    /// under the rig file; laid out like Errors, at the value of the support's middle row, NaN elsewhere.
     Errors excess(const Hypothesis& hypothesis) const;
+
+    /// The same over 2.5 standard deviations under the hypothesis: on the readings' acceleration acts what
+    /// mass it leaves the carriage.
+    Errors excess_in_own_deviations(const Hypothesis& hypothesis) const;
 
     /// The middles of the supports in Errors.
     const std::vector<CarriageForces::Support>& supports() const { return forces_.supports(); }
@@ -27,6 +37,8 @@ class ForceBalance {
   private:
     const Evidence& evidence_;
     CarriageForces forces_;
+    Column velocity_, acceleration_;
+    std::vector<std::vector<double>> readings_mm_;  ///< of each run
 };
 
 /// Whether an effect changes forces of the carriage, not just how they reach it.

@@ -185,7 +185,7 @@ class BalanceFit {
         : windows_(windows), wanted_(wanted), predict_([&](const Hypothesis& settings) {
               Hypothesis whole = base;
               whole.insert(whole.end(), settings.begin(), settings.end());
-              return balance.excess(whole);
+              return balance.excess_in_own_deviations(whole);
           }) {}
 
     void fit(ForcePair& pair) const { take(gap::fit(predict_, windows_, wanted_, pair.settings), pair); }
@@ -253,6 +253,12 @@ class BalanceFit {
     Predict predict_;
 };
 
+/// Whether a pair leaves so much more than the best one that what the balance does not see of it cannot
+/// matter.
+bool is_hopeless(double loss, double best) {
+    return loss > 2.0 * best + 4.0;
+}
+
 }  // namespace
 
 std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wanted& wanted,
@@ -277,7 +283,11 @@ std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wan
     keep_best(most_pairs);
     parallel_for(pairs.size(), [&](std::size_t k) { balanced.refine(pairs[k]); });
     keep_best(most_pairs);
-    std::erase_if(pairs, [&](const ForcePair& pair) { return !balanced.needs_both(pair); });
+    if (pairs.empty()) return pairs;
+    const double best = pairs.front().loss;
+    std::erase_if(pairs, [&](const ForcePair& pair) {
+        return is_hopeless(pair.loss, best) || !balanced.needs_both(pair);
+    });
     for (ForcePair& pair : pairs) pair.starts = balanced.with_unseen(pair);
     return pairs;
 }

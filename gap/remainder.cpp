@@ -25,6 +25,9 @@ namespace {
 /// What is above this is a gap, whether or not anything is found that it depends on.
 constexpr double clear_floors = 1.25;
 
+/// How much more chance is put up with where something must be found.
+constexpr double likely = 10.0;
+
 /// Errors of what was fitted on the other half, where they are judged.
 Errors held_out_errors(const Evidence& evidence, const CrossFit& explained,
                        std::span<const std::uint8_t> half) {
@@ -129,8 +132,10 @@ std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& 
     for (const SignalGap& gap : gaps) {
         if (floors(gap) < least_floors) continue;
         if (gap.signal == Signal::tag && tags_are_innocent(pattern)) continue;
-        const Dependences found = dependences(evidence, gap.signal, errors, half, tail);
+        Dependences found = dependences(evidence, gap.signal, errors, half, tail);
         if (found.groups.empty() && floors(gap) < clear_floors) continue;
+        // That there is a gap is beyond doubt then: what it likely depends on says more than nothing.
+        if (found.groups.empty()) found = dependences(evidence, gap.signal, errors, half, likely * tail);
         return remainder_of_signal(gap, pattern, found);
     }
     return {};

@@ -83,17 +83,19 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     std::span leaders = near_best(fitted, share_of_gain, 0.0, effort.leaders, std::mem_fn(&Contender::gain));
     const Threads each = leaders.size() > 1 ? Threads::one : Threads::all;
     parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k], each); });
+    throw_if_exhausted();
+    // What follows takes the place of what there is only where it is judged to be better, so none of it is
+    // lost.
     for (Contender& leader : leaders)
-        if (hides_within_counts(*leader.trial.candidate)) fit_closer(base, leader);
+        if (hides_within_counts(*leader.trial.candidate)) fit_closer(base, leader, effort.scatters);
     std::ranges::sort(leaders, std::greater{}, &Contender::gain);
     if (!leaders.empty()) {
         leaders = with_plain_forms(base, all, leaders.size());
-        fit_closer(base, leaders.front());
+        fit_closer(base, leaders.front(), effort.scatters);
         const auto chosen = leaders.begin() + static_cast<std::ptrdiff_t>(simplest(leaders));
-        if (chosen != leaders.begin()) fit_closer(base, *chosen);
+        if (chosen != leaders.begin()) fit_closer(base, *chosen, effort.scatters);
         std::rotate(leaders.begin(), chosen, std::next(chosen));
     }
-    throw_if_exhausted();
 
     std::vector<Trial> trials;
     trials.reserve(candidates_.size());

@@ -31,6 +31,8 @@ struct Pair {
 /// How many candidates of those that promise most a step fits, and how many of these on both halves.
 struct Effort {
     std::size_t fits = 8, leaders = 4;
+    bool scatters =
+        true;  ///< whether the best wave is looked for among many values where it leaves something
 };
 
 struct SearchOptions {
@@ -151,7 +153,8 @@ class Search {
     /// not lead there, by a simplex too: of encoder and camera, as the place within a count gives way up to
     /// its end, and of what leaves nearly nothing of a signal's gap. Ends after a share of the search's
     /// effort: a single effect that is not close by then may be a compromise of two.
-    void fit_closer(const CrossFit& base, Contender& contender, double share_of_effort = 0.25) const;
+    void fit_closer(const CrossFit& base, Contender& contender, bool scatters = true,
+                    double share_of_effort = 0.25) const;
     /// The pair with both fitted closer.
     Pair closer(const CrossFit& base, Pair pair) const;
     /// The pair with an effect's limit in its place, where it does no worse than by chance.

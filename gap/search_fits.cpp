@@ -188,7 +188,8 @@ void Search::fit_plain_form(const CrossFit& base, const Contender& richer, Conte
     plain.trial = std::move(found.trial);
 }
 
-void Search::fit_closer(const CrossFit& base, Contender& contender, double share_of_effort) const {
+void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatters,
+                        double share_of_effort) const {
     const bool is_wave = contender.trial.candidate->wave.has_value();
     const std::string_view block = contender.trial.candidate->effect->block;
     const bool moves_tags = block == "macro.encoder" || block.starts_with("camera.");
@@ -226,7 +227,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, double share
             if (other.gain() > closer.gain()) closer = std::move(other);
         };
         const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
-        if (is_wave && is_off() && clears_a_signal(base, closer.trial.fitted, nearly_all))
+        if (is_wave && scatters && is_off() && clears_a_signal(base, closer.trial.fitted, nearly_all))
             or_else(scattered(base, closer));
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
         if (is_off() && !is_worn_out() && clears_a_signal(base, closer.trial.fitted, worth_refining))
@@ -238,13 +239,16 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, double share
             clears_a_signal(base, closer.trial.fitted, nearly_all))
             or_else(fitted_by(
                 [&](std::size_t side) { return polished(closer, side, contender.fitted_places(base)); }));
-        finding.is_close = closer.gain() < contender.gain() + worth_another;
-        if (closer.gain() <= contender.gain()) return;
-        for (std::size_t side = 0; side < 2; ++side)
-            finding.fitted[side] = contender.part(closer.trial.fitted.of_half[side]);
-        contender = std::move(closer);
+        const bool is_better = closer.gain() > contender.gain(),
+                   is_last = closer.gain() < contender.gain() + worth_another;
+        if (is_better) {
+            for (std::size_t side = 0; side < 2; ++side)
+                finding.fitted[side] = contender.part(closer.trial.fitted.of_half[side]);
+            contender = std::move(closer);
+        }
+        if (is_last) break;
     }
-    finding.is_close = true;
+    finding.is_close = scatters || !is_wave;
 }
 
 Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,

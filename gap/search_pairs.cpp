@@ -121,12 +121,8 @@ std::optional<Pair> Search::best_of(const CrossFit& base, std::vector<PairAttemp
     pair.fitted.mean_squares = base.mean_squares;
     fit_pair(base, pair, best.fitted.hypothesis);
     throw_if_exhausted();
-    const auto take = [&](Pair other) {
-        if (!is_exhausted()) pair = std::move(other);
-    };
-    take(closer(base, pair));
-    take(in_plain_form(base, pair));
-    return pair;
+    // Both are judged against what they begin from, also where the effort is spent on the way.
+    return in_plain_form(base, closer(base, std::move(pair)));
 }
 
 void Search::fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start) const {
@@ -159,7 +155,7 @@ Pair Search::closer(const CrossFit& base, Pair pair) const {
                      &finding};
     for (std::size_t side = 0; side < 2; ++side)
         finding.fitted[side] = second.part(pair.fitted.of_half[side]);
-    fit_closer(with_first, second, share_of_effort);
+    fit_closer(with_first, second, true, share_of_effort);
     pair.fitted = std::move(second.trial.fitted);
     return pair;
 }

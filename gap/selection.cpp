@@ -128,23 +128,34 @@ bool balance(Search& search, Chain& chain, int most_effects) {
                         nearly_all);
 }
 
-/// Takes in what is best, as long as it is no chance; for a carriage that one effect leaves off, two at once.
+/// Takes in what is best, as long as it is no chance; for a carriage that one effect leaves off, two at once,
+/// before a wave is looked for among many values.
 /// @return whether a pair took the place of something
 bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step) {
     bool is_balanced = false, is_paired = false;
     while (static_cast<int>(chain.choices.size()) < most_effects) {
-        std::vector<Trial> trials = search.try_all(chain.fitted, chain.candidates());
+        const Chain before = chain;
+        std::vector<Trial> trials =
+            search.try_all(chain.fitted, chain.candidates(), {.scatters = is_balanced});
         if (first_step != nullptr) *first_step = trials;
         first_step = nullptr;
         if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) return is_paired;
-        chain = grown(search, chain, std::move(trials));
-        search.limit(true);
-        const bool moves_carriage =
-            teachers_of(*chain.choices.back().candidate->effect)[index_of(Signal::encoder)];
+        const auto take_in = [&](std::vector<Trial> found) {
+            search.limit(false);
+            chain = grown(search, before, std::move(found));
+        };
+        const bool moves_carriage = teachers_of(*trials.front().candidate->effect)[index_of(Signal::encoder)];
+        take_in(std::move(trials));
         if (moves_carriage && !is_balanced) {
             is_balanced = true;
+            search.limit(true);
             is_paired = balance(search, chain, most_effects);
+            if (!is_paired && chain.choices.back().candidate->wave) {
+                search.limit(!before.choices.empty());
+                take_in(search.try_all(before.fitted, before.candidates()));
+            }
         }
+        search.limit(true);
         if (search.is_at_floor(chain.fitted)) return is_paired;
     }
     return is_paired;
