@@ -70,7 +70,7 @@ bool off(const Pattern& pattern, Signal signal) {
 
 /// Where a wrong model of the carriage misplaces it between two counts, the tags are off by less than this
 /// share of the encoder's floors; where the encoder reads falsely, by more.
-constexpr double between_counts = 2.5;
+constexpr double between_counts = 2.0;
 
 bool has_no_tags(const Pattern& pattern) {
     return pattern.floors[index_of(Signal::tag)] == 0.0;

@@ -29,7 +29,7 @@ void bridge(std::vector<double>& values) {
 
 CarriagePath unknown_path(std::size_t rows) {
     const std::vector<double> unknown(rows, std::numeric_limits<double>::quiet_NaN());
-    return {unknown, unknown, unknown};
+    return {unknown, unknown, unknown, unknown};
 }
 
 double position_mm(const plant::Encoder& encoder, double reading_count) {
@@ -85,6 +85,7 @@ void fade_in(const WindowRows& window, const CarriagePath& lead, CarriagePath& p
             value = share == 1.0 ? next[i] : value + share * (next[i] - value);
         }
     };
+    std::ranges::copy(lead.position_mm, path.entering_mm.begin() + static_cast<std::ptrdiff_t>(window.lead));
     fade(path.position_mm, lead.position_mm);
     fade(path.velocity_mm_per_s, lead.velocity_mm_per_s);
     fade(path.acceleration_mm_per_s2, lead.acceleration_mm_per_s2);

@@ -12,6 +12,8 @@ namespace fidservo::gap {
 struct CarriagePath {
     std::vector<double> position_mm, velocity_mm_per_s;  ///< between windows: by the counts
     std::vector<double> acceleration_mm_per_s2;          ///< mean from this row to the next
+    /// In the rows before a window, by the run that enters it, before it is faded in; NaN elsewhere.
+    std::vector<double> entering_mm;
 };
 
 /// A path of which nothing is known: NaN.

@@ -169,7 +169,7 @@ class Search {
     /// With what it fits from such a start of the first half, then from there on the other one: of two
     /// valleys beside each other that may miss the deeper one by itself.
     Contender fitted_on(const CrossFit& base, const Contender& contender, const Hypothesis& start) const;
-    Hypothesis polished(const Contender& contender, std::size_t side, const Places& places) const;
+    Fit polished(const Contender& contender, std::size_t side, const Places& places) const;
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
     /// Whether some signal loses such a share of its excess, and comes to its floor or loses at least such a
     /// share of what it exceeds it by where nothing is known.

@@ -216,7 +216,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
         };
         const Places last{base.of_half[0].size()};
         const auto by_simplex = [&](const Contender& from) {
-            return fitted_by([&](std::size_t side) { return polished(from, side, last); });
+            return fitted_by([&](std::size_t side) { return polished(from, side, last).hypothesis; });
         };
         const auto by_slopes = [&](double step_scales) {
             return fitted_by(
@@ -237,8 +237,9 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
             or_else(by_simplex(closer));
         if (is_off() && !is_worn_out() && !contender.coupled.empty() &&
             clears_a_signal(base, closer.trial.fitted, nearly_all))
-            or_else(fitted_by(
-                [&](std::size_t side) { return polished(closer, side, contender.fitted_places(base)); }));
+            or_else(fitted_by([&](std::size_t side) {
+                return polished(closer, side, contender.fitted_places(base)).hypothesis;
+            }));
         const bool is_better = closer.gain() > contender.gain(),
                    is_last = closer.gain() < contender.gain() + worth_another;
         if (is_better) {
@@ -290,8 +291,9 @@ Search::Contender Search::refined(const CrossFit& base, const Contender& contend
         if (attempt.with.gain() > best.gain() + least_gain) best = attempt.with;
     if (best.gain() == contender.gain()) return contender;
     Contender closest = best;
-    parallel_for(
-        2, [&](std::size_t side) { closest.trial.fitted.of_half[side] = polished(best, side, places); });
+    parallel_for(2, [&](std::size_t side) {
+        closest.trial.fitted.of_half[side] = polished(best, side, places).hypothesis;
+    });
     judge_both_halves(base, closest);
     return closest.gain() > best.gain() ? closest : best;
 }
@@ -312,11 +314,10 @@ Search::Contender Search::fitted_on(const CrossFit& base, const Contender& conte
     return with;
 }
 
-Hypothesis Search::polished(const Contender& contender, std::size_t side, const Places& places) const {
+Fit Search::polished(const Contender& contender, std::size_t side, const Places& places) const {
     const std::vector<Window>& windows = fitter_.evidence().windows();
     const Wanted wanted = only_of(windows, fitter_.half(side), contender.teachers());
-    return polish(fitter_.predictor(wanted), windows, wanted, contender.trial.fitted.of_half[side], places)
-        .hypothesis;
+    return polish(fitter_.predictor(wanted), windows, wanted, contender.trial.fitted.of_half[side], places);
 }
 
 Search::Contender Search::scattered(const CrossFit& base, const Contender& contender) const {
@@ -330,19 +331,21 @@ Search::Contender Search::scattered(const CrossFit& base, const Contender& conte
         there.trial.fitted.of_half[side] =
             scatter_wave(fitter_.predictor(wanted), windows, wanted, of_half[side], place).hypothesis;
     });
-    // The other one may have come to a deeper valley.
-    std::array<Contender, 2> from{there, there};
-    std::swap(from[1].trial.fitted.of_half[0], from[1].trial.fitted.of_half[1]);
-    for (Contender& start : from) {
-        parallel_for(2, [&](std::size_t side) {
-            Hypothesis whole = of_half[side];
-            whole[place] = start.trial.fitted.of_half[side][place];
-            start.trial.fitted.of_half[side] = std::move(whole);
-            start.trial.fitted.of_half[side] = polished(start, side, {place});
-        });
-        judge_both_halves(base, start);
-    }
-    return from[from[1].gain() > from[0].gain() ? 1 : 0];
+    const std::array<Hypothesis, 2> drawn = there.trial.fitted.of_half;
+    parallel_for(2, [&](std::size_t side) {
+        double least = std::numeric_limits<double>::infinity();
+        // The other half may have come to a deeper valley.
+        for (const Hypothesis& from : {drawn[side], drawn[1 - side]}) {
+            Contender start = contender;
+            start.trial.fitted.of_half[side][place] = from[place];
+            Fit found = polished(start, side, {place});
+            if (found.loss >= least) continue;
+            least = found.loss;
+            there.trial.fitted.of_half[side] = std::move(found.hypothesis);
+        }
+    });
+    judge_both_halves(base, there);
+    return there;
 }
 
 void Search::judge_both_halves(const CrossFit& base, Contender& contender) const {

@@ -75,6 +75,14 @@ class CameraPlace {
         return reading_ == nullptr ? y_mm : y_mm + platform_mm(at, at_s);
     }
 
+    /// By how much the run that enters a window is beside the path before it, which is still that of the
+    /// window before.
+    double entering_mm(double at_s) const {
+        const std::size_t row = moment_at(run_, at_s).row;
+        const double entering = path_.entering_mm[row];
+        return std::isfinite(entering) ? entering - path_.position_mm[row] : 0.0;
+    }
+
     /// With a longer exposure than the rig file's: its mean over the one less that over the other.
     double seen_s_mm(double at_s) const {
         const double extra_s = model_.deviation.extra_exposure_s;
@@ -227,6 +235,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
     std::vector<double> way_mm{0.0};
     for (const double speed : path.velocity_mm_per_s)
         way_mm.push_back(way_mm.back() + recording.tick_s * std::abs(speed));
+    const double time_constant_s = -rig.tick_s / std::log(rig.macro.velocity_pole);
     const double hidden_mm = hidden_count * rig.macro.encoder_resolution_mm;
 
     for (const TagDetection& detection : recording.detections) {
@@ -248,7 +257,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
         const std::size_t last = rows.end - 1;
         TagWindow window{rows, sighting_at(rows.lead), sighting_at(rows.first), sighting_at(last)};
         if (window.end == window.first) continue;
-        double offset_weights = 0.0, lead_platform = 0.0;  // 1/px^2; px^2, summed
+        double weights = 0.0, weighted_strayed = 0.0, weighted_platform = 0.0;  // 1/px^2, 1/px^2, 1
         for (std::size_t i = window.lead; i < window.end; ++i) {
             TagSighting& sighting = run.sightings[i];
             const Moment at = moment_at(run, sighting.stamp_s);
@@ -258,14 +267,20 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
             const double strayed_mm = std::min(hidden_mm, way_share * (way_mm[at.row] - way_mm[rows.lead]));
             const double platform_px = slope.norm() * platform_mm, strayed_px = slope.norm() * strayed_mm;
             if (i < window.first) {
-                sighting.offset_weight = 1.0 / (noise.corner_px * noise.corner_px + strayed_px * strayed_px);
-                offset_weights += sighting.offset_weight;
-                lead_platform += platform_px * platform_px;
+                // How the run that enters the window begins dies out.
+                const double since_s = sighting.stamp_s - run.time_s[rows.lead];
+                const double begun_px = slope.norm() * hidden_mm * std::exp(-since_s / time_constant_s);
+                const double strayed_square = noise.corner_px * noise.corner_px + strayed_px * strayed_px;
+                const double weight = 1.0 / (strayed_square + begun_px * begun_px);
+                sighting.offset_weight = weight;
+                weights += weight;
+                weighted_strayed += weight * weight * strayed_square;
+                weighted_platform += weight * platform_px * platform_px;
                 continue;
             }
-            const auto leads = static_cast<double>(window.first - window.lead);
-            const double offset_px = leads > 0.0 ? std::sqrt(1.0 / offset_weights + lead_platform / leads)
-                                                 : slope.norm() * hidden_mm;
+            const double offset_px =
+                weights > 0.0 ? std::sqrt((weighted_strayed / weights + weighted_platform) / weights)
+                              : slope.norm() * hidden_mm;
             sighting.mirror = mirror_of(slope);
             sighting.floors_px = CornerValues::Constant(noise.corner_px);
             sighting.floors_px[0] =
@@ -305,7 +320,9 @@ std::vector<CornerValues> tag_errors(const TagModel& model, const TagRun& run, c
     for (std::size_t i = window.lead; i < window.first; ++i) {
         const TagSighting& sighting = run.sightings[i];
         if (!sighting.is_known) continue;
-        const CornerValues error = predicted(model, run, place, sighting, 0.0) - sighting.corners_px;
+        const double into_window_mm = place.entering_mm(sighting.stamp_s);
+        const CornerValues error =
+            predicted(model, run, place, sighting, into_window_mm) - sighting.corners_px;
         const CornerValues slope =
             seen_slope(model.camera, sighting.centre_mm, run.side_mm, place.s_mm(sighting.stamp_s));
         pull += sighting.offset_weight * slope.dot(error);

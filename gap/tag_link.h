@@ -6,7 +6,8 @@
 // tag is seen at s of the time at which its row was exposed, through the hypothesis's camera.
 //
 // Where in its count the carriage stands, 12 px on the reference rig, the encoder does not say. The
-// detections of the 100 ms before a window do: they give an offset of y, of at most a count, for the window.
+// detections of the 100 ms before a window do: they give an offset of y, of at most a count, for the window,
+// against the run that enters it; the later ones more, as how that run begins dies out.
 //
 // A detection has eight values. They are turned (a reflection) so that the first one lies along the motion of
 // the stage in the image, u of all four corners; what is uncertain of s enters this one alone:
