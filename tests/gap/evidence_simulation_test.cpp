@@ -2,12 +2,15 @@
 #include "core/random.h"
 #include "gap/evidence.h"
 #include "gap/score.h"
+#include "gap/tag_link.h"
 #include "src/simulation/experiments.h"
 #include "src/simulation/simulate.h"
 #include "tests/gap/effects.h"
 #include "tests/gap/root_mean_square.h"
+#include "tests/gap/simulated_campaign.h"
 #include "tests/reference_rig.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -97,6 +100,35 @@ TEST(Evidence, CarriageThatFlickersBetweenTwoCounts_IsNoFurtherOffThanIsExpected
 }
 
 /// These sweeps run into the ends of travel, where bristles stay bent as they came.
+/// However far off the carriage was predicted before: the readings say where it stands, to within a count.
+TEST(Evidence, TagsOfACarriageThatStands_AreWhereItsCountsAre_UnderAFalseHypothesis) {
+    const Evidence evidence =
+        testing::campaign(effects({"cogging:amplitude_V=0.0084,period_mm=8.06,phase_rad=0.21"}),
+                          {"macro-sweep", "macro-pulses", "macro-square", "integrated"});
+    const Errors errors = evidence.errors({}, everything(evidence));
+    constexpr std::ptrdiff_t lead_of_100_ms = 100;
+    constexpr double px_per_count = 12.5, surely_px = 1.0;
+    const auto stands = [&](const Window& window) {
+        const std::vector<StageRow>& rows = evidence.recordings()[window.run].rows;
+        const auto first = rows.begin() + static_cast<std::ptrdiff_t>(window.first_row);
+        return std::all_of(first - lead_of_100_ms, first + static_cast<std::ptrdiff_t>(window.rows),
+                           [&](const StageRow& row) { return row.encoder_count == first->encoder_count; });
+    };
+    int judged = 0;
+    for (const Window& window : evidence.windows()) {
+        if (window.signal != Signal::tag || !stands(window)) continue;
+        for (std::size_t k = window.begin, i = window.first_detection; k < window.end;
+             k += corner_values, ++i) {
+            const double floor_px = evidence.sighting(window.run, i).floors_px[0];
+            if (floor_px > surely_px) continue;
+            ++judged;
+            EXPECT_LT(std::abs(errors[k]) * floor_px, 0.5 * px_per_count)
+                << "run " << window.run << ", row " << window.first_row;
+        }
+    }
+    EXPECT_GT(judged, 1000);
+}
+
 TEST(Evidence, BristlesBehindAnEndOfTravel_AreAsTheWayBentThem) {
     for (const std::uint64_t seed : {2, 4, 8}) {
         const Hypothesis truth = effects({"presliding:level_V=0.02,distance_um=220"});
