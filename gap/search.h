@@ -102,6 +102,9 @@ class Search {
     /// tags, from far off to the floor is no chance however few they are.
     bool is_real(const CrossFit& without, const CrossFit& with) const;
 
+    /// Whether an effect's gain is more than chance, over all that was tried, however much it leaves.
+    bool is_no_chance(const CrossFit& without, const CrossFit& with) const;
+
     /// Whether a signal loses a share of what it exceeds its floor by.
     bool nearly_clears(const CrossFit& without, const CrossFit& with, double share = 0.98) const;
 

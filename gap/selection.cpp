@@ -92,7 +92,11 @@ bool is_better(const Search& search, const Chain& other, const Chain& chain) {
 }
 
 /// Puts two effects at once beside the rest, where they clear a share of a signal. Returns whether it did.
-bool take_in_pair(Search& search, Chain& chain, const Chain& rest, std::optional<Pair> pair, double share) {
+/// @param is_needed  whether it is known otherwise that it takes both, so that any gain that is no chance
+/// will do:
+///                   a few windows that go another way may be all that is left
+bool take_in_pair(Search& search, Chain& chain, const Chain& rest, std::optional<Pair> pair, double share,
+                  bool is_needed) {
     if (!pair || !search.nearly_clears(rest.fitted, pair->fitted, share)) return false;
     const auto trial = [](const Candidate& candidate, CrossFit fitted) {
         return std::vector{Trial{.candidate = &candidate, .is_leader = true, .fitted = std::move(fitted)}};
@@ -104,7 +108,8 @@ bool take_in_pair(Search& search, Chain& chain, const Chain& rest, std::optional
     const Chain one = grown(search, rest, trial(*pair->first, std::move(first)));
     Chain two = grown(search, one, trial(*pair->second, std::move(pair->fitted)));
     search.limit(true);
-    if (!is_better(search, two, chain)) return false;
+    if (!is_better(search, two, chain) && !(is_needed && search.is_no_chance(chain.fitted, two.fitted)))
+        return false;
     chain = std::move(two);
     return true;
 }
@@ -124,8 +129,8 @@ bool balance(Search& search, Chain& chain, int most_effects) {
     if (!search.off(chain.fitted)[index_of(Signal::encoder)]) return false;
     const Chain rest = rest_of(search, chain, only(Signal::encoder));
     if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
-    return take_in_pair(search, chain, rest, search.balanced_pair(rest.fitted, rest.candidates()),
-                        nearly_all);
+    return take_in_pair(search, chain, rest, search.balanced_pair(rest.fitted, rest.candidates()), nearly_all,
+                        true);
 }
 
 /// Takes in what is best, as long as it is no chance; for a carriage that one effect leaves off, two at once,
@@ -220,8 +225,8 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
     const bool from_nothing = chain.choices.size() == rest.choices.size();
     if (from_nothing && balance(search, chain, most_effects)) return true;
-    if (take_in_pair(search, chain, rest, search.best_pair(rest.fitted, rest.candidates()),
-                     all_but_nothing) &&
+    if (take_in_pair(search, chain, rest, search.best_pair(rest.fitted, rest.candidates()), all_but_nothing,
+                     false) &&
         search.is_at_floor(chain.fitted))
         return true;
     const std::size_t most_first = from_nothing ? 6 : 3;

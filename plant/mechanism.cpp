@@ -385,7 +385,7 @@ int move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V, 
 
 WholeSteps whole_steps(const MacroAxis& axis) {
     const Friction& friction = axis.parameters.friction;
-    if (axis.parameters.standing.cogging_V != 0.0 || friction.stribeck_V != 0.0) return {};
+    if (!is_straight(axis.parameters.standing) || friction.stribeck_V != 0.0) return {};
     MacroAxis sliding = axis;  // far from a patch
     sliding.parameters.friction.patch.level_V = 0.0;
     sliding.parameters.friction.creep_mm_per_s = 0.0;

@@ -2,7 +2,9 @@
 // Forces by position that a carriage at rest feels too, in volts to the right. They add to the drive's
 // voltage before the dead zone, so that friction holds them while the carriage stands.
 //
-//     f(y) = A sin(2 pi y / p + phase) - k (y - y0)          cogging and the spring of the cable harness
+//     f(y) = A sin(2 pi y / p + phase) - k d (1 + c (d / 100 mm)^2),   d = y - y0
+//
+// cogging, and the spring of the cable harness, which may harden (Duffing).
 #include <array>
 #include <cmath>
 #include <limits>
@@ -16,10 +18,16 @@ struct StandingForce {
     double cogging_phase_rad = 0.0;
     double cable_V_per_mm = 0.0;
     double cable_centre_mm = 0.0;
+    double cable_hardening = 0.0;  ///< c
 };
 
 inline bool acts(const StandingForce& force) {
     return force.cogging_V != 0.0 || force.cable_V_per_mm != 0.0;
+}
+
+/// Whether it is a straight line over the place.
+inline bool is_straight(const StandingForce& force) {
+    return force.cogging_V == 0.0 && force.cable_hardening == 0.0;
 }
 
 /// f(y) in V, to the right, for places that follow each other closely: near a place whose sine and cosine are
@@ -38,7 +46,9 @@ class StandingForceNearby {
     }
 
     double volts(double position_mm) const {
-        const double cable_V = -force_.cable_V_per_mm * (position_mm - force_.cable_centre_mm);
+        constexpr double per_mm = 1e-2;
+        const double off_mm = position_mm - force_.cable_centre_mm, off = per_mm * off_mm;
+        const double cable_V = -force_.cable_V_per_mm * off_mm * (1.0 + force_.cable_hardening * off * off);
         return force_.cogging_V == 0.0 ? cable_V : cable_V + force_.cogging_V * sine(position_mm);
     }
 

@@ -169,7 +169,8 @@ double driving_force_V(const CarriageModel& model, double command_V, double posi
         const double angle = 2.0 * std::numbers::pi * position_mm / place.cogging_period_mm;
         u_V += place.cogging_V * std::sin(angle + place.cogging_phase_rad);
     }
-    u_V -= place.cable_V_per_mm * (position_mm - place.cable_centre_mm);
+    const double off_mm = position_mm - place.cable_centre_mm;
+    u_V -= place.cable_V_per_mm * (off_mm + place.cable_cubic_per_mm2 * std::pow(off_mm, 3));
     const double on_motion = model.friction.dead_zone_on_motion;
     return (1.0 - on_motion) * dead_zone_V(model.dead_zone, u_V) + on_motion * model.dead_zone.slope * u_V;
 }

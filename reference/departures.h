@@ -54,6 +54,7 @@ struct MechanicsDepartures {
     double cogging_phase_rad = 0.0;
     double cable_V_per_mm = 0.0;  ///< a spring towards cable_centre_mm
     double cable_centre_mm = 100.0;
+    double cable_cubic_per_mm2 = 0.0;  ///< of a spring that hardens: k d + k this d^3
     double play_mm = 0.0;  ///< between what drives the carriage and the carriage, from side to side
     std::optional<Stretch> stretch = {};
 };

@@ -7,11 +7,13 @@ namespace {
 constexpr EffectParameter parameters[] = {
     {"stiffness_V_per_mm", "V/mm", 0.0, 0.05, 0.0, 0.002, "of the spring"},
     {"centre_mm", "mm", -1000.0, 1000.0, 100.0, 100.0, "where the harness does not pull"},
+    {"hardening", "", 0.0, 20.0, 0.0, 0.0, "by how much more it pulls per mm, 100 mm from there", 0.1},
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
     plant.axis.standing.cable_V_per_mm += values[0];
     plant.axis.standing.cable_centre_mm = values[1];
+    plant.axis.standing.cable_hardening = parameters[2].acting(values[2]);
 }
 
 }  // namespace
@@ -20,10 +22,9 @@ extern constexpr Effect cable_force{
     .name = "cable_force",
     .block = "macro.mechanics",
     .text =
-        "The cable harness pulls like a spring: w = u - k (y - y0), before the dead zone, which holds it "
-        "while the "
-        "carriage stands.",
-    .source = "Hooke's law for a flexible cable carrier",
+        "The cable harness pulls like a spring that may harden: w = u - k d (1 + hardening (d / 100 mm)^2), "
+        "d = y - y0, before the dead zone, which holds it while the carriage stands.",
+    .source = "Hooke's law for a flexible cable carrier; Duffing, Erzwungene Schwingungen, 1918: hardening",
     .parameters = parameters,
     .apply = apply,
 };

@@ -96,6 +96,10 @@ void cable_force(Departures& rig, double size_V_per_mm, NoiseStream& draw) {
 void payload(Departures& rig, double size, NoiseStream& draw) {
     rig.mechanics.payload = factor(draw, size);
 }
+void hardening_cable(Departures& rig, double size_V_per_mm, NoiseStream& draw) {
+    cable_force(rig, size_V_per_mm, draw);
+    rig.mechanics.cable_cubic_per_mm2 = log_uniform(draw, 5e-5, 5e-4);
+}
 void belt_compliance(Departures& rig, double size_mm_per_V, NoiseStream& draw) {
     rig.mechanics.stretch = reference::Stretch{.compliance_mm_per_V = size_mm_per_V,
                                                .damping_ratio = log_uniform(draw, 0.02, 0.2),
@@ -217,6 +221,7 @@ constexpr std::array draws{
     EffectDraw{"rail_patch", "", 4e-3, 0.6, rail_patch},
     EffectDraw{"cogging", "", 5.5e-5, 0.5, cogging},
     EffectDraw{"cable_force", "", 6e-7, 0.01, cable_force},
+    EffectDraw{"cable_force", "hardening", 5e-7, 0.005, hardening_cable},
     EffectDraw{"payload", "", 5.8e-3, 1.0, payload},
     EffectDraw{"belt_compliance", "", 2.6e-1, 2.0, belt_compliance},
     EffectDraw{"backlash", "", 4.4e-2, 1.0, backlash},

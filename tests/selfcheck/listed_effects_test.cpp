@@ -108,7 +108,13 @@ const std::vector<Pair>& pairs() {
              rig.mechanics.cogging_phase_rad = 1.0;
          },
          {0.2, 5.0, 1.0}},
-        {"cable_force", [](Departures& rig) { rig.mechanics.cable_V_per_mm = 0.004; }, {0.004, 100.0}},
+        {"cable_force", [](Departures& rig) { rig.mechanics.cable_V_per_mm = 0.004; }, {0.004, 100.0, 0.0}},
+        {"cable_force",
+         [](Departures& rig) {
+             rig.mechanics.cable_V_per_mm = 0.002;
+             rig.mechanics.cable_cubic_per_mm2 = 2e-4;
+         },
+         {0.002, 100.0, 2.0}},
         {"payload", [](Departures& rig) { rig.mechanics.payload = 1.3; }, {1.3}},
         {"belt_compliance",
          [](Departures& rig) {

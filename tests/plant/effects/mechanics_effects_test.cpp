@@ -42,6 +42,14 @@ TEST(CableForce, FreeCarriage_SettlesWhereTheSpringBalancesTheVoltage) {
     EXPECT_NEAR(after(axis, start(axis, 90.0), 0.4, 6000).position_mm, 120.0, 1e-5);
 }
 
+/// 0.01 d (1 + 2 (d / 100 mm)^2) = 1.5, that is d^3 + 5000 d - 750000 = 0: Cardano.
+TEST(CableForce, SpringThatHardens_IsBalancedByTheRootOfItsCubic) {
+    const MacroAxis axis = endless_axis_with("cable_force:stiffness_V_per_mm=0.01,centre_mm=100,hardening=2");
+    const double half = 375000.0, root = std::sqrt(half * half + std::pow(5000.0 / 3.0, 3));
+    const double expected = std::cbrt(half + root) + std::cbrt(half - root);
+    EXPECT_NEAR(after(axis, start(axis, 170.0), 1.5, 6000).position_mm, 100.0 + expected, 1e-4);
+}
+
 TEST(BeltCompliance, Swing_HasTheStatedFrequencyAndDamping) {
     const MacroAxis axis = endless_axis_with("belt_compliance:stretch_um_per_V=50,damping_ratio=0.05");
     const double w = natural_frequency_rad_per_s(axis.parameters.belt, gain, axis.parameters.time_constant_s);
