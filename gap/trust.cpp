@@ -71,10 +71,10 @@ constexpr double most_removed_by_stand_in = 0.999;
 constexpr double trust_in_stand_in = 0.3;
 
 /// What leaves something and removes less than this is as well something else of its kind: bristles called
-/// Coulomb friction, drag that grows with the square of speed called viscous. On ten self-checks 28 of 49 names
-/// that were believed though they left something and removed less than this were wrong or not all, of the 47
-/// that removed more 8.
-/// Of names that leave nothing and remove less than the second share 3 of 7 were wrong.
+/// Coulomb friction, drag that grows with the square of speed called viscous. On ten self-checks 28 of 49
+/// names that were believed though they left something and removed less than this were wrong or not all, of
+/// the 47 that removed more 8. Of names that leave nothing and remove less than the second share 3 of 7 were
+/// wrong.
 constexpr double removed_by_the_cause = 0.9999, removed_at_the_floor = 0.98, trust_in_its_kind = 0.9;
 
 /// Of an explanation that leaves something.
@@ -83,8 +83,11 @@ Trust trust_beside(const Evidence& evidence, const Selection& selection, const T
     if (selection.choices.empty()) return {0.0, std::move(remainder)};
     double trust = trust_in(typical_floors(evidence.windows(), selection.steps.back().mean_squares));
     const std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
+    // A false scale does all that a plate of another pitch does but for the jumps from tag to tag.
+    const double most_removed =
+        whole && whole->block == "plate" ? removed_by_the_cause : most_removed_by_stand_in;
     const bool stands_in = is_patchwork(selection) || gap.removed() < least_removed_by_the_cause ||
-                           (gap.removed() < most_removed_by_stand_in && whole &&
+                           (gap.removed() < most_removed && whole &&
                             (has_stand_in(selection, *whole, 1) || lacks_place(selection, *whole)));
     if (stands_in) trust = std::min(trust, trust_in_stand_in);
     if (gap.removed() < removed_by_the_cause) trust = std::min(trust, trust_in_its_kind);
