@@ -152,6 +152,27 @@ plant::EffectSetting plain_form(const plant::EffectSetting& richer, const plant:
     return setting;
 }
 
+std::vector<plant::EffectSetting> rich_forms(const plant::EffectSetting& plain, const Candidate& richer) {
+    constexpr std::size_t many = 6;
+    const Limit* const limit = find_limit(plain.effect->name, richer.effect->name);
+    if (limit == nullptr || limit->size != level || richer.shapes.size() > many) return {};
+    std::vector<plant::EffectSetting> forms;
+    for (const std::vector<double>& shape : richer.shapes) {
+        plant::EffectSetting form{richer.effect, shape};
+        form.values.front() = plain.values.front();
+        for (std::size_t k = 1; k < shape.size(); ++k) {
+            const auto& shared = plain.effect->parameters;
+            const auto same =
+                std::ranges::find(shared, richer.effect->parameters[k].name, &plant::EffectParameter::name);
+            if (same != shared.end())
+                form.values[k] = plain.values[static_cast<std::size_t>(same - shared.begin())];
+        }
+        if (std::ranges::find(forms, form.values, &plant::EffectSetting::values) == forms.end())
+            forms.push_back(std::move(form));
+    }
+    return forms;
+}
+
 std::vector<Refinement> refinements_of(const plant::Effect& effect) {
     constexpr double hardly_seen = 2.0, seen = 4.0, in_any_motion = 16.0;
     std::vector<Refinement> found;

@@ -58,4 +58,8 @@ bool is_limit_of(std::string_view plainer, std::string_view richer);
 plant::EffectSetting plain_form(const plant::EffectSetting& richer, const plant::Effect& plainer,
                                 const MacroParameters& rail);
 
+/// A richer effect along its shapes, as large as its limit and with what they share; none where its first
+/// parameter does not say how large the limit is, or where it has many shapes.
+std::vector<plant::EffectSetting> rich_forms(const plant::EffectSetting& plain, const Candidate& richer);
+
 }  // namespace fidservo::gap

@@ -135,7 +135,7 @@ std::string likeliest_block(const Choice& choice) {
     return std::string(likeliest);
 }
 
-/// Likeliest first; of those that are as likely to a hundredth, what was accused first.
+/// Likeliest first; of those that are as likely to a twentieth, what was accused first.
 void accuse(std::vector<BlockProbability>& where, const std::string& block, double probability) {
     const auto known = std::ranges::find(where, block, &BlockProbability::block);
     if (known != where.end())
@@ -143,7 +143,7 @@ void accuse(std::vector<BlockProbability>& where, const std::string& block, doub
     else
         where.push_back({block, probability});
     std::ranges::stable_sort(where, std::greater{}, [](const BlockProbability& accused) {
-        return std::lround(100.0 * accused.probability);
+        return std::lround(20.0 * accused.probability);
     });
 }
 

@@ -167,7 +167,10 @@ std::vector<ForcePair> best_along_shapes(const Products& products, std::span<con
             const auto first = sized(one, solution.shares.head(one.columns())),
                        second = sized(other, solution.shares.tail(other.columns()));
             if (!first || !second) continue;
-            ForcePair pair{one.candidate, other.candidate, {*first, *second}, solution.left};
+            ForcePair pair{.first = one.candidate,
+                           .second = other.candidate,
+                           .settings = {*first, *second},
+                           .loss = solution.left};
             if (known != pairs.end())
                 *known = std::move(pair);
             else
@@ -285,10 +288,11 @@ std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wan
     keep_best(most_pairs);
     if (pairs.empty()) return pairs;
     const double best = pairs.front().loss;
-    std::erase_if(pairs, [&](const ForcePair& pair) {
-        return is_hopeless(pair.loss, best) || !balanced.needs_both(pair);
-    });
-    for (ForcePair& pair : pairs) pair.starts = balanced.with_unseen(pair);
+    std::erase_if(pairs, [&](const ForcePair& pair) { return is_hopeless(pair.loss, best); });
+    for (ForcePair& pair : pairs) {
+        pair.needs_both = balanced.needs_both(pair);
+        pair.starts = balanced.with_unseen(pair);
+    }
     return pairs;
 }
 

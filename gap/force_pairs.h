@@ -11,8 +11,9 @@ namespace fidservo::gap {
 
 struct ForcePair {
     const Candidate *first, *second;
-    Hypothesis settings;  ///< of the two
-    double loss;          ///< of their balance, as in gap/score.h
+    Hypothesis settings;     ///< of the two
+    double loss;             ///< of their balance, as in gap/score.h
+    bool needs_both = true;  ///< whether each takes away a good part of what the other leaves alone
     /// With several values of those parameters that it does not depend on.
     std::vector<Hypothesis> starts{};
 };
@@ -21,7 +22,6 @@ struct ForcePair {
 /// best are fitted to the balance in all their parameters, and in those that an effect may be without.
 /// @param base     what is known of the rig
 /// @param periods  of waves, where a candidate is one
-/// Pairs of which one does nearly as well alone are left out.
 /// @return at most four, none of the same two candidates as another; best first
 std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wanted& wanted,
                                              const Hypothesis& base,

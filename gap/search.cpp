@@ -21,9 +21,6 @@ constexpr double tie_significance = 2.0;
 /// does not bring the signal to its floor.
 constexpr double least_share_of_first = 1e-3;
 
-/// Of the best one's gain, that a leader has at least.
-constexpr double share_of_gain = 0.5;
-
 /// Mean square in floors of what is far off.
 constexpr double far_off_square = 9.0;
 
@@ -90,8 +87,10 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         if (hides_within_counts(*leader.trial.candidate)) fit_closer(base, leader, effort.scatters);
     std::ranges::sort(leaders, std::greater{}, &Contender::gain);
     if (!leaders.empty()) {
-        leaders = with_plain_forms(base, all, leaders.size());
+        leaders = with_limits(base, all, leaders.size());
         fit_closer(base, leaders.front(), effort.scatters);
+        leaders = with_richer(base, all, leaders.size());
+        if (!leaders.front().finding->is_close) fit_closer(base, leaders.front(), effort.scatters);
         const auto chosen = leaders.begin() + static_cast<std::ptrdiff_t>(simplest(leaders));
         if (chosen != leaders.begin()) fit_closer(base, *chosen, effort.scatters);
         std::rotate(leaders.begin(), chosen, std::next(chosen));
@@ -108,19 +107,6 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
             std::ranges::find(trials, &candidate, &Trial::candidate) == trials.end())
             trials.push_back({.candidate = &candidate});
     return trials;
-}
-
-std::span<Search::Contender> Search::with_plain_forms(const CrossFit& base, std::span<Contender> all,
-                                                      std::size_t leaders) const {
-    const Contender best = all.front();
-    for (std::size_t k = 1; k < all.size(); ++k) {
-        if (!is_limit_of(all[k].trial.candidate->effect->name, best.trial.candidate->effect->name)) continue;
-        fit_plain_form(base, best, all[k]);
-        if (k >= leaders && all[k].trial.is_leader && all[k].gain() > share_of_gain * best.gain())
-            std::swap(all[k], all[leaders++]);
-    }
-    std::ranges::sort(all.first(leaders), std::greater{}, &Contender::gain);
-    return all.first(leaders);
 }
 
 std::optional<CrossFit> Search::with(const CrossFit& base, const Candidate& candidate) {

@@ -50,6 +50,9 @@ class SearchExhausted : public std::exception {
     const char* what() const noexcept override { return "the effort of the search was spent"; }
 };
 
+/// Of the best one's gain, that a leader has at least.
+inline constexpr double share_of_gain = 0.5;
+
 /// A search over one set of recordings. Counts what it tries, and does nothing twice.
 class Search {
   public:
@@ -75,7 +78,9 @@ class Search {
 
     /// Of the pairs that balance the forces of a carriage best (gap/force_pairs.h), added to a base, the one
     /// that predicts the first half best; fitted on both.
-    std::optional<Pair> balanced_pair(const CrossFit& base, std::span<const Candidate* const> added);
+    /// @param only_needed  of pairs of which one alone does not balance them nearly as well
+    std::optional<Pair> balanced_pair(const CrossFit& base, std::span<const Candidate* const> added,
+                                      bool only_needed);
 
     /// The same of all pairs of simple effects that meet in a signal that is off, from typical sizes on:
     /// beside what one of the two has been taken for alone, the other may promise nothing, and no slope leads
@@ -126,7 +131,8 @@ class Search {
     struct PairAttempt;
     PairAttempt attempt(const CrossFit& base, const Candidate& first, const Candidate& second,
                         Hypothesis settings) const;
-    std::vector<PairAttempt> by_force(const CrossFit& base, std::vector<const Candidate*> candidates) const;
+    std::vector<PairAttempt> by_force(const CrossFit& base, std::vector<const Candidate*> candidates,
+                                      bool only_needed) const;
     std::vector<PairAttempt> by_typical_sizes(const CrossFit& base,
                                               std::vector<const Candidate*> candidates) const;
     /// On both halves, from such a start of the first one.
@@ -147,10 +153,19 @@ class Search {
     /// From what a richer effect, of which it is the limit, has found on both halves: beside what the richer
     /// one has taken it may promise nothing by itself. Keeps what it had if that is better.
     void fit_plain_form(const CrossFit& base, const Contender& richer, Contender& plain) const;
-    /// The leaders, which come first and best first, with the limits of the best one that were fitted from it
-    /// and gain as much as a leader has to.
-    std::span<Contender> with_plain_forms(const CrossFit& base, std::span<Contender> all,
-                                          std::size_t leaders) const;
+    /// From what its limit has found, along the richer one's shapes: where it was fitted from afar it may
+    /// have ended at its limit. Keeps what it had if that is better.
+    void fit_rich_form(const CrossFit& base, const Contender& plain, Contender& richer) const;
+    /// The leaders, which come first and best first, with those others that are fitted now and gain as much
+    /// as a leader has to. @param fit  returns whether it has fitted one
+    static std::span<Contender> with_fitted(std::span<Contender> all, std::size_t leaders,
+                                            const std::function<bool(Contender&)>& fit);
+    /// The leaders with the limits of the best one, fitted from it.
+    std::span<Contender> with_limits(const CrossFit& base, std::span<Contender> all,
+                                     std::size_t leaders) const;
+    /// The leaders with those of which the best one is the limit, fitted from it where it leaves something.
+    std::span<Contender> with_richer(const CrossFit& base, std::span<Contender> all,
+                                     std::size_t leaders) const;
     /// Where a fit from afar leaves more than the floor: again from where it ended, to the windows that say
     /// most there; of a wave by a simplex over all windows, as its losses have many minima. Where slopes do
     /// not lead there, by a simplex too: of encoder and camera, as the place within a count gives way up to

@@ -168,26 +168,6 @@ void Search::fit_second_half(const CrossFit& base, Contender& contender, Threads
     judge_both_halves(base, contender);
 }
 
-void Search::fit_plain_form(const CrossFit& base, const Contender& richer, Contender& plain) const {
-    if (plain.coupled != richer.coupled) return;
-    Finding finding = *plain.finding;
-    Contender found = plain;
-    found.finding = &finding;
-    parallel_for(2, [&](std::size_t side) {
-        Hypothesis start = richer.trial.fitted.of_half[side];
-        start.back() =
-            plain_form(start.back(), *plain.trial.candidate->effect, fitter_.evidence().rig().macro);
-        found.trial.fitted.of_half[side] =
-            fitter_.fit_places(side, start, plain.fitted_places(base), base.mean_squares).hypothesis;
-        finding.fitted[side] = found.part(found.trial.fitted.of_half[side]);
-    });
-    finding.is_close = false;
-    judge_both_halves(base, found);
-    if (found.gain() <= plain.gain()) return;
-    *plain.finding = std::move(finding);
-    plain.trial = std::move(found.trial);
-}
-
 void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatters,
                         double share_of_effort) const {
     const bool is_wave = contender.trial.candidate->wave.has_value();

@@ -66,7 +66,8 @@ Search::PairAttempt Search::attempt(const CrossFit& base, const Candidate& first
 }
 
 std::vector<Search::PairAttempt> Search::by_force(const CrossFit& base,
-                                                  std::vector<const Candidate*> candidates) const {
+                                                  std::vector<const Candidate*> candidates,
+                                                  bool only_needed) const {
     std::erase_if(candidates, [](const Candidate* candidate) { return !is_balanced(*candidate); });
     if (candidates.size() < 2) return {};
     const Evidence& evidence = fitter_.evidence();
@@ -76,9 +77,11 @@ std::vector<Search::PairAttempt> Search::by_force(const CrossFit& base,
     const AlongRail along = seen_along_rail(evidence, base.of_half[0], wanted, waves);
     std::vector<PairAttempt> attempts;
     for (ForcePair& pair :
-         strongest_force_pairs(evidence, wanted, base.of_half[0], candidates, along.periods))
+         strongest_force_pairs(evidence, wanted, base.of_half[0], candidates, along.periods)) {
+        if (only_needed && !pair.needs_both) continue;
         for (Hypothesis& start : pair.starts)
             attempts.push_back(attempt(base, *pair.first, *pair.second, std::move(start)));
+    }
     return attempts;
 }
 
@@ -179,8 +182,9 @@ Pair Search::in_plain_form(const CrossFit& base, Pair pair) const {
     return pair;
 }
 
-std::optional<Pair> Search::balanced_pair(const CrossFit& base, std::span<const Candidate* const> added) {
-    return best_of(base, by_force(base, in_question(base, added)));
+std::optional<Pair> Search::balanced_pair(const CrossFit& base, std::span<const Candidate* const> added,
+                                          bool only_needed) {
+    return best_of(base, by_force(base, in_question(base, added), only_needed));
 }
 
 std::optional<Pair> Search::best_pair(const CrossFit& base, std::span<const Candidate* const> added) {

@@ -123,14 +123,16 @@ Chain rest_of(const Search& search, const Chain& chain, const SignalFlags& signa
 }
 
 /// Where a carriage stays off, what balances its forces best instead of what was taken in for it.
+/// @param only_needed  two that the balance needs both
 /// @return whether anything changed
-bool balance(Search& search, Chain& chain, int most_effects) {
+bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
     constexpr double nearly_all = 0.98;
     if (!search.off(chain.fitted)[index_of(Signal::encoder)]) return false;
     const Chain rest = rest_of(search, chain, only(Signal::encoder));
     if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
-    return take_in_pair(search, chain, rest, search.balanced_pair(rest.fitted, rest.candidates()), nearly_all,
-                        true);
+    return take_in_pair(search, chain, rest,
+                        search.balanced_pair(rest.fitted, rest.candidates(), only_needed), nearly_all,
+                        only_needed);
 }
 
 /// Takes in what is best, as long as it is no chance; for a carriage that one effect leaves off, two at once,
@@ -154,7 +156,7 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
         if (moves_carriage && !is_balanced) {
             is_balanced = true;
             search.limit(true);
-            is_paired = balance(search, chain, most_effects);
+            is_paired = balance(search, chain, most_effects, true);
             if (!is_paired && chain.choices.back().candidate->wave) {
                 search.limit(!before.choices.empty());
                 take_in(search.try_all(before.fitted, before.candidates()));
@@ -224,7 +226,7 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     const Chain rest = rest_of(search, chain, off);
     if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
     const bool from_nothing = chain.choices.size() == rest.choices.size();
-    if (from_nothing && balance(search, chain, most_effects)) return true;
+    if (balance(search, chain, most_effects, false) && search.is_at_floor(chain.fitted)) return true;
     if (take_in_pair(search, chain, rest, search.best_pair(rest.fitted, rest.candidates()), all_but_nothing,
                      false) &&
         search.is_at_floor(chain.fitted))

@@ -137,9 +137,9 @@ TEST(ForcePairs, BendOfBristles_WhichTheBalanceDoesNotShow_IsLeftOpen) {
 }
 
 TEST(ForcePairs, OneEffect_NeedsNoSecond) {
-    EXPECT_TRUE(pairs_of(campaign(effects({"drive_gain:factor=0.92"}),
-                                  {"macro-sweep", "macro-pulses", "macro-square"}))
-                    .empty());
+    const std::vector<ForcePair> pairs = pairs_of(
+        campaign(effects({"drive_gain:factor=0.92"}), {"macro-sweep", "macro-pulses", "macro-square"}));
+    EXPECT_TRUE(std::ranges::none_of(pairs, &ForcePair::needs_both));
 }
 
 }  // namespace
