@@ -6,6 +6,8 @@
 #include "tests/gap/simulated_campaign.h"
 #include "tests/reference_rig.h"
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,24 @@ TEST(PlainForm, OfARicherEffect_HasAboutItsSize) {
         0.0003);
     EXPECT_NEAR(plain("cable_force:stiffness_V_per_mm=0.0002,centre_mm=600", "drive_offset"), 0.1, 1e-12)
         << "a long spring pulls towards where it is slack";
+}
+
+TEST(RichForms, OfAPlainEffect_HaveItsSizeAndWhatTheyShare_AlongTheShapes) {
+    const std::vector<Candidate> all = candidates(testing::campaign({}, {"macro-pulses"}), {}, {});
+    const auto forms_of = [&](std::string_view plain, std::string_view richer) {
+        const auto named = [&](const Candidate& candidate) { return candidate.effect->name == richer; };
+        return rich_forms(effects({plain}).front(), *std::ranges::find_if(all, named));
+    };
+    const auto bristles = forms_of("coulomb_friction:level_V=0.25", "presliding");
+    ASSERT_EQ(bristles.size(), 3U);
+    for (const plant::EffectSetting& form : bristles) EXPECT_EQ(form.values[0], 0.25);
+    EXPECT_EQ(bristles[0].values[1], 10.0);
+    EXPECT_EQ(bristles[2].values[1], 250.0);
+    const auto creeping = forms_of("coulomb_friction:level_V=0.25,creep_mm_per_s=0.4", "stribeck_friction");
+    ASSERT_FALSE(creeping.empty());
+    for (const plant::EffectSetting& form : creeping) EXPECT_EQ(form.values[2], 0.4);
+    EXPECT_TRUE(forms_of("coulomb_friction:level_V=0.25", "rail_patch").empty()) << "at many places";
+    EXPECT_TRUE(forms_of("drive_offset:offset_V=0.1", "cable_force").empty());
 }
 
 TEST(Candidates, OfARigWithoutAMicroStage_AreNoneOfIt) {
