@@ -19,10 +19,9 @@ namespace fidservo::gap {
 /// What is left, r.m.s., over what is expected under the truth; 0 for signals that were not recorded.
 struct Pattern {
     std::array<double, signal_count> floors{};
-    double tag_along = 0.0;   ///< of the tags' corners along the stage's motion
-    double tag_across = 0.0;  ///< of their other seven coordinates
-    double tag_at_rest =
-        0.0;  ///< along the stage's motion too, of those that are seen while the stages stand
+    double tag_along = 0.0;    ///< of the tags' corners along the stage's motion
+    double tag_across = 0.0;   ///< of their other seven coordinates
+    double tag_at_rest = 0.0;  ///< along it too, of those seen while the stages stand
 };
 
 Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, const Errors& errors);

@@ -123,7 +123,7 @@ CarriageForces::CarriageForces(const Evidence& evidence, const Errors& errors, s
 }
 
 void CarriageForces::find_weights(const Rig& rig, double floor_mm, std::size_t half_support) {
-    const double tau_s = -rig.tick_s / std::log(rig.macro.velocity_pole);
+    const double tau_s = time_constant_s(rig.macro, rig.tick_s);
     const double tick_s = rig.tick_s, h_s = static_cast<double>(half_support) * tick_s;
     const auto phi = [&](double ticks) { return modulating(ticks * tick_s / h_s, h_s); };
     double variance = 0.0;

@@ -86,6 +86,10 @@ double reading_count(const StageRow& row, const MacroParameters& macro) {
                                             : row.position_mm / macro.encoder_resolution_mm;
 }
 
+double time_constant_s(const MacroParameters& macro, double tick_s) {
+    return -tick_s / std::log(macro.velocity_pole);
+}
+
 std::vector<double> readings_mm(const Recording& recording, const MacroParameters& macro) {
     std::vector<double> all;
     all.reserve(recording.rows.size());

@@ -27,6 +27,9 @@ struct CarriageRun {
 /// A row's count; where the position was recorded, position / resolution.
 double reading_count(const StageRow& row, const MacroParameters& macro);
 
+/// Of the carriage by the rig file.
+double time_constant_s(const MacroParameters& macro, double tick_s);
+
 /// Recorded places row by row, mm; NaN where missing.
 std::vector<double> readings_mm(const Recording& recording, const MacroParameters& macro);
 

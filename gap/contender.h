@@ -6,6 +6,9 @@
 
 namespace fidservo::gap {
 
+/// Of the best one's gain, that a leader has at least.
+inline constexpr double share_of_gain = 0.5;
+
 /// A trial on its way.
 struct Search::Contender {
     Trial trial;

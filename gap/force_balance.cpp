@@ -3,7 +3,6 @@
 #include "core/dead_zone.h"
 #include "gap/carriage_run.h"
 #include "plant/effects/catalogue.h"
-#include "plant/stage_plant.h"
 #include "plant/transmission.h"
 
 #include <algorithm>
@@ -96,6 +95,12 @@ Needed needed_by(const plant::MacroAxisParameters& axis, double stretch) {
     return {(1.0 - axis.belt.motor_share) * axis.time_constant_s * per_V, 0.0};
 }
 
+plant::PlantParameters with_effects(const Rig& rig, const Hypothesis& hypothesis) {
+    plant::PlantParameters parameters = plant::plant_parameters(rig);
+    plant::apply_effects(parameters, hypothesis);
+    return parameters;
+}
+
 /// Length of a count over the rig file's.
 double stretch_of(const Rig& rig, const plant::PlantParameters& parameters) {
     return parameters.encoder.resolution_mm / rig.macro.encoder_resolution_mm;
@@ -113,8 +118,10 @@ ForceBalance::ForceBalance(const Evidence& evidence, const Wanted& wanted)
 }
 
 Errors ForceBalance::excess(const Hypothesis& hypothesis) const {
-    plant::PlantParameters parameters = plant::plant_parameters(evidence_.rig());
-    plant::apply_effects(parameters, hypothesis);
+    return excess(with_effects(evidence_.rig(), hypothesis));
+}
+
+Errors ForceBalance::excess(const plant::PlantParameters& parameters) const {
     const plant::MacroAxisParameters& axis = parameters.axis;
     const double stretch = stretch_of(evidence_.rig(), parameters);
     const auto late = static_cast<std::size_t>(std::lround(axis.delay_s / parameters.tick_s));
@@ -148,11 +155,10 @@ Errors ForceBalance::excess(const Hypothesis& hypothesis) const {
 }
 
 Errors ForceBalance::excess_in_own_deviations(const Hypothesis& hypothesis) const {
-    plant::PlantParameters parameters = plant::plant_parameters(evidence_.rig());
-    plant::apply_effects(parameters, hypothesis);
+    const plant::PlantParameters parameters = with_effects(evidence_.rig(), hypothesis);
     const Needed needs = needed_by(parameters.axis, stretch_of(evidence_.rig(), parameters));
     const double deviation = forces_.deviation_of(needs.V_per_mm_per_s2, needs.V_per_mm_per_s);
-    Errors all = excess(hypothesis);
+    Errors all = excess(parameters);
     for (const CarriageForces::Support& support : supports())
         all[support.slot] /= static_cast<float>(deviation);
     return all;

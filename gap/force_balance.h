@@ -13,6 +13,7 @@
 // leads a fit astray, as it does where friction lets a carriage go by jumps. Not seen are play, how far
 // bristles are bent, and all that shows only where the carriage stands.
 #include "gap/carriage_forces.h"
+#include "plant/stage_plant.h"
 
 #include <vector>
 
@@ -35,6 +36,8 @@ class ForceBalance {
     const std::vector<CarriageForces::Support>& supports() const { return forces_.supports(); }
 
   private:
+    Errors excess(const plant::PlantParameters& parameters) const;
+
     const Evidence& evidence_;
     CarriageForces forces_;
     Column velocity_, acceleration_;

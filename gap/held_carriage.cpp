@@ -15,7 +15,7 @@ namespace {
 std::vector<double> ways_lost_mm(const Recording& recording, const MacroParameters& macro) {
     constexpr double play_mm = 1.0, from_ends_mm = 1.0;
     constexpr double edge_V = 0.05;  // any small force holds a carriage that hardly pushes
-    const double tick_s = recording.tick_s, tau_s = -tick_s / std::log(macro.velocity_pole);
+    const double tick_s = recording.tick_s, tau_s = time_constant_s(macro, tick_s);
     std::vector<double> ways_mm;
     double stood_s = 0.0, lost_mm = 0.0, last_V = 0.0, last_count = 0.0;
     for (const StageRow& row : recording.rows) {

@@ -222,18 +222,21 @@ std::size_t Search::simplest(std::span<const Contender> leaders) const {
     return best;
 }
 
+bool Search::is_significant(const Comparison& comparison) const {
+    return comparison.significance >
+           significance_bound(comparison.blocks, std::max(trials_, 1), options_.tail);
+}
+
 bool Search::is_no_chance(const CrossFit& without, const CrossFit& with) const {
     const Comparison comparison = fitter_.compared(without, with);
-    return comparison.gain > least_gain &&
-           comparison.significance >
-               significance_bound(comparison.blocks, std::max(trials_, 1), options_.tail);
+    return comparison.gain > least_gain && is_significant(comparison);
 }
 
 bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
     constexpr double least_share = 0.3;
+    const Comparison comparison = fitter_.compared(without, with);
     return clears_a_signal(without, with, least_share, least_share_of_first) &&
-           (is_no_chance(without, with) ||
-            (fitter_.compared(without, with).gain > least_gain && clears_each_half(without, with)));
+           comparison.gain > least_gain && (is_significant(comparison) || clears_each_half(without, with));
 }
 
 bool Search::clears_each_half(const CrossFit& without, const CrossFit& with) const {

@@ -31,8 +31,8 @@ struct Pair {
 /// How many candidates of those that promise most a step fits, and how many of these on both halves.
 struct Effort {
     std::size_t fits = 8, leaders = 4;
-    bool scatters =
-        true;  ///< whether the best wave is looked for among many values where it leaves something
+    /// Whether the best wave is looked for among many values where it leaves something.
+    bool scatters = true;
 };
 
 struct SearchOptions {
@@ -49,9 +49,6 @@ class SearchExhausted : public std::exception {
   public:
     const char* what() const noexcept override { return "the effort of the search was spent"; }
 };
-
-/// Of the best one's gain, that a leader has at least.
-inline constexpr double share_of_gain = 0.5;
 
 /// A search over one set of recordings. Counts what it tries, and does nothing twice.
 class Search {
@@ -189,6 +186,8 @@ class Search {
     Contender fitted_on(const CrossFit& base, const Contender& contender, const Hypothesis& start) const;
     Fit polished(const Contender& contender, std::size_t side, const Places& places) const;
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
+    /// Over all that was tried.
+    bool is_significant(const Comparison& comparison) const;
     /// Whether some signal loses such a share of its excess, and comes to its floor or loses at least such a
     /// share of what it exceeds it by where nothing is known.
     bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share,

@@ -235,7 +235,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
     std::vector<double> way_mm{0.0};
     for (const double speed : path.velocity_mm_per_s)
         way_mm.push_back(way_mm.back() + recording.tick_s * std::abs(speed));
-    const double time_constant_s = -rig.tick_s / std::log(rig.macro.velocity_pole);
+    const double tau_s = time_constant_s(rig.macro, rig.tick_s);
     const double hidden_mm = hidden_count * rig.macro.encoder_resolution_mm;
 
     for (const TagDetection& detection : recording.detections) {
@@ -269,7 +269,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
             if (i < window.first) {
                 // How the run that enters the window begins dies out.
                 const double since_s = sighting.stamp_s - run.time_s[rows.lead];
-                const double begun_px = slope.norm() * hidden_mm * std::exp(-since_s / time_constant_s);
+                const double begun_px = slope.norm() * hidden_mm * std::exp(-since_s / tau_s);
                 const double strayed_square = noise.corner_px * noise.corner_px + strayed_px * strayed_px;
                 const double weight = 1.0 / (strayed_square + begun_px * begun_px);
                 sighting.offset_weight = weight;
