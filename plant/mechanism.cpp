@@ -2,13 +2,13 @@
 
 #include "core/dead_zone.h"
 #include "plant/dormand_prince.h"
+#include "plant/event_step.h"
 #include "plant/macro_axis.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace fidservo::plant {
 namespace {
@@ -22,7 +22,6 @@ constexpr double speed_tolerance_mm_per_s = 1e-6;
 /// Slower than this, and pulled less than would keep it at this, is at rest.
 constexpr double rest_mm_per_s = 1e-9;
 
-constexpr double shortest_step_s = 1e-10;
 /// Bristles that lack less than this share of their bend slide.
 constexpr double fully_bent = 1e-8;
 
@@ -53,7 +52,7 @@ class Motion {
         const double w_V = drive_V_ + (axis_.has_standing_force ? standing_V(x_) : 0.0);
         branch_ = dead_zone_branch(p_.dead_zone, w_V);
         voltage_V_ = dead_zone_V(p_.dead_zone, branch_, w_V, p_.dead_zone_on_motion);
-        if (std::abs(x_[speed]) <= rest_mm_per_s) x_[speed] = 0.0;
+        if (std::abs(x_[speed]) <= rest_mm_per_s || runs_into_end()) x_[speed] = 0.0;
         held_ = false;
         direction_ = x_[speed] < 0.0 ? -1.0 : 1.0;
         if (x_[speed] != 0.0) return true;
@@ -84,7 +83,10 @@ class Motion {
             error = error_of(step);
         }
         trial_s_ = step.duration_s * (error <= 1.0 ? std::max(fitting(error), 0.5) : 5.0);
-        if (slack(step.end) < 0.0) step = step_to_event(first, step);
+        if (slack(step.end) < 0.0)
+            step = step_to_event(
+                slack(x_), step, [&](double h) { return step_from(first, h); },
+                [&](const Step& there) { return slack(there.end); });
         settle(step.end);
         return step.duration_s;
     }
@@ -269,44 +271,6 @@ class Motion {
         return worst;
     }
 
-    /// The shortest step found that ends just past an event, by regula falsi on the slack (Illinois: an end
-    /// that stays counts half).
-    Step step_to_event(const State& first, Step late) {
-        double early_s = 0.0, early_slack = slack(x_), late_slack = slack(late.end);
-        while (early_slack <= 0.0) {  // it leaves one event for the next within the step
-            if (late.duration_s < shortest_step_s) return late;
-            const Step step = step_from(first, 0.25 * late.duration_s);
-            const double value = slack(step.end);
-            if (value > 0.0) {
-                early_s = step.duration_s;
-                early_slack = value;
-            } else {
-                late = step;
-                late_slack = value;
-            }
-        }
-        constexpr double resolution = 1e-10, resolution_s = 1e-14;
-        double early_weight = early_slack, late_weight = late_slack;
-        std::optional<bool> was_late;
-        while (late_slack < -resolution && late.duration_s - early_s > resolution_s) {
-            const double share = early_weight / (early_weight - late_weight);
-            const Step step = step_from(first, early_s + share * (late.duration_s - early_s));
-            const double value = slack(step.end);
-            const bool is_late = value <= 0.0;
-            if (is_late) {
-                if (was_late == true) early_weight *= 0.5;
-                late = step;
-                late_slack = late_weight = value;
-            } else {
-                if (was_late == false) late_weight *= 0.5;
-                early_s = step.duration_s;
-                early_weight = value;
-            }
-            was_late = is_late;
-        }
-        return late;
-    }
-
     /// Takes over the end of a step, put right where an event has just been passed.
     void settle(const State& end) {
         if (axis_.has_bristles && !held_) {
@@ -315,9 +279,13 @@ class Motion {
         }
         x_ = end;
         if (held_) return;
-        const bool outside = x_[place] < axis_.driven_low_mm || x_[place] > axis_.driven_high_mm;
-        if (outside) x_[place] = std::clamp(x_[place], axis_.driven_low_mm, axis_.driven_high_mm);
-        if (outside || (turns_matter_ && direction_ * x_[speed] < 0.0)) x_[speed] = 0.0;
+        x_[place] = std::clamp(x_[place], axis_.driven_low_mm, axis_.driven_high_mm);
+        if (runs_into_end() || (turns_matter_ && direction_ * x_[speed] < 0.0)) x_[speed] = 0.0;
+    }
+
+    bool runs_into_end() const {
+        return (x_[place] <= axis_.driven_low_mm && x_[speed] < 0.0) ||
+               (x_[place] >= axis_.driven_high_mm && x_[speed] > 0.0);
     }
 
     const MacroAxis& axis_;

@@ -134,6 +134,20 @@ TEST(Mechanism, EndOfTravel_StopsTheCarriageDeadWhateverTheEffects) {
     EXPECT_LT(state.axis.position_mm, 190.0);
 }
 
+/// Its motor still swings on the belt: the carriage must not creep on in steps that no longer move it.
+TEST(Mechanism, CarriageThatRunsIntoTheEndItStandsAt_TakesFewSteps) {
+    const MacroAxis axis = plant_with("belt_compliance").axis;
+    for (const double side : {-1.0, 1.0}) {
+        MacroAxisState state = start(axis, side < 0.0 ? 0.0 : 200.0);
+        state.velocity_mm_per_s = side * 2e-4;
+        state.mechanism.stretching_mm_per_s = side * 0.015;
+        const double at_mm = state.position_mm;
+        EXPECT_LT(advance(axis, state, side * 3.1), 100) << side;
+        EXPECT_EQ(state.position_mm, at_mm);
+        EXPECT_EQ(state.velocity_mm_per_s, 0.0);
+    }
+}
+
 TEST(Mechanism, Tick_DoesNotAllocate) {
     const StagePlant plant = make_stage_plant(reference_rig(), all_of_the_macro_stage());
     StageState state = start(plant, 100.0, 1);
