@@ -99,6 +99,8 @@ std::vector<double> grid_of(const plant::EffectParameter& parameter, const Trave
         for (const double factor : {0.2, 1.0, 5.0}) grid.push_back(within(factor * parameter.typical));
     } else if (parameter.low > 0.0 && parameter.high >= 20.0 * parameter.low) {
         for (const double factor : {0.4, 2.0}) grid.push_back(within(factor * parameter.typical));
+    } else if (parameter.unit == "1/s") {  // what settles within a run, as a rule, or never
+        grid = {parameter.vanishing, parameter.vanishing + 10.0 * parameter.negligible};
     } else if (parameter.low == 0.0 && parameter.typical == 1.0) {  // a share: all or nothing
         grid = {1.0, 0.0};
     } else {

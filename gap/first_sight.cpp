@@ -104,6 +104,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
                                     const Candidate& candidate) {
     constexpr double probe = 0.25;  // of the typical size
     constexpr double hopeless_gain = 0.4 * least_gain;
+    constexpr double further = 2.5, furthest = 100.0;
     constexpr std::size_t most_places = 8, most_starts = 4;
     const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
     const auto moving = static_cast<Eigen::Index>(beside.slopes.size());
@@ -150,9 +151,13 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
             Hypothesis there = moved(beside, rest, sized(candidate, places[p].shape, shares));
             const double gain =
                 gained(windows, counted, base_squares, predict(extended(beside.base, beside.places, there)));
-            if (best.start.empty() || gain > best.gain) best = {std::move(there), gain};
+            const bool is_best = best.start.empty() || gain > best.gain;
+            if (is_best) best = {std::move(there), gain};
+            return is_best;
         };
-        for (const double part : {1.0, 0.4, 2.5}) look(part * with_rest, part * sizes);
+        for (const double part : {1.0, 0.4}) look(part * with_rest, part * sizes);
+        // Far off, what is best nearby is too little by far: on as long as it becomes better.
+        for (double part = further; part < furthest && look(part * with_rest, part * sizes);) part *= further;
         if (moving > 0) look(unmoved, sizes);
         if (best.gain - without < hopeless_gain) look(unmoved, Eigen::VectorXd::Ones(width));
         starts.push_back(best);

@@ -289,10 +289,10 @@ std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wan
     if (pairs.empty()) return pairs;
     const double best = pairs.front().loss;
     std::erase_if(pairs, [&](const ForcePair& pair) { return is_hopeless(pair.loss, best); });
-    for (ForcePair& pair : pairs) {
-        pair.needs_both = balanced.needs_both(pair);
-        pair.starts = balanced.with_unseen(pair);
-    }
+    parallel_for(pairs.size(), [&](std::size_t k) {
+        pairs[k].needs_both = balanced.needs_both(pairs[k]);
+        pairs[k].starts = balanced.with_unseen(pairs[k]);
+    });
     return pairs;
 }
 

@@ -2,6 +2,7 @@
 // One step of a search: which effect, added to what is known, predicts best what was not fitted.
 #include "gap/candidate.h"
 #include "gap/cross_fit.h"
+#include "gap/force_pairs.h"
 #include "gap/search_memory.h"
 
 #include <cstddef>
@@ -38,7 +39,7 @@ struct Effort {
 struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
     /// After which it is exhausted (Evidence::effort): about 20 s of two cores for a campaign of 5 minutes.
-    double most_effort = 5'500.0;
+    double most_effort = 4'800.0;
     /// Asked at every prediction. Once true fits end at once, and what the search returns is worth nothing.
     std::function<bool()> stop = {};
     double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search
@@ -129,7 +130,9 @@ class Search {
     PairAttempt attempt(const CrossFit& base, const Candidate& first, const Candidate& second,
                         Hypothesis settings) const;
     std::vector<PairAttempt> by_force(const CrossFit& base, std::vector<const Candidate*> candidates,
-                                      bool only_needed) const;
+                                      bool only_needed);
+    /// Pairs of candidates that the balance shows. The last ones are kept.
+    const std::vector<ForcePair>& force_pairs(const CrossFit& base, std::vector<const Candidate*> candidates);
     std::vector<PairAttempt> by_typical_sizes(const CrossFit& base,
                                               std::vector<const Candidate*> candidates) const;
     /// On both halves, from such a start of the first one.
@@ -213,6 +216,11 @@ class Search {
     bool is_limited_ = false;
     CrossFitter fitter_;
     SearchMemory memory_;
+    struct {
+        Hypothesis base;
+        std::vector<const Candidate*> candidates;
+        std::vector<ForcePair> pairs;
+    } last_balance_;
     SignalExcess first_excess_;  ///< where nothing is known
     int trials_ = 0;
 };

@@ -174,8 +174,9 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
     const std::string_view block = contender.trial.candidate->effect->block;
     const bool moves_tags = block == "macro.encoder" || block.starts_with("camera.");
     constexpr int most_times = 4;
-    // Shares of a signal's excess; of loss.
-    constexpr double worth_it = 0.1, worth_a_simplex = 0.5, worth_refining = 0.9, nearly_all = 0.98;
+    // Shares of a signal's excess. Where nothing is let go by jumps a form is seen from further off.
+    constexpr double worth_it = 0.1, worth_a_simplex = 0.5, nearly_all = 0.98;
+    const double worth_refining = contender.teachers()[index_of(Signal::encoder)] ? 0.9 : 0.5;
     constexpr double worth_another = 4.0 * least_gain;
     Finding& finding = *contender.finding;
     if (vanishes_on_a_half(contender.trial)) return;

@@ -1,6 +1,5 @@
 // Two effects at once, where each hides the other.
 #include "gap/contender.h"
-#include "gap/force_pairs.h"
 #include "gap/parallel.h"
 #include "gap/search.h"
 #include "gap/starts.h"
@@ -65,23 +64,30 @@ Search::PairAttempt Search::attempt(const CrossFit& base, const Candidate& first
     return {&first, &second, fitted_with_pair(base, first), std::move(start)};
 }
 
-std::vector<Search::PairAttempt> Search::by_force(const CrossFit& base,
-                                                  std::vector<const Candidate*> candidates,
-                                                  bool only_needed) const {
-    std::erase_if(candidates, [](const Candidate* candidate) { return !is_balanced(*candidate); });
-    if (candidates.size() < 2) return {};
+const std::vector<ForcePair>& Search::force_pairs(const CrossFit& base,
+                                                  std::vector<const Candidate*> candidates) {
+    const Hypothesis& known = base.of_half[0];
+    if (last_balance_.base == known && last_balance_.candidates == candidates) return last_balance_.pairs;
     const Evidence& evidence = fitter_.evidence();
     const Wanted wanted = only_of(evidence.windows(), fitter_.half(0), only(Signal::encoder));
     std::vector<const Candidate*> waves = candidates;
     std::erase_if(waves, [](const Candidate* candidate) { return !candidate->wave; });
-    const AlongRail along = seen_along_rail(evidence, base.of_half[0], wanted, waves);
+    const AlongRail along = seen_along_rail(evidence, known, wanted, waves);
+    std::vector<ForcePair> pairs = strongest_force_pairs(evidence, wanted, known, candidates, along.periods);
+    last_balance_ = {known, std::move(candidates), std::move(pairs)};
+    return last_balance_.pairs;
+}
+
+std::vector<Search::PairAttempt> Search::by_force(const CrossFit& base,
+                                                  std::vector<const Candidate*> candidates,
+                                                  bool only_needed) {
+    std::erase_if(candidates, [](const Candidate* candidate) { return !is_balanced(*candidate); });
+    if (candidates.size() < 2) return {};
     std::vector<PairAttempt> attempts;
-    for (ForcePair& pair :
-         strongest_force_pairs(evidence, wanted, base.of_half[0], candidates, along.periods)) {
-        if (only_needed && !pair.needs_both) continue;
-        for (Hypothesis& start : pair.starts)
-            attempts.push_back(attempt(base, *pair.first, *pair.second, std::move(start)));
-    }
+    for (const ForcePair& pair : force_pairs(base, std::move(candidates)))
+        if (pair.needs_both || !only_needed)
+            for (const Hypothesis& start : pair.starts)
+                attempts.push_back(attempt(base, *pair.first, *pair.second, start));
     return attempts;
 }
 

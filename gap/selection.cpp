@@ -299,10 +299,14 @@ CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
 }  // namespace
 
 Fit fit_to_all(const Evidence& evidence, const CrossFit& cross) {
+    constexpr int most_iterations = 6;  // from what fits half of it
     const Wanted wanted = everything(evidence);
     const Predict predict = [&](const Hypothesis& hypothesis) { return evidence.errors(hypothesis, wanted); };
     return fit(predict, evidence.windows(), wanted, cross.of_half[0],
-               {.tolerance = 1e-8, .with_covariance = true, .threads = Threads::all});
+               {.most_iterations = most_iterations,
+                .tolerance = 1e-6,
+                .with_covariance = true,
+                .threads = Threads::all});
 }
 
 Selection select(const Evidence& evidence, const std::vector<Candidate>& candidates,

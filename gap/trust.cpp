@@ -103,16 +103,21 @@ bool has_one_face(const Remainder& whole) {
                                all[1] == name_of(Dependence::acceleration));
 }
 
-/// Of an explanation that leaves nothing: two causes of the carriage together can do what a third one does.
-/// Then one dependence is enough, of another block.
-std::optional<Trust> trust_in_two(const Evidence& evidence, const Selection& selection, double tail) {
-    if (selection.choices.size() < 2) return {};
+/// Of an explanation that leaves nothing: two causes of the carriage together can do what a third one does,
+/// and where a gap of the view is small, one of the camera what the plate does. Then one dependence is
+/// enough, of another block.
+std::optional<Trust> trust_in_another(const Evidence& evidence, const Selection& selection, double tail) {
+    const bool is_of_view = std::ranges::any_of(selection.choices, [](const Choice& choice) {
+        return choice.candidate->effect->block == "camera.geometry";
+    });
+    if (selection.choices.size() < 2 && !is_of_view) return {};
     std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
-    if (!whole || !has_one_face(*whole) || !has_stand_in(selection, *whole, 2)) return {};
+    if (!whole || !has_one_face(*whole)) return {};
+    const bool is_of_plate = whole->block == "plate";
+    if (!has_stand_in(selection, *whole, is_of_plate ? 1 : 2)) return {};
     whole->text = fmt::format(
-        "encoder: what is named predicts it, but its errors depend on {}: that is of {}, where nothing is "
-        "named",
-        whole->depends_on.front(), whole->block);
+        "{}: what is named predicts it, but its errors depend on {}: that is of {}, where nothing is named",
+        is_of_plate ? "tags" : "encoder", whole->depends_on.front(), whole->block);
     return Trust{trust_in_stand_in, std::move(*whole)};
 }
 
@@ -121,7 +126,7 @@ std::optional<Trust> trust_in_two(const Evidence& evidence, const Selection& sel
 Trust trust_of(const Evidence& evidence, const Selection& selection, const TotalGap& gap, double tail) {
     if (std::optional<Remainder> remainder = remainder_of(evidence, selection.steps.back(), tail))
         return trust_beside(evidence, selection, gap, std::move(*remainder), tail);
-    if (std::optional<Trust> trust = trust_in_two(evidence, selection, tail)) return *std::move(trust);
+    if (std::optional<Trust> trust = trust_in_another(evidence, selection, tail)) return *std::move(trust);
     const double trust = trust_in(typical_floors(evidence.windows(), selection.steps.back().mean_squares));
     return {gap.removed() < removed_at_the_floor ? std::min(trust, trust_in_its_kind) : trust, {}};
 }

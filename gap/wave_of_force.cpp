@@ -1,5 +1,7 @@
 #include "gap/wave_of_force.h"
 
+#include "gap/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,9 +27,10 @@ WaveOfForce strongest_wave(const CarriageForces& forces,
         const double lacking = forces.lacking()[support.slot];
         squares += weight(lacking) * lacking * lacking;
     }
-    WaveOfForce best;
-    for (double frequency = 1.0 / std::min(longest, span); frequency <= 1.0 / shortest;
-         frequency += 1.0 / (steps_in_a_turn * span)) {
+    const double lowest = 1.0 / std::min(longest, span), step = 1.0 / (steps_in_a_turn * span);
+    std::vector<WaveOfForce> waves(1 + static_cast<std::size_t>((1.0 / shortest - lowest) / step));
+    parallel_for(waves.size(), [&](std::size_t k) {
+        const double frequency = lowest + static_cast<double>(k) * step;
         const auto column = [&](double phase) {
             return forces.of_force(0, [&](const SlidingRow& at) {
                 return factor_V(at) * std::sin(2.0 * std::numbers::pi * frequency * quantity(at) + phase);
@@ -42,10 +45,10 @@ WaveOfForce strongest_wave(const CarriageForces& forces,
             normal += weight(lacking) * row * row.transpose();
             right += weight(lacking) * lacking * row;
         }
-        const double share = right.dot(normal.completeOrthogonalDecomposition().solve(right)) / squares;
-        if (share > best.share) best = {1.0 / frequency, share};
-    }
-    return best;
+        waves[k] = {1.0 / frequency,
+                    right.dot(normal.completeOrthogonalDecomposition().solve(right)) / squares};
+    });
+    return *std::ranges::max_element(waves, {}, &WaveOfForce::share);
 }
 
 }  // namespace fidservo::gap

@@ -55,6 +55,8 @@ struct Effect {
 struct EffectSetting {
     const Effect* effect;
     std::vector<double> values;
+
+    bool operator==(const EffectSetting&) const = default;
 };
 
 }  // namespace fidservo::plant

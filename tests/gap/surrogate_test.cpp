@@ -42,6 +42,18 @@ TEST(Surrogate, TagsOfAnotherSize_AccuseThePlate) {
     EXPECT_EQ(diagnosis.where.front().block, "plate");
 }
 
+TEST(Trust, TagsOfNearlyTheirSize_AreNoScaleOfTheCameraThoughThatLeavesNothing) {
+    Rig rig = reference_rig();
+    const auto scale_of = [&rig](std::initializer_list<std::string_view> truth) {
+        return unnamed(rig, testing::effects(truth), {"rest", "micro-servo"}, "pixel_scale");
+    };
+    EXPECT_EQ(scale_of({"pixel_scale:factor=1.0005"}).verdict, Verdict::explained);
+    rig.fiducials->side_mm *= 1.0005;
+    const Diagnosis side = scale_of({});
+    EXPECT_EQ(side.verdict, Verdict::partly_explained);
+    EXPECT_EQ(side.where.front().block, "plate");
+}
+
 /// What all corners of a detection are displaced by in the image, px, by the tag's number.
 Diagnosis with_tags_displaced(const std::function<Eigen::Vector2d(int)>& displacement_px) {
     std::vector<Recording> recordings = testing::recordings_of({}, {"macro-square", "integrated"});

@@ -98,6 +98,18 @@ TEST(SlowSelfCheck, EffectsThatHideEachOther_AreBothNamed) {
     EXPECT_TRUE(hidden.score.all_right) << line_of(hidden);
 }
 
+TEST(SlowSelfCheck, SupplyOfTheHallSensor_IsFoundThoughALittleOfItSeemsToDoHarm) {
+    const Outcome supply = case_of(2075, 171);
+    ASSERT_EQ(supply.label.effects.front().effect, "hall_gain") << "the draw has changed";
+    EXPECT_TRUE(supply.score.right_effect_first && supply.score.all_right) << line_of(supply);
+}
+
+TEST(SlowSelfCheck, SensorThatWarmsUp_IsNoOffset) {
+    const Outcome warm = case_of(2075, 9);
+    ASSERT_EQ(warm.label.effects.front().effect, "hall_drift") << "the draw has changed";
+    EXPECT_TRUE(warm.score.all_right) << line_of(warm);
+}
+
 TEST(SlowSelfCheck, TagsOfAnotherSize_AreNoScaleOfTheCamera) {
     const Outcome side = case_of(2028, 120);
     ASSERT_EQ(side.label.effects.front().effect, "tag_side") << "the draw has changed";
