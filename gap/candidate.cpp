@@ -130,6 +130,11 @@ std::vector<std::vector<double>> shapes_of(const plant::Effect& effect, const Tr
     return shapes;
 }
 
+/// Whether its fits end in many small valleys, a count apart at the end of the way.
+bool hides_within_counts(const plant::Effect& effect) {
+    return effect.block == "macro.encoder" && unrefined_parameters(effect) == 1;
+}
+
 bool names(std::span<const std::string> list, std::string_view name) {
     return std::ranges::find(list, name) != list.end();
 }
@@ -214,6 +219,9 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
             limits, [&](const Limit& limit) { return limit.plainer == name && !is_left_out(limit.richer); });
     };
     const TravelledRange range = travelled(evidence);
+    const double farthest_mm = std::max(std::abs(range.low_mm), std::abs(range.high_mm));
+    const double quarter_count =
+        0.25 * evidence.rig().macro.encoder_resolution_mm / std::max(1.0, farthest_mm);
     std::vector<Candidate> found;
     for (const plant::Effect* effect : plant::effect_catalogue()) {
         if (effect->block == "camera.image" && !recorded[index_of(Signal::image)]) continue;
@@ -227,6 +235,7 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
                             .shapes = {},
                             .wave = wave_of(*effect),
                             .patch = patch_of(*effect),
+                            .step_within_counts = hides_within_counts(*effect) ? quarter_count : 0.0,
                             .class_name = std::string(class_of(effect->name)),
                             .is_limit = left_out};
         candidate.shapes = shapes_of(*effect, range, candidate.wave.has_value());

@@ -27,6 +27,9 @@ struct Candidate {
     std::vector<std::vector<double>> shapes;  ///< all values, sizes at typical ones, shapes over a grid
     std::optional<WaveParameters> wave;       ///< of an effect periodic in position; it has one shape
     std::optional<PatchParameters> patch;     ///< of friction raised around a place
+    /// Of a false scale of the encoder: what changes the reading at the end of the way by a quarter of a
+    /// count.
+    double step_within_counts = 0.0;
     std::string class_name;  ///< effects that no data can tell apart share it, otherwise the effect's name
     /// Not to be named, but what another candidate comes to where what sets that apart vanishes: without it
     /// the richer one would be named for what it shares with the plainer.

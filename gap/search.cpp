@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace fidservo::gap {
@@ -24,10 +25,10 @@ constexpr double least_share_of_first = 1e-3;
 /// Mean square in floors of what is far off.
 constexpr double far_off_square = 9.0;
 
-/// An encoder's false scale: its fits end in many small valleys, and what they miss is more than what tells
-/// it from others.
-bool hides_within_counts(const Candidate& candidate) {
-    return candidate.effect->block == "macro.encoder" && unrefined_parameters(*candidate.effect) == 1;
+SignalFlags above(const SignalExcess& excess, double bound) {
+    SignalFlags flags{};
+    for (std::size_t s = 0; s < signal_count; ++s) flags[s] = excess[s] > bound;
+    return flags;
 }
 
 /// Of those sorted from the best on, the first that come near it, `most` at most.
@@ -84,13 +85,14 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     // What follows takes the place of what there is only where it is judged to be better, so none of it is
     // lost.
     for (Contender& leader : leaders)
-        if (hides_within_counts(*leader.trial.candidate)) fit_closer(base, leader, effort.scatters);
+        if (leader.trial.candidate->step_within_counts > 0.0) fit_closer(base, leader, effort.scatters);
     std::ranges::sort(leaders, std::greater{}, &Contender::gain);
     if (!leaders.empty()) {
         leaders = with_limits(base, all, leaders.size());
         fit_closer(base, leaders.front(), effort.scatters);
+        const Candidate* const closest = leaders.front().trial.candidate;
         leaders = with_richer(base, all, leaders.size());
-        if (!leaders.front().finding->is_close) fit_closer(base, leaders.front(), effort.scatters);
+        if (leaders.front().trial.candidate != closest) fit_closer(base, leaders.front(), effort.scatters);
         const auto chosen = leaders.begin() + static_cast<std::ptrdiff_t>(simplest(leaders));
         if (chosen != leaders.begin()) fit_closer(base, *chosen, effort.scatters);
         std::rotate(leaders.begin(), chosen, std::next(chosen));
@@ -236,28 +238,36 @@ bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
     constexpr double least_share = 0.3;
     const Comparison comparison = fitter_.compared(without, with);
     return clears_a_signal(without, with, least_share, least_share_of_first) &&
-           comparison.gain > least_gain && (is_significant(comparison) || clears_each_half(without, with));
+           comparison.gain > least_gain &&
+           (is_significant(comparison) || clears_what_is_far_off(without, with));
 }
 
-bool Search::clears_each_half(const CrossFit& without, const CrossFit& with) const {
-    constexpr int fewest_windows = 3, fewest_shapes = 6;
-    const std::vector<Window>& windows = fitter_.evidence().windows();
+bool Search::clears_what_is_far_off(const CrossFit& without, const CrossFit& with) const {
     const SignalExcess before = fitter_.excess(without.mean_squares),
                        after = fitter_.excess(with.mean_squares);
-    SignalFlags cleared{};
-    for (std::size_t s = 0; s < signal_count; ++s) cleared[s] = before[s] > 0.0 && after[s] == 0.0;
-    for (std::size_t side = 0; side < 2 && cleared != SignalFlags{}; ++side) {
+    for (std::size_t s = 0; s < signal_count; ++s)
+        if (before[s] > 0.0 && after[s] == 0.0 && is_far_off(without, static_cast<Signal>(s))) return true;
+    return false;
+}
+
+bool Search::is_far_off(const CrossFit& cross, Signal signal) const {
+    constexpr std::size_t fewest_windows = 3, fewest_of_one_half = 6, fewest_runs = 2;
+    constexpr int fewest_shapes = 6;
+    const std::vector<Window>& windows = fitter_.evidence().windows();
+    int halves = 0;
+    for (const std::size_t side : {0, 1}) {
         const Wanted half = fitter_.half(side);
-        std::array<int, signal_count> far_off{};
+        std::vector<std::size_t> runs;  // of windows far off
         for (std::size_t w = 0; w < windows.size(); ++w)
-            if (half[w] != 0 && without.mean_squares[w] > far_off_square)
-                ++far_off[index_of(windows[w].signal)];
-        for (std::size_t s = 0; s < signal_count; ++s)
-            if (cleared[s] && far_off[s] < fewest_windows)
-                cleared[s] =
-                    static_cast<Signal>(s) == Signal::tag && shapes_far_off(without, side) >= fewest_shapes;
+            if (half[w] != 0 && windows[w].signal == signal && cross.mean_squares[w] > far_off_square)
+                runs.push_back(windows[w].run);
+        if (runs.size() >= fewest_of_one_half && std::set(runs.begin(), runs.end()).size() >= fewest_runs)
+            return true;
+        if (runs.size() >= fewest_windows ||
+            (signal == Signal::tag && shapes_far_off(cross, side) >= fewest_shapes))
+            ++halves;
     }
-    return cleared != SignalFlags{};
+    return halves == 2;
 }
 
 int Search::shapes_far_off(const CrossFit& cross, std::size_t side) const {
@@ -292,10 +302,11 @@ bool Search::clears_a_signal(const CrossFit& without, const CrossFit& with, doub
 }
 
 SignalFlags Search::off(const CrossFit& fitted) const {
-    const SignalExcess excess = fitter_.excess(fitted.mean_squares);
-    SignalFlags flags{};
-    for (std::size_t s = 0; s < signal_count; ++s) flags[s] = excess[s] > 0.0;
-    return flags;
+    return above(fitter_.excess(fitted.mean_squares), 0.0);
+}
+
+SignalFlags Search::far_off(const CrossFit& fitted) const {
+    return above(fitter_.excess(fitted.mean_squares), far_off_square - 1.0);
 }
 
 bool Search::is_at_floor(const CrossFit& fitted) const {

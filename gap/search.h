@@ -101,8 +101,8 @@ class Search {
     /// what a signal exceeds its floor by: where the true law differs a little from the catalogue's, many an
     /// effect gains a little. So it does beside an effect whose law is not quite the true one: what leaves a
     /// signal off its floor has to take away a thousandth of what the signal exceeded it by at first. What
-    /// one half of the data has taught and brings three windows or more of either half, or the shapes of six
-    /// tags, from far off to the floor is no chance however few they are.
+    /// one half of the data has taught and brings three windows or more of either half, six of two runs, or
+    /// the shapes of six tags, from far off to the floor is no chance however few they are.
     bool is_real(const CrossFit& without, const CrossFit& with) const;
 
     /// Whether an effect's gain is more than chance, over all that was tried, however much it leaves.
@@ -113,6 +113,9 @@ class Search {
 
     /// Signals above their floors.
     SignalFlags off(const CrossFit& fitted) const;
+
+    /// Signals at 3 floors and more.
+    SignalFlags far_off(const CrossFit& fitted) const;
 
     /// Whether every signal is at its floor: nothing is left for another effect to explain.
     bool is_at_floor(const CrossFit& fitted) const;
@@ -195,10 +198,12 @@ class Search {
     /// share of what it exceeds it by where nothing is known.
     bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share,
                          double share_of_first = 0.0) const;
-    /// Whether a signal comes to its floor that is off by 3 floors and more in three windows of each half, or
-    /// in the shape of six tags of each half: of what does not depend on where the stages are, the errors of
-    /// one frame say nothing of the next one's.
-    bool clears_each_half(const CrossFit& without, const CrossFit& with) const;
+    /// Whether a signal comes to its floor that was far off.
+    bool clears_what_is_far_off(const CrossFit& without, const CrossFit& with) const;
+    /// Whether a signal is off by 3 floors and more in three windows of each half or in six of one half and
+    /// of two runs, or in the shape of six tags of each half: of what does not depend on where the stages
+    /// are, the errors of one frame say nothing of the next one's.
+    bool is_far_off(const CrossFit& cross, Signal signal) const;
     /// Detections of a half, predicted by what the other half has taught.
     int shapes_far_off(const CrossFit& cross, std::size_t side) const;
     /// Of leaders, best first, the one of fewest parameters among those that tie with the best, leave nothing

@@ -208,7 +208,8 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
             if (other.gain() > closer.gain()) closer = std::move(other);
         };
         const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
-        if (is_wave && scatters && is_off() && clears_a_signal(base, closer.trial.fitted, nearly_all))
+        if (is_wave && scatters && meet(far_off(closer.trial.fitted), closer.teachers()) &&
+            clears_a_signal(base, closer.trial.fitted, nearly_all))
             or_else(scattered(base, closer));
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
         if (is_off() && !is_worn_out() && clears_a_signal(base, closer.trial.fitted, worth_refining))

@@ -66,7 +66,10 @@ Search::PairAttempt Search::attempt(const CrossFit& base, const Candidate& first
 
 const std::vector<ForcePair>& Search::force_pairs(const CrossFit& base,
                                                   std::vector<const Candidate*> candidates) {
-    const Hypothesis& known = base.of_half[0];
+    Hypothesis known = base.of_half[0];
+    std::erase_if(known, [](const plant::EffectSetting& setting) {
+        return !setting.effect->block.starts_with("macro.");
+    });
     if (last_balance_.base == known && last_balance_.candidates == candidates) return last_balance_.pairs;
     const Evidence& evidence = fitter_.evidence();
     const Wanted wanted = only_of(evidence.windows(), fitter_.half(0), only(Signal::encoder));
@@ -74,7 +77,7 @@ const std::vector<ForcePair>& Search::force_pairs(const CrossFit& base,
     std::erase_if(waves, [](const Candidate* candidate) { return !candidate->wave; });
     const AlongRail along = seen_along_rail(evidence, known, wanted, waves);
     std::vector<ForcePair> pairs = strongest_force_pairs(evidence, wanted, known, candidates, along.periods);
-    last_balance_ = {known, std::move(candidates), std::move(pairs)};
+    last_balance_ = {std::move(known), std::move(candidates), std::move(pairs)};
     return last_balance_.pairs;
 }
 

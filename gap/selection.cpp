@@ -157,7 +157,8 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
             is_balanced = true;
             search.limit(true);
             is_paired = balance(search, chain, most_effects, true);
-            if (!is_paired && chain.choices.back().candidate->wave) {
+            if (!is_paired && chain.choices.back().candidate->wave &&
+                search.far_off(chain.fitted)[index_of(Signal::encoder)]) {
                 search.limit(!before.choices.empty());
                 take_in(search.try_all(before.fitted, before.candidates()));
             }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 namespace fidservo::gap {
@@ -48,6 +49,35 @@ std::vector<Promise> patches_at_first_sight(const Predict& predict, std::span<co
     return starts;
 }
 
+/// A scale in steps to both sides of none: its gain has a hill for each count at the end of the way.
+std::vector<Promise> scanned(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
+                             const Surroundings& beside, const Candidate& candidate) {
+    constexpr int most_steps = 16;
+    const std::vector<double> base_squares = mean_squares(windows, beside.errors);
+    const std::size_t size = candidate.sizes.front();
+    std::vector<Promise> starts;
+    for (int k = -most_steps; k <= most_steps; ++k) {
+        if (k == 0) continue;
+        Hypothesis part = part_of(beside.base, beside.places);
+        part.push_back({candidate.effect, candidate.shapes.front()});
+        part.back().values[size] =
+            candidate.effect->parameters[size].vanishing + k * candidate.step_within_counts;
+        const Errors errors = predict(extended(beside.base, beside.places, part));
+        starts.push_back({std::move(part), gained(windows, counted, base_squares, errors)});
+    }
+    return starts;
+}
+
+/// The best of both, none of them without a promise.
+std::vector<Promise> best_of(std::vector<Promise> starts, std::vector<Promise> more) {
+    constexpr std::size_t most = 4;
+    std::ranges::move(more, std::back_inserter(starts));
+    std::ranges::sort(starts, std::greater{}, &Promise::gain);
+    std::erase_if(starts, [](const Promise& start) { return start.gain <= 0.0; });
+    if (starts.size() > most) starts.resize(most);
+    return starts;
+}
+
 }  // namespace
 
 AlongRail seen_along_rail(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted,
@@ -72,7 +102,9 @@ std::vector<Promise> starts_of(const Candidate& candidate, const AlongRail& alon
         return waves_at_first_sight(predict, windows, counted, beside, candidate, along.periods);
     if (candidate.patch)
         return patches_at_first_sight(predict, windows, counted, beside, candidate, along.patches);
-    return at_first_sight(predict, windows, counted, beside, candidate);
+    std::vector<Promise> starts = at_first_sight(predict, windows, counted, beside, candidate);
+    if (candidate.step_within_counts == 0.0) return starts;
+    return best_of(std::move(starts), scanned(predict, windows, counted, beside, candidate));
 }
 
 }  // namespace fidservo::gap
