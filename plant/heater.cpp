@@ -3,7 +3,9 @@
 #include "core/failure.h"
 #include "core/micro_model.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fidservo::plant {
 
@@ -16,13 +18,24 @@ void heat(const Heater& heater, HeaterState& state, double command_V, double tim
         state.temp_degC = heater_step_degC(wire, state.temp_degC, command_V, time_s);
         return;
     }
-    const Eigen::Vector2d before_degC(state.temp_degC - wire.ambient_degC, state.mass_rise_degC);
-    const double phi_degC = heater_rise_degC(wire, command_V);
-    const Eigen::Vector2d after_degC = time_s == heater.tick_s
-                                           ? advance(heater.pair, before_degC, phi_degC)
-                                           : advance(heater.pair.pair, before_degC, phi_degC, time_s);
+    const double phi_degC = heater_rise_degC(wire, command_V),
+                 wire_degC = state.temp_degC - wire.ambient_degC;
+    const bool is_tick = time_s == heater.tick_s;
+    if (heater.rod) {
+        RodRise rise_degC;
+        rise_degC(0) = wire_degC;
+        std::ranges::copy(state.mass_rise_degC, rise_degC.begin() + 1);
+        rise_degC = is_tick ? advance(*heater.rod, rise_degC, phi_degC)
+                            : advance(*heater.rod, rise_degC, phi_degC, time_s);
+        state.temp_degC = wire.ambient_degC + rise_degC(0);
+        std::copy(rise_degC.begin() + 1, rise_degC.end(), state.mass_rise_degC.begin());
+        return;
+    }
+    const Eigen::Vector2d before_degC(wire_degC, state.mass_rise_degC[0]);
+    const Eigen::Vector2d after_degC = is_tick ? advance(heater.pair, before_degC, phi_degC)
+                                               : advance(heater.pair.pair, before_degC, phi_degC, time_s);
     state.temp_degC = wire.ambient_degC + after_degC.x();
-    state.mass_rise_degC = after_degC.y();
+    state.mass_rise_degC[0] = after_degC.y();
 }
 
 }  // namespace
@@ -34,13 +47,20 @@ Heater make_heater(const HeaterParameters& parameters, double tick_s, const Seco
     if (mass.coupling * (1.0 - mass.taken) >= 1.0)
         throw InputError(
             "second_thermal_mass: gives back more than it takes, and heats the wire without end");
+    const ThermalPair pair{parameters.heating_tau_s,
+                           parameters.cooling_tau_s,
+                           mass.coupling,
+                           mass.tau_s,
+                           mass.taken,
+                           mass.heating};
+    std::optional<ThermalRod> rod;
+    if (mass.coupling > 0.0 && mass.diffusion_s > 0.0) rod = thermal_rod(pair, mass.diffusion_s, tick_s);
     return {parameters,
             -std::expm1(-tick_s / parameters.heating_tau_s),
             -std::expm1(-tick_s / parameters.cooling_tau_s),
             tick_s,
-            thermal_pair_tick({parameters.heating_tau_s, parameters.cooling_tau_s, mass.coupling, mass.tau_s,
-                               mass.taken, mass.heating},
-                              tick_s),
+            thermal_pair_tick(pair, tick_s),
+            std::move(rod),
             delay_s,
             mass.coupling == 0.0 && delay_s == 0.0};
 }

@@ -8,10 +8,14 @@
 // cannot change within a tick, and an exponential with one tau is the exact solution.
 //
 // This is heater_step_degC of core/micro_model.h with the exponentials taken once. A wire that shares its
-// heat with a second mass follows plant/thermal_pair.h instead; a heater that acts late, plant/delay_line.h.
+// heat with a second mass follows plant/thermal_pair.h instead, or plant/thermal_rod.h; a heater that acts
+// late, plant/delay_line.h.
 #include "core/rig.h"
 #include "plant/delay_line.h"
-#include "plant/thermal_pair.h"
+#include "plant/thermal_rod.h"
+
+#include <array>
+#include <optional>
 
 namespace fidservo::plant {
 
@@ -21,6 +25,7 @@ struct SecondMass {
     double tau_s = 20.0;
     double taken = 1.0;
     double heating = 1.0;
+    double diffusion_s = 0.0;  ///< 0: of one temperature
 };
 
 /// Parameters and what follows from them for one tick. Immutable.
@@ -29,14 +34,16 @@ struct Heater {
     double heating_share;  ///< 1 - exp(-T / heating tau): the part of the way to phi that a tick covers
     double cooling_share;
     double tick_s;
-    ThermalPairTick pair;  ///< of wire and second mass
-    double delay_s;        ///< from a command to its effect
-    bool is_plain;         ///< neither second mass nor delay
+    ThermalPairTick pair;           ///< of wire and second mass
+    std::optional<ThermalRod> rod;  ///< the same where the mass conducts
+    double delay_s;                 ///< from a command to its effect
+    bool is_plain;                  ///< neither second mass nor delay
 };
 
 struct HeaterState {
     double temp_degC;
-    double mass_rise_degC = 0.0;  ///< of the second mass above ambient
+    /// Of the second mass above ambient, part by part; of a mass of one temperature the first one.
+    std::array<double, rod_parts> mass_rise_degC{};
     DelayLineState line = {};
 };
 

@@ -28,6 +28,9 @@ struct ThermalPair {
     double mass_tau_s;     ///< tau_b > 0
     double taken = 1.0;    ///< l >= 0
     double heating = 1.0;  ///< h > 0
+
+    /// s: of what the mass gives back, what warms the surroundings.
+    double surrounding() const;
 };
 
 /// Wire and mass above ambient in degC after a time under a constant phi (degC), however long.

@@ -78,7 +78,7 @@ TEST(Refinements, AreWhatAnEffectMayBeWithoutAndCountAsNoParameter) {
     const std::map<std::string_view, Names> expected{{"coulomb_friction", {"creep_mm_per_s"}},
                                                      {"stribeck_friction", {"creep_mm_per_s", "exponent"}},
                                                      {"rail_patch", {"creep_mm_per_s", "edge"}},
-                                                     {"second_thermal_mass", {"heating"}},
+                                                     {"second_thermal_mass", {"heating", "diffusion_s"}},
                                                      {"hall_offset", {"shift_um"}},
                                                      {"hall_drift", {"settling_per_s"}}};
     for (const auto& [name, refined] : expected) {

@@ -32,7 +32,7 @@ TEST(SecondThermalMass, CoolingAfterALongHold_HasTheTwoRatesOfThePair) {
     const StagePlant plant = plant_with("second_thermal_mass:coupling=0.4,mass_tau_s=15,taken=1");
     StageState state = after(plant, 1.6, 600000);
     EXPECT_NEAR(rise_degC(state), 272.0 * 0.3, 1e-6) << "a mass that loses heat to the wire only costs none";
-    EXPECT_NEAR(state.micro->heater.mass_rise_degC, 272.0 * 0.3, 1e-6);
+    EXPECT_NEAR(state.micro->heater.mass_rise_degC[0], 272.0 * 0.3, 1e-6);
     const double sum = 1.4 + 1.0 / 15.0, product = 1.0 / 15.0;
     const double fast = 0.5 * (sum + std::sqrt(sum * sum - 4.0 * product)), slow = product / fast;
     const double start_degC = 272.0 * 0.3, slope = -start_degC;  // both start equally hot
@@ -77,6 +77,17 @@ TEST(SecondThermalMass, ColdMass_DrawsHeatAtFirst) {
     const StagePlant nominal = make_stage_plant(reference_rig());
     const StagePlant plant = plant_with("second_thermal_mass:coupling=0.4");
     EXPECT_LT(rise_degC(after(plant, 1.6, 1000)), rise_degC(after(nominal, 1.6, 1000)) - 5.0);
+}
+
+TEST(SecondThermalMass, ThatConducts_DrawsAsMuchAtFirstAndLessAsItsNearEndWarms) {
+    const auto rise_after = [](const char* diffusion, int ticks) {
+        return rise_degC(after(
+            plant_with(std::string("second_thermal_mass:coupling=0.4,mass_tau_s=4,diffusion_s=") + diffusion),
+            1.6, ticks));
+    };
+    EXPECT_NEAR(rise_after("6", 20), rise_after("0", 20), 2e-3);
+    EXPECT_GT(rise_after("6", 2000), rise_after("0", 2000) + 1.0);
+    EXPECT_NEAR(rise_after("6", 200000), rise_after("0", 200000), 1e-3) << "it loses no heat to the room";
 }
 
 TEST(HeaterDelay, Of3700Microseconds_IsTheNominalCourseThatMuchLater) {

@@ -1,0 +1,99 @@
+#include "plant/thermal_rod.h"
+
+#include "core/failure.h"
+#include "plant/thermal_regimes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+namespace fidservo::plant {
+
+namespace {
+
+RodRegime::Matrix rates_of(const ThermalPair& pair, double diffusion_s, bool heating) {
+    const double tau_s = heating ? pair.heating_tau_s : pair.cooling_tau_s;
+    const double s = pair.surrounding(), p = std::max(1.0, pair.taken), n = rod_parts;
+    const double e = (pair.coupling - s) * (heating ? pair.heating : 1.0) / pair.cooling_tau_s;
+    const double taken = n / (p * pair.mass_tau_s), lost = (p - 1.0) / (p * pair.mass_tau_s);
+    const double conducted = n * n / diffusion_s;
+    RodRegime::Matrix rates = RodRegime::Matrix::Zero();
+    rates(0, 0) = -1.0 / tau_s - e * p;
+    rates(0, 1) = s / tau_s + e;
+    rates(1, 0) = taken * p;
+    rates(1, 1) = -taken;
+    for (int i = 1; i <= rod_parts; ++i) {
+        rates(i, i) -= lost;
+        if (i == rod_parts) break;
+        rates(i, i) -= conducted;
+        rates(i + 1, i + 1) -= conducted;
+        rates(i, i + 1) = rates(i + 1, i) = conducted;
+    }
+    return rates;
+}
+
+RodRegime regime_of(const ThermalPair& pair, double diffusion_s, bool heating, double tick_s) {
+    RodRegime regime;
+    const RodRegime::Matrix rates = regime.rates_per_s = rates_of(pair, diffusion_s, heating);
+    const double tau_s = heating ? pair.heating_tau_s : pair.cooling_tau_s;
+    regime.at_last = rates.fullPivLu().solve(RodRise::Unit(0) * (-1.0 / tau_s));
+    RodRise scale = RodRise::Constant(std::sqrt(rates(1, 0) / rates(0, 1)));
+    scale(0) = 1.0;
+    const RodRegime::Matrix symmetric = scale.cwiseInverse().asDiagonal() * rates * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<RodRegime::Matrix> solver(symmetric);
+    regime.decays_per_s = solver.eigenvalues();
+    regime.ways = scale.asDiagonal() * solver.eigenvectors();
+    regime.to_ways = solver.eigenvectors().transpose() * scale.cwiseInverse().asDiagonal();
+    const RodRise left = (regime.decays_per_s * tick_s).array().exp();
+    regime.tick_decay = regime.ways * left.asDiagonal() * regime.to_ways;
+    return regime;
+}
+
+struct Regime {
+    const RodRegime& known;
+    RodRise equilibrium_degC;
+
+    RodRise after(const RodRise& rise_degC, double time_s) const {
+        const RodRise along = known.to_ways * (rise_degC - equilibrium_degC);
+        const RodRise left = (known.decays_per_s * time_s).array().exp() * along.array();
+        return equilibrium_degC + known.ways * left;
+    }
+    RodRise per_s(const RodRise& rise_degC) const {
+        return known.rates_per_s * (rise_degC - equilibrium_degC);
+    }
+};
+
+struct Model {
+    const ThermalRod& rod;
+
+    double above_surroundings(const RodRise& rise_degC) const {
+        return rise_degC(0) - rod.pair.surrounding() * rise_degC(1);
+    }
+    Regime regime(bool heating, double phi_degC) const {
+        const RodRegime& known = heating ? rod.heating : rod.cooling;
+        return {known, phi_degC * known.at_last};
+    }
+};
+
+}  // namespace
+
+ThermalRod thermal_rod(const ThermalPair& pair, double diffusion_s, double tick_s) {
+    FIDSERVO_DEMAND(pair.coupling > 0.0 && diffusion_s > 0.0 && tick_s > 0.0);
+    return {pair, tick_s, regime_of(pair, diffusion_s, true, tick_s),
+            regime_of(pair, diffusion_s, false, tick_s)};
+}
+
+RodRise advance(const ThermalRod& rod, const RodRise& rise_degC, double phi_degC, double time_s) {
+    return through_regimes(Model{rod}, rise_degC, phi_degC, time_s);
+}
+
+RodRise advance(const ThermalRod& rod, const RodRise& rise_degC, double phi_degC) {
+    return through_tick(Model{rod}, rise_degC, phi_degC, rod.tick_s,
+                        [&](bool heating) -> const RodRegime::Matrix& {
+                            return (heating ? rod.heating : rod.cooling).tick_decay;
+                        });
+}
+
+}  // namespace fidservo::plant
