@@ -142,6 +142,12 @@ class RunPredictor {
 
     void predict_tags(Errors& errors) const {
         const SmoothedReading* reading = links_.smoothed ? &*links_.smoothed : nullptr;
+        SmoothedReading filtered;
+        if (reading != nullptr && models_.tag->micro->hall_disturbance.leak_lag_s > 0.0) {
+            filtered = *reading;
+            lag(filtered.drive_V, models_.tag->micro->hall_disturbance.leak_share(links_.tags.tick_s));
+            reading = &filtered;
+        }
         const std::span<const std::uint8_t> wanted = wanted_of(Signal::tag);
         auto window = std::ranges::find(windows_, Signal::tag, &Window::signal);
         for (std::size_t i = 0; i < wanted.size(); ++i, ++window)

@@ -23,22 +23,39 @@ class LossOfPart : public cv::MinProblemSolver::Function {
           start_(start),
           places_(places),
           part_(part_of(start, places)),
-          parameters_(part_) {}
+          parameters_(part_),
+          free_(free_of(part_, parameters_)) {}
 
-    int getDims() const override { return static_cast<int>(parameters_.size()); }
+    int getDims() const override { return static_cast<int>(free_.size()); }
     double calc(const double* scaled) const override {
         const double loss = total_loss(windows_, counted_, predict_(at(scaled)));
         return std::min(loss, 1e12);  // of what the plant refuses it is infinite
     }
 
     Hypothesis at(const double* scaled) const {
-        Hypothesis part = parameters_.at(std::span(scaled, parameters_.size()));
+        std::vector<double> values = parameters_.values;
+        for (std::size_t k = 0; k < free_.size(); ++k) values[free_[k]] = scaled[k];
+        Hypothesis part = parameters_.at(values);
         for (std::size_t k = 0; k < part.size(); ++k) keep_in_step(part_[k], part[k].values);
         return with_part(start_, places_, part);
     }
-    const std::vector<double>& start() const { return parameters_.values; }
+    std::vector<double> start() const {
+        std::vector<double> values;
+        for (const std::size_t k : free_) values.push_back(parameters_.values[k]);
+        return values;
+    }
 
   private:
+    /// All but what a wave is without: a harmonic.
+    static std::vector<std::size_t> free_of(const Hypothesis& part, const ScaledParameters& parameters) {
+        std::vector<std::size_t> free;
+        std::size_t k = 0;
+        for (const plant::EffectSetting& setting : part)
+            for (std::size_t own = 0; own < setting.values.size(); ++own, ++k)
+                if (!parameters.is_level(k) || !wave_of(*setting.effect)) free.push_back(k);
+        return free;
+    }
+
     /// Turns a wave's phase with its period.
     static void keep_in_step(const plant::EffectSetting& from, std::vector<double>& values) {
         if (const std::optional<WaveParameters> wave = wave_of(*from.effect))
@@ -53,6 +70,7 @@ class LossOfPart : public cv::MinProblemSolver::Function {
     const Places& places_;
     Hypothesis part_;
     ScaledParameters parameters_;
+    std::vector<std::size_t> free_;  ///< of the parameters
 };
 
 /// A simplex of one parameter: steps to either side as long as one leads down, then shorter ones.

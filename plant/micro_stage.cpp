@@ -30,6 +30,7 @@ MicroStage make_micro_stage(const MicroStageParameters& parameters, double tick_
                      std::nullopt,
                      make_hall_sensor(parameters.hall),
                      parameters.hall_disturbance,
+                     parameters.hall_disturbance.leak_share(tick_s),
                      nanoseconds(tick_s)};
     if (parameters.swing.gain != 0.0) stage.swing = make_platform_swing(parameters.swing, tick_s);
     return stage;
@@ -61,7 +62,7 @@ void advance(const MicroStage& stage, MicroStageState& state, double command_V,
         state.position_mm += state.swing.position_mm;
     }
     state.time_ns += stage.tick_ns;
-    state.drive_V = carriage.drive_V;
+    state.drive_V += stage.leak_share * (carriage.drive_V - state.drive_V);
 }
 
 }  // namespace fidservo::plant

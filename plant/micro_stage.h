@@ -4,7 +4,7 @@
 //
 //     x = stroke factor * Preisach(T - table shift) + z           z: plant/platform_swing.h
 //     V = Hall(x) + drift(t) + leak * u                           t from the start, u: the macro drive's
-//     voltage
+//     voltage, or that behind a filter of first order
 #include "core/preisach.h"
 #include "core/time.h"
 #include "plant/hall_sensor.h"
@@ -23,6 +23,7 @@ struct HallDisturbance {
     double drift_V_per_s = 0.0;   ///< of the zero, at first
     double settling_per_s = 0.0;  ///< rate at which that settles; 0: never
     double leak_V_per_V = 0.0;    ///< of the macro drive
+    double leak_lag_s = 0.0;      ///< time constant with which it follows the drive
 
     /// Rate t, or rate (1 - exp(-settling t)) / settling; 1 V at most.
     double drift_V(double time_s) const {
@@ -30,6 +31,11 @@ struct HallDisturbance {
         const double grown_s =
             settling_per_s == 0.0 ? time_s : -std::expm1(-settling_per_s * time_s) / settling_per_s;
         return std::clamp(drift_V_per_s * grown_s, -limit_V, limit_V);
+    }
+
+    /// Of the way to a held voltage, what is gone in a time.
+    double leak_share(double time_s) const {
+        return leak_lag_s == 0.0 ? 1.0 : -std::expm1(-time_s / leak_lag_s);
     }
 
     bool is_none() const { return drift_V_per_s == 0.0 && leak_V_per_V == 0.0; }
@@ -56,6 +62,7 @@ struct MicroStage {
     std::optional<PlatformSwing> swing;  ///< empty: none
     HallSensor hall;
     HallDisturbance hall_disturbance;
+    double leak_share;  ///< of the way to the drive's voltage that what leaks of it goes in a tick
     TimeNs tick_ns;
 
     /// Whether a tick depends on what the carriage does.
@@ -69,7 +76,7 @@ struct MicroStageState {
     NoiseStream hall_noise;
     SwingState swing = {};  ///< contained in position_mm
     TimeNs time_ns = 0;
-    double drive_V = 0.0;  ///< the macro drive's voltage in the last tick
+    double drive_V = 0.0;  ///< the macro drive's voltage in the last tick, filtered as what leaks of it
 };
 
 /// What the carriage does to the platform on it during a tick.

@@ -2,13 +2,15 @@
 // Forces by position that a carriage at rest feels too, in volts to the right. They add to the drive's
 // voltage before the dead zone, so that friction holds them while the carriage stands.
 //
-//     f(y) = A sin(2 pi y / p + phase) - k d (1 + c (d / 100 mm)^2),   d = y - y0
+//     f(y) = A (sin a + g sin 2a + h cos 2a) - k d (1 + c (d / 100 mm)^2),   a = 2 pi y / p + phase,  d = y -
+//     y0
 //
-// cogging, and the spring of the cable harness, which may harden (Duffing).
+// cogging, with a second harmonic, and the spring of the cable harness, which may harden (Duffing).
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace fidservo::plant {
 
@@ -16,6 +18,7 @@ struct StandingForce {
     double cogging_V = 0.0;
     double cogging_period_mm = 1.0;
     double cogging_phase_rad = 0.0;
+    double cogging_second_sine = 0.0, cogging_second_cosine = 0.0;  ///< g, h
     double cable_V_per_mm = 0.0;
     double cable_centre_mm = 0.0;
     double cable_hardening = 0.0;  ///< c
@@ -49,7 +52,7 @@ class StandingForceNearby {
         constexpr double per_mm = 1e-2;
         const double off_mm = position_mm - force_.cable_centre_mm, off = per_mm * off_mm;
         const double cable_V = -force_.cable_V_per_mm * off_mm * (1.0 + force_.cable_hardening * off * off);
-        return force_.cogging_V == 0.0 ? cable_V : cable_V + force_.cogging_V * sine(position_mm);
+        return force_.cogging_V == 0.0 ? cable_V : cable_V + force_.cogging_V * wave(position_mm);
     }
 
   private:
@@ -59,9 +62,16 @@ class StandingForceNearby {
         return rad_per_mm_ * position_mm + force_.cogging_phase_rad;
     }
 
-    double sine(double position_mm) const {
+    double wave(double position_mm) const {
+        const auto [sine, cosine] = sine_and_cosine(position_mm);
+        const double g = force_.cogging_second_sine, h = force_.cogging_second_cosine;
+        return g == 0.0 && h == 0.0 ? sine : sine + 2.0 * g * sine * cosine + h * (1.0 - 2.0 * sine * sine);
+    }
+
+    std::pair<double, double> sine_and_cosine(double position_mm) const {
         const double on_rad = rad_per_mm_ * (position_mm - here_mm_);
-        if (!(std::abs(on_rad) <= near_rad)) return std::sin(phase_rad(position_mm));
+        if (!(std::abs(on_rad) <= near_rad))
+            return {std::sin(phase_rad(position_mm)), std::cos(phase_rad(position_mm))};
         // Their series, Horner's way; what is left out is below 1e-17.
         constexpr std::array sine_terms{-1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6, 1.0};
         constexpr std::array cosine_terms{1.0 / 479001600, -1.0 / 3628800, 1.0 / 40320, -1.0 / 720,
@@ -72,7 +82,7 @@ class StandingForceNearby {
             return sum;
         };
         const double sine_on = on_rad * series(sine_terms), cosine_on = series(cosine_terms);
-        return sine_ * cosine_on + cosine_ * sine_on;
+        return {sine_ * cosine_on + cosine_ * sine_on, cosine_ * cosine_on - sine_ * sine_on};
     }
 
     const StandingForce& force_;

@@ -167,7 +167,9 @@ double driving_force_V(const CarriageModel& model, double command_V, double posi
     double u_V = model.drive.gain * saturated_V + model.drive.offset_V;
     if (place.cogging_V != 0.0) {
         const double angle = 2.0 * std::numbers::pi * position_mm / place.cogging_period_mm;
-        u_V += place.cogging_V * std::sin(angle + place.cogging_phase_rad);
+        u_V +=
+            place.cogging_V * (std::sin(angle + place.cogging_phase_rad) +
+                               place.cogging_second * std::sin(2.0 * angle + place.cogging_second_phase_rad));
     }
     const double off_mm = position_mm - place.cable_centre_mm;
     u_V -= place.cable_V_per_mm * (off_mm + place.cable_cubic_per_mm2 * std::pow(off_mm, 3));

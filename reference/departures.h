@@ -52,6 +52,8 @@ struct MechanicsDepartures {
     double cogging_V = 0.0;
     double cogging_period_mm = 2.0;
     double cogging_phase_rad = 0.0;
+    double cogging_second = 0.0;  ///< share of the force at half the period
+    double cogging_second_phase_rad = 0.0;
     double cable_V_per_mm = 0.0;  ///< a spring towards cable_centre_mm
     double cable_centre_mm = 100.0;
     double cable_cubic_per_mm2 = 0.0;  ///< of a spring that hardens: k d + k this d^3
@@ -108,9 +110,10 @@ struct HallDepartures {
     double cubic = 0.0;  ///< added to the file's coefficient
     double cube = 0.0;   ///< of s^3, in spans
     double drift_V_per_s = 0.0;
-    double drift_settling_s = 0.0;   ///< time constant with which it ends; 0: never
-    double crosstalk_V_per_V = 0.0;  ///< of the held motor command
-    double warm_V_per_degC = 0.0;    ///< of the wire's temperature above the nominal room
+    double drift_settling_s = 0.0;    ///< time constant with which it ends; 0: never
+    double crosstalk_V_per_V = 0.0;   ///< of the held motor command
+    double crosstalk_filter_s = 0.0;  ///< time constant of a filter that it passes; 0: none
+    double warm_V_per_degC = 0.0;     ///< of the wire's temperature above the nominal room
 };
 
 struct CameraDepartures {

@@ -34,6 +34,9 @@ void move(const RigModel& model, State& state, double macro_V, double micro_V, d
     run(model, motor, way_s,
         [&](double volts, double h_s) { advance(model.carriage, state.carriage, left * volts, h_s); });
     state.macro_V = macro_V;
+    const double filter_s = model.departures.hall.crosstalk_filter_s;
+    const double passed = filter_s > 0.0 ? 1.0 - std::exp(-way_s / filter_s) : 1.0;
+    state.leaked_V += passed * (macro_V - state.leaked_V);
     if (!model.platform) return;
     const PlatformModel& platform = *model.platform;
     PlatformState& there = *state.platform;
@@ -87,7 +90,7 @@ Reading sample(const RigModel& model, State& state) {
     reading.encoder_count =
         encoder_count(model.encoder_resolution_mm, model.departures.encoder, state.carriage.position_mm);
     if (model.platform) {
-        const HallInput input{truth(model, state).platform_mm, state.macro_V,
+        const HallInput input{truth(model, state).platform_mm, state.leaked_V,
                               static_cast<double>(state.tick) * model.tick_s,
                               state.platform->wire_degC[0] - model.platform->nominal_room_degC};
         const HallParameters& hall = model.platform->hall;

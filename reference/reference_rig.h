@@ -61,7 +61,8 @@ struct CameraState {
 /// All that a run changes. A plain value: a copy is a snapshot.
 struct State {
     std::int64_t tick = 0;
-    double macro_V = 0.0;  ///< the command in force
+    double macro_V = 0.0;   ///< the command in force
+    double leaked_V = 0.0;  ///< what the Hall sensor's line has of it
     CarriageState carriage = {};
     DelayLine macro_commands = {};
     std::optional<PlatformState> platform = {};

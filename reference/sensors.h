@@ -14,7 +14,7 @@ std::int64_t encoder_count(double resolution_mm, const EncoderDepartures& depart
 /// What the Hall sensor's voltage depends on.
 struct HallInput {
     double platform_mm;
-    double macro_V;            ///< the motor command in force
+    double macro_V;            ///< the motor command in force, filtered where the line filters it
     double time_s;             ///< since the start
     double warmer_degC = 0.0;  ///< the wire, than the nominal room
 };

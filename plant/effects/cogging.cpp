@@ -8,6 +8,8 @@ constexpr EffectParameter parameters[] = {
     {"amplitude_V", "V", 0.0, 2.0, 0.0, 0.1, "of the force"},
     {"period_mm", "mm", 0.1, 200.0, 5.0, 5.0, "on the rail"},
     {"phase_rad", "rad", -6.2831853072, 6.2831853072, 0.0, 0.0, "at the left end"},
+    {"second_sine", "", -1.0, 1.0, 0.0, 0.0, "of the second harmonic, per amplitude", 0.01},
+    {"second_cosine", "", -1.0, 1.0, 0.0, 0.0, "the same, a quarter of its wave on", 0.01},
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -15,6 +17,8 @@ void apply(PlantParameters& plant, std::span<const double> values) {
     force.cogging_V += values[0];
     force.cogging_period_mm = values[1];
     force.cogging_phase_rad = values[2];
+    force.cogging_second_sine = parameters[3].acting(values[3]);
+    force.cogging_second_cosine = parameters[4].acting(values[4]);
 }
 
 }  // namespace
@@ -24,8 +28,7 @@ extern constexpr Effect cogging{
     .block = "macro.mechanics",
     .text =
         "A force periodic in position (detent torque of the motor): w = u + A sin(2 pi y / p + phase), "
-        "before the "
-        "dead zone, which holds it while the carriage stands.",
+        "perhaps with a second harmonic, before the dead zone, which holds it while the carriage stands.",
     .source = "Hanselman, Brushless Permanent Magnet Motor Design, 2nd ed., 2003: cogging torque",
     .parameters = parameters,
     .apply = apply,

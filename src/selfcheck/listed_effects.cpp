@@ -88,6 +88,9 @@ void cogging(Departures& rig, double size_V, NoiseStream& draw) {
     rig.mechanics.cogging_V = size_V;
     rig.mechanics.cogging_period_mm = log_uniform(draw, 2.0, 20.0);
     rig.mechanics.cogging_phase_rad = phase_rad(draw);
+    if (random_sign(draw) > 0.0) return;
+    rig.mechanics.cogging_second = log_uniform(draw, 0.05, 0.3);
+    rig.mechanics.cogging_second_phase_rad = phase_rad(draw);
 }
 void cable_force(Departures& rig, double size_V_per_mm, NoiseStream& draw) {
     rig.mechanics.cable_V_per_mm = size_V_per_mm;
@@ -177,6 +180,8 @@ void hall_warm_up(Departures& rig, double size_V_per_s, NoiseStream& draw) {
 }
 void hall_crosstalk(Departures& rig, double size_V_per_V, NoiseStream& draw) {
     rig.hall.crosstalk_V_per_V = random_sign(draw) * size_V_per_V;
+    if (random_sign(draw) > 0.0) return;
+    rig.hall.crosstalk_filter_s = log_uniform(draw, 1e-3, 8e-3);
 }
 
 void pixel_scale(Departures& rig, double size, NoiseStream& draw) {

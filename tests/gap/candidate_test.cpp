@@ -80,6 +80,8 @@ TEST(Refinements, AreWhatAnEffectMayBeWithoutAndCountAsNoParameter) {
                                                      {"rail_patch", {"creep_mm_per_s", "edge"}},
                                                      {"second_thermal_mass", {"heating", "diffusion_s"}},
                                                      {"hall_offset", {"shift_um"}},
+                                                     {"hall_crosstalk", {"lag_ms"}},
+                                                     {"cogging", {"second_sine", "second_cosine"}},
                                                      {"hall_drift", {"settling_per_s"}}};
     for (const auto& [name, refined] : expected) {
         const plant::Effect& effect = *plant::find_effect(name);

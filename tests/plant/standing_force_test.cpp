@@ -10,8 +10,10 @@ namespace fidservo::plant {
 namespace {
 
 double volts_by_the_library(const StandingForce& force, double position_mm) {
-    return force.cogging_V * std::sin(2.0 * std::numbers::pi * position_mm / force.cogging_period_mm +
-                                      force.cogging_phase_rad) -
+    const double angle =
+        2.0 * std::numbers::pi * position_mm / force.cogging_period_mm + force.cogging_phase_rad;
+    return force.cogging_V * (std::sin(angle) + force.cogging_second_sine * std::sin(2.0 * angle) +
+                              force.cogging_second_cosine * std::cos(2.0 * angle)) -
            force.cable_V_per_mm * (position_mm - force.cable_centre_mm);
 }
 
@@ -22,6 +24,8 @@ TEST(StandingForceNearby, PlacesNearAndFar_GetTheForceOfTheirSine) {
     const StandingForce force{.cogging_V = 0.1,
                               .cogging_period_mm = 2.3,
                               .cogging_phase_rad = 0.7,
+                              .cogging_second_sine = 0.2,
+                              .cogging_second_cosine = -0.3,
                               .cable_V_per_mm = 0.002,
                               .cable_centre_mm = 90.0};
     StandingForceNearby nearby(force);

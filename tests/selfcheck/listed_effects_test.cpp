@@ -106,8 +106,10 @@ const std::vector<Pair>& pairs() {
              rig.mechanics.cogging_V = 0.2;
              rig.mechanics.cogging_period_mm = 5.0;
              rig.mechanics.cogging_phase_rad = 1.0;
+             rig.mechanics.cogging_second = 0.3;
+             rig.mechanics.cogging_second_phase_rad = 2.5;
          },
-         {0.2, 5.0, 1.0}},
+         {0.2, 5.0, 1.0, 0.3 * std::cos(2.5 - 2.0 * 1.0), 0.3 * std::sin(2.5 - 2.0 * 1.0)}},
         {"cable_force", [](Departures& rig) { rig.mechanics.cable_V_per_mm = 0.004; }, {0.004, 100.0, 0.0}},
         {"cable_force",
          [](Departures& rig) {
@@ -153,7 +155,13 @@ const std::vector<Pair>& pairs() {
              rig.hall.drift_settling_s = 8.0;
          },
          {4.0, 0.125}},
-        {"hall_crosstalk", [](Departures& rig) { rig.hall.crosstalk_V_per_V = 0.01; }, {10.0}},
+        {"hall_crosstalk", [](Departures& rig) { rig.hall.crosstalk_V_per_V = 0.01; }, {10.0, 0.0}},
+        {"hall_crosstalk",
+         [](Departures& rig) {
+             rig.hall.crosstalk_V_per_V = 0.01;
+             rig.hall.crosstalk_filter_s = 0.004;
+         },
+         {10.0, 4.0}},
         {"pixel_scale", [](Departures& rig) { rig.camera.scale = 1.02; }, {1.02}},
         {"camera_rotation",
          [](Departures& rig) { rig.camera.rotation_rad = std::numbers::pi / 180.0; },

@@ -67,6 +67,18 @@ TEST(HallCrosstalk, Reading_IsOfTheCommandBeforeIt) {
     EXPECT_NEAR(afterwards - before, 0.0, 4.0);
 }
 
+TEST(HallCrosstalk, BehindAFilter_FollowsTheDriveByItsExponential) {
+    constexpr double lag_s = 0.004;
+    const StagePlant plant = plant_with("hall_crosstalk:leak_mV_per_V=50,lag_ms=4");
+    StageState state = start(plant, 50.0, 1);
+    const double before = mean_reading(plant, state);
+    for (int ticks = 1; ticks <= 20; ++ticks) {
+        advance(plant, state, 4.0, 0.0);
+        EXPECT_NEAR(mean_reading(plant, state) - before,
+                    0.05 * 4.0 * lsb_per_V * -std::expm1(-0.001 * ticks / lag_s), mean_tolerance_lsb);
+    }
+}
+
 TEST(HallDisturbances, Truth_IsUntouched) {
     const std::vector<EffectSetting> both{parse_effect("hall_drift"), parse_effect("hall_crosstalk")};
     const StagePlant nominal = make_stage_plant(reference_rig());
