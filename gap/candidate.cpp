@@ -141,6 +141,10 @@ bool names(std::span<const std::string> list, std::string_view name) {
 
 }  // namespace
 
+bool is_of_wire(const Candidate& candidate) {
+    return candidate.effect->block == "micro.heater" || candidate.effect->block == "micro.hysteresis";
+}
+
 std::string_view class_of(std::string_view effect) {
     return effect == "stress_shift" ? temperature_class : effect;
 }

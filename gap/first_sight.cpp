@@ -14,20 +14,6 @@
 namespace fidservo::gap {
 namespace {
 
-/// A candidate at sizes that are shares of a shape's.
-plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>& shape,
-                           const Eigen::VectorXd& shares) {
-    std::vector<double> values = shape;
-    for (std::size_t k = 0; k < candidate.sizes.size(); ++k) {
-        const std::size_t at = candidate.sizes[k];
-        const plant::EffectParameter& parameter = candidate.effect->parameters[at];
-        values[at] = std::clamp(
-            parameter.vanishing + shares(static_cast<Eigen::Index>(k)) * (shape[at] - parameter.vanishing),
-            parameter.low, parameter.high);
-    }
-    return {candidate.effect, std::move(values)};
-}
-
 /// What moves, by some scales.
 Hypothesis moved(const ScaledParameters& parameters, const Eigen::VectorXd& scales) {
     std::vector<double> values = parameters.values;
@@ -42,7 +28,30 @@ Hypothesis moved(const Surroundings& beside, const Eigen::VectorXd& scales, plan
     return part;
 }
 
-/// Shares of some changes that make the errors smallest, weighted by the loss at the base.
+/// Errors with such shares of the changes.
+Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen::VectorXd& shares) {
+    Errors sum = base;
+    for (std::size_t k = 0; k < changes.size(); ++k)
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += static_cast<float>(shares(static_cast<Eigen::Index>(k))) * changes[k][i];
+    return sum;
+}
+
+}  // namespace
+
+plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>& shape,
+                           const Eigen::VectorXd& shares) {
+    std::vector<double> values = shape;
+    for (std::size_t k = 0; k < candidate.sizes.size(); ++k) {
+        const std::size_t at = candidate.sizes[k];
+        const plant::EffectParameter& parameter = candidate.effect->parameters[at];
+        values[at] = std::clamp(
+            parameter.vanishing + shares(static_cast<Eigen::Index>(k)) * (shape[at] - parameter.vanishing),
+            parameter.low, parameter.high);
+    }
+    return {candidate.effect, std::move(values)};
+}
+
 Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& counted, const Errors& base,
                             const std::vector<Errors>& changes) {
     const auto width = static_cast<Eigen::Index>(changes.size());
@@ -71,17 +80,6 @@ Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& count
     const Eigen::MatrixXd full = normal.selfadjointView<Eigen::Lower>();
     return full.completeOrthogonalDecomposition().solve(right);
 }
-
-/// Errors with such shares of the changes.
-Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen::VectorXd& shares) {
-    Errors sum = base;
-    for (std::size_t k = 0; k < changes.size(); ++k)
-        for (std::size_t i = 0; i < sum.size(); ++i)
-            sum[i] += static_cast<float>(shares(static_cast<Eigen::Index>(k))) * changes[k][i];
-    return sum;
-}
-
-}  // namespace
 
 Surroundings surroundings(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
                           const Hypothesis& base, const Errors& base_errors, const Places& places) {

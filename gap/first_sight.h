@@ -7,6 +7,8 @@
 
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace fidservo::gap {
 
 /// What candidates are looked at beside: a base, of which those settings may move that they are coupled with.
@@ -22,6 +24,14 @@ struct Surroundings {
 /// @param counted  windows that `predict` predicts
 Surroundings surroundings(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
                           const Hypothesis& base, const Errors& base_errors, const Places& places);
+
+/// A candidate at sizes that are shares of a shape's.
+plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>& shape,
+                           const Eigen::VectorXd& shares);
+
+/// Shares of some changes that make the errors smallest, weighted by the loss at the base.
+Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& counted, const Errors& base,
+                            const std::vector<Errors>& changes);
 
 struct Promise {
     Hypothesis start;  ///< the settings that may move, then the candidate

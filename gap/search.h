@@ -39,7 +39,7 @@ struct Effort {
 struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
     /// After which it is exhausted (Evidence::effort): about 20 s of two cores for a campaign of 5 minutes.
-    double most_effort = 4'800.0;
+    double most_effort = 5'500.0;
     /// Asked at every prediction. Once true fits end at once, and what the search returns is worth nothing.
     std::function<bool()> stop = {};
     double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search
@@ -80,10 +80,13 @@ class Search {
     std::optional<Pair> balanced_pair(const CrossFit& base, std::span<const Candidate* const> added,
                                       bool only_needed);
 
-    /// The same of all pairs of simple effects that meet in a signal that is off, from typical sizes on:
-    /// beside what one of the two has been taken for alone, the other may promise nothing, and no slope leads
-    /// out of there.
+    /// The same of all pairs of simple effects of the carriage that the balance does not show both, from
+    /// typical sizes on: beside what one of the two has been taken for alone, the other may promise nothing,
+    /// and no slope leads out of there.
     std::optional<Pair> best_pair(const CrossFit& base, std::span<const Candidate* const> added);
+
+    /// The same of the pairs of the wire that promise most (gap/pair_sight.h).
+    std::optional<Pair> wire_pair(const CrossFit& base, std::span<const Candidate* const> added);
 
     /// Takes over from a whole, which is the base and a candidate at a place, what it has found for that one:
     /// try_all beside this base then fits only what promises about as much.
@@ -138,6 +141,7 @@ class Search {
     const std::vector<ForcePair>& force_pairs(const CrossFit& base, std::vector<const Candidate*> candidates);
     std::vector<PairAttempt> by_typical_sizes(const CrossFit& base,
                                               std::vector<const Candidate*> candidates) const;
+    std::vector<PairAttempt> by_sight(const CrossFit& base, std::vector<const Candidate*> candidates) const;
     /// On both halves, from such a start of the first one.
     void fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start) const;
     std::optional<Pair> best_of(const CrossFit& base, std::vector<PairAttempt> attempts);

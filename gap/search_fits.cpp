@@ -254,7 +254,7 @@ Search::Contender Search::refined(const CrossFit& base, const Contender& contend
     };
     const CrossFit& fitted = contender.trial.fitted;
     const Places places = contender.fitted_places(base);
-    std::vector<Attempt> attempts;
+    std::vector<Attempt> attempts{{0, fitted.of_half[0]}};
     for (const std::vector<Refined>& added : ways_to_refine(fitted.of_half[0], places))
         attempts.push_back({added.size(), with_values(fitted.of_half[0], added)});
     parallel_for(attempts.size(), [&](std::size_t k) {
@@ -262,6 +262,10 @@ Search::Contender Search::refined(const CrossFit& base, const Contender& contend
                                        {.most_iterations = first_iterations});
         attempts[k].start = std::move(first.hypothesis);
         attempts[k].loss = first.loss;
+    });
+    const double plain = attempts.front().loss;
+    std::erase_if(attempts, [&](const Attempt& attempt) {
+        return attempt.added == 0 || attempt.loss > plain - least_gain;
     });
     std::ranges::sort(attempts, {}, &Attempt::loss);
     if (attempts.size() > most_fitted_on) attempts.resize(most_fitted_on);

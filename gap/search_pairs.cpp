@@ -1,5 +1,6 @@
 // Two effects at once, where each hides the other.
 #include "gap/contender.h"
+#include "gap/pair_sight.h"
 #include "gap/parallel.h"
 #include "gap/search.h"
 #include "gap/starts.h"
@@ -13,14 +14,11 @@
 namespace fidservo::gap {
 namespace {
 
-/// What a fit finds from typical values, without looking for a shape: of the carriage, where friction lets go
-/// by jumps and slopes mislead, and of the wire, where one cause stands in for two; where each prediction is
-/// quick.
+/// What a fit finds from typical values, without looking for a shape, of the carriage, where friction lets go
+/// by jumps and slopes mislead.
 bool is_plain(const Candidate& candidate) {
-    const std::string_view block = candidate.effect->block;
-    const bool is_of_wire = block == "micro.heater" || block == "micro.hysteresis";
     const bool knows_its_shape = candidate.sizes.size() == unrefined_parameters(*candidate.effect);
-    return !candidate.is_limit && (is_of_wire || (block.starts_with("macro.") && knows_its_shape));
+    return !candidate.is_limit && candidate.effect->block.starts_with("macro.") && knows_its_shape;
 }
 
 /// At its typical sizes, and at the opposite ones where it has them.
@@ -111,6 +109,22 @@ std::vector<Search::PairAttempt> Search::by_typical_sizes(const CrossFit& base,
     return attempts;
 }
 
+std::vector<Search::PairAttempt> Search::by_sight(const CrossFit& base,
+                                                  std::vector<const Candidate*> candidates) const {
+    constexpr std::size_t most = 6;
+    std::erase_if(candidates,
+                  [](const Candidate* candidate) { return candidate->is_limit || !is_of_wire(*candidate); });
+    SignalFlags seen{};
+    for (const Candidate* candidate : candidates) seen = either(seen, teachers_of(*candidate->effect));
+    const Wanted wanted = fitter_.instructive_of(0, seen, base.mean_squares);
+    std::vector<PairAttempt> attempts;
+    for (PairSight& pair : pairs_at_first_sight(fitter_.predictor(wanted), fitter_.evidence().windows(),
+                                                wanted, base.of_half[0], candidates))
+        if (attempts.size() < most)
+            attempts.push_back(attempt(base, *pair.first, *pair.second, std::move(pair.settings)));
+    return attempts;
+}
+
 std::optional<Pair> Search::best_of(const CrossFit& base, std::vector<PairAttempt> attempts) {
     const auto fit_on = [&](int most_iterations) {
         parallel_for(attempts.size(), [&](std::size_t k) {
@@ -198,6 +212,10 @@ std::optional<Pair> Search::balanced_pair(const CrossFit& base, std::span<const 
 
 std::optional<Pair> Search::best_pair(const CrossFit& base, std::span<const Candidate* const> added) {
     return best_of(base, by_typical_sizes(base, in_question(base, added)));
+}
+
+std::optional<Pair> Search::wire_pair(const CrossFit& base, std::span<const Candidate* const> added) {
+    return best_of(base, by_sight(base, in_question(base, added)));
 }
 
 }  // namespace fidservo::gap

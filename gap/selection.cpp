@@ -10,6 +10,9 @@
 namespace fidservo::gap {
 namespace {
 
+/// Of a signal's excess, what two effects that are taken in at once have to take away.
+constexpr double nearly_all = 0.98;
+
 /// The explanation as it grows.
 struct Chain {
     std::vector<Choice> choices;
@@ -126,7 +129,6 @@ Chain rest_of(const Search& search, const Chain& chain, const SignalFlags& signa
 /// @param only_needed  two that the balance needs both
 /// @return whether anything changed
 bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
-    constexpr double nearly_all = 0.98;
     if (!search.off(chain.fitted)[index_of(Signal::encoder)]) return false;
     const Chain rest = rest_of(search, chain, only(Signal::encoder));
     if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
@@ -135,11 +137,11 @@ bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
                         only_needed);
 }
 
-/// Takes in what is best, as long as it is no chance; for a carriage that one effect leaves off, two at once,
-/// before a wave is looked for among many values.
+/// Takes in what is best, as long as it is no chance; for a carriage or a wire that one effect leaves off,
+/// two at once, of a carriage before a wave is looked for among many values.
 /// @return whether a pair took the place of something
 bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step) {
-    bool is_balanced = false, is_paired = false;
+    bool is_balanced = false, is_paired = false, is_of_two = false;
     while (static_cast<int>(chain.choices.size()) < most_effects) {
         const Chain before = chain;
         std::vector<Trial> trials =
@@ -151,7 +153,8 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
             search.limit(false);
             chain = grown(search, before, std::move(found));
         };
-        const bool moves_carriage = teachers_of(*trials.front().candidate->effect)[index_of(Signal::encoder)];
+        const bool moves_carriage = teachers_of(*trials.front().candidate->effect)[index_of(Signal::encoder)],
+                   moves_wire = is_of_wire(*trials.front().candidate);
         take_in(std::move(trials));
         if (moves_carriage && !is_balanced) {
             is_balanced = true;
@@ -164,6 +167,13 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
             }
         }
         search.limit(true);
+        if (moves_wire && !is_of_two && !search.leaves_little(chain.fitted) &&
+            static_cast<int>(before.choices.size()) + 2 <= most_effects) {
+            is_of_two = true;
+            if (take_in_pair(search, chain, before, search.wire_pair(before.fitted, before.candidates()),
+                             nearly_all, false))
+                is_paired = true;
+        }
         if (search.is_at_floor(chain.fitted)) return is_paired;
     }
     return is_paired;

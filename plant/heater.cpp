@@ -14,7 +14,7 @@ namespace {
 /// Any part of a tick, with or without a second mass.
 void heat(const Heater& heater, HeaterState& state, double command_V, double time_s) {
     const HeaterParameters& wire = heater.parameters;
-    if (heater.pair.pair.coupling == 0.0) {
+    if (!heater.has_mass) {
         state.temp_degC = heater_step_degC(wire, state.temp_degC, command_V, time_s);
         return;
     }
@@ -33,7 +33,7 @@ void heat(const Heater& heater, HeaterState& state, double command_V, double tim
     }
     const Eigen::Vector2d before_degC(wire_degC, state.mass_rise_degC[0]);
     const Eigen::Vector2d after_degC = is_tick ? advance(heater.pair, before_degC, phi_degC)
-                                               : advance(heater.pair.pair, before_degC, phi_degC, time_s);
+                                               : advance(heater.pair, before_degC, phi_degC, time_s);
     state.temp_degC = wire.ambient_degC + after_degC.x();
     state.mass_rise_degC[0] = after_degC.y();
 }
@@ -62,6 +62,7 @@ Heater make_heater(const HeaterParameters& parameters, double tick_s, const Seco
             thermal_pair_tick(pair, tick_s),
             std::move(rod),
             delay_s,
+            mass.coupling > 0.0,
             mass.coupling == 0.0 && delay_s == 0.0};
 }
 

@@ -37,7 +37,8 @@ struct Heater {
     ThermalPairTick pair;           ///< of wire and second mass
     std::optional<ThermalRod> rod;  ///< the same where the mass conducts
     double delay_s;                 ///< from a command to its effect
-    bool is_plain;                  ///< neither second mass nor delay
+    bool has_mass;
+    bool is_plain;  ///< neither second mass nor delay
 };
 
 struct HeaterState {

@@ -17,6 +17,8 @@
 // rounding, and what is left of the tick has the other regime. Source: two lumped capacitances, Incropera,
 // DeWitt, Fundamentals of Heat and Mass Transfer, 6th ed., 2007, ch. 5; matrix exponential of a 2 x 2 matrix:
 // Bernstein, So, IEEE Trans. Automatic Control 38(8), 1993.
+#include "plant/thermal_regimes.h"
+
 #include <Eigen/Core>
 
 namespace fidservo::plant {
@@ -37,16 +39,20 @@ struct ThermalPair {
 Eigen::Vector2d advance(const ThermalPair& pair, const Eigen::Vector2d& rise_degC, double phi_degC,
                         double time_s);
 
-/// A pair over ticks of one length, what decays in one of them computed once.
+/// A pair over ticks of one length.
 struct ThermalPairTick {
-    ThermalPair pair;
     double time_s;
-    Eigen::Matrix2d heating_decay, cooling_decay;  ///< y(time_s) = decay y(0), by regime
+    double surrounding;  ///< s
+    ThermalRegime<2> heating, cooling;
 };
 
 ThermalPairTick thermal_pair_tick(const ThermalPair& pair, double time_s);
 
-/// Wire and mass above ambient in degC after a tick under a constant phi (degC).
+/// Wire and mass above ambient in degC after a time under a constant phi (degC), however long.
+Eigen::Vector2d advance(const ThermalPairTick& tick, const Eigen::Vector2d& rise_degC, double phi_degC,
+                        double time_s);
+
+/// The same after a tick.
 Eigen::Vector2d advance(const ThermalPairTick& tick, const Eigen::Vector2d& rise_degC, double phi_degC);
 
 }  // namespace fidservo::plant

@@ -3,7 +3,31 @@
 // linear within a regime, which may change within a tick.
 #include <optional>
 
+#include <Eigen/Core>
+
 namespace fidservo::plant {
+
+/// One regime, over ticks of one length: dy/dt = A (y - phi e), y what rises above ambient, the wire first.
+template <int size>
+struct ThermalRegime {
+    using Rise = Eigen::Matrix<double, size, 1>;
+    using Matrix = Eigen::Matrix<double, size, size>;
+
+    Matrix rates_per_s;  ///< A
+    Rise at_last;        ///< e
+    Matrix tick_decay;   ///< exp(A tick)
+    Rise
+        turning_per_s;  ///< how fast the wire's rise above its surroundings changes, per deviation from phi e
+};
+
+/// @param surrounding  s: the wire's surroundings rise by s times the second value
+/// @param decay        exp(A tick)
+template <int size>
+ThermalRegime<size> thermal_regime(const Eigen::Matrix<double, size, size>& rates_per_s,
+                                   const Eigen::Matrix<double, size, 1>& at_last,
+                                   const Eigen::Matrix<double, size, size>& decay, double surrounding) {
+    return {rates_per_s, at_last, decay, (rates_per_s.row(0) - surrounding * rates_per_s.row(1)).transpose()};
+}
 
 /// When a condition that holds at first and not at the end ceases to hold: bisection.
 template <class Condition>
@@ -17,59 +41,47 @@ double end_of(const Condition& holds, double end_s) {
     return after_s;
 }
 
-/// When the regime ends, if it does within a time; it may come back before the end, as the wire's rise above
-/// its surroundings turns at most once.
-/// @param model  .above_surroundings(rise_degC), linear: the heater drives the wire upwards while it is less
-///               than phi
-/// @param regime  .after(rise_degC, time_s), and .per_s(rise_degC)
-template <class Model, class Regime, class State>
-std::optional<double> passing_time_s(const Model& model, const Regime& regime, const State& start_degC,
-                                     double phi_degC, bool heating, double end_s) {
-    const auto rises = [&](double time_s) {
-        return model.above_surroundings(regime.per_s(regime.after(start_degC, time_s))) > 0.0;
-    };
-    const auto keeps_side = [&](double time_s) {
-        return (model.above_surroundings(regime.after(start_degC, time_s)) < phi_degC) == heating;
-    };
-    const bool rises_first = rises(0.0);
-    const double turn_s = rises(end_s) == rises_first
-                              ? end_s
-                              : end_of([&](double time_s) { return rises(time_s) == rises_first; }, end_s);
-    for (const double until_s : {turn_s, end_s})
-        if (!keeps_side(until_s)) return end_of(keeps_side, until_s);
-    return std::nullopt;
-}
-
 /// What rises above ambient, degC, after a time under a constant phi, however long.
-/// @param model  as above, with .regime(heating, phi_degC)
-template <class Model, class State>
-State through_regimes(const Model& model, State rise_degC, double phi_degC, double time_s) {
-    bool heating = model.above_surroundings(rise_degC) < phi_degC;
-    for (;;) {
-        const auto regime = model.regime(heating, phi_degC);
-        const auto pass_s = passing_time_s(model, regime, rise_degC, phi_degC, heating, time_s);
-        if (!pass_s) return regime.after(rise_degC, time_s);
-        rise_degC = regime.after(rise_degC, *pass_s);
+/// @param model  .surrounding(), .regime(heating), and .decayed(regime, deviation, time_s): what is left of a
+///               deviation from the regime's equilibrium
+template <class Model, class Rise>
+Rise through_regimes(const Model& model, Rise rise_degC, double phi_degC, double time_s) {
+    const auto heats = [&](const Rise& at_degC) {
+        return at_degC(0) - model.surrounding() * at_degC(1) < phi_degC;
+    };
+    bool heating = heats(rise_degC);
+    for (;; heating = !heating) {
+        const auto& regime = model.regime(heating);
+        const Rise equilibrium_degC = phi_degC * regime.at_last, start_degC = rise_degC - equilibrium_degC;
+        const auto after = [&](double at_s) { return model.decayed(regime, start_degC, at_s); };
+        const auto rises = [&](double at_s) { return regime.turning_per_s.dot(after(at_s)) > 0.0; };
+        const auto keeps_side = [&](double at_s) { return heats(equilibrium_degC + after(at_s)) == heating; };
+        // The regime may come back before the end: the wire's rise above its surroundings turns at most once.
+        const bool rises_first = rises(0.0);
+        const double turn_s = rises(time_s) == rises_first
+                                  ? time_s
+                                  : end_of([&](double at_s) { return rises(at_s) == rises_first; }, time_s);
+        std::optional<double> pass_s;
+        for (const double until_s : {turn_s, time_s})
+            if (!pass_s && !keeps_side(until_s)) pass_s = end_of(keeps_side, until_s);
+        rise_degC = equilibrium_degC + after(pass_s.value_or(time_s));
+        if (!pass_s) return rise_degC;
         time_s -= *pass_s;
-        heating = !heating;
     }
 }
 
 /// The same after a tick.
-/// @param decay  of (heating): what is left of a deviation from the regime's equilibrium after a tick
-template <class Model, class State, class Decay>
-State through_tick(const Model& model, const State& rise_degC, double phi_degC, double tick_s,
-                   const Decay& decay) {
-    const bool heating = model.above_surroundings(rise_degC) < phi_degC;
-    const auto regime = model.regime(heating, phi_degC);
-    const State end_degC = regime.equilibrium_degC + decay(heating) * (rise_degC - regime.equilibrium_degC);
-    const auto rises = [&](const State& at_degC) {
-        return model.above_surroundings(regime.per_s(at_degC)) > 0.0;
-    };
-    const bool keeps_side = (model.above_surroundings(end_degC) < phi_degC) == heating;
-    return rises(rise_degC) != rises(end_degC) || !keeps_side
-               ? through_regimes(model, rise_degC, phi_degC, tick_s)
-               : end_degC;
+template <class Model, class Rise>
+Rise through_tick(const Model& model, const Rise& rise_degC, double phi_degC, double tick_s) {
+    const double s = model.surrounding();
+    const bool heating = rise_degC(0) - s * rise_degC(1) < phi_degC;
+    const auto& regime = model.regime(heating);
+    const Rise equilibrium_degC = phi_degC * regime.at_last, start_degC = rise_degC - equilibrium_degC,
+               left_degC = regime.tick_decay * start_degC, end_degC = equilibrium_degC + left_degC;
+    const bool turns =
+        (regime.turning_per_s.dot(start_degC) > 0.0) != (regime.turning_per_s.dot(left_degC) > 0.0);
+    const bool keeps_side = (end_degC(0) - s * end_degC(1) < phi_degC) == heating;
+    return turns || !keeps_side ? through_regimes(model, rise_degC, phi_degC, tick_s) : end_degC;
 }
 
 }  // namespace fidservo::plant

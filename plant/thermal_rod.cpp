@@ -1,7 +1,6 @@
 #include "plant/thermal_rod.h"
 
 #include "core/failure.h"
-#include "plant/thermal_regimes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,45 +34,30 @@ RodRegime::Matrix rates_of(const ThermalPair& pair, double diffusion_s, bool hea
 }
 
 RodRegime regime_of(const ThermalPair& pair, double diffusion_s, bool heating, double tick_s) {
-    RodRegime regime;
-    const RodRegime::Matrix rates = regime.rates_per_s = rates_of(pair, diffusion_s, heating);
+    const RodRegime::Matrix rates = rates_of(pair, diffusion_s, heating);
     const double tau_s = heating ? pair.heating_tau_s : pair.cooling_tau_s;
-    regime.at_last = rates.fullPivLu().solve(RodRise::Unit(0) * (-1.0 / tau_s));
+    const RodRise at_last = rates.fullPivLu().solve(RodRise::Unit(0) * (-1.0 / tau_s));
     RodRise scale = RodRise::Constant(std::sqrt(rates(1, 0) / rates(0, 1)));
     scale(0) = 1.0;
     const RodRegime::Matrix symmetric = scale.cwiseInverse().asDiagonal() * rates * scale.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<RodRegime::Matrix> solver(symmetric);
-    regime.decays_per_s = solver.eigenvalues();
-    regime.ways = scale.asDiagonal() * solver.eigenvectors();
-    regime.to_ways = solver.eigenvectors().transpose() * scale.cwiseInverse().asDiagonal();
-    const RodRise left = (regime.decays_per_s * tick_s).array().exp();
-    regime.tick_decay = regime.ways * left.asDiagonal() * regime.to_ways;
-    return regime;
+    const RodRegime::Matrix ways = scale.asDiagonal() * solver.eigenvectors();
+    const RodRegime::Matrix to_ways = solver.eigenvectors().transpose() * scale.cwiseInverse().asDiagonal();
+    const RodRise left = (solver.eigenvalues() * tick_s).array().exp();
+    const RodRegime::Matrix tick_decay = ways * left.asDiagonal() * to_ways;
+    return {thermal_regime<1 + rod_parts>(rates, at_last, tick_decay, pair.surrounding()),
+            solver.eigenvalues(), ways, to_ways};
 }
-
-struct Regime {
-    const RodRegime& known;
-    RodRise equilibrium_degC;
-
-    RodRise after(const RodRise& rise_degC, double time_s) const {
-        const RodRise along = known.to_ways * (rise_degC - equilibrium_degC);
-        const RodRise left = (known.decays_per_s * time_s).array().exp() * along.array();
-        return equilibrium_degC + known.ways * left;
-    }
-    RodRise per_s(const RodRise& rise_degC) const {
-        return known.rates_per_s * (rise_degC - equilibrium_degC);
-    }
-};
 
 struct Model {
     const ThermalRod& rod;
 
-    double above_surroundings(const RodRise& rise_degC) const {
-        return rise_degC(0) - rod.pair.surrounding() * rise_degC(1);
-    }
-    Regime regime(bool heating, double phi_degC) const {
-        const RodRegime& known = heating ? rod.heating : rod.cooling;
-        return {known, phi_degC * known.at_last};
+    double surrounding() const { return rod.surrounding; }
+    const RodRegime& regime(bool heating) const { return heating ? rod.heating : rod.cooling; }
+    static RodRise decayed(const RodRegime& regime, const RodRise& deviation, double time_s) {
+        const RodRise along = regime.to_ways * deviation;
+        const RodRise left = (regime.decays_per_s * time_s).array().exp() * along.array();
+        return regime.ways * left;
     }
 };
 
@@ -81,7 +65,7 @@ struct Model {
 
 ThermalRod thermal_rod(const ThermalPair& pair, double diffusion_s, double tick_s) {
     FIDSERVO_DEMAND(pair.coupling > 0.0 && diffusion_s > 0.0 && tick_s > 0.0);
-    return {pair, tick_s, regime_of(pair, diffusion_s, true, tick_s),
+    return {tick_s, pair.surrounding(), regime_of(pair, diffusion_s, true, tick_s),
             regime_of(pair, diffusion_s, false, tick_s)};
 }
 
@@ -90,10 +74,7 @@ RodRise advance(const ThermalRod& rod, const RodRise& rise_degC, double phi_degC
 }
 
 RodRise advance(const ThermalRod& rod, const RodRise& rise_degC, double phi_degC) {
-    return through_tick(Model{rod}, rise_degC, phi_degC, rod.tick_s,
-                        [&](bool heating) -> const RodRegime::Matrix& {
-                            return (heating ? rod.heating : rod.cooling).tick_decay;
-                        });
+    return through_tick(Model{rod}, rise_degC, phi_degC, rod.tick_s);
 }
 
 }  // namespace fidservo::plant

@@ -21,23 +21,20 @@ inline constexpr int rod_parts = 3;
 /// Wire, then the rod's parts from the wire on, above ambient in degC; those in the units of the pair's mass.
 using RodRise = Eigen::Matrix<double, 1 + rod_parts, 1>;
 
-/// One regime: rates of the deviation from an equilibrium, and their eigenvectors.
-struct RodRegime {
-    using Matrix = Eigen::Matrix<double, 1 + rod_parts, 1 + rod_parts>;
-    Matrix rates_per_s;
-    RodRise at_last;  ///< the equilibrium per phi
-    RodRise decays_per_s;
+/// One regime, with the eigenvectors of its rates.
+struct RodRegime : ThermalRegime<1 + rod_parts> {
+    Rise decays_per_s;
     Matrix ways, to_ways;  ///< eigenvectors, and their inverse
-    Matrix tick_decay;     ///< of a deviation over a tick
 };
 
-/// Parameters and what follows from them for a tick.
+/// What follows from a rod's parameters for a tick.
 struct ThermalRod {
-    ThermalPair pair;  ///< coupling > 0
     double tick_s;
+    double surrounding;  ///< s
     RodRegime heating, cooling;
 };
 
+/// @param pair  of coupling > 0
 /// @param diffusion_s  tau_d > 0
 ThermalRod thermal_rod(const ThermalPair& pair, double diffusion_s, double tick_s);
 

@@ -11,8 +11,8 @@ constexpr EffectParameter parameters[] = {
      "what the mass takes per what it gives back; 1: it loses heat to the wire only; 0: it is the wire's "
      "surroundings"},
     {"heating", "", 1.0, 2.6, 1.0, 1.0, "conductance while the wire heats, per that while it cools", 0.02},
-    {"diffusion_s", "s", 0.0, 30.0, 0.0, 0.0,
-     "the mass's length^2 over its diffusivity; 0: of one temperature", 0.1},
+    {"diffusion_s", "s", 0.0, 10.0, 0.0, 0.0,
+     "the mass's length^2 over its diffusivity; 0: of one temperature", 0.25},
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
