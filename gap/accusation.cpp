@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace fidservo::gap {
 namespace {
 
 /// Floors along the motion of tags that stand.
 constexpr double far_at_rest = 3.0;
-
-/// Stages that move less than this displace no tag by their time, mm/s.
-constexpr double at_rest_mm_per_s = 1.0;
 
 std::string_view carriage_block(std::optional<Dependence> dependence) {
     if (dependence == Dependence::command || dependence == Dependence::command_share ||
@@ -72,6 +71,17 @@ bool off(const Pattern& pattern, Signal signal) {
 /// share of the encoder's floors; where the encoder reads falsely, by more.
 constexpr double between_counts = 2.0;
 
+/// The standard deviation of a normal distribution that four of five errors say: where a few frames mislead
+/// the place within a count, tags that stand are far off for the rest of a window.
+double typical(std::vector<double> absolute_errors) {
+    constexpr double share = 0.8, deviations = 1.2816;
+    if (absolute_errors.empty()) return 0.0;
+    const auto at = absolute_errors.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(absolute_errors.size() - 1));
+    std::ranges::nth_element(absolute_errors, at);
+    return *at / deviations;
+}
+
 bool has_no_tags(const Pattern& pattern) {
     return pattern.floors[index_of(Signal::tag)] == 0.0;
 }
@@ -93,7 +103,8 @@ Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, co
         const std::size_t s = index_of(gap.signal);
         pattern.floors[s] = gap.after / gap.floor / std::sqrt(expected[s] / counts[s]);
     }
-    double along = 0.0, across = 0.0, count = 0.0, at_rest = 0.0, count_at_rest = 0.0;
+    double along = 0.0, across = 0.0, count = 0.0;
+    std::vector<double> at_rest;
     for (const Window& window : evidence.windows()) {
         if (window.signal != Signal::tag) continue;
         for (std::size_t k = window.begin; k + corner_values <= window.end; k += corner_values) {
@@ -101,17 +112,14 @@ Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, co
             const double square = std::pow(errors[k], 2);
             along += square;
             const std::size_t detection = window.first_detection + (k - window.begin) / corner_values;
-            if (std::abs(sight_of(evidence, window.run, detection).velocity_mm_per_s) < at_rest_mm_per_s) {
-                at_rest += square;
-                count_at_rest += 1.0;
-            }
+            if (sight_of(evidence, window.run, detection).has_stood) at_rest.push_back(std::abs(errors[k]));
             for (std::size_t i = 1; i < corner_values; ++i) across += std::pow(errors[k + i], 2);
             count += 1.0;
         }
     }
     if (count == 0.0) return pattern;
     pattern.tag_along = std::sqrt(along / count);
-    if (count_at_rest > 0.0) pattern.tag_at_rest = std::sqrt(at_rest / count_at_rest);
+    pattern.tag_at_rest = typical(std::move(at_rest));
     pattern.tag_across = std::sqrt(across / (count * (corner_values - 1)));
     return pattern;
 }

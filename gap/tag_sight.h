@@ -13,6 +13,7 @@ struct TagSight {
     double position_mm;        ///< of the carriage
     double velocity_mm_per_s;  ///< of carriage and platform together
     double contraction_mm, time_s;
+    bool has_stood;  ///< whether nothing has moved for 100 ms, some frames
 };
 
 /// By the readings. @param detection  of a recording, as in Window::first_detection

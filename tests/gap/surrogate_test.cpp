@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,6 +63,29 @@ Diagnosis with_tags_displaced(const std::function<Eigen::Vector2d(int)>& displac
             for (Eigen::Vector2d& corner : detection.corners_px) corner += displacement_px(detection.tag_id);
     return diagnose(Evidence(reference_rig(), std::move(recordings)),
                     {.only = {"clock_skew"}, .without = {}, .selection = {}});
+}
+
+TEST(Surrogate, FramesThatRepeatTheOneBefore_AccuseTheTiming) {
+    std::vector<Recording> recordings = testing::recordings_of({}, {"macro-square", "integrated"});
+    for (Recording& recording : recordings) {
+        NoiseStream random(7, "stale frames");
+        std::map<int, TagDetection> before, here;
+        TimeNs frame_ns = 0;
+        bool is_stale = false;
+        for (TagDetection& detection : recording.detections) {
+            if (detection.time_ns != frame_ns) {
+                before = std::exchange(here, {});
+                frame_ns = detection.time_ns;
+                is_stale = random.uniform() < 0.1;
+            }
+            if (is_stale && before.contains(detection.tag_id))
+                detection.corners_px = before.at(detection.tag_id).corners_px;
+            here[detection.tag_id] = detection;
+        }
+    }
+    const Diagnosis diagnosis = diagnose(Evidence(reference_rig(), std::move(recordings)),
+                                         {.only = {"clock_skew"}, .without = {}, .selection = {}});
+    EXPECT_EQ(diagnosis.where.front().block, "camera.timing") << first_dependence(diagnosis);
 }
 
 TEST(Surrogate, PlateThatIsTurned_IsToldFromACameraThatIs) {
