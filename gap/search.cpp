@@ -314,10 +314,14 @@ bool Search::is_at_floor(const CrossFit& fitted) const {
 }
 
 bool Search::leaves_little(const CrossFit& fitted) const {
-    const SignalExcess excess = fitter_.excess(fitted.mean_squares);
     for (std::size_t s = 0; s < signal_count; ++s)
-        if (excess[s] > least_share_of_first * first_excess_[s]) return false;
+        if (!leaves_little(fitted, static_cast<Signal>(s))) return false;
     return true;
+}
+
+bool Search::leaves_little(const CrossFit& fitted, Signal signal) const {
+    const std::size_t s = index_of(signal);
+    return fitter_.excess(fitted.mean_squares)[s] <= least_share_of_first * first_excess_[s];
 }
 
 bool Search::ties(const CrossFit& best, const CrossFit& other) const {

@@ -126,6 +126,9 @@ class Search {
     /// Whether no signal exceeds its floor by as much as a further effect has to take away of it.
     bool leaves_little(const CrossFit& fitted) const;
 
+    /// Whether a signal does not.
+    bool leaves_little(const CrossFit& fitted, Signal signal) const;
+
     /// Whether what the other lacks to the best is no more than chance.
     bool ties(const CrossFit& best, const CrossFit& other) const;
 

@@ -212,7 +212,9 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
             clears_a_signal(base, closer.trial.fitted, nearly_all))
             or_else(scattered(base, closer));
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
-        if (is_off() && !is_worn_out() && clears_a_signal(base, closer.trial.fitted, worth_refining))
+        // A wave that is still looked for has none.
+        if ((!is_wave || scatters) && is_off() && !is_worn_out() &&
+            clears_a_signal(base, closer.trial.fitted, worth_refining))
             or_else(refined(base, closer));
         if (!is_wave && is_off() && !is_worn_out() &&
             (moves_tags || clears_a_signal(base, closer.trial.fitted, nearly_all)))
@@ -244,8 +246,10 @@ Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& cont
 }
 
 Search::Contender Search::refined(const CrossFit& base, const Contender& contender) const {
-    constexpr int first_iterations = 4;
-    constexpr std::size_t most_fitted_on = 3;
+    // A prediction of the wire is dear, and its losses are smooth: briefly is enough to tell the best.
+    const bool is_of_wire = contender.teachers()[index_of(Signal::hall)];
+    const int first_iterations = is_of_wire ? 10 : 4;
+    const std::size_t most_fitted_on = is_of_wire ? 1 : 3;
     struct Attempt {
         std::size_t added;
         Hypothesis start;
