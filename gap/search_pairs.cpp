@@ -118,10 +118,16 @@ std::vector<Search::PairAttempt> Search::by_sight(const CrossFit& base,
     for (const Candidate* candidate : candidates) seen = either(seen, teachers_of(*candidate->effect));
     const Wanted wanted = fitter_.instructive_of(0, seen, base.mean_squares);
     std::vector<PairAttempt> attempts;
-    for (PairSight& pair : pairs_at_first_sight(fitter_.predictor(wanted), fitter_.evidence().windows(),
-                                                wanted, base.of_half[0], candidates))
-        if (attempts.size() < most)
-            attempts.push_back(attempt(base, *pair.first, *pair.second, std::move(pair.settings)));
+    std::vector<PairSight> pairs = pairs_at_first_sight(
+        fitter_.predictor(wanted), fitter_.evidence().windows(), wanted, base.of_half[0], candidates);
+    if (pairs.size() > most) pairs.resize(most);
+    for (PairSight& pair : pairs) {
+        attempts.push_back(attempt(base, *pair.first, *pair.second, std::move(pair.settings)));
+        // Far off, what is best nearby may lead elsewhere.
+        for (const plant::EffectSetting& one : typical_of_both_signs(*pair.first))
+            for (const plant::EffectSetting& other : typical_of_both_signs(*pair.second))
+                attempts.push_back(attempt(base, *pair.first, *pair.second, {one, other}));
+    }
     return attempts;
 }
 
