@@ -313,15 +313,16 @@ bool Search::is_at_floor(const CrossFit& fitted) const {
     return off(fitted) == SignalFlags{};
 }
 
-bool Search::leaves_little(const CrossFit& fitted) const {
+SignalFlags Search::leaves_much(const CrossFit& fitted) const {
+    const SignalExcess excess = fitter_.excess(fitted.mean_squares);
+    SignalFlags flags{};
     for (std::size_t s = 0; s < signal_count; ++s)
-        if (!leaves_little(fitted, static_cast<Signal>(s))) return false;
-    return true;
+        flags[s] = excess[s] > least_share_of_first * first_excess_[s];
+    return flags;
 }
 
-bool Search::leaves_little(const CrossFit& fitted, Signal signal) const {
-    const std::size_t s = index_of(signal);
-    return fitter_.excess(fitted.mean_squares)[s] <= least_share_of_first * first_excess_[s];
+bool Search::leaves_little(const CrossFit& fitted) const {
+    return leaves_much(fitted) == SignalFlags{};
 }
 
 bool Search::ties(const CrossFit& best, const CrossFit& other) const {

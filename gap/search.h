@@ -123,11 +123,11 @@ class Search {
     /// Whether every signal is at its floor: nothing is left for another effect to explain.
     bool is_at_floor(const CrossFit& fitted) const;
 
-    /// Whether no signal exceeds its floor by as much as a further effect has to take away of it.
-    bool leaves_little(const CrossFit& fitted) const;
+    /// Signals that exceed their floors by as much as a further effect has to take away of them.
+    SignalFlags leaves_much(const CrossFit& fitted) const;
 
-    /// Whether a signal does not.
-    bool leaves_little(const CrossFit& fitted, Signal signal) const;
+    /// Whether no signal does.
+    bool leaves_little(const CrossFit& fitted) const;
 
     /// Whether what the other lacks to the best is no more than chance.
     bool ties(const CrossFit& best, const CrossFit& other) const;
@@ -138,6 +138,9 @@ class Search {
     struct PairAttempt;
     PairAttempt attempt(const CrossFit& base, const Candidate& first, const Candidate& second,
                         Hypothesis settings) const;
+    /// At the typical sizes of both, of both signs.
+    void add_typical(const CrossFit& base, const Candidate& first, const Candidate& second,
+                     std::vector<PairAttempt>& attempts) const;
     std::vector<PairAttempt> by_force(const CrossFit& base, std::vector<const Candidate*> candidates,
                                       bool only_needed);
     /// Pairs of candidates that the balance shows. The last ones are kept.

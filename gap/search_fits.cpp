@@ -246,10 +246,11 @@ Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& cont
 }
 
 Search::Contender Search::refined(const CrossFit& base, const Contender& contender) const {
-    // A prediction of the wire is dear, and its losses are smooth: briefly is enough to tell the best.
-    const bool is_of_wire = contender.teachers()[index_of(Signal::hall)];
-    const int first_iterations = is_of_wire ? 10 : 4;
-    const std::size_t most_fitted_on = is_of_wire ? 1 : 3;
+    // A prediction of the Hall reading is dear, and its losses are smooth: briefly is enough to tell the
+    // best.
+    const bool shows_in_hall = contender.teachers()[index_of(Signal::hall)];
+    const int first_iterations = shows_in_hall ? 10 : 4;
+    const std::size_t most_fitted_on = shows_in_hall ? 1 : 3;
     struct Attempt {
         std::size_t added;
         Hypothesis start;

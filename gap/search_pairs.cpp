@@ -62,6 +62,13 @@ Search::PairAttempt Search::attempt(const CrossFit& base, const Candidate& first
     return {&first, &second, fitted_with_pair(base, first), std::move(start)};
 }
 
+void Search::add_typical(const CrossFit& base, const Candidate& first, const Candidate& second,
+                         std::vector<PairAttempt>& attempts) const {
+    for (const plant::EffectSetting& one : typical_of_both_signs(first))
+        for (const plant::EffectSetting& other : typical_of_both_signs(second))
+            attempts.push_back(attempt(base, first, second, {one, other}));
+}
+
 const std::vector<ForcePair>& Search::force_pairs(const CrossFit& base,
                                                   std::vector<const Candidate*> candidates) {
     Hypothesis known = base.of_half[0];
@@ -102,9 +109,7 @@ std::vector<Search::PairAttempt> Search::by_typical_sizes(const CrossFit& base,
             if (first.class_name == second.class_name || (is_balanced(first) && is_balanced(second)) ||
                 !meet(teachers_of(*first.effect), teachers_of(*second.effect)))
                 continue;
-            for (const plant::EffectSetting& one : typical_of_both_signs(first))
-                for (const plant::EffectSetting& other : typical_of_both_signs(second))
-                    attempts.push_back(attempt(base, first, second, {one, other}));
+            add_typical(base, first, second, attempts);
         }
     return attempts;
 }
@@ -124,9 +129,7 @@ std::vector<Search::PairAttempt> Search::by_sight(const CrossFit& base,
     for (PairSight& pair : pairs) {
         attempts.push_back(attempt(base, *pair.first, *pair.second, std::move(pair.settings)));
         // Far off, what is best nearby may lead elsewhere.
-        for (const plant::EffectSetting& one : typical_of_both_signs(*pair.first))
-            for (const plant::EffectSetting& other : typical_of_both_signs(*pair.second))
-                attempts.push_back(attempt(base, *pair.first, *pair.second, {one, other}));
+        add_typical(base, *pair.first, *pair.second, attempts);
     }
     return attempts;
 }

@@ -167,7 +167,7 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
             }
         }
         search.limit(true);
-        if (moves_wire && !is_of_two && !search.leaves_little(chain.fitted, Signal::hall) &&
+        if (moves_wire && !is_of_two && search.leaves_much(chain.fitted)[index_of(Signal::hall)] &&
             static_cast<int>(before.choices.size()) + 2 <= most_effects) {
             is_of_two = true;
             if (take_in_pair(search, chain, before, search.wire_pair(before.fitted, before.candidates()),
