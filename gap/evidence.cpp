@@ -2,12 +2,14 @@
 
 #include "core/failure.h"
 #include "gap/evidence_parts.h"
+#include "gap/wire_path.h"
 #include "plant/effects/catalogue.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace fidservo::gap {
 
@@ -145,7 +147,9 @@ class RunPredictor {
         SmoothedReading filtered;
         if (reading != nullptr && models_.tag->micro->hall_disturbance.leak_lag_s > 0.0) {
             filtered = *reading;
-            lag(filtered.drive_V, models_.tag->micro->hall_disturbance.leak_share(links_.tags.tick_s));
+            filtered.drive_V =
+                behind_lag(std::move(filtered.drive_V), models_.tag->micro->hall_disturbance.leak_lag_s,
+                           links_.tags.tick_s);
             reading = &filtered;
         }
         const std::span<const std::uint8_t> wanted = wanted_of(Signal::tag);

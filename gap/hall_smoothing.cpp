@@ -144,11 +144,6 @@ SmoothedReading smoothed_reading(const PlatformRun& run, std::span<const double>
     return found;
 }
 
-void lag(std::vector<double>& values, double share) {
-    for (std::size_t k = 1; k < values.size(); ++k)
-        values[k] = values[k - 1] + share * (values[k] - values[k - 1]);
-}
-
 double changed_lsb(const SmoothedReading& reading, std::size_t from, std::size_t to) {
     const double m = reading.readings[from], n = reading.readings[to];
     const double apart = to > from ? static_cast<double>(to - from) : static_cast<double>(from - to);

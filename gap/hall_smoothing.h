@@ -32,10 +32,6 @@ SmoothedReading smoothed_reading(const PlatformRun& run, std::span<const double>
                                  double command_limit_V);
 
 /// Standard deviation of what the error changes by from one row to another. Of means over m and n readings, c
-/// What a filter of first order lets through of values, row by row.
-/// @param share  of the way to the next value that it goes in a row
-void lag(std::vector<double>& values, double share);
-
 /// of them the same, with noise of sigma each: sigma sqrt(1/m + 1/n - 2c/mn).
 double changed_lsb(const SmoothedReading& reading, std::size_t from, std::size_t to);
 

@@ -33,14 +33,4 @@ std::vector<float> behind_play(std::vector<float> path_mm, double width_mm) {
     return path_mm;
 }
 
-std::vector<float> behind_lag(std::vector<float> values, double tau_s, double tick_s) {
-    const double share = -std::expm1(-tick_s / tau_s);
-    double memory = values.empty() ? 0.0 : static_cast<double>(values.front());
-    for (float& value : values) {
-        if (std::isfinite(value)) memory += share * (static_cast<double>(value) - memory);
-        value = static_cast<float>(memory);
-    }
-    return values;
-}
-
 }  // namespace fidservo::gap

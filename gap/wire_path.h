@@ -2,6 +2,7 @@
 // What the wire of a rig file does at the temperatures of a recording, and what the platform makes of it.
 #include "gap/evidence.h"
 
+#include <cmath>
 #include <vector>
 
 namespace fidservo::gap {
@@ -15,6 +16,15 @@ std::vector<float> wire_path_mm(const Evidence& evidence, std::size_t run);
 std::vector<float> behind_play(std::vector<float> path_mm, double width_mm);
 
 /// The same values behind a lag of first order. Values that are not finite do not count.
-std::vector<float> behind_lag(std::vector<float> values, double tau_s, double tick_s);
+template <class Value>
+std::vector<Value> behind_lag(std::vector<Value> values, double tau_s, double tick_s) {
+    const double share = -std::expm1(-tick_s / tau_s);
+    double memory = values.empty() ? 0.0 : static_cast<double>(values.front());
+    for (Value& value : values) {
+        if (std::isfinite(value)) memory += share * (static_cast<double>(value) - memory);
+        value = static_cast<Value>(memory);
+    }
+    return values;
+}
 
 }  // namespace fidservo::gap
