@@ -54,16 +54,22 @@ Rise through_regimes(const Model& model, Rise rise_degC, double phi_degC, double
         const auto& regime = model.regime(heating);
         const Rise equilibrium_degC = phi_degC * regime.at_last, start_degC = rise_degC - equilibrium_degC;
         const auto after = [&](double at_s) { return model.decayed(regime, start_degC, at_s); };
-        const auto rises = [&](double at_s) { return regime.turning_per_s.dot(after(at_s)) > 0.0; };
-        const auto keeps_side = [&](double at_s) { return heats(equilibrium_degC + after(at_s)) == heating; };
+        const auto rises = [&](const Rise& deviation_degC) {
+            return regime.turning_per_s.dot(deviation_degC) > 0.0;
+        };
+        const auto keeps_side = [&](const Rise& deviation_degC) {
+            return heats(equilibrium_degC + deviation_degC) == heating;
+        };
+        const Rise left_degC = after(time_s);
         // The regime may come back before the end: the wire's rise above its surroundings turns at most once.
-        const bool rises_first = rises(0.0);
-        const double turn_s = rises(time_s) == rises_first
-                                  ? time_s
-                                  : end_of([&](double at_s) { return rises(at_s) == rises_first; }, time_s);
+        const bool rises_first = rises(start_degC), turns = rises(left_degC) != rises_first;
+        if (!turns && keeps_side(left_degC)) return equilibrium_degC + left_degC;
+        const double turn_s =
+            turns ? end_of([&](double at_s) { return rises(after(at_s)) == rises_first; }, time_s) : time_s;
         std::optional<double> pass_s;
         for (const double until_s : {turn_s, time_s})
-            if (!pass_s && !keeps_side(until_s)) pass_s = end_of(keeps_side, until_s);
+            if (!pass_s && !keeps_side(after(until_s)))
+                pass_s = end_of([&](double at_s) { return keeps_side(after(at_s)); }, until_s);
         rise_degC = equilibrium_degC + after(pass_s.value_or(time_s));
         if (!pass_s) return rise_degC;
         time_s -= *pass_s;
