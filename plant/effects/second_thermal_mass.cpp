@@ -1,12 +1,14 @@
 #include "plant/effects/effect.h"
 
+#include <algorithm>
+
 namespace fidservo::plant::effects {
 
 namespace {
 
 constexpr EffectParameter parameters[] = {
-    {"coupling", "", 0.0, 2.0, 0.0, 0.25, "what the mass gives back, as conductance per that to the room"},
-    {"mass_tau_s", "s", 1.0, 300.0, 20.0, 20.0, "time constant of the mass"},
+    {"conductance", "", 0.0, 5.0, 0.0, 0.25, "from the wire to the mass, per that to the room"},
+    {"mass_tau_s", "s", 1.0, 1000.0, 20.0, 20.0, "the mass's heat capacity over that conductance"},
     {"taken", "", 0.0, 20.0, 1.0, 1.0,
      "what the mass takes per what it gives back; 1: it loses heat to the wire only; 0: it is the wire's "
      "surroundings"},
@@ -16,7 +18,8 @@ constexpr EffectParameter parameters[] = {
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
-    plant.micro->mass = {values[0], values[1], values[2], parameters[3].acting(values[3]),
+    const double lost = std::max(1.0, values[2]);  // by the mass, to the room too, per what it gives back
+    plant.micro->mass = {values[0] / lost, values[1] / lost, values[2], parameters[3].acting(values[3]),
                          parameters[4].acting(values[4])};
 }
 
@@ -26,11 +29,11 @@ extern constexpr Effect second_thermal_mass{
     .name = "second_thermal_mass",
     .block = "micro.heater",
     .text =
-        "Plates or the mount store heat and slow the cooling later on. With q, b the rise of wire and "
-        "mass above the room: dq/dt = (phi - q) / tau - coupling / tau_c (taken q - b), mass_tau db/dt = "
-        "q - b; tau is the heating time constant while phi > q, else the cooling one, tau_c. What is not "
-        "taken warms the wire's surroundings (plant/thermal_pair.h). A mass that conducts is a rod of three "
-        "parts (plant/thermal_rod.h).",
+        "Plates or the mount store heat and slow the cooling later on. With q, m the rise of wire and "
+        "mass above the room: dq/dt = (phi - q) / tau - conductance / tau_c (q - m), mass_tau dm/dt = "
+        "q - m - (taken - 1) m; tau is the heating time constant while phi > q, else the cooling one, tau_c. "
+        "Below 1, what is not taken warms the wire's surroundings (plant/thermal_pair.h). A mass that "
+        "conducts is a rod of three parts (plant/thermal_rod.h).",
     .source =
         "Incropera, DeWitt, Fundamentals of Heat and Mass Transfer, 6th ed., 2007, ch. 5: two lumped "
         "capacitances",

@@ -29,7 +29,7 @@ TEST(HeatingLag, Heating_HasAnotherTimeConstantAndCoolingHasNot) {
 }
 
 TEST(SecondThermalMass, CoolingAfterALongHold_HasTheTwoRatesOfThePair) {
-    const StagePlant plant = plant_with("second_thermal_mass:coupling=0.4,mass_tau_s=15,taken=1");
+    const StagePlant plant = plant_with("second_thermal_mass:conductance=0.4,mass_tau_s=15,taken=1");
     StageState state = after(plant, 1.6, 600000);
     EXPECT_NEAR(rise_degC(state), 272.0 * 0.3, 1e-6) << "a mass that loses heat to the wire only costs none";
     EXPECT_NEAR(state.micro->heater.mass_rise_degC[0], 272.0 * 0.3, 1e-6);
@@ -63,7 +63,7 @@ TEST(SecondThermalMass, AsSurroundingsOrWithinTheWiresOwnRate_FollowsThoseEquati
         return wire;
     };
     const auto plant_after = [&](const std::string& effect) {
-        const StagePlant plant = plant_with("second_thermal_mass:coupling=0.2,mass_tau_s=5," + effect);
+        const StagePlant plant = plant_with("second_thermal_mass:conductance=0.2,mass_tau_s=5," + effect);
         StageState state = after(plant, 1.6, 2000);
         for (int k = 0; k < 1000; ++k) advance(plant, state, 0.0, 0.0);
         return rise_degC(state);
@@ -73,17 +73,27 @@ TEST(SecondThermalMass, AsSurroundingsOrWithinTheWiresOwnRate_FollowsThoseEquati
                 1e-3);
 }
 
+/// Settles where what the wire is given is lost by it and, through the mass, by that: by conductances in
+/// series.
+TEST(SecondThermalMass, ThatLosesHeatToTheRoom_SettlesByConductancesInSeries) {
+    constexpr double conductance = 0.4, to_room = 0.6;
+    const StagePlant plant = plant_with("second_thermal_mass:conductance=0.4,mass_tau_s=3,taken=2.5");
+    const double through_mass = conductance * to_room / (conductance + to_room);
+    EXPECT_NEAR(rise_degC(after(plant, 1.6, 100000)), 272.0 * 0.3 / (1.0 + 0.55 * through_mass), 1e-6);
+}
+
 TEST(SecondThermalMass, ColdMass_DrawsHeatAtFirst) {
     const StagePlant nominal = make_stage_plant(reference_rig());
-    const StagePlant plant = plant_with("second_thermal_mass:coupling=0.4");
+    const StagePlant plant = plant_with("second_thermal_mass:conductance=0.4");
     EXPECT_LT(rise_degC(after(plant, 1.6, 1000)), rise_degC(after(nominal, 1.6, 1000)) - 5.0);
 }
 
 TEST(SecondThermalMass, ThatConducts_DrawsAsMuchAtFirstAndLessAsItsNearEndWarms) {
     const auto rise_after = [](const char* diffusion, int ticks) {
-        return rise_degC(after(
-            plant_with(std::string("second_thermal_mass:coupling=0.4,mass_tau_s=4,diffusion_s=") + diffusion),
-            1.6, ticks));
+        return rise_degC(
+            after(plant_with(std::string("second_thermal_mass:conductance=0.4,mass_tau_s=4,diffusion_s=") +
+                             diffusion),
+                  1.6, ticks));
     };
     EXPECT_NEAR(rise_after("6", 20), rise_after("0", 20), 2e-3);
     EXPECT_GT(rise_after("6", 2000), rise_after("0", 2000) + 1.0);
