@@ -1,6 +1,6 @@
 #include "gap/force_pairs.h"
 
-#include "gap/fit.h"
+#include "gap/balance_fit.h"
 #include "gap/parallel.h"
 #include "gap/score.h"
 
@@ -180,81 +180,64 @@ std::vector<ForcePair> best_along_shapes(const Products& products, std::span<con
     return pairs;
 }
 
-/// From there on in all parameters, and in those that an effect may be without.
-class BalanceFit {
-  public:
-    BalanceFit(const ForceBalance& balance, std::span<const Window> windows, const Wanted& wanted,
-               const Hypothesis& base)
-        : windows_(windows), wanted_(wanted), predict_([&](const Hypothesis& settings) {
-              Hypothesis whole = base;
-              whole.insert(whole.end(), settings.begin(), settings.end());
-              return balance.excess_in_own_deviations(whole);
-          }) {}
+void take(Fit fitted, ForcePair& pair) {
+    pair.settings = std::move(fitted.hypothesis);
+    pair.loss = fitted.loss;
+}
 
-    void fit(ForcePair& pair) const { take(gap::fit(predict_, windows_, wanted_, pair.settings), pair); }
-
-    void refine(ForcePair& pair) const {
-        const ForcePair plain = pair;
-        for (std::size_t place = 0; place < plain.settings.size(); ++place)
-            for (const Refinement& refinement : refinements_of(*plain.settings[place].effect))
-                for (const double value : refinement.values) {
-                    Hypothesis start = plain.settings;
-                    start[place].values[refinement.parameter] = value;
-                    Fit refined = gap::fit(predict_, windows_, wanted_, start);
-                    if (refined.loss < pair.loss - least_gain) take(std::move(refined), pair);
-                }
-    }
-
-    /// Whether each of the two takes away a good part of what the other leaves alone.
-    bool needs_both(const ForcePair& pair) const {
-        constexpr double most_left = 0.8;
-        return std::ranges::all_of(pair.settings, [&](const plant::EffectSetting& alone) {
-            return pair.loss < most_left * gap::fit(predict_, windows_, wanted_, {alone}).loss;
-        });
-    }
-
-    /// With all values of those parameters that the balance does not depend on.
-    std::vector<Hypothesis> with_unseen(const ForcePair& pair) const {
-        std::vector<Hypothesis> all{pair.settings};
-        const Errors here = predict_(pair.settings);
-        for (const std::size_t place : {0, 1}) {
-            const Candidate& candidate = place == 0 ? *pair.first : *pair.second;
-            for (std::size_t k = 0; k < candidate.effect->parameters.size(); ++k) {
-                std::vector<double> values{pair.settings[place].values[k]};
-                for (const std::vector<double>& shape : candidate.shapes) {
-                    Hypothesis other = pair.settings;
-                    other[place].values[k] = shape[k];
-                    if (std::ranges::find(values, shape[k]) == values.end() && is_same(here, predict_(other)))
-                        values.push_back(shape[k]);
-                }
-                std::vector<Hypothesis> more;
-                for (const Hypothesis& start : all)
-                    for (const double value : values) {
-                        more.push_back(start);
-                        more.back()[place].values[k] = value;
-                    }
-                all = std::move(more);
+/// In those parameters too that an effect may be without.
+void refine(const BalanceFit& balanced, ForcePair& pair) {
+    const ForcePair plain = pair;
+    for (std::size_t place = 0; place < plain.settings.size(); ++place)
+        for (const Refinement& refinement : refinements_of(*plain.settings[place].effect))
+            for (const double value : refinement.values) {
+                Hypothesis start = plain.settings;
+                start[place].values[refinement.parameter] = value;
+                Fit refined = balanced.fit(start);
+                if (refined.loss < pair.loss - least_gain) take(std::move(refined), pair);
             }
+}
+
+/// Whether each of the two takes away a good part of what the other leaves alone.
+bool needs_both(const BalanceFit& balanced, const ForcePair& pair) {
+    constexpr double most_left = 0.8;
+    return std::ranges::all_of(pair.settings, [&](const plant::EffectSetting& alone) {
+        return pair.loss < most_left * balanced.fit({alone}).loss;
+    });
+}
+
+bool is_same(const Errors& one, const Errors& other) {
+    return std::ranges::equal(one, other, [](float left, float right) {
+        return left == right || (std::isnan(left) && std::isnan(right));
+    });
+}
+
+/// With all values of those parameters that the balance does not depend on.
+std::vector<Hypothesis> with_unseen(const BalanceFit& balanced, const ForcePair& pair) {
+    std::vector<Hypothesis> all{pair.settings};
+    const Errors here = balanced.errors(pair.settings);
+    for (const std::size_t place : {0, 1}) {
+        const Candidate& candidate = place == 0 ? *pair.first : *pair.second;
+        for (std::size_t k = 0; k < candidate.effect->parameters.size(); ++k) {
+            std::vector<double> values{pair.settings[place].values[k]};
+            for (const std::vector<double>& shape : candidate.shapes) {
+                Hypothesis other = pair.settings;
+                other[place].values[k] = shape[k];
+                if (std::ranges::find(values, shape[k]) == values.end() &&
+                    is_same(here, balanced.errors(other)))
+                    values.push_back(shape[k]);
+            }
+            std::vector<Hypothesis> more;
+            for (const Hypothesis& start : all)
+                for (const double value : values) {
+                    more.push_back(start);
+                    more.back()[place].values[k] = value;
+                }
+            all = std::move(more);
         }
-        return all;
     }
-
-  private:
-    static void take(Fit fitted, ForcePair& pair) {
-        pair.settings = std::move(fitted.hypothesis);
-        pair.loss = fitted.loss;
-    }
-
-    static bool is_same(const Errors& one, const Errors& other) {
-        return std::ranges::equal(one, other, [](float left, float right) {
-            return left == right || (std::isnan(left) && std::isnan(right));
-        });
-    }
-
-    std::span<const Window> windows_;
-    const Wanted& wanted_;
-    Predict predict_;
-};
+    return all;
+}
 
 /// Whether a pair leaves so much more than the best one that what the balance does not see of it cannot
 /// matter.
@@ -282,16 +265,16 @@ std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wan
         if (pairs.size() > most) pairs.resize(most);
     };
     keep_best(most_fitted);
-    parallel_for(pairs.size(), [&](std::size_t k) { balanced.fit(pairs[k]); });
+    parallel_for(pairs.size(), [&](std::size_t k) { take(balanced.fit(pairs[k].settings), pairs[k]); });
     keep_best(most_pairs);
-    parallel_for(pairs.size(), [&](std::size_t k) { balanced.refine(pairs[k]); });
+    parallel_for(pairs.size(), [&](std::size_t k) { refine(balanced, pairs[k]); });
     keep_best(most_pairs);
     if (pairs.empty()) return pairs;
     const double best = pairs.front().loss;
     std::erase_if(pairs, [&](const ForcePair& pair) { return is_hopeless(pair.loss, best); });
     parallel_for(pairs.size(), [&](std::size_t k) {
-        pairs[k].needs_both = balanced.needs_both(pairs[k]);
-        pairs[k].starts = balanced.with_unseen(pairs[k]);
+        pairs[k].needs_both = needs_both(balanced, pairs[k]);
+        pairs[k].starts = with_unseen(balanced, pairs[k]);
     });
     return pairs;
 }

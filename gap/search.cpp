@@ -294,10 +294,13 @@ bool Search::clears_a_signal(const CrossFit& without, const CrossFit& with, doub
                              double share_of_first) const {
     const SignalExcess before = fitter_.excess(without.mean_squares),
                        after = fitter_.excess(with.mean_squares);
-    for (std::size_t s = 0; s < signal_count; ++s)
+    constexpr double near_floor = 0.5, hardly_any = 0.05;
+    for (std::size_t s = 0; s < signal_count; ++s) {
+        const bool is_as_good_as_cleared = after[s] < near_floor && after[s] <= hardly_any * before[s];
         if (after[s] < (1.0 - share) * before[s] &&
-            (after[s] == 0.0 || before[s] - after[s] >= share_of_first * first_excess_[s]))
+            (is_as_good_as_cleared || before[s] - after[s] >= share_of_first * first_excess_[s]))
             return true;
+    }
     return false;
 }
 

@@ -36,6 +36,9 @@ struct Effort {
     bool scatters = true;
 };
 
+/// Share of a signal's excess that a wave takes away where its place and period are nearly right.
+inline constexpr double in_its_valley = 0.999;
+
 struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
     /// After which it is exhausted (Evidence::effort): about 20 s of two cores for a campaign of 5 minutes.
@@ -94,6 +97,10 @@ class Search {
 
     /// Fits those parameters of a cross fit again, from where they are, that meet some signals.
     void fit_again(CrossFit& cross, const SignalFlags& signals) const;
+
+    /// A whole, whose last effect is a candidate, with that and what it meets fitted closer.
+    /// @param base  that it is told from: without the last effect at least
+    CrossFit closer(const CrossFit& base, CrossFit whole, const Candidate& last) const;
 
     /// Signals at whose fits an effect of a cross fit has a say (gap/cross_fit.h).
     SignalFlags concerned_by(const Candidate& candidate, const CrossFit& whole) const {
@@ -186,14 +193,14 @@ class Search {
     /// effort: a single effect that is not close by then may be a compromise of two.
     void fit_closer(const CrossFit& base, Contender& contender, bool scatters = true,
                     double share_of_effort = 0.25) const;
-    /// The pair with both fitted closer.
-    Pair closer(const CrossFit& base, Pair pair) const;
     /// The pair with an effect's limit in its place, where it does no worse than by chance.
     Pair in_plain_form(const CrossFit& base, Pair pair) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                  double step_scales) const;
     /// A wave, from the best of many values.
     Contender scattered(const CrossFit& base, const Contender& contender) const;
+    /// Each half from what the other one has found, where that fits it better than its own.
+    Contender crossed(const CrossFit& base, const Contender& contender) const;
     /// With one or two refinements of what is fitted, from any of their values: where a fit has begun
     /// without, no slope leads to them, and from afar they only seem to do harm.
     Contender refined(const CrossFit& base, const Contender& contender) const;

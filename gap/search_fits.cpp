@@ -2,6 +2,7 @@
 #include "gap/contender.h"
 #include "gap/parallel.h"
 #include "gap/polish.h"
+#include "gap/score.h"
 #include "gap/search.h"
 #include "gap/wave_scatter.h"
 
@@ -213,9 +214,10 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
             or_else(scattered(base, closer));
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
         // A wave that is still looked for has none.
-        if ((!is_wave || scatters) && is_off() && !is_worn_out() &&
-            clears_a_signal(base, closer.trial.fitted, worth_refining))
+        if (is_off() && !is_worn_out() &&
+            clears_a_signal(base, closer.trial.fitted, is_wave ? in_its_valley : worth_refining))
             or_else(refined(base, closer));
+        if (is_off()) or_else(crossed(base, closer));
         if (!is_wave && is_off() && !is_worn_out() &&
             (moves_tags || clears_a_signal(base, closer.trial.fitted, nearly_all)))
             or_else(by_simplex(closer));
@@ -243,6 +245,34 @@ Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& cont
         .fit_places(side, fitted.of_half[side], contender.fitted_places(base), fitted.mean_squares,
                     {.most_iterations = 40, .tolerance = 1e-7, .step_scales = step_scales})
         .hypothesis;
+}
+
+Search::Contender Search::crossed(const CrossFit& base, const Contender& contender) const {
+    const std::vector<Window>& windows = fitter_.evidence().windows();
+    const Places places = contender.fitted_places(base);
+    const bool is_wave = contender.trial.candidate->wave.has_value();
+    std::array<bool, 2> is_better{};
+    Contender from_other = contender;
+    for (const std::size_t side : {0, 1}) {
+        const Wanted wanted = only_of(windows, fitter_.half(side), contender.teachers());
+        const Predict predict = fitter_.predictor(wanted);
+        const Hypothesis &own = contender.trial.fitted.of_half[side],
+                         other = with_part(own, places,
+                                           part_of(contender.trial.fitted.of_half[1 - side], places));
+        is_better[side] = total_loss(windows, wanted, predict(other)) <
+                          total_loss(windows, wanted, predict(own)) - least_gain;
+        if (is_better[side]) from_other.trial.fitted.of_half[side] = other;
+    }
+    if (!is_better[0] && !is_better[1]) return contender;
+    Contender found = from_other;
+    parallel_for(2, [&](std::size_t side) {
+        if (is_better[side])
+            found.trial.fitted.of_half[side] = is_wave
+                                                   ? polished(from_other, side, places).hypothesis
+                                                   : fitted_from_there(base, from_other, side, close_step);
+    });
+    judge_both_halves(base, found);
+    return found;
 }
 
 Search::Contender Search::refined(const CrossFit& base, const Contender& contender) const {

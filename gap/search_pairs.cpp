@@ -78,10 +78,10 @@ const std::vector<ForcePair>& Search::force_pairs(const CrossFit& base,
     if (last_balance_.base == known && last_balance_.candidates == candidates) return last_balance_.pairs;
     const Evidence& evidence = fitter_.evidence();
     const Wanted wanted = only_of(evidence.windows(), fitter_.half(0), only(Signal::encoder));
-    std::vector<const Candidate*> waves = candidates;
-    std::erase_if(waves, [](const Candidate* candidate) { return !candidate->wave; });
-    const AlongRail along = seen_along_rail(evidence, known, wanted, waves);
-    std::vector<ForcePair> pairs = strongest_force_pairs(evidence, wanted, known, candidates, along.periods);
+    std::vector<PositionPeriod> periods;
+    if (std::ranges::any_of(candidates, [](const Candidate* c) { return c->wave.has_value(); }))
+        periods = periods_along_rail(evidence, known, evidence.errors(known, wanted));
+    std::vector<ForcePair> pairs = strongest_force_pairs(evidence, wanted, known, candidates, periods);
     last_balance_ = {std::move(known), std::move(candidates), std::move(pairs)};
     return last_balance_.pairs;
 }
@@ -157,7 +157,8 @@ std::optional<Pair> Search::best_of(const CrossFit& base, std::vector<PairAttemp
     fit_pair(base, pair, best.fitted.hypothesis);
     throw_if_exhausted();
     // Both are judged against what they begin from, also where the effort is spent on the way.
-    return in_plain_form(base, closer(base, std::move(pair)));
+    pair.fitted = closer(base, std::move(pair.fitted), *pair.second);
+    return in_plain_form(base, std::move(pair));
 }
 
 void Search::fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start) const {
@@ -178,21 +179,19 @@ void Search::fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start)
     fitter_.judge(pair.fitted);
 }
 
-Pair Search::closer(const CrossFit& base, Pair pair) const {
+CrossFit Search::closer(const CrossFit& base, CrossFit whole, const Candidate& last) const {
     constexpr double share_of_effort = 0.5;
-    CrossFit with_first = base;
+    CrossFit rest = base;
     for (std::size_t side = 0; side < 2; ++side)
-        with_first.of_half[side].assign(pair.fitted.of_half[side].begin(),
-                                        pair.fitted.of_half[side].end() - 1);
+        rest.of_half[side].assign(whole.of_half[side].begin(), whole.of_half[side].end() - 1);
     Finding finding;
-    Contender second{{.candidate = pair.second, .gain = base.loss - pair.fitted.loss, .fitted = pair.fitted},
-                     coupled_with(with_first.of_half[0], *pair.second->effect),
-                     &finding};
+    Contender contender{{.candidate = &last, .gain = base.loss - whole.loss, .fitted = std::move(whole)},
+                        coupled_with(rest.of_half[0], *last.effect),
+                        &finding};
     for (std::size_t side = 0; side < 2; ++side)
-        finding.fitted[side] = second.part(pair.fitted.of_half[side]);
-    fit_closer(with_first, second, true, share_of_effort);
-    pair.fitted = std::move(second.trial.fitted);
-    return pair;
+        finding.fitted[side] = contender.part(contender.trial.fitted.of_half[side]);
+    fit_closer(rest, contender, true, share_of_effort);
+    return std::move(contender.trial.fitted);
 }
 
 Pair Search::in_plain_form(const CrossFit& base, Pair pair) const {
@@ -208,7 +207,7 @@ Pair Search::in_plain_form(const CrossFit& base, Pair pair) const {
             setting = plain_form(setting, *plainer.effect, fitter_.evidence().rig().macro);
             fit_pair(base, plain, start);
             if (!nearly_clears(base, plain.fitted)) continue;
-            plain = closer(base, std::move(plain));
+            plain.fitted = closer(base, std::move(plain.fitted), *plain.second);
             if (!is_real(plain.fitted, pair.fitted)) pair = std::move(plain);
         }
     return pair;

@@ -160,8 +160,13 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
             is_balanced = true;
             search.limit(true);
             is_paired = balance(search, chain, most_effects, true);
-            if (!is_paired && chain.choices.back().candidate->wave &&
-                search.far_off(chain.fitted)[index_of(Signal::encoder)]) {
+            const auto has_far_off_wave = [&] {
+                return !is_paired && chain.choices.back().candidate->wave &&
+                       search.far_off(chain.fitted)[index_of(Signal::encoder)];
+            };
+            if (has_far_off_wave() && !search.nearly_clears(before.fitted, chain.fitted, in_its_valley))
+                is_paired = balance(search, chain, most_effects, false);
+            if (has_far_off_wave()) {
                 search.limit(!before.choices.empty());
                 take_in(search.try_all(before.fitted, before.candidates()));
             }
@@ -187,6 +192,28 @@ bool replaces(const Search& search, const Trial& other, const Chain& chain, std:
     return other.fitted.loss < chain.fitted.loss - least_gain;
 }
 
+/// The rest with another effect than the chain has, where that does as well without one of the rest: two that
+/// were taken in for one.
+std::optional<Chain> shorter_with_another(const Search& search, const Chain& chain, const Chain& rest,
+                                          const std::vector<Trial>& trials) {
+    constexpr double as_good = 0.75;  // of the gain, before the other one is fitted closer
+    if (rest.choices.size() < 2) return {};
+    for (const Trial& trial : trials) {
+        const bool is_known =
+            std::ranges::find(chain.choices, trial.candidate, &Choice::candidate) != chain.choices.end();
+        if (!trial.is_leader || is_known || trial.gain < as_good * (rest.fitted.loss - chain.fitted.loss))
+            continue;
+        const Chain other = grown(search, rest, {trial});
+        for (std::size_t k = 0; k < rest.choices.size(); ++k) {
+            Chain shorter = without(search, other, k);
+            if (search.is_real(shorter.fitted, other.fitted)) continue;
+            shorter.fitted = search.closer(search.nothing(), std::move(shorter.fitted), *trial.candidate);
+            if (!search.is_real(shorter.fitted, chain.fitted)) return shorter;
+        }
+    }
+    return {};
+}
+
 /// An effect that was taken in first may have been a compromise of two others: each is given up where the
 /// rest does as well without it, and otherwise exchanged for what is best beside the rest. As long as nothing
 /// has changed the last one needs no test: it was found beside this very rest.
@@ -207,6 +234,12 @@ bool exchange(Search& search, Chain& chain, bool changed) {
         if (search.leaves_little(chain.fitted))
             search.remember(rest.fitted, *chain.choices[k].candidate, chain.fitted, k);
         std::vector<Trial> trials = search.try_all(rest.fitted, rest.candidates());
+        if (std::optional<Chain> shorter = shorter_with_another(search, chain, rest, trials)) {
+            chain = *std::move(shorter);
+            changed = true;
+            k = 0;
+            continue;
+        }
         const bool is_other = has_leader(trials) && trials.front().candidate != chain.choices[k].candidate;
         if (!is_other) {
             // The same again, with its alternatives as they are beside the whole rest.

@@ -1,5 +1,6 @@
 #include "gap/starts.h"
 
+#include "gap/balanced_waves.h"
 #include "gap/score.h"
 #include "gap/wave_starts.h"
 
@@ -80,6 +81,11 @@ std::vector<Promise> best_of(std::vector<Promise> starts, std::vector<Promise> m
 
 }  // namespace
 
+std::vector<PositionPeriod> periods_along_rail(const Evidence& evidence, const Hypothesis& known,
+                                               const Errors& errors) {
+    return on_the_rail(strongest_periods(evidence, errors), evidence.rig(), known);
+}
+
 AlongRail seen_along_rail(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted,
                           std::span<const Candidate* const> candidates) {
     const bool asks_for_periods =
@@ -89,8 +95,10 @@ AlongRail seen_along_rail(const Evidence& evidence, const Hypothesis& known, con
     if (!asks_for_periods && !asks_for_patches) return {};
     const Errors errors = evidence.errors(known, wanted);
     AlongRail along;
-    if (asks_for_periods)
-        along.periods = on_the_rail(strongest_periods(evidence, errors), evidence.rig(), known);
+    if (asks_for_periods) along.periods = periods_along_rail(evidence, known, errors);
+    for (const Candidate* candidate : candidates)
+        std::ranges::move(balanced_waves(evidence, wanted, known, *candidate, along.periods),
+                          std::back_inserter(along.balanced));
     if (asks_for_patches) along.patches = strongest_patches(evidence, errors);
     return along;
 }
@@ -99,7 +107,8 @@ std::vector<Promise> starts_of(const Candidate& candidate, const AlongRail& alon
                                std::span<const Window> windows, const Wanted& counted,
                                const Surroundings& beside) {
     if (candidate.wave)
-        return waves_at_first_sight(predict, windows, counted, beside, candidate, along.periods);
+        return waves_at_first_sight(predict, windows, counted, beside, candidate, along.periods,
+                                    along.balanced);
     if (candidate.patch)
         return patches_at_first_sight(predict, windows, counted, beside, candidate, along.patches);
     std::vector<Promise> starts = at_first_sight(predict, windows, counted, beside, candidate);

@@ -12,9 +12,16 @@ namespace fidservo::gap {
 
 /// What errors of the encoder show along the rail.
 struct AlongRail {
-    std::vector<PositionPeriod> periods;  ///< strongest first
-    std::vector<FrictionPatch> patches;   ///< strongest first
+    std::vector<PositionPeriod> periods;         ///< strongest first
+    std::vector<plant::EffectSetting> balanced;  ///< waves of a force (gap/balanced_waves.h)
+    std::vector<FrictionPatch> patches;          ///< strongest first
 };
+
+/// Periods on the rail, strongest first.
+/// @param known  of which the errors are
+/// @param errors  of the encoder
+std::vector<PositionPeriod> periods_along_rail(const Evidence& evidence, const Hypothesis& known,
+                                               const Errors& errors);
 
 /// As far as some candidate asks for it.
 /// @param known  of which the errors are

@@ -15,19 +15,6 @@ namespace {
 constexpr double um_per_mm = 1e3;
 constexpr std::size_t most_starts = 4;
 
-/// The candidate as the wave of a period.
-plant::EffectSetting setting_of(const Candidate& candidate, const PositionPeriod& period) {
-    std::vector<double> values = candidate.shapes.front();
-    const plant::EffectParameter& amplitude = candidate.effect->parameters[candidate.wave->amplitude];
-    const bool is_force = amplitude.unit == "V";
-    const Wave& wave = is_force ? period.force_V : period.reading_mm;
-    values[candidate.wave->amplitude] =
-        std::clamp((is_force ? 1.0 : um_per_mm) * wave.amplitude, amplitude.low, amplitude.high);
-    values[candidate.wave->period] = period.period_mm;
-    values[candidate.wave->phase] = std::remainder(wave.phase_rad, 2.0 * std::numbers::pi);
-    return {candidate.effect, std::move(values)};
-}
-
 /// Changes of a wave that a climb tries.
 struct Steps {
     double factor = 1.15;        ///< of the amplitude
@@ -57,6 +44,18 @@ std::array<plant::EffectSetting, 6> neighbours(const plant::EffectSetting& setti
 
 }  // namespace
 
+plant::EffectSetting wave_at(const Candidate& candidate, const PositionPeriod& period) {
+    std::vector<double> values = candidate.shapes.front();
+    const plant::EffectParameter& amplitude = candidate.effect->parameters[candidate.wave->amplitude];
+    const bool is_force = amplitude.unit == "V";
+    const Wave& wave = is_force ? period.force_V : period.reading_mm;
+    values[candidate.wave->amplitude] =
+        std::clamp((is_force ? 1.0 : um_per_mm) * wave.amplitude, amplitude.low, amplitude.high);
+    values[candidate.wave->period] = period.period_mm;
+    values[candidate.wave->phase] = std::remainder(wave.phase_rad, 2.0 * std::numbers::pi);
+    return {candidate.effect, std::move(values)};
+}
+
 std::vector<PositionPeriod> on_the_rail(std::vector<PositionPeriod> periods, const Rig& rig,
                                         const Hypothesis& hypothesis) {
     plant::PlantParameters parameters = plant::plant_parameters(rig);
@@ -71,8 +70,8 @@ std::vector<PositionPeriod> on_the_rail(std::vector<PositionPeriod> periods, con
 
 std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<const Window> windows,
                                           const Wanted& counted, const Surroundings& beside,
-                                          const Candidate& candidate,
-                                          std::span<const PositionPeriod> periods) {
+                                          const Candidate& candidate, std::span<const PositionPeriod> periods,
+                                          std::span<const plant::EffectSetting> balanced) {
     constexpr std::size_t most_climbed = 3;
     constexpr int rounds = 4;
     constexpr double worth_a_climb = 0.2;  // of the loss
@@ -85,7 +84,9 @@ std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<cons
         return Promise{std::move(part), gain};
     };
     std::vector<Promise> promises;
-    for (const PositionPeriod& period : periods) promises.push_back(promise(setting_of(candidate, period)));
+    for (const PositionPeriod& period : periods) promises.push_back(promise(wave_at(candidate, period)));
+    for (const plant::EffectSetting& wave : balanced)
+        if (wave.effect == candidate.effect) promises.push_back(promise(wave));
     std::ranges::sort(promises, std::greater{}, &Promise::gain);
     const double enough = worth_a_climb * total_loss(windows, counted, beside.errors);
     for (Promise& best : std::span(promises).first(std::min(most_climbed, promises.size()))) {

@@ -8,8 +8,8 @@ constexpr EffectParameter parameters[] = {
     {"amplitude_V", "V", 0.0, 2.0, 0.0, 0.1, "of the force"},
     {"period_mm", "mm", 0.1, 200.0, 5.0, 5.0, "on the rail"},
     {"phase_rad", "rad", -6.2831853072, 6.2831853072, 0.0, 0.0, "at the left end"},
-    {"second_sine", "", -1.0, 1.0, 0.0, 0.0, "of the second harmonic, per amplitude", 0.01},
-    {"second_cosine", "", -1.0, 1.0, 0.0, 0.0, "the same, a quarter of its wave on", 0.01},
+    {"second_sine", "", -1.0, 1.0, 0.0, 0.0, "of the second harmonic, per amplitude", 0.001},
+    {"second_cosine", "", -1.0, 1.0, 0.0, 0.0, "the same, a quarter of its wave on", 0.001},
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {

@@ -127,6 +127,20 @@ TEST(SlowDiagnosis, TwoEffectsOfOneStretch_AreBothNamed) {
     EXPECT_EQ(diagnosis.verdict, Verdict::explained);
 }
 
+/// Its halves of the data lie in a long bent valley, in which fits used to end far from its lowest place.
+TEST(Diagnosis, MassThatConductsAndLosesHeat_IsFoundWithItsConductanceAndCapacity) {
+    const Diagnosis diagnosis = diagnose(
+        campaign(effects({"second_thermal_mass:conductance=0.117,mass_tau_s=62,taken=3.65,diffusion_s=1"}),
+                 {"micro-steps", "micro-triangle", "micro-servo"}),
+        {.only = {"second_thermal_mass", "airflow"}, .without = {}, .selection = {}});
+    ASSERT_EQ(names(diagnosis), std::vector<std::string>{"second_thermal_mass"});
+    EXPECT_EQ(diagnosis.verdict, Verdict::explained);
+    const std::vector<FittedParameter>& found = diagnosis.effects.front().parameters;
+    EXPECT_NEAR(found[0].value, 0.117, 0.002);
+    EXPECT_NEAR(found[1].value, 62.0, 2.0);
+    EXPECT_NEAR(found[2].value, 3.65, 0.1);
+}
+
 TEST(Diagnosis, RippleOfTheReading_IsFoundWithItsAmplitude) {
     const Diagnosis diagnosis =
         diagnose(campaign(effects({"encoder_ripple:amplitude_um=60,period_mm=8,phase_rad=1"}),

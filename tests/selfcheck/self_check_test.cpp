@@ -110,6 +110,27 @@ TEST(SlowSelfCheck, SensorThatWarmsUp_IsNoOffset) {
     EXPECT_TRUE(warm.score.all_right) << line_of(warm);
 }
 
+TEST(SlowSelfCheck, WeakWave_IsFoundByTheBalanceOfForces) {
+    const Outcome wave = case_of(2081, 78);
+    ASSERT_EQ(wave.label.effects.front().effect, "cogging") << "the draw has changed";
+    EXPECT_TRUE(wave.score.right_effect_first && wave.score.all_right) << line_of(wave);
+}
+
+/// Its command shows as acceleration does: mass and belt together stand in for it.
+TEST(SlowSelfCheck, LateCommand_IsNoMassBesideABelt) {
+    const Outcome late = case_of(2081, 294);
+    ASSERT_EQ(late.label.effects.front().effect, "drive_delay") << "the draw has changed";
+    EXPECT_TRUE(late.score.all_right) << line_of(late);
+}
+
+/// One half of the data ends in a valley beside that of the other half.
+TEST(SlowSelfCheck, HardeningCable_IsFoundFromEitherHalf) {
+    const Outcome cable = case_of(2081, 266);
+    ASSERT_EQ(cable.label.effects.back().formula, "hardening") << "the draw has changed";
+    EXPECT_TRUE(cable.score.all_right) << line_of(cable);
+    EXPECT_LT(cable.score.after, 1.1) << line_of(cable);
+}
+
 TEST(SlowSelfCheck, TagsOfAnotherSize_AreNoScaleOfTheCamera) {
     const Outcome side = case_of(2028, 120);
     ASSERT_EQ(side.label.effects.front().effect, "tag_side") << "the draw has changed";
