@@ -46,7 +46,10 @@ std::size_t run_rows(const CarriageModel& model, const CarriageRun& run, std::si
         const bool is_now = is_at_rest(axis, state);
         rests = may_rest && is_now && was_at_rest;
         was_at_rest = is_now;
-        motion.acceleration_mm_per_s2[k - origin] = (state.velocity_mm_per_s - before_mm_per_s) / run.tick_s;
+        const plant::Shaking shaking = plant::shaking_of(state.position_mm - before_mm, before_mm_per_s,
+                                                         state.velocity_mm_per_s, run.tick_s);
+        motion.acceleration_mm_per_s2[k - origin] = shaking.acceleration_mm_per_s2;
+        motion.jerk_mm_per_s3[k - origin] = shaking.jerk_mm_per_s3;
     }
     return end - first + steps * (axis.has_belt ? of_belt_step : of_step);
 }

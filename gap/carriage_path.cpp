@@ -29,7 +29,7 @@ void bridge(std::vector<double>& values) {
 
 CarriagePath unknown_path(std::size_t rows) {
     const std::vector<double> unknown(rows, std::numeric_limits<double>::quiet_NaN());
-    return {unknown, unknown, unknown, unknown};
+    return {unknown, unknown, unknown, unknown, unknown};
 }
 
 double position_mm(const plant::Encoder& encoder, double reading_count) {
@@ -89,6 +89,7 @@ void fade_in(const WindowRows& window, const CarriagePath& lead, CarriagePath& p
     fade(path.position_mm, lead.position_mm);
     fade(path.velocity_mm_per_s, lead.velocity_mm_per_s);
     fade(path.acceleration_mm_per_s2, lead.acceleration_mm_per_s2);
+    fade(path.jerk_mm_per_s3, lead.jerk_mm_per_s3);
 }
 
 void fill(const plant::Encoder& encoder, const CarriageRun& run, CarriagePath& path) {
@@ -109,6 +110,7 @@ void fill(const plant::Encoder& encoder, const CarriageRun& run, CarriagePath& p
         const std::size_t next = std::min(k + 1, rows - 1);
         path.acceleration_mm_per_s2[k] =
             (path.velocity_mm_per_s[next] - path.velocity_mm_per_s[k]) / run.tick_s;
+        path.jerk_mm_per_s3[k] = 0.0;
     }
 }
 

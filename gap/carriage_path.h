@@ -10,8 +10,8 @@ namespace fidservo::gap {
 /// The carriage along a recording without jumps: the windows' runs, each faded into the next over the 100 ms
 /// before it, pulled back to the counts where they leave them by more than half a count.
 struct CarriagePath {
-    std::vector<double> position_mm, velocity_mm_per_s;  ///< between windows: by the counts
-    std::vector<double> acceleration_mm_per_s2;          ///< mean from this row to the next
+    std::vector<double> position_mm, velocity_mm_per_s;          ///< between windows: by the counts
+    std::vector<double> acceleration_mm_per_s2, jerk_mm_per_s3;  ///< from this row to the next, mean
     /// In the rows before a window, by the run that enters it, before it is faded in; NaN elsewhere.
     std::vector<double> entering_mm;
 };

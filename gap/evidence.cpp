@@ -134,9 +134,8 @@ class RunPredictor {
     }
 
     void predict_hall(Errors& errors) const {
-        std::span<const double> acceleration;
-        if (models_.platform_feels_carriage) acceleration = path().acceleration_mm_per_s2;
-        const auto found = predicted_readings(*models_.platform, *links_.platform, acceleration);
+        const auto found = predicted_readings(*models_.platform, *links_.platform,
+                                              models_.platform_feels_carriage ? &path() : nullptr);
         for_rows(Signal::hall, errors, [&](std::size_t row) {
             return (found.reading_lsb[row] - links_.platform->hall_adc[row]) / links_.platform->floor_lsb;
         });

@@ -209,8 +209,7 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     if (rig.micro) {
         links.platform =
             platform_run(recording, *rig.micro, parts.hall_range, parts.floors[index_of(Signal::hall)]);
-        platform =
-            predicted_readings(platform_model(nominal), *links.platform, links.path.acceleration_mm_per_s2);
+        platform = predicted_readings(platform_model(nominal), *links.platform, nullptr);
         links.smoothed = smoothed_reading(*links.platform, platform->path_lsb, rig.macro.command_limit_V);
     }
     if (rig.camera && rig.fiducials)

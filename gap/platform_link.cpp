@@ -43,8 +43,8 @@ void slide(const plant::MicroStage& stage, plant::MicroStageState& state, double
 
 class Pass {
   public:
-    Pass(const PlatformModel& model, const PlatformRun& run, std::span<const double> acceleration)
-        : model_(model), run_(run), acceleration_(acceleration) {
+    Pass(const PlatformModel& model, const PlatformRun& run, const CarriagePath* carriage)
+        : model_(model), run_(run), carriage_(carriage) {
         const std::size_t rows = run.command_V.size();
         found_ = {std::vector(rows, nan), std::vector(rows, nan), std::vector(rows, nan)};
     }
@@ -132,11 +132,12 @@ class Pass {
         plant::CarriageInfluence carriage;
         if (model_.stage.feels_carriage()) {
             carriage.drive_V = plant::drive_voltage_V(model_.axis, run_.macro_command_V[k]);
-            if (!acceleration_.empty()) carriage.acceleration_mm_per_s2 = acceleration_[k];
+            if (carriage_ != nullptr)
+                carriage.shaking = {carriage_->acceleration_mm_per_s2[k], carriage_->jerk_mm_per_s3[k]};
         }
         for (int tick = 0; tick < run_.ticks[k]; ++tick) {
             plant::advance(model_.stage, state, run_.command_V[k], carriage);
-            carriage.acceleration_mm_per_s2 = 0.0;
+            carriage.shaking = {};
         }
     }
 
@@ -175,7 +176,7 @@ class Pass {
 
     const PlatformModel& model_;
     const PlatformRun& run_;
-    std::span<const double> acceleration_;
+    const CarriagePath* carriage_;
     PlatformPrediction found_;
 };
 
@@ -245,8 +246,8 @@ PlatformModel platform_model(const plant::PlantParameters& parameters) {
 }
 
 PlatformPrediction predicted_readings(const PlatformModel& model, const PlatformRun& run,
-                                      std::span<const double> acceleration_mm_per_s2) {
-    return Pass(model, run, acceleration_mm_per_s2).predict();
+                                      const CarriagePath* carriage) {
+    return Pass(model, run, carriage).predict();
 }
 
 }  // namespace fidservo::gap

@@ -13,6 +13,7 @@
 // is remembered that never was.
 #include "core/recording.h"
 #include "core/rig.h"
+#include "gap/carriage_path.h"
 #include "gap/hall_range.h"
 #include "gap/windows.h"
 #include "plant/stage_plant.h"
@@ -53,8 +54,8 @@ struct PlatformPrediction {
     std::vector<double> temperature_degC;  ///< of the wire, likewise, not faded
 };
 
-/// @param acceleration_mm_per_s2  of the carriage, a value a row; empty where the platform does not feel it
+/// @param carriage  none where the platform does not feel it
 PlatformPrediction predicted_readings(const PlatformModel& model, const PlatformRun& run,
-                                      std::span<const double> acceleration_mm_per_s2);
+                                      const CarriagePath* carriage);
 
 }  // namespace fidservo::gap

@@ -175,7 +175,7 @@ Surrogate platform_surrogate(const Evidence& evidence) {
             columns.push_back(
                 make.of(Dependence::acceleration, [&](const Window&, std::size_t k, const Row& at) {
                     if (k == 0) state = {};
-                    plant::advance(swing, state, at.carriage_mm_per_s2);
+                    plant::advance(swing, state, {.acceleration_mm_per_s2 = at.carriage_mm_per_s2});
                     return 1e-3 * unit * (of_velocity ? state.velocity_mm_per_s : state.position_mm);
                 }));
         }

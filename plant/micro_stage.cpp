@@ -58,7 +58,7 @@ void advance(const MicroStage& stage, MicroStageState& state, double command_V,
     const double table_degC = state.heater.temp_degC - stage.table_shift_degC;
     state.position_mm = stage.stroke_factor * preisach_step(*stage.fod, state.wire, table_degC);
     if (stage.swing) {
-        advance(*stage.swing, state.swing, carriage.acceleration_mm_per_s2);
+        advance(*stage.swing, state.swing, carriage.shaking);
         state.position_mm += state.swing.position_mm;
     }
     state.time_ns += stage.tick_ns;

@@ -81,8 +81,8 @@ struct MicroStageState {
 
 /// What the carriage does to the platform on it during a tick.
 struct CarriageInfluence {
-    double acceleration_mm_per_s2 = 0.0;  ///< mean over the tick
-    double drive_V = 0.0;                 ///< voltage of the macro drive
+    Shaking shaking = {};
+    double drive_V = 0.0;  ///< voltage of the macro drive
 };
 
 /// The micro stage of a rig, without effects; empty if it has none.

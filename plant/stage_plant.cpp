@@ -45,12 +45,13 @@ StageReading sample(const StagePlant& plant, StageState& state) {
 }
 
 void advance(const StagePlant& plant, StageState& state, double macro_V, double micro_V) {
-    const double before_mm_per_s = state.axis.velocity_mm_per_s;
+    const double before_mm = state.axis.position_mm, before_mm_per_s = state.axis.velocity_mm_per_s;
     advance(plant.axis, state.axis, macro_V);
     if (!state.micro) return;
     CarriageInfluence carriage;
     if (plant.micro->feels_carriage())
-        carriage = {(state.axis.velocity_mm_per_s - before_mm_per_s) / plant.tick_s,
+        carriage = {shaking_of(state.axis.position_mm - before_mm, before_mm_per_s,
+                               state.axis.velocity_mm_per_s, plant.tick_s),
                     drive_voltage_V(plant.axis.parameters, macro_V)};
     advance(*plant.micro, *state.micro, micro_V, carriage);
 }

@@ -25,7 +25,7 @@ std::vector<double> ringing_mm(const StagePlant& plant, int ticks) {
 TEST(MacroCoupling, EvenAcceleration_BendsTheFlexureByGainOverStiffness) {
     const PlatformSwing swing = make_platform_swing({40.0, 0.2, 0.7}, 0.001);
     SwingState state;
-    for (int k = 0; k < 2000; ++k) advance(swing, state, 3000.0);
+    for (int k = 0; k < 2000; ++k) advance(swing, state, {.acceleration_mm_per_s2 = 3000.0});
     const double w = 2.0 * std::numbers::pi * 40.0;
     EXPECT_NEAR(state.position_mm, -0.7 * 3000.0 / (w * w), 1e-12);
     EXPECT_NEAR(state.velocity_mm_per_s, 0.0, 1e-9);
@@ -37,12 +37,42 @@ TEST(MacroCoupling, StepOfAcceleration_IsTheTextbooksStepResponse) {
         SwingState state;
         const double w = 2.0 * std::numbers::pi * 30.0, zeta = 0.05, wd = w * std::sqrt(1.0 - zeta * zeta);
         for (int k = 1; k <= 50; ++k) {
-            advance(swing, state, 1000.0);
+            advance(swing, state, {.acceleration_mm_per_s2 = 1000.0});
             const double t = k * tick_s;
             const double expected =
                 -1000.0 / (w * w) *
                 (1.0 - std::exp(-zeta * w * t) * (std::cos(wd * t) + zeta * w / wd * std::sin(wd * t)));
             EXPECT_NEAR(state.position_mm, expected, 1e-12) << "tick " << tick_s << " s, t " << t;
+        }
+    }
+}
+
+TEST(MacroCoupling, EvenJerk_IsFollowedLate) {
+    const PlatformSwing swing = make_platform_swing({40.0, 0.2, 0.7}, 0.001);
+    SwingState state;
+    constexpr double jerk_mm_per_s3 = 2000.0;
+    for (int k = 0; k < 2000; ++k)
+        advance(swing, state, {jerk_mm_per_s3 * (k + 0.5) * 0.001, jerk_mm_per_s3});
+    const double w = 2.0 * std::numbers::pi * 40.0;
+    EXPECT_NEAR(state.position_mm, -0.7 * jerk_mm_per_s3 / (w * w) * (2.0 - 2.0 * 0.2 / w), 1e-12);
+    EXPECT_NEAR(state.velocity_mm_per_s, -0.7 * jerk_mm_per_s3 / (w * w), 1e-9);
+}
+
+/// A quarter of a radian a tick: the mean over it would be late or early by up to 12 % of the ringing.
+TEST(MacroCoupling, StopWithinATick_RingsFromThereOn) {
+    constexpr double speed_mm_per_s = 240.0, tick_s = 0.001, frequency_Hz = 40.0, zeta = 0.03;
+    const double w = 2.0 * std::numbers::pi * frequency_Hz, wd = w * std::sqrt(1.0 - zeta * zeta);
+    const PlatformSwing swing = make_platform_swing({frequency_Hz, zeta, 1.0}, tick_s);
+    for (const double share : {0.0, 0.1, 0.5, 0.93, 1.0}) {
+        SwingState state;
+        advance(swing, state, shaking_of(share * tick_s * speed_mm_per_s, speed_mm_per_s, 0.0, tick_s));
+        for (int k = 2; k <= 60; ++k) {
+            advance(swing, state, {});
+            const double since_s = (k - share) * tick_s;
+            EXPECT_NEAR(state.position_mm,
+                        speed_mm_per_s / wd * std::exp(-zeta * w * since_s) * std::sin(wd * since_s),
+                        0.006 * speed_mm_per_s / wd)
+                << share << " of the tick, tick " << k;
         }
     }
 }
