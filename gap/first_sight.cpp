@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -26,6 +27,14 @@ Hypothesis moved(const Surroundings& beside, const Eigen::VectorXd& scales, plan
     Hypothesis part = moved(beside.parameters, scales);
     part.push_back(std::move(added));
     return part;
+}
+
+/// Whether a size may lie to either side of none.
+bool has_other_side(const Candidate& candidate) {
+    return std::ranges::any_of(candidate.sizes, [&](std::size_t k) {
+        const plant::EffectParameter& parameter = candidate.effect->parameters[k];
+        return parameter.low < parameter.vanishing;
+    });
 }
 
 /// Errors with such shares of the changes.
@@ -117,27 +126,32 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
     const double without =
         beside.moved.empty() ? 0.0 : std::max(0.0, gained(windows, counted, base_squares, beside.moved));
     std::vector<Place> places;
-    for (const std::vector<double>& shape : candidate.shapes) {
+    const auto is_hopeless = [&](const Place& place) {
+        return place.expected_gain - without < hopeless_gain && place.probe_gain <= 0.0;
+    };
+    const auto probed = [&](const std::vector<double>& shape, double share) -> std::optional<Place> {
         std::vector<Errors> changes = beside.slopes;
         double probe_gain = -std::numeric_limits<double>::infinity();
         for (Eigen::Index k = 0; k < width; ++k) {
             const Hypothesis part =
-                moved(beside, unmoved, sized(candidate, shape, probe * Eigen::VectorXd::Unit(width, k)));
+                moved(beside, unmoved, sized(candidate, shape, share * Eigen::VectorXd::Unit(width, k)));
             Errors change = predict(extended(beside.base, beside.places, part));
-            if (change.empty()) break;
+            if (change.empty()) return {};
             probe_gain = std::max(probe_gain, gained(windows, counted, base_squares, change));
             for (std::size_t i = 0; i < change.size(); ++i)
-                change[i] = (change[i] - beside.errors[i]) / static_cast<float>(probe);
+                change[i] = (change[i] - beside.errors[i]) / static_cast<float>(share);
             changes.push_back(std::move(change));
         }
-        if (static_cast<Eigen::Index>(changes.size()) < moving + width) continue;
         const Eigen::VectorXd steps = best_shares(windows, counted, beside.errors, changes);
         const double expected = gained(windows, counted, base_squares, added(beside.errors, changes, steps));
-        places.push_back({shape, steps, expected, probe_gain});
+        return Place{shape, steps, expected, probe_gain};
+    };
+    for (const std::vector<double>& shape : candidate.shapes) {
+        std::optional<Place> place = probed(shape, probe);
+        // What a wire that is cold cannot do to one side says nothing of the other one.
+        if (place && is_hopeless(*place) && has_other_side(candidate)) place = probed(shape, -probe);
+        if (place && !is_hopeless(*place)) places.push_back(*std::move(place));
     }
-    std::erase_if(places, [&](const Place& place) {
-        return place.expected_gain - without < hopeless_gain && place.probe_gain <= 0.0;
-    });
     std::ranges::sort(places, std::greater{}, &Place::expected_gain);
     if (places.size() > most_places / 2)  // the others by what is not extrapolated
         std::ranges::sort(places.begin() + most_places / 2, places.end(), std::greater{}, &Place::probe_gain);
