@@ -21,7 +21,7 @@ double trust_in(double floors_left) {
 }
 
 double worth_of_names(double trust) {
-    return 0.98 * std::pow(trust, 3);
+    return 0.99 * std::pow(trust, 3);
 }
 
 }  // namespace fidservo::gap

@@ -26,8 +26,8 @@ TEST(Posterior, ExplanationThatLeavesAGap_IsTrustedLess) {
 }
 
 TEST(Posterior, NameIsNeverCertain) {
-    EXPECT_DOUBLE_EQ(worth_of_names(1.0), 0.98);
-    EXPECT_DOUBLE_EQ(worth_of_names(0.25), 0.98 / 64.0);
+    EXPECT_DOUBLE_EQ(worth_of_names(1.0), 0.99);
+    EXPECT_DOUBLE_EQ(worth_of_names(0.25), 0.99 / 64.0);
     EXPECT_EQ(worth_of_names(0.0), 0.0);
 }
 
