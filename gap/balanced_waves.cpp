@@ -31,6 +31,7 @@ std::vector<plant::EffectSetting> balanced_waves(const Evidence& evidence, const
     });
     std::ranges::sort(fits, {}, &Fit::loss);
     std::vector<plant::EffectSetting> waves;
+    waves.reserve(fits.size());
     for (Fit& fit : fits) waves.push_back(std::move(fit.hypothesis.front()));
     return waves;
 }

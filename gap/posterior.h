@@ -20,8 +20,8 @@ inline constexpr double values_per_window = 1.0;
 double trust_in(double floors_left);
 
 /// What a probability among named effects is worth: 0.99 trust^3. Set on self-checks of seeds 2060 to 2086,
-/// where 847 of 853 names were right of which hardly anything spoke against, and on that of seed 2042, where 8
-/// of 27 were at a mean trust of 0.67.
+/// where 847 of 853 names were right of which hardly anything spoke against, and on that of seed 2042, where
+/// 8 of 27 were at a mean trust of 0.67.
 double worth_of_names(double trust);
 
 /// @param losses  of the explanations, each the sum over the same windows
