@@ -213,7 +213,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
             clears_a_signal(base, closer.trial.fitted, nearly_all))
             or_else(scattered(base, closer));
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
-        // A wave that is still looked for has none.
+        // Of a wave its harmonic, once it is in its valley.
         if (is_off() && !is_worn_out() &&
             clears_a_signal(base, closer.trial.fitted, is_wave ? in_its_valley : worth_refining))
             or_else(refined(base, closer));
