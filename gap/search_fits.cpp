@@ -213,9 +213,9 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
             clears_a_signal(base, closer.trial.fitted, nearly_all))
             or_else(scattered(base, closer));
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
-        // Of a wave its harmonic, once it is in its valley.
+        // Of a wave its harmonic, once it is in its valley or has been looked for among many values.
         if (is_off() && !is_worn_out() &&
-            clears_a_signal(base, closer.trial.fitted, is_wave ? in_its_valley : worth_refining))
+            clears_a_signal(base, closer.trial.fitted, is_wave && !scatters ? in_its_valley : worth_refining))
             or_else(refined(base, closer));
         if (is_off()) or_else(crossed(base, closer));
         if (!is_wave && is_off() && !is_worn_out() &&

@@ -94,9 +94,10 @@ bool is_better(const Search& search, const Chain& other, const Chain& chain) {
     return other.fitted.loss < chain.fitted.loss - least_gain;
 }
 
-/// Puts two effects at once beside the rest, where they clear a share of a signal. Returns whether it did.
-/// @param is_needed  whether it is known otherwise that it takes both: any gain that is no chance will do
-/// then,
+/// Puts two effects at once beside the rest, where they clear a share of a signal, or one of them alone,
+/// fitted beside the other. Returns whether both are in.
+/// @param is_needed  whether it is known otherwise that it takes both: then any gain will do that is no
+/// chance,
 ///                   as a few windows that go another way may be all that is left
 bool take_in_pair(Search& search, Chain& chain, const Chain& rest, std::optional<Pair> pair, double share,
                   bool is_needed) {
@@ -110,11 +111,18 @@ bool take_in_pair(Search& search, Chain& chain, const Chain& rest, std::optional
     search.fit_again(first, search.concerned_by(*pair->second, pair->fitted));
     const Chain one = grown(search, rest, trial(*pair->first, std::move(first)));
     Chain two = grown(search, one, trial(*pair->second, std::move(pair->fitted)));
+    const bool are_both_in =
+        is_better(search, two, chain) || (is_needed && search.is_no_chance(chain.fitted, two.fitted));
+    // Beside the other one an effect may have come to what it did not come to alone.
+    for (const std::size_t left_out : {rest.choices.size(), rest.choices.size() + 1}) {
+        if (are_both_in) break;
+        Chain alone = without(search, two, left_out);
+        if (alone.choices.size() == chain.choices.size() && is_better(search, alone, chain))
+            chain = std::move(alone);
+    }
+    if (are_both_in) chain = std::move(two);
     search.limit(true);
-    if (!is_better(search, two, chain) && !(is_needed && search.is_no_chance(chain.fitted, two.fitted)))
-        return false;
-    chain = std::move(two);
-    return true;
+    return are_both_in;
 }
 
 /// The chain without what has a say in some signals.
