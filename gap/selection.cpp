@@ -96,9 +96,8 @@ bool is_better(const Search& search, const Chain& other, const Chain& chain) {
 
 /// Puts two effects at once beside the rest, where they clear a share of a signal, or one of them alone,
 /// fitted beside the other. Returns whether both are in.
-/// @param is_needed  whether it is known otherwise that it takes both: then any gain will do that is no
-/// chance,
-///                   as a few windows that go another way may be all that is left
+/// @param is_needed  whether it is known otherwise that it takes both: any gain will do that is no chance, as
+///                   a few windows that go another way may be all that is left
 bool take_in_pair(Search& search, Chain& chain, const Chain& rest, std::optional<Pair> pair, double share,
                   bool is_needed) {
     if (!pair || !search.nearly_clears(rest.fitted, pair->fitted, share)) return false;
