@@ -18,7 +18,6 @@
 #include "gap/windows.h"
 #include "plant/stage_plant.h"
 
-#include <span>
 #include <vector>
 
 namespace fidservo::gap {

@@ -110,9 +110,10 @@ class Search {
     /// Whether an effect's gain is more than chance, over all that was tried, and takes away a good part of
     /// what a signal exceeds its floor by: where the true law differs a little from the catalogue's, many an
     /// effect gains a little. So it does beside an effect whose law is not quite the true one: what leaves a
-    /// signal off its floor has to take away a thousandth of what the signal exceeded it by at first. What
-    /// one half of the data has taught and brings three windows or more of either half, six of two runs, or
-    /// the shapes of six tags, from far off to the floor is no chance however few they are.
+    /// signal off its floor, by more than next to nothing, has to take away a thousandth of what the signal
+    /// exceeded it by at first. What one half of the data has taught and brings three windows or more of
+    /// either half, six of two runs, or the shapes of six tags, from far off to the floor is no chance
+    /// however few they are.
     bool is_real(const CrossFit& without, const CrossFit& with) const;
 
     /// Whether an effect's gain is more than chance, over all that was tried, however much it leaves.

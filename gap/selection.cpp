@@ -112,14 +112,16 @@ bool take_in_pair(Search& search, Chain& chain, const Chain& rest, std::optional
     Chain two = grown(search, one, trial(*pair->second, std::move(pair->fitted)));
     const bool are_both_in =
         is_better(search, two, chain) || (is_needed && search.is_no_chance(chain.fitted, two.fitted));
-    // Beside the other one an effect may have come to what it did not come to alone.
-    for (const std::size_t left_out : {rest.choices.size(), rest.choices.size() + 1}) {
-        if (are_both_in) break;
-        Chain alone = without(search, two, left_out);
-        if (alone.choices.size() == chain.choices.size() && is_better(search, alone, chain))
-            chain = std::move(alone);
+    if (are_both_in) {
+        chain = std::move(two);
+    } else {
+        // Beside the other one an effect may have come to what it did not come to alone.
+        for (const std::size_t left_out : {rest.choices.size(), rest.choices.size() + 1}) {
+            Chain alone = without(search, two, left_out);
+            if (alone.choices.size() == chain.choices.size() && is_better(search, alone, chain))
+                chain = std::move(alone);
+        }
     }
-    if (are_both_in) chain = std::move(two);
     search.limit(true);
     return are_both_in;
 }
@@ -230,21 +232,23 @@ bool exchange(Search& search, Chain& chain, bool changed) {
     constexpr int most_exchanges = 4;
     int exchanges = 0;
     const auto tested = [&] { return changed ? chain.choices.size() : chain.choices.size() - 1; };
-    for (std::size_t k = 0; chain.choices.size() > 1 && k < tested();) {
+    std::size_t k = 0;
+    const auto start_over_with = [&](Chain other) {
+        chain = std::move(other);
+        changed = true;
+        k = 0;
+    };
+    while (chain.choices.size() > 1 && k < tested()) {
         Chain rest = without(search, chain, k);
         if (!search.is_real(rest.fitted, chain.fitted)) {
-            chain = std::move(rest);
-            changed = true;
-            k = 0;
+            start_over_with(std::move(rest));
             continue;
         }
         if (search.leaves_little(chain.fitted))
             search.remember(rest.fitted, *chain.choices[k].candidate, chain.fitted, k);
         std::vector<Trial> trials = search.try_all(rest.fitted, rest.candidates());
         if (std::optional<Chain> shorter = shorter_with_another(search, chain, rest, trials)) {
-            chain = *std::move(shorter);
-            changed = true;
-            k = 0;
+            start_over_with(*std::move(shorter));
             continue;
         }
         const bool is_other = has_leader(trials) && trials.front().candidate != chain.choices[k].candidate;
@@ -253,10 +257,7 @@ bool exchange(Search& search, Chain& chain, bool changed) {
             if (has_leader(trials)) chain.choices[k] = choice_of(search, rest.fitted, std::move(trials));
             ++k;
         } else if (replaces(search, trials.front(), chain, k) && exchanges++ < most_exchanges) {
-            Chain other = grown(search, std::move(rest), std::move(trials));
-            chain = std::move(other);
-            changed = true;
-            k = 0;
+            start_over_with(grown(search, std::move(rest), std::move(trials)));
         } else {
             ++k;
         }
