@@ -93,6 +93,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         const Candidate* const closest = leaders.front().trial.candidate;
         leaders = with_richer(base, all, leaders.size());
         if (leaders.front().trial.candidate != closest) fit_closer(base, leaders.front(), effort.scatters);
+        fit_rivals(base, leaders);
         const auto chosen = leaders.begin() + static_cast<std::ptrdiff_t>(simplest(leaders));
         if (chosen != leaders.begin()) fit_closer(base, *chosen, effort.scatters);
         std::rotate(leaders.begin(), chosen, std::next(chosen));
@@ -109,6 +110,16 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
             std::ranges::find(trials, &candidate, &Trial::candidate) == trials.end())
             trials.push_back({.candidate = &candidate});
     return trials;
+}
+
+void Search::fit_rivals(const CrossFit& base, std::span<Contender> leaders) const {
+    constexpr double close_behind = 0.9;
+    const Contender& best = leaders.front();
+    if (!meet(off(best.trial.fitted), best.teachers())) return;
+    const double bound = close_behind * best.gain();
+    for (Contender& rival : leaders.subspan(1))
+        if (rival.gain() > bound) fit_closer(base, rival, false);
+    std::ranges::stable_sort(leaders, std::greater{}, &Contender::gain);
 }
 
 std::optional<CrossFit> Search::with(const CrossFit& base, const Candidate& candidate) {

@@ -194,6 +194,9 @@ class Search {
     /// effort: a single effect that is not close by then may be a compromise of two.
     void fit_closer(const CrossFit& base, Contender& contender, bool scatters = true,
                     double share_of_effort = 0.25) const;
+    /// Those that come near the best, closer too where that leaves something: fitted no further than from afar
+    /// the cause may be behind what imitates it. Sorted by gain after it.
+    void fit_rivals(const CrossFit& base, std::span<Contender> leaders) const;
     /// The pair with an effect's limit in its place, where it does no worse than by chance.
     Pair in_plain_form(const CrossFit& base, Pair pair) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
