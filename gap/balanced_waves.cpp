@@ -15,7 +15,7 @@ std::vector<plant::EffectSetting> balanced_waves(const Evidence& evidence, const
                                                  std::span<const PositionPeriod> periods) {
     constexpr std::size_t most_fitted = 4, most_waves = 2;
     constexpr double most_of_harmonic = 0.5;  // of the wave; a stronger one is noise, as a rule
-    if (!candidate.wave || candidate.effect->parameters[candidate.wave->amplitude].unit != "V") return {};
+    if (!candidate.wave || !candidate.wave->is_force) return {};
     const ForceBalance balance(evidence, wanted);
     if (balance.supports().empty()) return {};
     const BalanceFit balanced(balance, evidence.windows(), wanted, base);

@@ -9,6 +9,9 @@ namespace fidservo::gap {
 /// Of the best one's gain, that a leader has at least.
 inline constexpr double share_of_gain = 0.5;
 
+/// Mean square in floors of what is far off.
+inline constexpr double far_off_square = 9.0;
+
 /// A trial on its way.
 struct Search::Contender {
     Trial trial;

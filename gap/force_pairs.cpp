@@ -5,6 +5,7 @@
 #include "gap/score.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -198,12 +199,15 @@ void refine(const BalanceFit& balanced, ForcePair& pair) {
             }
 }
 
-/// Whether each of the two takes away a good part of what the other leaves alone.
-bool needs_both(const BalanceFit& balanced, const ForcePair& pair) {
-    constexpr double most_left = 0.8;
-    return std::ranges::all_of(pair.settings, [&](const plant::EffectSetting& alone) {
-        return pair.loss < most_left * balanced.fit({alone}).loss;
-    });
+/// Says of a pair what each of the two does alone.
+/// @param without  loss of the balance without either
+void look_at_each(const BalanceFit& balanced, double without, ForcePair& pair) {
+    constexpr double most_left = 0.8;  // where something takes away a good part
+    std::array<Fit, 2> alone;
+    for (const std::size_t place : {0, 1}) alone[place] = balanced.fit({pair.settings[place]});
+    const Fit& better = *std::ranges::min_element(alone, {}, &Fit::loss);
+    pair.needs_both = pair.loss < most_left * better.loss;
+    if (better.loss < most_left * without) pair.lone = better.hypothesis.front();
 }
 
 bool is_same(const Errors& one, const Errors& other) {
@@ -270,10 +274,10 @@ std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wan
     parallel_for(pairs.size(), [&](std::size_t k) { refine(balanced, pairs[k]); });
     keep_best(most_pairs);
     if (pairs.empty()) return pairs;
-    const double best = pairs.front().loss;
+    const double best = pairs.front().loss, without = total_loss(windows, wanted, balanced.errors({}));
     std::erase_if(pairs, [&](const ForcePair& pair) { return is_hopeless(pair.loss, best); });
     parallel_for(pairs.size(), [&](std::size_t k) {
-        pairs[k].needs_both = needs_both(balanced, pairs[k]);
+        look_at_each(balanced, without, pairs[k]);
         pairs[k].starts = with_unseen(balanced, pairs[k]);
     });
     return pairs;

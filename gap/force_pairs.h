@@ -4,6 +4,7 @@
 #include "gap/force_balance.h"
 #include "gap/period_search.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct ForcePair {
     Hypothesis settings;     ///< of the two
     double loss;             ///< of their balance, as in gap/score.h
     bool needs_both = true;  ///< whether each takes away a good part of what the other leaves alone
+    /// Of the two that which balances best alone, fitted alone; none where that leaves as good as all.
+    std::optional<plant::EffectSetting> lone{};
     /// With several values of those parameters that it does not depend on.
     std::vector<Hypothesis> starts{};
 };

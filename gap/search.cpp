@@ -22,9 +22,6 @@ constexpr double tie_significance = 2.0;
 /// does not bring the signal to its floor.
 constexpr double least_share_of_first = 1e-3;
 
-/// Mean square in floors of what is far off.
-constexpr double far_off_square = 9.0;
-
 SignalFlags above(const SignalExcess& excess, double bound) {
     SignalFlags flags{};
     for (std::size_t s = 0; s < signal_count; ++s) flags[s] = excess[s] > bound;

@@ -73,6 +73,11 @@ class Search {
     std::vector<Trial> try_all(const CrossFit& base, std::span<const Candidate* const> added,
                                const Effort& effort = {});
 
+    /// Looks for a weak wave of force beside a base among all that there may be (gap/wave_scan.h), by windows
+    /// that are far off. Returns whether one promises more than those that were known, so that try_all would
+    /// come to something else.
+    bool scan_for_wave(const CrossFit& base, std::span<const Candidate* const> added);
+
     /// The base with a candidate that try_all has tried beside it, fitted on both halves; none where no
     /// prediction was possible: the plant refuses it, or the search was stopped.
     std::optional<CrossFit> with(const CrossFit& base, const Candidate& candidate);
@@ -87,6 +92,10 @@ class Search {
     /// typical sizes on: beside what one of the two has been taken for alone, the other may promise nothing,
     /// and no slope leads out of there.
     std::optional<Pair> best_pair(const CrossFit& base, std::span<const Candidate* const> added);
+
+    /// What balances the forces of a carriage best alone, beside a base, with a weak wave of force
+    /// (gap/wave_scan.h); both fitted on both halves. None where the wave itself does, or nothing.
+    std::optional<Pair> scanned_pair(const CrossFit& base, std::span<const Candidate* const> added);
 
     /// The same of the pairs of the wire that promise most (gap/pair_sight.h).
     std::optional<Pair> wire_pair(const CrossFit& base, std::span<const Candidate* const> added);
@@ -159,6 +168,8 @@ class Search {
     /// On both halves, from such a start of the first one.
     void fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start) const;
     std::optional<Pair> best_of(const CrossFit& base, std::vector<PairAttempt> attempts);
+    /// By those encoder windows of the first half that are far off without a wave (gap/wave_scan.h).
+    std::vector<plant::EffectSetting> scanned_waves(const Hypothesis& beside, const Candidate& wave) const;
     Contender contender(const CrossFit& base, const Candidate& candidate);
     /// Candidates that are not `added` and may improve a signal that is off.
     std::vector<const Candidate*> in_question(const CrossFit& base,

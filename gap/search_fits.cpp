@@ -4,7 +4,6 @@
 #include "gap/polish.h"
 #include "gap/score.h"
 #include "gap/search.h"
-#include "gap/wave_scatter.h"
 
 #include <algorithm>
 #include <array>
@@ -339,34 +338,6 @@ Fit Search::polished(const Contender& contender, std::size_t side, const Places&
     const std::vector<Window>& windows = fitter_.evidence().windows();
     const Wanted wanted = only_of(windows, fitter_.half(side), contender.teachers());
     return polish(fitter_.predictor(wanted), windows, wanted, contender.trial.fitted.of_half[side], places);
-}
-
-Search::Contender Search::scattered(const CrossFit& base, const Contender& contender) const {
-    const std::vector<Window>& windows = fitter_.evidence().windows();
-    const std::size_t place = base.of_half[0].size();
-    const std::array<Hypothesis, 2>& of_half = contender.trial.fitted.of_half;
-    Contender there = contender;
-    parallel_for(2, [&](std::size_t side) {
-        const Wanted wanted =
-            fitter_.instructive_of(side, contender.teachers(), contender.trial.fitted.mean_squares);
-        there.trial.fitted.of_half[side] =
-            scatter_wave(fitter_.predictor(wanted), windows, wanted, of_half[side], place).hypothesis;
-    });
-    const std::array<Hypothesis, 2> drawn = there.trial.fitted.of_half;
-    parallel_for(2, [&](std::size_t side) {
-        double least = std::numeric_limits<double>::infinity();
-        // The other half may have come to a deeper valley.
-        for (const Hypothesis& from : {drawn[side], drawn[1 - side]}) {
-            Contender start = contender;
-            start.trial.fitted.of_half[side][place] = from[place];
-            Fit found = polished(start, side, {place});
-            if (found.loss >= least) continue;
-            least = found.loss;
-            there.trial.fitted.of_half[side] = std::move(found.hypothesis);
-        }
-    });
-    judge_both_halves(base, there);
-    return there;
 }
 
 void Search::judge_both_halves(const CrossFit& base, Contender& contender) const {

@@ -14,6 +14,7 @@ namespace fidservo::gap {
 struct Finding {
     std::array<Hypothesis, 2> beside;  ///< as fitted on each half
     bool is_looked_at = false;         ///< whether starts were looked for
+    bool is_scanned = false;           ///< whether they were, of a wave, among all that there may be
     std::vector<Promise> starts;       ///< best first
     std::array<Hypothesis, 2> fitted;  ///< on each half: what is beside, then the candidate; empty before
     bool is_close = false;             ///< whether nothing more was found from there

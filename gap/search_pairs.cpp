@@ -218,6 +218,27 @@ std::optional<Pair> Search::balanced_pair(const CrossFit& base, std::span<const 
     return best_of(base, by_force(base, in_question(base, added), only_needed));
 }
 
+std::optional<Pair> Search::scanned_pair(const CrossFit& base, std::span<const Candidate* const> added) {
+    std::vector<const Candidate*> candidates = in_question(base, added);
+    std::erase_if(candidates, [](const Candidate* candidate) { return !is_balanced(*candidate); });
+    const auto wave = std::ranges::find_if(
+        candidates, [](const Candidate* candidate) { return candidate->wave && candidate->wave->is_force; });
+    if (wave == candidates.end()) return {};
+    const Candidate& scanned = **wave;
+    const std::vector<ForcePair>& pairs = force_pairs(base, std::move(candidates));
+    if (pairs.empty() || !pairs.front().lone || pairs.front().lone->effect == scanned.effect) return {};
+    const plant::EffectSetting& lone = *pairs.front().lone;
+    const Candidate& first =
+        *(pairs.front().first->effect == lone.effect ? pairs.front().first : pairs.front().second);
+    Hypothesis beside = base.of_half[0];
+    beside.push_back(lone);
+    std::vector<PairAttempt> attempts;
+    for (plant::EffectSetting& found : scanned_waves(beside, scanned))
+        attempts.push_back(attempt(base, first, scanned, {lone, std::move(found)}));
+    throw_if_exhausted();
+    return best_of(base, std::move(attempts));
+}
+
 std::optional<Pair> Search::best_pair(const CrossFit& base, std::span<const Candidate* const> added) {
     return best_of(base, by_typical_sizes(base, in_question(base, added)));
 }

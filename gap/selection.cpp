@@ -147,38 +147,48 @@ bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
 }
 
 /// Takes in what is best, as long as it is no chance; for a carriage or a wire that one effect leaves off,
-/// two at once, of a carriage before a wave is looked for among many values.
+/// two at once. A weak wave is scanned for where the carriage stays far off; one leaves something is looked
+/// for among many values once nothing is found beside it.
 /// @return whether a pair took the place of something
 bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step) {
     bool is_balanced = false, is_paired = false, is_of_two = false;
+    std::optional<Chain> before_wave;  // that leaves something
+    const auto is_far_off = [&] { return search.far_off(chain.fitted)[index_of(Signal::encoder)]; };
+    const auto take_in = [&](const Chain& before, std::vector<Trial> found) {
+        search.limit(false);
+        chain = grown(search, before, std::move(found));
+        search.limit(true);
+    };
     while (static_cast<int>(chain.choices.size()) < most_effects) {
         const Chain before = chain;
         std::vector<Trial> trials =
-            search.try_all(chain.fitted, chain.candidates(), {.scatters = is_balanced});
+            search.try_all(chain.fitted, chain.candidates(), {.scatters = false});
         if (first_step != nullptr) *first_step = trials;
         first_step = nullptr;
-        if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) return is_paired;
-        const auto take_in = [&](std::vector<Trial> found) {
-            search.limit(false);
-            chain = grown(search, before, std::move(found));
-        };
+        if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) {
+            if (!before_wave || chain.choices.size() != before_wave->choices.size() + 1) return is_paired;
+            take_in(*before_wave, search.try_all(before_wave->fitted, before_wave->candidates()));
+            before_wave.reset();
+            continue;
+        }
         const bool moves_carriage = teachers_of(*trials.front().candidate->effect)[index_of(Signal::encoder)],
                    moves_wire = is_of_wire(*trials.front().candidate);
-        take_in(std::move(trials));
+        take_in(before, std::move(trials));
         if (moves_carriage && !is_balanced) {
             is_balanced = true;
-            search.limit(true);
             is_paired = balance(search, chain, most_effects, true);
-            const auto has_far_off_wave = [&] {
-                return !is_paired && chain.choices.back().candidate->wave &&
-                       search.far_off(chain.fitted)[index_of(Signal::encoder)];
-            };
-            if (has_far_off_wave() && !search.nearly_clears(before.fitted, chain.fitted, in_its_valley))
+            const auto is_left_off = [&] { return !is_paired && is_far_off(); };
+            const auto is_wave = [&] { return chain.choices.back().candidate->wave.has_value(); };
+            if (is_left_off() && search.scan_for_wave(before.fitted, before.candidates()))
+                take_in(before, search.try_all(before.fitted, before.candidates(), {.scatters = false}));
+            if (is_left_off() && static_cast<int>(before.choices.size()) + 2 <= most_effects)
+                is_paired =
+                    take_in_pair(search, chain, before,
+                                 search.scanned_pair(before.fitted, before.candidates()), nearly_all, false);
+            if (is_left_off() && is_wave() &&
+                !search.nearly_clears(before.fitted, chain.fitted, in_its_valley))
                 is_paired = balance(search, chain, most_effects, false);
-            if (has_far_off_wave()) {
-                search.limit(!before.choices.empty());
-                take_in(search.try_all(before.fitted, before.candidates()));
-            }
+            if (is_left_off() && is_wave()) before_wave = before;
         }
         search.limit(true);
         if (moves_wire && !is_of_two && search.leaves_much(chain.fitted)[index_of(Signal::hall)] &&

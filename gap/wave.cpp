@@ -15,7 +15,7 @@ std::optional<WaveParameters> wave_of(const plant::Effect& effect) {
         std::ranges::find_if(all, [&](const auto& p) { return !is_size(p) && p.unit == "mm"; });
     const auto phase = std::ranges::find(all, "rad", &plant::EffectParameter::unit);
     if (amplitude == all.end() || period == all.end() || phase == all.end()) return {};
-    return WaveParameters{place(amplitude), place(period), place(phase)};
+    return WaveParameters{place(amplitude), place(period), place(phase), amplitude->unit == "V"};
 }
 
 double phase_in_step(double phase_rad, double from_period_mm, double to_period_mm) {

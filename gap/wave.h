@@ -10,6 +10,7 @@ namespace fidservo::gap {
 /// Which parameters of an effect are a wave's.
 struct WaveParameters {
     std::size_t amplitude, period, phase;
+    bool is_force;  ///< else a reading is off
 };
 
 /// Of an effect periodic in position: it has a size, a phase, and its only shape in mm is the period.

@@ -47,7 +47,7 @@ std::array<plant::EffectSetting, 6> neighbours(const plant::EffectSetting& setti
 plant::EffectSetting wave_at(const Candidate& candidate, const PositionPeriod& period) {
     std::vector<double> values = candidate.shapes.front();
     const plant::EffectParameter& amplitude = candidate.effect->parameters[candidate.wave->amplitude];
-    const bool is_force = amplitude.unit == "V";
+    const bool is_force = candidate.wave->is_force;
     const Wave& wave = is_force ? period.force_V : period.reading_mm;
     values[candidate.wave->amplitude] =
         std::clamp((is_force ? 1.0 : um_per_mm) * wave.amplitude, amplitude.low, amplitude.high);

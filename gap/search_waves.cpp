@@ -1,0 +1,85 @@
+// Waves along the rail, whose losses have a valley for each way in which a carriage may go.
+#include "gap/contender.h"
+#include "gap/parallel.h"
+#include "gap/score.h"
+#include "gap/search.h"
+#include "gap/wave_scan.h"
+#include "gap/wave_scatter.h"
+#include "gap/wave_starts.h"
+
+#include <array>
+#include <limits>
+#include <utility>
+
+namespace fidservo::gap {
+
+std::vector<plant::EffectSetting> Search::scanned_waves(const Hypothesis& beside,
+                                                        const Candidate& wave) const {
+    const std::vector<Window>& windows = fitter_.evidence().windows();
+    Wanted far_off = only_of(windows, fitter_.half(0), only(Signal::encoder));
+    const std::vector<double> squares = mean_squares(windows, fitter_.predictor(far_off)(beside));
+    for (std::size_t w = 0; w < windows.size(); ++w)
+        if (!(squares[w] > far_off_square)) far_off[w] = 0;
+    return scan_waves([&](Wanted wanted) { return fitter_.predictor(std::move(wanted)); }, windows, far_off,
+                      beside, wave, fitter_.evidence().rig().macro);
+}
+
+bool Search::scan_for_wave(const CrossFit& base, std::span<const Candidate* const> added) {
+    bool is_found = false;
+    for (Contender& contender : contenders(base, added)) {
+        const Candidate& candidate = *contender.trial.candidate;
+        Finding& finding = *contender.finding;
+        if (!candidate.wave || !candidate.wave->is_force || finding.is_scanned) continue;
+        finding.is_scanned = true;
+        const std::vector<Window>& windows = fitter_.evidence().windows();
+        const Wanted counted = fitter_.instructive_of(0, contender.teachers(), base.mean_squares);
+        const Predict predict = fitter_.predictor(counted);
+        const Surroundings beside = surroundings(predict, windows, counted, base.of_half[0],
+                                                 predict(base.of_half[0]), contender.coupled);
+        std::vector<Promise> promises = waves_at_first_sight(predict, windows, counted, beside, candidate, {},
+                                                             scanned_waves(base.of_half[0], candidate));
+        throw_if_exhausted();
+        const Hypothesis& known = finding.fitted[0];
+        const double gain_of_known =
+            known.empty() ? contender.promised()
+                          : gained(windows, counted, mean_squares(windows, beside.errors),
+                                   predict(contender.placed(base, 0, known)));
+        if (promises.empty() || promises.front().gain <= gain_of_known) continue;
+        if (!known.empty()) promises.push_back({known, gain_of_known});
+        finding.starts = std::move(promises);
+        finding.fitted = {};
+        finding.is_close = false;
+        is_found = true;
+    }
+    return is_found;
+}
+
+Search::Contender Search::scattered(const CrossFit& base, const Contender& contender) const {
+    const std::vector<Window>& windows = fitter_.evidence().windows();
+    const std::size_t place = base.of_half[0].size();
+    const std::array<Hypothesis, 2>& of_half = contender.trial.fitted.of_half;
+    Contender there = contender;
+    parallel_for(2, [&](std::size_t side) {
+        const Wanted wanted =
+            fitter_.instructive_of(side, contender.teachers(), contender.trial.fitted.mean_squares);
+        there.trial.fitted.of_half[side] =
+            scatter_wave(fitter_.predictor(wanted), windows, wanted, of_half[side], place).hypothesis;
+    });
+    const std::array<Hypothesis, 2> drawn = there.trial.fitted.of_half;
+    parallel_for(2, [&](std::size_t side) {
+        double least = std::numeric_limits<double>::infinity();
+        // The other half may have come to a deeper valley.
+        for (const Hypothesis& from : {drawn[side], drawn[1 - side]}) {
+            Contender start = contender;
+            start.trial.fitted.of_half[side][place] = from[place];
+            Fit found = polished(start, side, {place});
+            if (found.loss >= least) continue;
+            least = found.loss;
+            there.trial.fitted.of_half[side] = std::move(found.hypothesis);
+        }
+    });
+    judge_both_halves(base, there);
+    return there;
+}
+
+}  // namespace fidservo::gap
