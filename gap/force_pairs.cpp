@@ -199,10 +199,11 @@ void refine(const BalanceFit& balanced, ForcePair& pair) {
             }
 }
 
+constexpr double most_left = 0.8;  ///< of a loss, where something takes away a good part of it
+
 /// Says of a pair what each of the two does alone.
 /// @param without  loss of the balance without either
 void look_at_each(const BalanceFit& balanced, double without, ForcePair& pair) {
-    constexpr double most_left = 0.8;  // where something takes away a good part
     std::array<Fit, 2> alone;
     for (const std::size_t place : {0, 1}) alone[place] = balanced.fit({pair.settings[place]});
     const Fit& better = *std::ranges::min_element(alone, {}, &Fit::loss);
@@ -243,10 +244,10 @@ std::vector<Hypothesis> with_unseen(const BalanceFit& balanced, const ForcePair&
     return all;
 }
 
-/// Whether a pair leaves so much more than the best one that what the balance does not see of it cannot
-/// matter.
-bool is_hopeless(double loss, double best) {
-    return loss > 2.0 * best + 4.0;
+/// Whether a pair takes away as good as nothing, or leaves so much more than the best one that what the
+/// balance does not see of it cannot matter.
+bool is_hopeless(double loss, double best, double without) {
+    return loss > most_left * without || loss > 2.0 * best + 4.0;
 }
 
 }  // namespace
@@ -275,7 +276,7 @@ std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wan
     keep_best(most_pairs);
     if (pairs.empty()) return pairs;
     const double best = pairs.front().loss, without = total_loss(windows, wanted, balanced.errors({}));
-    std::erase_if(pairs, [&](const ForcePair& pair) { return is_hopeless(pair.loss, best); });
+    std::erase_if(pairs, [&](const ForcePair& pair) { return is_hopeless(pair.loss, best, without); });
     parallel_for(pairs.size(), [&](std::size_t k) {
         look_at_each(balanced, without, pairs[k]);
         pairs[k].starts = with_unseen(balanced, pairs[k]);

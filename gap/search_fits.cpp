@@ -117,6 +117,10 @@ void Search::fit_first_half(const CrossFit& base, std::span<Contender* const> co
         const Contender& contender = *attempts[k].contender;
         attempts[k].fitted = fitter_.fit_places(0, contender.placed(base, 0, attempts[k].promise->start),
                                                 contender.fitted_places(base), base.mean_squares);
+        // Of many valleys some fit those few windows well that are fitted.
+        if (contender.trial.candidate->wave)
+            attempts[k].fitted.loss =
+                loss_on_first_half(attempts[k].fitted.hypothesis, *contender.trial.candidate);
     });
     std::map<const Contender*, double> least_loss;
     std::map<const Contender*, const Attempt*> usual;
@@ -225,8 +229,12 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
             or_else(fitted_by([&](std::size_t side) {
                 return polished(closer, side, contender.fitted_places(base)).hypothesis;
             }));
+        // Where a wave stays far off, more of the same does not help, but another valley.
+        const bool is_of_another_valley =
+            is_wave && !scatters && meet(far_off(closer.trial.fitted), closer.teachers());
         const bool is_better = closer.gain() > contender.gain(),
-                   is_last = closer.gain() < contender.gain() + worth_another;
+                   is_last =
+                       is_of_another_valley || closer.gain() < contender.gain() + worth_another;
         if (is_better) {
             for (std::size_t side = 0; side < 2; ++side)
                 finding.fitted[side] = contender.part(closer.trial.fitted.of_half[side]);
@@ -338,6 +346,12 @@ Fit Search::polished(const Contender& contender, std::size_t side, const Places&
     const std::vector<Window>& windows = fitter_.evidence().windows();
     const Wanted wanted = only_of(windows, fitter_.half(side), contender.teachers());
     return polish(fitter_.predictor(wanted), windows, wanted, contender.trial.fitted.of_half[side], places);
+}
+
+double Search::loss_on_first_half(const Hypothesis& whole, const Candidate& taught) const {
+    const std::vector<Window>& windows = fitter_.evidence().windows();
+    const Wanted wanted = only_of(windows, fitter_.half(0), teachers_of(*taught.effect));
+    return total_loss(windows, wanted, fitter_.predictor(wanted)(whole));
 }
 
 void Search::judge_both_halves(const CrossFit& base, Contender& contender) const {

@@ -12,6 +12,16 @@
 #include <utility>
 
 namespace fidservo::gap {
+namespace {
+
+/// Whether a wave of force is so strong that the balance of forces, too, has told it.
+bool shows_in_balance(const plant::EffectSetting& setting, const WaveParameters& wave,
+                      const MacroParameters& macro) {
+    constexpr double strong_mm_per_s = 20.0;
+    return setting.values[wave.amplitude] * macro.velocity_gain_mm_per_s_per_V > strong_mm_per_s;
+}
+
+}  // namespace
 
 std::vector<plant::EffectSetting> Search::scanned_waves(const Hypothesis& beside,
                                                         const Candidate& wave) const {
@@ -31,15 +41,17 @@ bool Search::scan_for_wave(const CrossFit& base, std::span<const Candidate* cons
         Finding& finding = *contender.finding;
         if (!candidate.wave || !candidate.wave->is_force || finding.is_scanned) continue;
         finding.is_scanned = true;
+        const Hypothesis& known = finding.fitted[0];
+        if (!known.empty() && shows_in_balance(known.back(), *candidate.wave, fitter_.evidence().rig().macro))
+            continue;
         const std::vector<Window>& windows = fitter_.evidence().windows();
-        const Wanted counted = fitter_.instructive_of(0, contender.teachers(), base.mean_squares);
+        const Wanted counted = only_of(windows, fitter_.half(0), contender.teachers());
         const Predict predict = fitter_.predictor(counted);
         const Surroundings beside = surroundings(predict, windows, counted, base.of_half[0],
                                                  predict(base.of_half[0]), contender.coupled);
         std::vector<Promise> promises = waves_at_first_sight(predict, windows, counted, beside, candidate, {},
                                                              scanned_waves(base.of_half[0], candidate));
         throw_if_exhausted();
-        const Hypothesis& known = finding.fitted[0];
         const double gain_of_known =
             known.empty() ? contender.promised()
                           : gained(windows, counted, mean_squares(windows, beside.errors),

@@ -146,6 +146,30 @@ bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
                         only_needed);
 }
 
+/// Where a carriage stays off with what was taken in for it last: two effects instead that its forces need
+/// both; where it stays far off, a weak wave, which no balance of forces shows, beside the one that it shows or
+/// alone; and instead of a wave that is not even nearly right, any two that balance the forces.
+/// @return whether a pair took the place of the last effect
+bool look_further(Search& search, Chain& chain, const Chain& before, int most_effects) {
+    if (balance(search, chain, most_effects, true)) return true;
+    const auto is_far_off = [&] { return search.far_off(chain.fitted)[index_of(Signal::encoder)]; };
+    if (is_far_off() && static_cast<int>(before.choices.size()) + 2 <= most_effects &&
+        take_in_pair(search, chain, before, search.scanned_pair(before.fitted, before.candidates()),
+                     nearly_all, false))
+        return true;
+    if (is_far_off() && search.scan_for_wave(before.fitted, before.candidates())) {
+        std::vector<Trial> others =
+            search.try_all(before.fitted, before.candidates(), {.scatters = false});
+        search.limit(false);
+        if (others.front().fitted.loss < chain.fitted.loss)
+            chain = grown(search, before, std::move(others));
+        search.limit(true);
+    }
+    return is_far_off() && chain.choices.back().candidate->wave &&
+           !search.nearly_clears(before.fitted, chain.fitted, in_its_valley) &&
+           balance(search, chain, most_effects, false);
+}
+
 /// Takes in what is best, as long as it is no chance; for a carriage or a wire that one effect leaves off,
 /// two at once. A weak wave is scanned for where the carriage stays far off; one leaves something is looked
 /// for among many values once nothing is found beside it.
@@ -176,19 +200,8 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
         take_in(before, std::move(trials));
         if (moves_carriage && !is_balanced) {
             is_balanced = true;
-            is_paired = balance(search, chain, most_effects, true);
-            const auto is_left_off = [&] { return !is_paired && is_far_off(); };
-            const auto is_wave = [&] { return chain.choices.back().candidate->wave.has_value(); };
-            if (is_left_off() && search.scan_for_wave(before.fitted, before.candidates()))
-                take_in(before, search.try_all(before.fitted, before.candidates(), {.scatters = false}));
-            if (is_left_off() && static_cast<int>(before.choices.size()) + 2 <= most_effects)
-                is_paired =
-                    take_in_pair(search, chain, before,
-                                 search.scanned_pair(before.fitted, before.candidates()), nearly_all, false);
-            if (is_left_off() && is_wave() &&
-                !search.nearly_clears(before.fitted, chain.fitted, in_its_valley))
-                is_paired = balance(search, chain, most_effects, false);
-            if (is_left_off() && is_wave()) before_wave = before;
+            is_paired = look_further(search, chain, before, most_effects);
+            if (!is_paired && is_far_off() && chain.choices.back().candidate->wave) before_wave = before;
         }
         search.limit(true);
         if (moves_wire && !is_of_two && search.leaves_much(chain.fitted)[index_of(Signal::hall)] &&

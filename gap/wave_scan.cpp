@@ -84,8 +84,8 @@ std::vector<plant::EffectSetting> scan_waves(const std::function<Predict(Wanted)
                                              std::span<const Window> windows, const Wanted& asked,
                                              const Hypothesis& base, const Candidate& candidate,
                                              const MacroParameters& macro) {
-    constexpr std::size_t at_first = 5, then = 15, later = 30;      // windows
-    constexpr std::size_t most_then = 240, most_valleys = 12, most_at_last = 40, most_found = 4;
+    constexpr std::size_t at_first = 5, then = 15;  // windows
+    constexpr std::size_t most_then = 240, most_valleys = 12, most_at_last = 60, most_found = 4;
     const std::vector<std::size_t> order = spread(asked);
     if (order.empty()) return {};
     const auto setting = [&](const Scanned& wave) {
@@ -115,9 +115,9 @@ std::vector<plant::EffectSetting> scan_waves(const std::function<Predict(Wanted)
     judge(waves, at_first, then);
     std::vector<Scanned> finer;
     for (const Scanned& wave : best_valleys(waves, most_valleys)) std::ranges::move(around(wave), std::back_inserter(finer));
-    judge(finer, 0, later);
+    judge(finer, 0, then);
     finer.resize(std::min(finer.size(), most_at_last));
-    judge(finer, later, order.size());
+    judge(finer, then, order.size());
     std::vector<plant::EffectSetting> found;
     for (const Scanned& wave : best_valleys(finer, most_found)) found.push_back(setting(wave));
     return found;

@@ -36,7 +36,7 @@ plant::EffectSetting drawn(const plant::EffectSetting& around, const WaveParamet
 
 Fit scatter_wave(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
                  const Hypothesis& start, std::size_t place) {
-    constexpr int draws = 80;
+    constexpr int draws = 40;
     const WaveParameters wave = *wave_of(*start[place].effect);
     Fit best{start, total_loss(windows, counted, predict(start)), {}};
     NoiseStream draw(1, "wave");
