@@ -257,6 +257,7 @@ std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wan
                                              std::span<const Candidate* const> candidates,
                                              std::span<const PositionPeriod> periods) {
     constexpr std::size_t most_fitted = 8, most_pairs = 4;
+    if (candidates.size() < 2) return {};
     const ForceBalance balance(evidence, wanted);
     if (balance.supports().empty()) return {};
     std::vector<Shape> shapes = shapes_of(candidates, periods);

@@ -25,7 +25,8 @@ struct ForcePair {
 /// best are fitted to the balance in all their parameters, and in those that an effect may be without.
 /// @param base     what is known of the rig
 /// @param periods  of waves, where a candidate is one
-/// @return at most four, none of the same two candidates as another; best first; of those that take away a good part of
+/// @return at most four, none of the same two candidates as another; best first; of those that take away a
+/// good part of
 ///         what the forces lack
 std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wanted& wanted,
                                              const Hypothesis& base,

@@ -88,6 +88,10 @@ class Search {
     std::optional<Pair> balanced_pair(const CrossFit& base, std::span<const Candidate* const> added,
                                       bool only_needed);
 
+    /// Whether a candidate balances them best alone, as well as any two.
+    bool balances_alone(const CrossFit& base, std::span<const Candidate* const> added,
+                        const Candidate& candidate);
+
     /// The same of all pairs of simple effects of the carriage that the balance does not show both, from
     /// typical sizes on: beside what one of the two has been taken for alone, the other may promise nothing,
     /// and no slope leads out of there.
@@ -160,7 +164,7 @@ class Search {
                      std::vector<PairAttempt>& attempts) const;
     std::vector<PairAttempt> by_force(const CrossFit& base, std::vector<const Candidate*> candidates,
                                       bool only_needed);
-    /// Pairs of candidates that the balance shows. The last ones are kept.
+    /// Pairs of those candidates that the balance shows. The last ones are kept.
     const std::vector<ForcePair>& force_pairs(const CrossFit& base, std::vector<const Candidate*> candidates);
     std::vector<PairAttempt> by_typical_sizes(const CrossFit& base,
                                               std::vector<const Candidate*> candidates) const;
@@ -168,7 +172,8 @@ class Search {
     /// On both halves, from such a start of the first one.
     void fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start) const;
     std::optional<Pair> best_of(const CrossFit& base, std::vector<PairAttempt> attempts);
-    /// By those encoder windows of the first half that are far off without a wave (gap/wave_scan.h).
+    /// By those encoder windows of the first half that are far off without a wave (gap/wave_scan.h). None
+    /// where the predicted carriage never runs away: a weak wave shows by nothing else.
     std::vector<plant::EffectSetting> scanned_waves(const Hypothesis& beside, const Candidate& wave) const;
     Contender contender(const CrossFit& base, const Candidate& candidate);
     /// Candidates that are not `added` and may improve a signal that is off.
@@ -205,8 +210,8 @@ class Search {
     /// effort: a single effect that is not close by then may be a compromise of two.
     void fit_closer(const CrossFit& base, Contender& contender, bool scatters = true,
                     double share_of_effort = 0.25) const;
-    /// Those that come near the best, closer too where that leaves something: fitted no further than from afar
-    /// the cause may be behind what imitates it. Sorted by gain after it.
+    /// Those that come near the best, closer too where that leaves something: fitted no further than from
+    /// afar the cause may be behind what imitates it. Sorted by gain after it.
     void fit_rivals(const CrossFit& base, std::span<Contender> leaders) const;
     /// The pair with an effect's limit in its place, where it does no worse than by chance.
     Pair in_plain_form(const CrossFit& base, Pair pair) const;

@@ -233,8 +233,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
         const bool is_of_another_valley =
             is_wave && !scatters && meet(far_off(closer.trial.fitted), closer.teachers());
         const bool is_better = closer.gain() > contender.gain(),
-                   is_last =
-                       is_of_another_valley || closer.gain() < contender.gain() + worth_another;
+                   is_last = is_of_another_valley || closer.gain() < contender.gain() + worth_another;
         if (is_better) {
             for (std::size_t side = 0; side < 2; ++side)
                 finding.fitted[side] = contender.part(closer.trial.fitted.of_half[side]);

@@ -71,6 +71,7 @@ void Search::add_typical(const CrossFit& base, const Candidate& first, const Can
 
 const std::vector<ForcePair>& Search::force_pairs(const CrossFit& base,
                                                   std::vector<const Candidate*> candidates) {
+    std::erase_if(candidates, [](const Candidate* candidate) { return !is_balanced(*candidate); });
     Hypothesis known = base.of_half[0];
     std::erase_if(known, [](const plant::EffectSetting& setting) {
         return !setting.effect->block.starts_with("macro.");
@@ -89,8 +90,6 @@ const std::vector<ForcePair>& Search::force_pairs(const CrossFit& base,
 std::vector<Search::PairAttempt> Search::by_force(const CrossFit& base,
                                                   std::vector<const Candidate*> candidates,
                                                   bool only_needed) {
-    std::erase_if(candidates, [](const Candidate* candidate) { return !is_balanced(*candidate); });
-    if (candidates.size() < 2) return {};
     std::vector<PairAttempt> attempts;
     for (const ForcePair& pair : force_pairs(base, std::move(candidates)))
         if (pair.needs_both || !only_needed)
@@ -220,9 +219,15 @@ std::optional<Pair> Search::balanced_pair(const CrossFit& base, std::span<const 
     return best_of(base, by_force(base, in_question(base, added), only_needed));
 }
 
+bool Search::balances_alone(const CrossFit& base, std::span<const Candidate* const> added,
+                            const Candidate& candidate) {
+    const std::vector<ForcePair>& pairs = force_pairs(base, in_question(base, added));
+    return !pairs.empty() && !pairs.front().needs_both && pairs.front().lone &&
+           pairs.front().lone->effect == candidate.effect;
+}
+
 std::optional<Pair> Search::scanned_pair(const CrossFit& base, std::span<const Candidate* const> added) {
     std::vector<const Candidate*> candidates = in_question(base, added);
-    std::erase_if(candidates, [](const Candidate* candidate) { return !is_balanced(*candidate); });
     const auto wave = std::ranges::find_if(
         candidates, [](const Candidate* candidate) { return candidate->wave && candidate->wave->is_force; });
     if (wave == candidates.end()) return {};

@@ -7,6 +7,7 @@
 #include "gap/wave_scatter.h"
 #include "gap/wave_starts.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
@@ -25,13 +26,21 @@ bool shows_in_balance(const plant::EffectSetting& setting, const WaveParameters&
 
 std::vector<plant::EffectSetting> Search::scanned_waves(const Hypothesis& beside,
                                                         const Candidate& wave) const {
-    const std::vector<Window>& windows = fitter_.evidence().windows();
+    constexpr std::ptrdiff_t fewest_run_away = 3;
+    constexpr double away_mm = 10.0;
+    const Evidence& evidence = fitter_.evidence();
+    const std::vector<Window>& windows = evidence.windows();
     Wanted far_off = only_of(windows, fitter_.half(0), only(Signal::encoder));
     const std::vector<double> squares = mean_squares(windows, fitter_.predictor(far_off)(beside));
+    const double away_floors =
+        away_mm / (evidence.floor(Signal::encoder) * evidence.rig().macro.encoder_resolution_mm);
+    if (std::ranges::count_if(squares, [&](double square) { return square > away_floors * away_floors; }) <
+        fewest_run_away)
+        return {};
     for (std::size_t w = 0; w < windows.size(); ++w)
         if (!(squares[w] > far_off_square)) far_off[w] = 0;
     return scan_waves([&](Wanted wanted) { return fitter_.predictor(std::move(wanted)); }, windows, far_off,
-                      beside, wave, fitter_.evidence().rig().macro);
+                      beside, wave, evidence.rig().macro);
 }
 
 bool Search::scan_for_wave(const CrossFit& base, std::span<const Candidate* const> added) {
@@ -52,10 +61,10 @@ bool Search::scan_for_wave(const CrossFit& base, std::span<const Candidate* cons
         std::vector<Promise> promises = waves_at_first_sight(predict, windows, counted, beside, candidate, {},
                                                              scanned_waves(base.of_half[0], candidate));
         throw_if_exhausted();
-        const double gain_of_known =
-            known.empty() ? contender.promised()
-                          : gained(windows, counted, mean_squares(windows, beside.errors),
-                                   predict(contender.placed(base, 0, known)));
+        const double gain_of_known = known.empty()
+                                         ? contender.promised()
+                                         : gained(windows, counted, mean_squares(windows, beside.errors),
+                                                  predict(contender.placed(base, 0, known)));
         if (promises.empty() || promises.front().gain <= gain_of_known) continue;
         if (!known.empty()) promises.push_back({known, gain_of_known});
         finding.starts = std::move(promises);

@@ -101,26 +101,32 @@ bool is_better(const Search& search, const Chain& other, const Chain& chain) {
 bool take_in_pair(Search& search, Chain& chain, const Chain& rest, std::optional<Pair> pair, double share,
                   bool is_needed) {
     if (!pair || !search.nearly_clears(rest.fitted, pair->fitted, share)) return false;
-    const auto trial = [](const Candidate& candidate, CrossFit fitted) {
-        return std::vector{Trial{.candidate = &candidate, .is_leader = true, .fitted = std::move(fitted)}};
-    };
     search.limit(false);
     CrossFit first = pair->fitted;
     for (Hypothesis& hypothesis : first.of_half) hypothesis.pop_back();
     search.fit_again(first, search.concerned_by(*pair->second, pair->fitted));
-    const Chain one = grown(search, rest, trial(*pair->first, std::move(first)));
-    Chain two = grown(search, one, trial(*pair->second, std::move(pair->fitted)));
+    const auto trial = [](const Candidate& candidate, CrossFit fitted, double gain) {
+        return std::vector{
+            Trial{.candidate = &candidate, .gain = gain, .is_leader = true, .fitted = std::move(fitted)}};
+    };
+    const double loss = pair->fitted.loss, loss_of_first = first.loss;
+    const Chain one =
+        grown(search, rest, trial(*pair->first, std::move(first), rest.fitted.loss - loss_of_first));
+    Chain two = grown(search, one, trial(*pair->second, std::move(pair->fitted), one.fitted.loss - loss));
+    const Chain other = without(search, two, rest.choices.size());
+    // What the first one is worth shows beside the second.
+    Choice& first_choice = two.choices[rest.choices.size()];
+    first_choice.loss_without = other.fitted.loss;
+    first_choice.alternatives.front().gain = other.fitted.loss - two.fitted.loss;
     const bool are_both_in =
         is_better(search, two, chain) || (is_needed && search.is_no_chance(chain.fitted, two.fitted));
     if (are_both_in) {
         chain = std::move(two);
     } else {
         // Beside the other one an effect may have come to what it did not come to alone.
-        for (const std::size_t left_out : {rest.choices.size(), rest.choices.size() + 1}) {
-            Chain alone = without(search, two, left_out);
+        for (const Chain& alone : {other, one})
             if (alone.choices.size() == chain.choices.size() && is_better(search, alone, chain))
-                chain = std::move(alone);
-        }
+                chain = alone;
     }
     search.limit(true);
     return are_both_in;
@@ -147,8 +153,8 @@ bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
 }
 
 /// Where a carriage stays off with what was taken in for it last: two effects instead that its forces need
-/// both; where it stays far off, a weak wave, which no balance of forces shows, beside the one that it shows or
-/// alone; and instead of a wave that is not even nearly right, any two that balance the forces.
+/// both; where it stays far off, a weak wave, which no balance of forces shows, beside the one that it shows
+/// or alone; and instead of a wave that does not balance the forces alone, any two that do.
 /// @return whether a pair took the place of the last effect
 bool look_further(Search& search, Chain& chain, const Chain& before, int most_effects) {
     if (balance(search, chain, most_effects, true)) return true;
@@ -158,15 +164,13 @@ bool look_further(Search& search, Chain& chain, const Chain& before, int most_ef
                      nearly_all, false))
         return true;
     if (is_far_off() && search.scan_for_wave(before.fitted, before.candidates())) {
-        std::vector<Trial> others =
-            search.try_all(before.fitted, before.candidates(), {.scatters = false});
+        std::vector<Trial> others = search.try_all(before.fitted, before.candidates(), {.scatters = false});
         search.limit(false);
-        if (others.front().fitted.loss < chain.fitted.loss)
-            chain = grown(search, before, std::move(others));
+        if (others.front().fitted.loss < chain.fitted.loss) chain = grown(search, before, std::move(others));
         search.limit(true);
     }
-    return is_far_off() && chain.choices.back().candidate->wave &&
-           !search.nearly_clears(before.fitted, chain.fitted, in_its_valley) &&
+    const Candidate& last = *chain.choices.back().candidate;
+    return is_far_off() && last.wave && !search.balances_alone(before.fitted, before.candidates(), last) &&
            balance(search, chain, most_effects, false);
 }
 
@@ -185,8 +189,7 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
     };
     while (static_cast<int>(chain.choices.size()) < most_effects) {
         const Chain before = chain;
-        std::vector<Trial> trials =
-            search.try_all(chain.fitted, chain.candidates(), {.scatters = false});
+        std::vector<Trial> trials = search.try_all(chain.fitted, chain.candidates(), {.scatters = false});
         if (first_step != nullptr) *first_step = trials;
         first_step = nullptr;
         if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) {

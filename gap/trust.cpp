@@ -51,8 +51,8 @@ bool lacks_place(const Selection& selection, const Remainder& whole) {
            std::ranges::none_of(selection.choices, knows_places);
 }
 
-/// Whether several causes of one stage, or of the camera, were put together. Of 63 such explanations that leave
-/// something (eleven self-checks, seeds 2060 to 2094) 8 were right.
+/// Whether several causes of one stage, or of the camera, were put together. Of 63 such explanations that
+/// leave something (eleven self-checks, seeds 2060 to 2094) 8 were right.
 bool is_patchwork(const Selection& selection) {
     constexpr std::ptrdiff_t many = 2;
     return std::ranges::any_of(std::array{"macro.", "micro.", "camera."}, [&](std::string_view part) {

@@ -17,7 +17,7 @@ namespace {
 
 /// Of inverse periods: half a turn over the rail's length; over what a carriage goes as a rule much less.
 constexpr double step_per_mm = 0.005;
-constexpr double shortest_mm = 1.5, longest_mm = 25.0;
+constexpr double shortest_mm = 1.9, longest_mm = 25.0;
 constexpr int phases = 6;
 constexpr double step_rad = 2.0 * std::numbers::pi / phases;
 constexpr std::array speeds_mm_per_s{1.2, 4.0};
@@ -33,8 +33,8 @@ std::vector<Scanned> all_waves() {
     for (int row = 0; 1.0 / longest_mm + row * step_per_mm < 1.0 / shortest_mm; ++row)
         for (const double speed_mm_per_s : speeds_mm_per_s)
             for (int k = 0; k < phases; ++k)
-                all.push_back({speed_mm_per_s, 1.0 / longest_mm + row * step_per_mm,
-                               step_rad * (k + 0.5 * (row % 2))});
+                all.push_back(
+                    {speed_mm_per_s, 1.0 / longest_mm + row * step_per_mm, step_rad * (k + 0.5 * (row % 2))});
     return all;
 }
 
@@ -114,7 +114,8 @@ std::vector<plant::EffectSetting> scan_waves(const std::function<Predict(Wanted)
     waves.resize(std::min(waves.size(), most_then));
     judge(waves, at_first, then);
     std::vector<Scanned> finer;
-    for (const Scanned& wave : best_valleys(waves, most_valleys)) std::ranges::move(around(wave), std::back_inserter(finer));
+    for (const Scanned& wave : best_valleys(waves, most_valleys))
+        std::ranges::move(around(wave), std::back_inserter(finer));
     judge(finer, 0, then);
     finer.resize(std::min(finer.size(), most_at_last));
     judge(finer, then, order.size());
