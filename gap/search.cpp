@@ -316,8 +316,8 @@ SignalFlags Search::off(const CrossFit& fitted) const {
     return above(fitter_.excess(fitted.mean_squares), 0.0);
 }
 
-SignalFlags Search::far_off(const CrossFit& fitted) const {
-    return above(fitter_.excess(fitted.mean_squares), far_off_square - 1.0);
+SignalFlags Search::far_off(const CrossFit& fitted, double floors) const {
+    return above(fitter_.excess(fitted.mean_squares), floors * floors - 1.0);
 }
 
 bool Search::is_at_floor(const CrossFit& fitted) const {

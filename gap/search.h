@@ -138,8 +138,8 @@ class Search {
     /// Signals above their floors.
     SignalFlags off(const CrossFit& fitted) const;
 
-    /// Signals at 3 floors and more.
-    SignalFlags far_off(const CrossFit& fitted) const;
+    /// Signals at some floors and more.
+    SignalFlags far_off(const CrossFit& fitted, double floors = 3.0) const;
 
     /// Whether every signal is at its floor: nothing is left for another effect to explain.
     bool is_at_floor(const CrossFit& fitted) const;
@@ -173,7 +173,8 @@ class Search {
     void fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start) const;
     std::optional<Pair> best_of(const CrossFit& base, std::vector<PairAttempt> attempts);
     /// By those encoder windows of the first half that are far off without a wave (gap/wave_scan.h). None
-    /// where the predicted carriage never runs away: a weak wave shows by nothing else.
+    /// where the predicted carriage never runs away, as a weak wave shows by nothing else, and none of a
+    /// carriage on a belt, whose predictions are too dear.
     std::vector<plant::EffectSetting> scanned_waves(const Hypothesis& beside, const Candidate& wave) const;
     Contender contender(const CrossFit& base, const Candidate& candidate);
     /// Candidates that are not `added` and may improve a signal that is off.

@@ -5,10 +5,12 @@
 #include "gap/search.h"
 #include "gap/wave_scan.h"
 #include "gap/wave_scatter.h"
-#include "gap/wave_starts.h"
+#include "plant/effects/catalogue.h"
+#include "plant/stage_plant.h"
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -22,6 +24,13 @@ bool shows_in_balance(const plant::EffectSetting& setting, const WaveParameters&
     return setting.values[wave.amplitude] * macro.velocity_gain_mm_per_s_per_V > strong_mm_per_s;
 }
 
+/// Whether the carriage hangs on a belt: followed step by step, twice thousand waves take too long.
+bool swings(const Rig& rig, const Hypothesis& hypothesis) {
+    plant::PlantParameters parameters = plant::plant_parameters(rig);
+    plant::apply_effects(parameters, hypothesis);
+    return plant::make_macro_axis(parameters.axis, parameters.tick_s).has_belt;
+}
+
 }  // namespace
 
 std::vector<plant::EffectSetting> Search::scanned_waves(const Hypothesis& beside,
@@ -29,6 +38,7 @@ std::vector<plant::EffectSetting> Search::scanned_waves(const Hypothesis& beside
     constexpr std::ptrdiff_t fewest_run_away = 3;
     constexpr double away_mm = 10.0;
     const Evidence& evidence = fitter_.evidence();
+    if (swings(evidence.rig(), beside)) return {};
     const std::vector<Window>& windows = evidence.windows();
     Wanted far_off = only_of(windows, fitter_.half(0), only(Signal::encoder));
     const std::vector<double> squares = mean_squares(windows, fitter_.predictor(far_off)(beside));
@@ -56,16 +66,22 @@ bool Search::scan_for_wave(const CrossFit& base, std::span<const Candidate* cons
         const std::vector<Window>& windows = fitter_.evidence().windows();
         const Wanted counted = only_of(windows, fitter_.half(0), contender.teachers());
         const Predict predict = fitter_.predictor(counted);
-        const Surroundings beside = surroundings(predict, windows, counted, base.of_half[0],
-                                                 predict(base.of_half[0]), contender.coupled);
-        std::vector<Promise> promises = waves_at_first_sight(predict, windows, counted, beside, candidate, {},
-                                                             scanned_waves(base.of_half[0], candidate));
+        const std::vector<double> squares = mean_squares(windows, predict(base.of_half[0]));
+        const auto gain_of = [&](const Hypothesis& part) {
+            return gained(windows, counted, squares, predict(contender.placed(base, 0, part)));
+        };
+        std::vector<Promise> promises;
+        for (plant::EffectSetting& wave : scanned_waves(base.of_half[0], candidate)) {
+            Hypothesis part = part_of(base.of_half[0], contender.coupled);
+            part.push_back(std::move(wave));
+            const double gain = gain_of(part);
+            promises.push_back({std::move(part), gain});
+        }
         throw_if_exhausted();
-        const double gain_of_known = known.empty()
-                                         ? contender.promised()
-                                         : gained(windows, counted, mean_squares(windows, beside.errors),
-                                                  predict(contender.placed(base, 0, known)));
-        if (promises.empty() || promises.front().gain <= gain_of_known) continue;
+        if (promises.empty()) continue;
+        std::ranges::sort(promises, std::greater{}, &Promise::gain);
+        const double gain_of_known = known.empty() ? contender.promised() : gain_of(known);
+        if (promises.front().gain <= gain_of_known) continue;
         if (!known.empty()) promises.push_back({known, gain_of_known});
         finding.starts = std::move(promises);
         finding.fitted = {};

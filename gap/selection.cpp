@@ -152,31 +152,59 @@ bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
                         only_needed);
 }
 
+/// Takes in a weak wave that a scan has found, instead of the last effect; where that one gains more, since
+/// it stands in for the wave and something else, the wave together with what is best beside it.
+/// @return whether two effects took the place of the last one
+bool take_in_scanned(Search& search, Chain& chain, const Chain& before, int most_effects) {
+    constexpr Effort effort{.scatters = false};
+    std::vector<Trial> trials = search.try_all(before.fitted, before.candidates(), effort);
+    const auto grown_by = [&](const Chain& shorter, std::vector<Trial> added) {
+        search.limit(false);
+        Chain longer = grown(search, shorter, std::move(added));
+        search.limit(true);
+        return longer;
+    };
+    if (trials.front().fitted.loss < chain.fitted.loss) {
+        chain = grown_by(before, std::move(trials));
+        return false;
+    }
+    const auto wave = std::ranges::find_if(
+        trials, [](const Trial& trial) { return trial.is_leader && trial.candidate->wave.has_value(); });
+    if (wave == trials.end() || static_cast<int>(before.choices.size()) + 2 > most_effects) return false;
+    const Chain one = grown_by(before, {*wave});
+    std::vector<Trial> others = search.try_all(one.fitted, one.candidates(), effort);
+    if (!has_leader(others)) return false;
+    Chain two = grown_by(one, std::move(others));
+    if (!is_better(search, two, chain)) return false;
+    chain = std::move(two);
+    return true;
+}
+
 /// Where a carriage stays off with what was taken in for it last: two effects instead that its forces need
 /// both; where it stays far off, a weak wave, which no balance of forces shows, beside the one that it shows
 /// or alone; and instead of a wave that does not balance the forces alone, any two that do.
 /// @return whether a pair took the place of the last effect
 bool look_further(Search& search, Chain& chain, const Chain& before, int most_effects) {
     if (balance(search, chain, most_effects, true)) return true;
-    const auto is_far_off = [&] { return search.far_off(chain.fitted)[index_of(Signal::encoder)]; };
-    if (is_far_off() && static_cast<int>(before.choices.size()) + 2 <= most_effects &&
+    constexpr double floors_of_a_way = 10.0;  // that another way leaves
+    const auto is_far_off = [&](double floors) {
+        return search.far_off(chain.fitted, floors)[index_of(Signal::encoder)];
+    };
+    if (is_far_off(floors_of_a_way) && static_cast<int>(before.choices.size()) + 2 <= most_effects &&
         take_in_pair(search, chain, before, search.scanned_pair(before.fitted, before.candidates()),
                      nearly_all, false))
         return true;
-    if (is_far_off() && search.scan_for_wave(before.fitted, before.candidates())) {
-        std::vector<Trial> others = search.try_all(before.fitted, before.candidates(), {.scatters = false});
-        search.limit(false);
-        if (others.front().fitted.loss < chain.fitted.loss) chain = grown(search, before, std::move(others));
-        search.limit(true);
-    }
+    if (is_far_off(floors_of_a_way) && search.scan_for_wave(before.fitted, before.candidates()) &&
+        take_in_scanned(search, chain, before, most_effects))
+        return true;
     const Candidate& last = *chain.choices.back().candidate;
-    return is_far_off() && last.wave && !search.balances_alone(before.fitted, before.candidates(), last) &&
+    return is_far_off(3.0) && last.wave && !search.balances_alone(before.fitted, before.candidates(), last) &&
            balance(search, chain, most_effects, false);
 }
 
 /// Takes in what is best, as long as it is no chance; for a carriage or a wire that one effect leaves off,
-/// two at once. A weak wave is scanned for where the carriage stays far off; one leaves something is looked
-/// for among many values once nothing is found beside it.
+/// two at once. A weak wave is scanned for where the carriage stays far off; one that leaves something is
+/// looked for among many values once nothing is found beside it.
 /// @return whether a pair took the place of something
 bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step) {
     bool is_balanced = false, is_paired = false, is_of_two = false;
