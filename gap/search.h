@@ -175,7 +175,7 @@ class Search {
     /// By those encoder windows of the first half that are far off without a wave (gap/wave_scan.h). None
     /// where the predicted carriage never runs away, as a weak wave shows by nothing else, and none of a
     /// carriage on a belt, whose predictions are too dear.
-    std::vector<plant::EffectSetting> scanned_waves(const Hypothesis& beside, const Candidate& wave) const;
+    std::optional<plant::EffectSetting> scanned_wave(const Hypothesis& beside, const Candidate& wave) const;
     Contender contender(const CrossFit& base, const Candidate& candidate);
     /// Candidates that are not `added` and may improve a signal that is off.
     std::vector<const Candidate*> in_question(const CrossFit& base,

@@ -239,11 +239,10 @@ std::optional<Pair> Search::scanned_pair(const CrossFit& base, std::span<const C
         *(pairs.front().first->effect == lone.effect ? pairs.front().first : pairs.front().second);
     Hypothesis beside = base.of_half[0];
     beside.push_back(lone);
-    std::vector<PairAttempt> attempts;
-    for (plant::EffectSetting& found : scanned_waves(beside, scanned))
-        attempts.push_back(attempt(base, first, scanned, {lone, std::move(found)}));
+    const std::optional<plant::EffectSetting> found = scanned_wave(beside, scanned);
     throw_if_exhausted();
-    return best_of(base, std::move(attempts));
+    if (!found) return {};
+    return best_of(base, {attempt(base, first, scanned, {lone, *found})});
 }
 
 std::optional<Pair> Search::best_pair(const CrossFit& base, std::span<const Candidate* const> added) {

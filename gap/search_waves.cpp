@@ -10,8 +10,8 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace fidservo::gap {
@@ -33,8 +33,8 @@ bool swings(const Rig& rig, const Hypothesis& hypothesis) {
 
 }  // namespace
 
-std::vector<plant::EffectSetting> Search::scanned_waves(const Hypothesis& beside,
-                                                        const Candidate& wave) const {
+std::optional<plant::EffectSetting> Search::scanned_wave(const Hypothesis& beside,
+                                                         const Candidate& wave) const {
     constexpr std::ptrdiff_t fewest_run_away = 3;
     constexpr double away_mm = 10.0;
     const Evidence& evidence = fitter_.evidence();
@@ -49,8 +49,8 @@ std::vector<plant::EffectSetting> Search::scanned_waves(const Hypothesis& beside
         return {};
     for (std::size_t w = 0; w < windows.size(); ++w)
         if (!(squares[w] > far_off_square)) far_off[w] = 0;
-    return scan_waves([&](Wanted wanted) { return fitter_.predictor(std::move(wanted)); }, windows, far_off,
-                      beside, wave, evidence.rig().macro);
+    return gap::scan_for_wave([&](Wanted wanted) { return fitter_.predictor(std::move(wanted)); }, windows,
+                              far_off, beside, wave, evidence.rig().macro);
 }
 
 bool Search::scan_for_wave(const CrossFit& base, std::span<const Candidate* const> added) {
@@ -70,20 +70,16 @@ bool Search::scan_for_wave(const CrossFit& base, std::span<const Candidate* cons
         const auto gain_of = [&](const Hypothesis& part) {
             return gained(windows, counted, squares, predict(contender.placed(base, 0, part)));
         };
-        std::vector<Promise> promises;
-        for (plant::EffectSetting& wave : scanned_waves(base.of_half[0], candidate)) {
-            Hypothesis part = part_of(base.of_half[0], contender.coupled);
-            part.push_back(std::move(wave));
-            const double gain = gain_of(part);
-            promises.push_back({std::move(part), gain});
-        }
+        std::optional<plant::EffectSetting> wave = scanned_wave(base.of_half[0], candidate);
         throw_if_exhausted();
-        if (promises.empty()) continue;
-        std::ranges::sort(promises, std::greater{}, &Promise::gain);
-        const double gain_of_known = known.empty() ? contender.promised() : gain_of(known);
-        if (promises.front().gain <= gain_of_known) continue;
-        if (!known.empty()) promises.push_back({known, gain_of_known});
-        finding.starts = std::move(promises);
+        if (!wave) continue;
+        Hypothesis scanned = part_of(base.of_half[0], contender.coupled);
+        scanned.push_back(*std::move(wave));
+        const double gain = gain_of(scanned),
+                     gain_of_known = known.empty() ? contender.promised() : gain_of(known);
+        if (gain <= gain_of_known) continue;
+        finding.starts = {{std::move(scanned), gain}};
+        if (!known.empty()) finding.starts.push_back({known, gain_of_known});
         finding.fitted = {};
         finding.is_close = false;
         is_found = true;

@@ -80,12 +80,12 @@ std::vector<std::size_t> spread(const Wanted& asked) {
 
 }  // namespace
 
-std::vector<plant::EffectSetting> scan_waves(const std::function<Predict(Wanted)>& predictor,
-                                             std::span<const Window> windows, const Wanted& asked,
-                                             const Hypothesis& base, const Candidate& candidate,
-                                             const MacroParameters& macro) {
+std::optional<plant::EffectSetting> scan_for_wave(const std::function<Predict(Wanted)>& predictor,
+                                                  std::span<const Window> windows, const Wanted& asked,
+                                                  const Hypothesis& base, const Candidate& candidate,
+                                                  const MacroParameters& macro) {
     constexpr std::size_t at_first = 5, then = 15;  // windows
-    constexpr std::size_t most_then = 240, most_valleys = 12, most_at_last = 60, most_found = 4;
+    constexpr std::size_t most_then = 240, most_valleys = 12, most_at_last = 60;
     const std::vector<std::size_t> order = spread(asked);
     if (order.empty()) return {};
     const auto setting = [&](const Scanned& wave) {
@@ -119,9 +119,7 @@ std::vector<plant::EffectSetting> scan_waves(const std::function<Predict(Wanted)
     judge(finer, 0, then);
     finer.resize(std::min(finer.size(), most_at_last));
     judge(finer, then, order.size());
-    std::vector<plant::EffectSetting> found;
-    for (const Scanned& wave : best_valleys(finer, most_found)) found.push_back(setting(wave));
-    return found;
+    return setting(finer.front());
 }
 
 }  // namespace fidservo::gap

@@ -5,12 +5,12 @@
 #include "gap/fit.h"
 
 #include <functional>
+#include <optional>
 #include <span>
-#include <vector>
 
 namespace fidservo::gap {
 
-/// The waves that predict windows best, of all periods from 1.9 to 25 mm (a belt's teeth are 2 mm apart at
+/// The wave that predicts windows best, of all periods from 1.9 to 25 mm (a belt's teeth are 2 mm apart at
 /// least), all phases, and amplitudes that move a carriage left alone at 1.2 and 4 mm/s. No balance of forces
 /// shows so weak a wave, only which way a carriage goes that the dead zone leaves alone; and as it may go
 /// many ways, nothing leads there from a wave half a turn beside. By successive halving (Jamieson and
@@ -18,10 +18,10 @@ namespace fidservo::gap {
 /// @param predictor  of the windows flagged
 /// @param asked      windows to predict; those in which the base is far off say most
 /// @param candidate  with a wave of force
-/// @return at most 4, best first, none beside a better one; empty where there is nothing to predict
-std::vector<plant::EffectSetting> scan_waves(const std::function<Predict(Wanted)>& predictor,
-                                             std::span<const Window> windows, const Wanted& asked,
-                                             const Hypothesis& base, const Candidate& candidate,
-                                             const MacroParameters& macro);
+/// @return none where there is nothing to predict
+std::optional<plant::EffectSetting> scan_for_wave(const std::function<Predict(Wanted)>& predictor,
+                                                  std::span<const Window> windows, const Wanted& asked,
+                                                  const Hypothesis& base, const Candidate& candidate,
+                                                  const MacroParameters& macro);
 
 }  // namespace fidservo::gap
