@@ -212,12 +212,12 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
             if (other.gain() > closer.gain()) closer = std::move(other);
         };
         const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
-        if (is_wave && scatters && meet(far_off(closer.trial.fitted), closer.teachers()) &&
-            clears_a_signal(base, closer.trial.fitted, nearly_all))
+        const auto is_far_off = [&] { return meet(far_off(closer.trial.fitted), closer.teachers()); };
+        if (is_wave && scatters && is_far_off() && clears_a_signal(base, closer.trial.fitted, nearly_all))
             or_else(scattered(base, closer));
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
         // Of a wave its harmonic, once it is in its valley or has been looked for among many values.
-        if (is_off() && !is_worn_out() &&
+        if (is_off() && !is_worn_out() && !(is_wave && !scatters && is_far_off()) &&
             clears_a_signal(base, closer.trial.fitted, is_wave && !scatters ? in_its_valley : worth_refining))
             or_else(refined(base, closer));
         if (is_off()) or_else(crossed(base, closer));
@@ -230,8 +230,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
                 return polished(closer, side, contender.fitted_places(base)).hypothesis;
             }));
         // Where a wave stays far off, more of the same does not help, but another valley.
-        const bool is_of_another_valley =
-            is_wave && !scatters && meet(far_off(closer.trial.fitted), closer.teachers());
+        const bool is_of_another_valley = is_wave && !scatters && is_far_off();
         const bool is_better = closer.gain() > contender.gain(),
                    is_last = is_of_another_valley || closer.gain() < contender.gain() + worth_another;
         if (is_better) {

@@ -100,16 +100,17 @@ Search::Contender Search::scattered(const CrossFit& base, const Contender& conte
     });
     const std::array<Hypothesis, 2> drawn = there.trial.fitted.of_half;
     parallel_for(2, [&](std::size_t side) {
-        double least = std::numeric_limits<double>::infinity();
         // The other half may have come to a deeper valley.
-        for (const Hypothesis& from : {drawn[side], drawn[1 - side]}) {
-            Contender start = contender;
-            start.trial.fitted.of_half[side][place] = from[place];
-            Fit found = polished(start, side, {place});
-            if (found.loss >= least) continue;
-            least = found.loss;
-            there.trial.fitted.of_half[side] = std::move(found.hypothesis);
-        }
+        const Wanted wanted = only_of(windows, fitter_.half(side), contender.teachers());
+        const Predict predict = fitter_.predictor(wanted);
+        const auto loss_of = [&](const Hypothesis& whole) {
+            return total_loss(windows, wanted, predict(whole));
+        };
+        Hypothesis other = drawn[side];
+        other[place] = drawn[1 - side][place];
+        Contender start = contender;
+        start.trial.fitted.of_half[side] = loss_of(other) < loss_of(drawn[side]) ? other : drawn[side];
+        there.trial.fitted.of_half[side] = polished(start, side, {place}).hypothesis;
     });
     judge_both_halves(base, there);
     return there;

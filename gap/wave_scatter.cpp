@@ -1,6 +1,7 @@
 #include "gap/wave_scatter.h"
 
 #include "core/random.h"
+#include "gap/candidate.h"
 #include "gap/score.h"
 #include "gap/wave.h"
 
@@ -12,7 +13,7 @@ namespace fidservo::gap {
 namespace {
 
 /// Standard deviations of what is drawn first.
-constexpr double amplitude_shares = 0.5, phase_rad = 0.5, waves_per_mm = 0.25 / 200.0;
+constexpr double amplitude_shares = 0.5, phase_rad = 0.5, waves_per_mm = 0.25 / 200.0, harmonic_shares = 0.15;
 
 plant::EffectSetting drawn(const plant::EffectSetting& around, const WaveParameters& wave, double radius,
                            NoiseStream& draw) {
@@ -29,6 +30,10 @@ plant::EffectSetting drawn(const plant::EffectSetting& around, const WaveParamet
     period_mm =
         within(wave.period, 1.0 / std::max(1.0 / before_mm + radius * waves_per_mm * draw.normal(), 1e-6));
     phase = phase_in_step(phase, before_mm, period_mm);
+    for (const Refinement& harmonic : refinements_of(*there.effect)) {
+        double& share = there.values[harmonic.parameter];
+        share = within(harmonic.parameter, share + radius * harmonic_shares * draw.normal());
+    }
     return there;
 }
 
@@ -36,7 +41,7 @@ plant::EffectSetting drawn(const plant::EffectSetting& around, const WaveParamet
 
 Fit scatter_wave(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
                  const Hypothesis& start, std::size_t place) {
-    constexpr int draws = 40;
+    constexpr int draws = 60;
     const WaveParameters wave = *wave_of(*start[place].effect);
     Fit best{start, total_loss(windows, counted, predict(start)), {}};
     NoiseStream draw(1, "wave");
