@@ -91,7 +91,9 @@ std::optional<plant::EffectSetting> scan_for_wave(const std::function<Predict(Wa
     const auto setting = [&](const Scanned& wave) {
         plant::EffectSetting set{candidate.effect, candidate.shapes.front()};
         const double period_mm = 1.0 / wave.per_mm;
-        set.values[candidate.wave->amplitude] = wave.speed_mm_per_s / macro.velocity_gain_mm_per_s_per_V;
+        set.values[candidate.wave->amplitude] =
+            std::min(wave.speed_mm_per_s / macro.velocity_gain_mm_per_s_per_V,
+                     candidate.effect->parameters[candidate.wave->amplitude].high);
         set.values[candidate.wave->period] = period_mm;
         set.values[candidate.wave->phase] =
             phase_in_step(wave.middle_rad, std::numeric_limits<double>::infinity(), period_mm);

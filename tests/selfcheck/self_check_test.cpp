@@ -102,21 +102,28 @@ TEST_P(SelfCheckCase, IsDiagnosed) {
 
 INSTANTIATE_TEST_SUITE_P(
     Slow, SelfCheckCase,
-    ::testing::Values(KnownCase{"BristlesThatBendOverNoWay", 2028, 54, "coulomb_friction", has_right_effect},
-                      KnownCase{"SmallHallGain", 2027, 83, "hall_gain", has_right_effect},
-                      KnownCase{"ScaleOfTheEncoderWithoutBacklash", 2028, 14, "encoder_scale", is_all_right},
-                      KnownCase{"HysteresisOfDuhemsKind", 2028, 40, "duhem_hysteresis", has_right_block},
-                      KnownCase{"EffectsThatHideEachOther", 2042, 99, "payload", is_all_right},
-                      KnownCase{"SupplyOfTheHallSensor", 2075, 171, "hall_gain", is_all_right},
-                      KnownCase{"SensorThatWarmsUp", 2075, 9, "hall_drift", is_all_right},
-                      KnownCase{"TagsOfAnotherSize", 2028, 120, "tag_side", has_right_block},
-                      // By the balance of forces: it shows nothing at first sight.
-                      KnownCase{"WeakWave", 2081, 78, "cogging", is_followed_to_the_floor},
-                      // Its command shows as acceleration does: mass and belt together stand in for it.
-                      KnownCase{"LateCommandBesideAGain", 2081, 294, "drive_delay", is_all_right},
-                      // One half of the data ends in a valley beside that of the other half.
-                      KnownCase{"HardeningCableBesideASwing", 2081, 266, "macro_coupling",
-                                is_followed_to_the_floor}),
+    ::testing::Values(
+        KnownCase{"BristlesThatBendOverNoWay", 2028, 54, "coulomb_friction", has_right_effect},
+        KnownCase{"SmallHallGain", 2027, 83, "hall_gain", has_right_effect},
+        KnownCase{"ScaleOfTheEncoderWithoutBacklash", 2028, 14, "encoder_scale", is_all_right},
+        KnownCase{"HysteresisOfDuhemsKind", 2028, 40, "duhem_hysteresis", has_right_block},
+        KnownCase{"EffectsThatHideEachOther", 2042, 99, "payload", is_all_right},
+        KnownCase{"SupplyOfTheHallSensor", 2075, 171, "hall_gain", is_all_right},
+        KnownCase{"SensorThatWarmsUp", 2075, 9, "hall_drift", is_all_right},
+        KnownCase{"TagsOfAnotherSize", 2028, 120, "tag_side", has_right_block},
+        // By the balance of forces: it shows nothing at first sight.
+        KnownCase{"WeakWave", 2081, 78, "cogging", is_followed_to_the_floor},
+        // Its command shows as acceleration does: mass and belt together stand in for it.
+        KnownCase{"LateCommandBesideAGain", 2081, 294, "drive_delay", is_all_right},
+        // One half of the data ends in a valley beside that of the other half.
+        KnownCase{"HardeningCableBesideASwing", 2081, 266, "macro_coupling", is_followed_to_the_floor},
+        // Fitted no further than from afar, a wave longer than the rail does better.
+        KnownCase{"HardeningCable", 2094, 361, "cable_force", is_followed_to_the_floor},
+        // Found by a scan: which way the carriage goes is all that shows it.
+        KnownCase{"WeakWaveBesideAMass", 2090, 81, "payload", is_followed_to_the_floor},
+        KnownCase{"WeakWaveBesideBristles", 2086, 106, "presliding", is_followed_to_the_floor},
+        // Bristles that the catalogue lacks are friction and a mass, which leave next to nothing.
+        KnownCase{"BristlesThatAreNotKnown", 2094, 190, "presliding", has_right_block}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
