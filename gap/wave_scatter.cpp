@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
+#include <vector>
 
 namespace fidservo::gap {
 namespace {
@@ -37,23 +39,43 @@ plant::EffectSetting drawn(const plant::EffectSetting& around, const WaveParamet
     return there;
 }
 
+/// With any harmonic: of a few strengths, all around.
+std::vector<plant::EffectSetting> with_harmonics(const plant::EffectSetting& wave) {
+    constexpr int phases = 8;
+    const std::vector<Refinement> parts = refinements_of(*wave.effect);
+    std::vector<plant::EffectSetting> all;
+    if (parts.size() != 2) return all;
+    for (const double share : {0.06, 0.12, 0.22})
+        for (int k = 0; k < phases; ++k) {
+            const double angle_rad = 2.0 * std::numbers::pi * k / phases;
+            all.push_back(wave);
+            all.back().values[parts[0].parameter] = share * std::cos(angle_rad);
+            all.back().values[parts[1].parameter] = share * std::sin(angle_rad);
+        }
+    return all;
+}
+
 }  // namespace
 
 Fit scatter_wave(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
                  const Hypothesis& start, std::size_t place) {
-    constexpr int draws = 60;
+    constexpr int draws = 40;
     const WaveParameters wave = *wave_of(*start[place].effect);
     Fit best{start, total_loss(windows, counted, predict(start)), {}};
     NoiseStream draw(1, "wave");
+    Fit found = best;
+    const auto try_out = [&](plant::EffectSetting setting) {
+        Hypothesis there = best.hypothesis;
+        there[place] = std::move(setting);
+        const double loss = total_loss(windows, counted, predict(there));
+        if (loss < found.loss) found = {std::move(there), loss, {}};
+    };
     for (const double radius : {1.0, 0.4, 0.15, 0.05}) {
-        Fit found = best;
-        for (int k = 0; k < draws; ++k) {
-            Hypothesis there = best.hypothesis;
-            there[place] = drawn(there[place], wave, radius, draw);
-            const double loss = total_loss(windows, counted, predict(there));
-            if (loss < found.loss) found = {std::move(there), loss, {}};
-        }
-        best = std::move(found);
+        // What is nearly right may lack its harmonic alone.
+        for (plant::EffectSetting& there : with_harmonics(best.hypothesis[place])) try_out(std::move(there));
+        best = found;
+        for (int k = 0; k < draws; ++k) try_out(drawn(best.hypothesis[place], wave, radius, draw));
+        best = found;
     }
     return best;
 }
