@@ -2,20 +2,12 @@
 // Which effects explain recordings: forward selection with exchange and deletion, judged on windows that were
 // not fitted.
 #include "gap/candidate.h"
+#include "gap/chain.h"
 #include "gap/fit.h"
-#include "gap/search.h"
 
 #include <vector>
 
 namespace fidservo::gap {
-
-/// An effect that was taken in.
-struct Choice {
-    const Candidate* candidate = nullptr;
-    double loss_without = 0.0;           ///< of the rest of the explanation alone
-    std::vector<Trial> alternatives;     ///< everything that was tried in its place, itself first
-    std::vector<const Candidate*> ties;  ///< of these, what does as well
-};
 
 struct Selection {
     std::vector<Choice> choices;  ///< what the rest can least do without first
