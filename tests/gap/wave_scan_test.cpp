@@ -58,7 +58,7 @@ TEST(WaveScan, WaveOfFewMillivolts_IsFound) {
                    3.33, 1.2);
 }
 
-TEST(WaveScan, WithItsHarmonic_BesideAMassThatIsNotKnown_IsFound) {
+TEST(SlowWaveScan, WithItsHarmonic_BesideAMassThatIsNotKnown_IsFound) {
     expect_is_wave(scanned(effects({"payload:mass_factor=1.2",
                                     "cogging:amplitude_V=0.012,period_mm=5.2,phase_rad=-2,second_sine=0.1"}),
                            {}),
