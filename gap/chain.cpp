@@ -36,6 +36,10 @@ std::vector<const Candidate*> Chain::candidates() const {
     return all;
 }
 
+bool has_room_for_two(const Chain& chain, int most_effects) {
+    return static_cast<int>(chain.choices.size()) + 2 <= most_effects;
+}
+
 Choice choice_of(const Search& search, const CrossFit& beside, std::vector<Trial> trials) {
     Choice choice{trials.front().candidate, beside.loss, {}, {}};
     for (std::size_t k = 1; k < trials.size(); ++k)

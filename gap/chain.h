@@ -23,6 +23,8 @@ struct Chain {
     std::vector<const Candidate*> candidates() const;
 };
 
+bool has_room_for_two(const Chain& chain, int most_effects);
+
 /// What was tried beside a cross fit, the first of it taken in.
 Choice choice_of(const Search& search, const CrossFit& beside, std::vector<Trial> trials);
 

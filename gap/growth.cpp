@@ -30,7 +30,7 @@ bool take_in_scanned(Search& search, Chain& chain, const Chain& before, int most
     }
     const auto wave = std::ranges::find_if(
         trials, [](const Trial& trial) { return trial.is_leader && trial.candidate->wave.has_value(); });
-    if (wave == trials.end() || static_cast<int>(before.choices.size()) + 2 > most_effects) return false;
+    if (wave == trials.end() || !has_room_for_two(before, most_effects)) return false;
     const Chain one = grown_whatever(search, before, {*wave});
     std::vector<Trial> others = search.try_all(one.fitted, one.candidates(), effort);
     if (!has_leader(others)) return false;
@@ -50,7 +50,7 @@ bool look_further(Search& search, Chain& chain, const Chain& before, int most_ef
     const auto is_far_off = [&](double floors) {
         return search.far_off(chain.fitted, floors)[index_of(Signal::encoder)];
     };
-    if (is_far_off(floors_of_a_way) && static_cast<int>(before.choices.size()) + 2 <= most_effects &&
+    if (is_far_off(floors_of_a_way) && has_room_for_two(before, most_effects) &&
         take_in_pair(search, chain, before, search.scanned_pair(before.fitted, before.candidates()),
                      nearly_all, false))
         return true;
@@ -101,7 +101,7 @@ bool take_in_pair(Search& search, Chain& chain, const Chain& rest, std::optional
 bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
     if (!search.off(chain.fitted)[index_of(Signal::encoder)]) return false;
     const Chain rest = rest_of(search, chain, only(Signal::encoder));
-    if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
+    if (!has_room_for_two(rest, most_effects)) return false;
     return take_in_pair(search, chain, rest,
                         search.balanced_pair(rest.fitted, rest.candidates(), only_needed), nearly_all,
                         only_needed);
@@ -131,9 +131,8 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
             is_paired = look_further(search, chain, before, most_effects);
             if (!is_paired && is_far_off() && chain.choices.back().candidate->wave) before_wave = before;
         }
-        search.limit(true);
         if (moves_wire && !is_of_two && search.leaves_much(chain.fitted)[index_of(Signal::hall)] &&
-            static_cast<int>(before.choices.size()) + 2 <= most_effects) {
+            has_room_for_two(before, most_effects)) {
             is_of_two = true;
             if (take_in_pair(search, chain, before, search.wire_pair(before.fitted, before.candidates()),
                              nearly_all, false))

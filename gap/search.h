@@ -230,8 +230,8 @@ class Search {
     Contender fitted_on(const CrossFit& base, const Contender& contender, const Hypothesis& start) const;
     Fit polished(const Contender& contender, std::size_t side, const Places& places) const;
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
-    /// Of all windows of the first half that teach an effect.
-    double loss_on_first_half(const Hypothesis& whole, const Candidate& taught) const;
+    /// Of all windows of a half that teach an effect.
+    double loss_on_half(std::size_t side, const Hypothesis& whole, const Candidate& taught) const;
     /// Over all that was tried.
     bool is_significant(const Comparison& comparison) const;
     /// Whether some signal loses such a share of its excess, and comes to its floor or loses at least such a

@@ -120,7 +120,7 @@ void Search::fit_first_half(const CrossFit& base, std::span<Contender* const> co
         // Of many valleys some fit those few windows well that are fitted.
         if (contender.trial.candidate->wave)
             attempts[k].fitted.loss =
-                loss_on_first_half(attempts[k].fitted.hypothesis, *contender.trial.candidate);
+                loss_on_half(0, attempts[k].fitted.hypothesis, *contender.trial.candidate);
     });
     std::map<const Contender*, double> least_loss;
     std::map<const Contender*, const Attempt*> usual;
@@ -253,19 +253,16 @@ Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& cont
 }
 
 Search::Contender Search::crossed(const CrossFit& base, const Contender& contender) const {
-    const std::vector<Window>& windows = fitter_.evidence().windows();
     const Places places = contender.fitted_places(base);
     const bool is_wave = contender.trial.candidate->wave.has_value();
     std::array<bool, 2> is_better{};
     Contender from_other = contender;
     for (const std::size_t side : {0, 1}) {
-        const Wanted wanted = only_of(windows, fitter_.half(side), contender.teachers());
-        const Predict predict = fitter_.predictor(wanted);
         const Hypothesis &own = contender.trial.fitted.of_half[side],
                          other = with_part(own, places,
                                            part_of(contender.trial.fitted.of_half[1 - side], places));
-        is_better[side] = total_loss(windows, wanted, predict(other)) <
-                          total_loss(windows, wanted, predict(own)) - least_gain;
+        is_better[side] = loss_on_half(side, other, *contender.trial.candidate) <
+                          loss_on_half(side, own, *contender.trial.candidate) - least_gain;
         if (is_better[side]) from_other.trial.fitted.of_half[side] = other;
     }
     if (!is_better[0] && !is_better[1]) return contender;
@@ -346,9 +343,9 @@ Fit Search::polished(const Contender& contender, std::size_t side, const Places&
     return polish(fitter_.predictor(wanted), windows, wanted, contender.trial.fitted.of_half[side], places);
 }
 
-double Search::loss_on_first_half(const Hypothesis& whole, const Candidate& taught) const {
+double Search::loss_on_half(std::size_t side, const Hypothesis& whole, const Candidate& taught) const {
     const std::vector<Window>& windows = fitter_.evidence().windows();
-    const Wanted wanted = only_of(windows, fitter_.half(0), teachers_of(*taught.effect));
+    const Wanted wanted = only_of(windows, fitter_.half(side), teachers_of(*taught.effect));
     return total_loss(windows, wanted, fitter_.predictor(wanted)(whole));
 }
 

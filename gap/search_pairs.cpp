@@ -140,8 +140,7 @@ std::optional<Pair> Search::best_of(const CrossFit& base, std::vector<PairAttemp
             attempt.fitted = fitter_.fit_places(0, attempt.start, attempt.places, base.mean_squares,
                                                 {.most_iterations = most_iterations});
             attempt.start = attempt.fitted.hypothesis;
-            if (attempt.second->wave)
-                attempt.fitted.loss = loss_on_first_half(attempt.start, *attempt.second);
+            if (attempt.second->wave) attempt.fitted.loss = loss_on_half(0, attempt.start, *attempt.second);
         });
         std::ranges::sort(attempts, {}, [](const PairAttempt& attempt) { return attempt.fitted.loss; });
     };

@@ -24,7 +24,7 @@ bool shows_in_balance(const plant::EffectSetting& setting, const WaveParameters&
     return setting.values[wave.amplitude] * macro.velocity_gain_mm_per_s_per_V > strong_mm_per_s;
 }
 
-/// Whether the carriage hangs on a belt: followed step by step, twice thousand waves take too long.
+/// Whether the carriage hangs on a belt: followed step by step, a thousand waves take too long.
 bool swings(const Rig& rig, const Hypothesis& hypothesis) {
     plant::PlantParameters parameters = plant::plant_parameters(rig);
     plant::apply_effects(parameters, hypothesis);
@@ -63,6 +63,9 @@ bool Search::scan_for_wave(const CrossFit& base, std::span<const Candidate* cons
         const Hypothesis& known = finding.fitted[0];
         if (!known.empty() && shows_in_balance(known.back(), *candidate.wave, fitter_.evidence().rig().macro))
             continue;
+        std::optional<plant::EffectSetting> wave = scanned_wave(base.of_half[0], candidate);
+        throw_if_exhausted();
+        if (!wave) continue;
         const std::vector<Window>& windows = fitter_.evidence().windows();
         const Wanted counted = only_of(windows, fitter_.half(0), contender.teachers());
         const Predict predict = fitter_.predictor(counted);
@@ -70,9 +73,6 @@ bool Search::scan_for_wave(const CrossFit& base, std::span<const Candidate* cons
         const auto gain_of = [&](const Hypothesis& part) {
             return gained(windows, counted, squares, predict(contender.placed(base, 0, part)));
         };
-        std::optional<plant::EffectSetting> wave = scanned_wave(base.of_half[0], candidate);
-        throw_if_exhausted();
-        if (!wave) continue;
         Hypothesis scanned = part_of(base.of_half[0], contender.coupled);
         scanned.push_back(*std::move(wave));
         const double gain = gain_of(scanned),
@@ -101,10 +101,8 @@ Search::Contender Search::scattered(const CrossFit& base, const Contender& conte
     const std::array<Hypothesis, 2> drawn = there.trial.fitted.of_half;
     parallel_for(2, [&](std::size_t side) {
         // The other half may have come to a deeper valley.
-        const Wanted wanted = only_of(windows, fitter_.half(side), contender.teachers());
-        const Predict predict = fitter_.predictor(wanted);
         const auto loss_of = [&](const Hypothesis& whole) {
-            return total_loss(windows, wanted, predict(whole));
+            return loss_on_half(side, whole, *contender.trial.candidate);
         };
         Hypothesis other = drawn[side];
         other[place] = drawn[1 - side][place];

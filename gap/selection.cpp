@@ -93,7 +93,7 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     if (off == SignalFlags{}) return false;
     constexpr double all_but_nothing = 0.999;
     const Chain rest = rest_of(search, chain, off);
-    if (static_cast<int>(rest.choices.size()) + 2 > most_effects) return false;
+    if (!has_room_for_two(rest, most_effects)) return false;
     const bool from_nothing = chain.choices.size() == rest.choices.size();
     if (balance(search, chain, most_effects, false) && search.is_at_floor(chain.fitted)) return true;
     if (take_in_pair(search, chain, rest, search.best_pair(rest.fitted, rest.candidates()), all_but_nothing,
