@@ -27,7 +27,8 @@ constexpr double least_explained = 0.3;
 constexpr double enough_explained = 0.95;  ///< as a tag that fits has it
 constexpr double clearly_more = 0.02;
 constexpr double most_of_rims = 0.15;
-constexpr double sharpest_px = 0.3;  ///< the area of a pixel alone blurs by 0.29 px
+constexpr double narrowest_px = 4.0;  ///< reach of a quick look
+constexpr double sharpest_px = 0.3;   ///< the area of a pixel alone blurs by 0.29 px
 
 /// Standard deviations of what is known of the look beforehand: so wide that they matter only where the
 /// pixels say nothing.
@@ -91,19 +92,15 @@ class Fit {
     /// A quick fit that tolerates much: brings the model to within some hundredths of a pixel.
     bool look_roughly() {
         constexpr int most_steps = 16;
-        constexpr double enough_pixels = 1500.0;
-        double reach_px = std::min(std::max(4.0, 2.5 * look_.blur_x_px), 0.5 * cell_px_);
-        const double edge_pixels =
-            70.0 * cell_px_ * 2.0 * reach_px;  // a code has about 70 cell sides of edge
-        const double share = std::min(1.0, enough_pixels / edge_pixels);
-        select(reach_px, share);
+        double reach_px = std::min(std::max(narrowest_px, 2.5 * look_.blur_x_px), 0.5 * cell_px_);
+        select(reach_px, share_for(reach_px));
         for (int k = 0; k < most_steps; ++k) {
             const std::optional<Step> step = take_step(Outliers::lose_weight);
             if (!step || !has_contrast()) return false;
             const double blur_px = std::max(look_.blur_x_px, look_.blur_y_px);
             if (2.3 * blur_px > reach_px && reach_px < 0.5 * cell_px_) {
                 reach_px = std::min(2.0 * reach_px, 0.5 * cell_px_);
-                select(reach_px, share);
+                select(reach_px, share_for(reach_px));
             } else if (step->is_within(0.06, 0.06) && k > 0) {
                 return true;
             }
@@ -177,6 +174,15 @@ class Fit {
         const bool settled = settle(Outliers::and_rims_are_left_out);
         if (settled && explained_ > explained - most_of_rims) return;
         std::tie(picture_, look_, last_, square_sum_, explained_, used_, band_.weights) = before;
+    }
+
+    /// Of the edges that a quick look takes. The wider the reach, the fewer the edges, down to crossings
+    /// alone: a handful of these would not tell all of the tag's geometry.
+    double share_for(double reach_px) const {
+        constexpr double enough_pixels = 1500.0, cell_sides = 70.0;  // of which a code has about so many
+        constexpr double least_of_wide = 0.3;
+        const double share = enough_pixels / (cell_sides * cell_px_ * 2.0 * reach_px);
+        return std::min(1.0, reach_px > narrowest_px ? std::max(least_of_wide, share) : share);
     }
 
     double possible_blur(double blur_px) const {

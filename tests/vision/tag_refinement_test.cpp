@@ -113,6 +113,27 @@ TEST(TagRefinement, TurnedTag_IsAsGood) {
     }
 }
 
+TEST(TagRefinement, TagFarOutOfFocus_IsMeasuredFromAnyFirstGuessOfItsBlur) {
+    Rendering out_of_focus;
+    out_of_focus.blur_px = 3.0;
+    TagDetector detector;
+    for (const RenderedTag& tag : over_all_phases(20, 290.0, 0.0, 6)) {
+        ++out_of_focus.seed;
+        const cv::Mat image = render({tag}, out_of_focus);
+        const std::vector<TagDetection> found = detector.detect(image, 0);
+        ASSERT_EQ(found.size(), 1U);
+        for (const double guess_px : {1.0, 1.5, 2.0, 3.0, 4.0}) {
+            RefinementOptions options;
+            options.blur_px = guess_px;
+            const Result<RefinedTag> refined = refine_tag(image, found[0], options);
+            ASSERT_TRUE(refined) << "tag " << tag.id << ", blur " << guess_px
+                                 << " px: " << refined.error().text;
+            EXPECT_NEAR(refined->blur_px, 3.0, 0.05);
+            EXPECT_LT((mean(refined->detection.corners_px) - mean(corners_of(tag))).norm(), 0.02);
+        }
+    }
+}
+
 TEST(TagRefinement, SmallTag_IsStillMeasured) {
     Rendering how;
     how.blur_px = 0.5;
