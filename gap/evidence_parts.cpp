@@ -134,7 +134,7 @@ void drop_unclear_detections(Evidence::Parts& parts, std::size_t run) {
     Recording& recording = parts.recordings[run];
     const auto all = static_cast<double>(recording.detections.size());
     drop_unclear(recording, parts.links[run].path.velocity_mm_per_s, *parts.rig.camera, *parts.rig.fiducials,
-                 parts.shutter.exposure_s);
+                 parts.shutter.exposure_s, parts.smeared[run]);
     if (all - static_cast<double>(recording.detections.size()) > worth_telling * all)
         parts.omissions.push_back(
             {recording.name, "tag",
@@ -189,10 +189,13 @@ void find_noise(Evidence::Parts& parts) {
 
 void find_looks(Evidence::Parts& parts) {
     parts.images.resize(parts.recordings.size());
+    parts.smeared.resize(parts.recordings.size());
     if (!parts.rig.camera || !parts.rig.fiducials) return;
     const CameraParameters& camera = *parts.rig.camera;
-    for (std::size_t run = 0; run < parts.recordings.size(); ++run)
+    for (std::size_t run = 0; run < parts.recordings.size(); ++run) {
+        parts.smeared[run] = smeared_tags(parts.recordings[run]);
         parts.images[run] = image_run(parts.recordings[run], camera);
+    }
     parts.shutter = seen_shutter(parts.recordings, parts.images, camera);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What Evidence holds: every recording prepared for every stretch of the signal chain.
 #include "gap/carriage_link.h"
+#include "gap/clear_detections.h"
 #include "gap/controller_link.h"
 #include "gap/evidence.h"
 #include "gap/hall_range.h"
@@ -33,7 +34,8 @@ struct Evidence::Parts {
     Rig rig;
     std::vector<Recording> recordings;
     std::vector<RunLinks> links;
-    std::vector<ImageRun> images;  ///< of each recording
+    std::vector<ImageRun> images;       ///< of each recording
+    std::vector<TagsInFrames> smeared;  ///< of each recording
     Shutter shutter{0.0, 0.0};
     std::vector<Window> windows;
     std::vector<std::size_t> first_window;  ///< of each run, and one past the last

@@ -8,8 +8,12 @@
 namespace fidservo::gap {
 namespace {
 
-/// Windows that the errors of slow states connect are one observation.
-constexpr std::size_t windows_in_block = 3;
+/// Windows that the errors of slow states connect are one observation. What a frame is off by says nothing of
+/// the next one (gap/image_link.h).
+std::size_t windows_in_block(Signal signal) {
+    return signal == Signal::image ? 1 : 3;
+}
+
 constexpr int fewest_blocks = 4;
 
 /// t with P(T > t) = tail: Fisher's expansion (Abramowitz and Stegun, Handbook of Mathematical Functions,
@@ -80,7 +84,8 @@ Comparison compare(std::span<const Window> windows, std::span<const double> firs
     std::size_t in_block = 0;
     for (std::size_t w = 0; w < windows.size(); ++w) {
         const bool goes_on = w > 0 && windows[w].run == windows[w - 1].run &&
-                             windows[w].signal == windows[w - 1].signal && in_block < windows_in_block;
+                             windows[w].signal == windows[w - 1].signal &&
+                             in_block < windows_in_block(windows[w].signal);
         if (!goes_on) in_block = 0;
         if (in_block++ == 0) gains.push_back(0.0);
         if (std::isnan(first[w]) || std::isnan(second[w])) continue;

@@ -35,8 +35,8 @@ double gained(std::span<const Window> windows, const Wanted& counted, std::span<
 /// Of two hypotheses on the same windows.
 struct Comparison {
     double gain = 0.0;  ///< sum of the losses that the second one saves
-    /// gain over its standard deviation, from the scatter of the windows' gains with neighbouring windows of
-    /// a run taken together; 0 where nothing differs.
+    /// gain over its standard deviation, from the scatter of the windows' gains with three neighbouring
+    /// windows of a run taken together, frames each by itself; 0 where nothing differs.
     double significance = 0.0;
     int blocks = 0;  ///< of windows in which they differ
 };

@@ -43,7 +43,8 @@ TEST(Shutter, ReadoutOfEitherSign_IsSeenInWhatMoves) {
 /// Times of the detections that are clear of a carriage that has one velocity.
 std::vector<TimeNs> clear_of(Recording recording, double velocity_mm_per_s, double exposure_s) {
     const std::vector<double> velocities(recording.rows.size(), velocity_mm_per_s);
-    drop_unclear(recording, velocities, camera(), *reference_rig().fiducials, exposure_s);
+    drop_unclear(recording, velocities, camera(), *reference_rig().fiducials, exposure_s,
+                 smeared_tags(recording));
     std::vector<TimeNs> times;
     for (const TagDetection& tag : recording.detections) times.push_back(tag.time_ns);
     return times;
@@ -64,6 +65,22 @@ TEST(ClearDetections, SmearedByCarriageOrInFrames_AreDropped) {
     EXPECT_TRUE(clear_of(still, 11.5, 2e-3).empty());
     EXPECT_EQ(clear_of(moving, 0.0, 14e-3).size(), moving.detections.size() - 2);
     EXPECT_TRUE(clear_of(moving, 0.0, 16e-3).empty());
+}
+
+TEST(ClearDetections, WhoseLooksAreSmeared_AreDroppedWhateverTheExposureIsSaidToBe) {
+    constexpr double said_s = 2e-3;
+    const auto kept = [&](double extra_exposure_s) {
+        return clear_of(looks_in_even_motion({.extra_exposure_s = extra_exposure_s}, 375.0), 0.0, said_s)
+            .size();
+    };
+    EXPECT_EQ(kept(12e-3), 48U);
+    EXPECT_EQ(kept(14e-3), 0U);
+
+    Recording one = looks_in_even_motion({}, 375.0);
+    one.appearances[20].sides[1] = one.appearances[20].sides[3] = {};  // too wide to be measured
+    EXPECT_EQ(clear_of(one, 0.0, said_s).size(), 47U);
+    for (TagAppearance& out_of_focus : one.appearances) out_of_focus.sides.fill({});
+    EXPECT_EQ(clear_of(one, 0.0, said_s).size(), 48U);
 }
 
 TEST(ClearDetections, NearTheBorder_AreDropped) {
