@@ -60,7 +60,8 @@ struct Window {
     std::size_t begin = 0, end = 0;  ///< its values in Errors: one a row; of tags, corner_values a detection;
                                      ///< of images, image_values an appearance
     std::size_t first_detection = 0;  ///< of the recording's, for tags; sorted by time. Of images: appearance
-    /// Mean square of its errors under the truth, floors^2: less than 1 where the encoder's reading stands.
+    /// Mean square of its errors under the truth, floors^2: less than 1 where the encoder's reading stands,
+    /// and of images.
     double expected_square = 1.0;
 };
 

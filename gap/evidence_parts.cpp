@@ -70,7 +70,7 @@ void add_image_windows(Evidence::Parts& parts, std::size_t run) {
         const std::size_t values = image_values * (window.end - window.first);
         parts.windows.push_back({run, Signal::image, parts.recordings[run].rows[window.first_row].time_ns,
                                  window.first_row, window.end_row - window.first_row, parts.values,
-                                 parts.values + values, window.first});
+                                 parts.values + values, window.first, window.expected_square});
         parts.values += values;
     }
 }

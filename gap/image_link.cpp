@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace fidservo::gap {
@@ -21,6 +22,20 @@ constexpr double edge_allowance = 0.02, light_allowance = 2e-3, noise_allowance 
 
 /// Of an exposure beyond the rig file's (plant/effects/motion_blur.cpp).
 constexpr double most_extra_s = 0.015;
+
+/// Of what was measured.
+class Mean {
+  public:
+    void add(double value) {
+        if (std::isnan(value)) return;
+        sum_ += value;
+        count_ += 1.0;
+    }
+    double of(double without_any) const { return count_ > 0.0 ? sum_ / count_ : without_any; }
+
+  private:
+    double sum_ = 0.0, count_ = 0.0;
+};
 
 /// A tag in the image, and its motion.
 struct ImageMotion {
@@ -111,7 +126,13 @@ double log_ratio(double predicted, double measured) {
 
 ImageSighting sighting_of(const TagAppearance& seen, const ImageMotion& motion,
                           const CameraParameters& camera, std::size_t second) {
-    ImageSighting sighting{motion.tag->corners_px, motion.velocity_px_per_s, {}, second};
+    ImageSighting sighting{motion.tag->corners_px, motion.velocity_px_per_s, {}, 1.0, second};
+    Mean expected;
+    const auto floor_of = [&](double noise, double allowance) {
+        const double floor = std::hypot(noise, allowance);
+        expected.add(1.0 - 2.0 / 3.0 * std::pow(allowance / floor, 2));
+        return floor;
+    };
     const double still_px2 = std::pow(camera.blur_px, 2) + pixel_variance_px2;
     for (std::size_t k = 0; k < sides; ++k) {
         const TagSide& side = seen.sides[k];
@@ -123,25 +144,30 @@ ImageSighting sighting_of(const TagAppearance& seen, const ImageMotion& motion,
         const double by_speed_px2 =
             along > 0.0 ? std::min(1.0, 2.0 * motion.std_px_per_s / along) * moved_px2 : 0.0;
         const double unseen_px2 = std::pow(camera.exposure_s * motion.std_px_per_s, 2) / 12.0;
-        sighting.floors[k] = std::hypot(
+        sighting.floors[k] = floor_of(
             std::hypot(side.variance_std_px2, by_speed_px2 + unseen_px2) / side.variance_px2, edge_allowance);
-        sighting.floors[first_light + k] = std::hypot(side.white_std_grey / side.white_grey, light_allowance);
+        sighting.floors[first_light + k] = floor_of(side.white_std_grey / side.white_grey, light_allowance);
     }
-    sighting.floors[white_noise] = std::hypot(seen.white.std_share, noise_allowance);
-    sighting.floors[black_noise] = std::hypot(seen.black.std_share, noise_allowance);
+    sighting.floors[white_noise] = floor_of(seen.white.std_share, noise_allowance);
+    sighting.floors[black_noise] = floor_of(seen.black.std_share, noise_allowance);
+    sighting.expected_square = expected.of(1.0);
     return sighting;
 }
 
-std::vector<ImageWindow> frames_of(const Recording& recording) {
+std::vector<ImageWindow> frames_of(const Recording& recording, std::span<const ImageSighting> sightings) {
     std::vector<ImageWindow> frames;
+    Mean expected;
     for (std::size_t i = 0; i < recording.appearances.size(); ++i) {
         const TimeNs time_ns = recording.appearances[i].time_ns;
         if (i == 0 || time_ns != recording.appearances[i - 1].time_ns) {
             const std::size_t row = row_at(recording.rows, time_ns);
             if (i > 0) frames.back().end_row = row;
-            frames.push_back({row, row + 1, i, i});
+            frames.push_back({row, row + 1, i, i, 1.0});
+            expected = {};
         }
         frames.back().end = i + 1;
+        expected.add(sightings[i].expected_square);
+        frames.back().expected_square = expected.of(1.0);
     }
     return frames;
 }
@@ -163,15 +189,12 @@ ImageRun image_run(Recording& recording, const CameraParameters& camera) {
         run.sightings.push_back(sighting_of(seen, *motion, camera, static_cast<std::size_t>(since_s)));
     }
     recording.appearances = std::move(judged);
-    run.windows = frames_of(recording);
+    run.windows = frames_of(recording, run.sightings);
     return run;
 }
 
 std::vector<ImageErrors> image_errors(const ImageModel& model, const Recording& recording,
                                       const ImageRun& run) {
-    struct Mean {
-        double sum = 0.0, weights = 0.0;
-    };
     std::vector<ImageErrors> errors;
     std::vector<Mean> lights(run.sightings.empty() ? 0 : run.sightings.back().second + 1);  // by second
     for (std::size_t i = 0; i < run.sightings.size(); ++i) {
@@ -185,9 +208,7 @@ std::vector<ImageErrors> image_errors(const ImageModel& model, const Recording& 
                                 side.variance_px2);
             const double bright = log_ratio(white_grey * light(model, side), side.white_grey);
             logs[first_light + k] = bright;
-            if (std::isnan(bright)) continue;
-            of_second.sum += bright;
-            of_second.weights += 1.0;
+            of_second.add(bright);
         }
         logs[white_noise] = log_ratio(noise_grey2(model, seen.white.grey), seen.white.variance_grey2);
         logs[black_noise] = log_ratio(noise_grey2(model, seen.black.grey), seen.black.variance_grey2);
@@ -195,8 +216,7 @@ std::vector<ImageErrors> image_errors(const ImageModel& model, const Recording& 
     for (std::size_t i = 0; i < errors.size(); ++i) {
         const ImageSighting& sighting = run.sightings[i];
         const Mean& of_second = lights[sighting.second];
-        for (std::size_t k = 0; k < sides; ++k)
-            errors[i][first_light + k] -= of_second.weights > 0.0 ? of_second.sum / of_second.weights : 0.0;
+        for (std::size_t k = 0; k < sides; ++k) errors[i][first_light + k] -= of_second.of(0.0);
         for (std::size_t k = 0; k < image_values; ++k) errors[i][k] /= sighting.floors[k];
     }
     return errors;

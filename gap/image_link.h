@@ -15,6 +15,9 @@
 // even, first differences (which jerk sets apart) or second ones (which a jump of the velocity does).
 //
 // floor^2 of a logarithm = (the measurement's own noise)^2 + allowance^2 + (what v is uncertain of)^2
+//
+// Allowances bound what measurements are off by beyond their noise: under the truth, evenly spread within
+// them, a mean square is (floor^2 - 2/3 allowance^2) / floor^2.
 #include "core/recording.h"
 #include "core/rig.h"
 #include "gap/evidence.h"
@@ -33,6 +36,7 @@ struct ImageSighting {
     std::array<Eigen::Vector2d, 4> corners_px;  ///< of its detection
     Eigen::Vector2d velocity_px_per_s;
     std::array<double, image_values> floors;  ///< of the logarithms
+    double expected_square;                   ///< mean under the truth, floors^2
     std::size_t second;                       ///< since the recording's first row
 };
 
@@ -40,6 +44,7 @@ struct ImageSighting {
 struct ImageWindow {
     std::size_t first_row, end_row;  ///< of the recording: those until the next frame that is judged
     std::size_t first, end;          ///< sightings
+    double expected_square;          ///< mean of theirs
 };
 
 struct ImageRun {

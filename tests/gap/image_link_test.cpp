@@ -97,6 +97,26 @@ TEST(ImageLink, EveryFrameWithNeighbours_IsAWindow) {
     }
 }
 
+TEST(ImageLink, MeanSquareThatAWindowExpects_IsThatOfNoiseAndOfErrorsWithinTheirAllowance) {
+    Recording still = looks_in_even_motion({}, 0.0);
+    const ImageRun run = image_run(still, *reference_rig().camera);
+    const TagAppearance& seen = still.appearances.front();
+    double sum = 0.0;
+    const auto add = [&](double noise, double allowance) {
+        const double floor2 = noise * noise + allowance * allowance;
+        sum += (noise * noise + allowance * allowance / 3.0) / floor2;
+    };
+    for (const TagSide& side : seen.sides) {
+        add(side.variance_std_px2 / side.variance_px2, 0.02);
+        add(side.white_std_grey / side.white_grey, 2e-3);
+    }
+    add(seen.white.std_share, 0.06);
+    add(seen.black.std_share, 0.06);
+    EXPECT_NEAR(run.windows.front().expected_square, sum / image_values, 1e-3);
+    still.appearances.front().sides[0] = {};  // not measured: the rest counts
+    EXPECT_GT(image_run(still, *reference_rig().camera).windows.front().expected_square, 0.3);
+}
+
 TEST(ImageLink, TagThatStartsBetweenTwoFrames_IsNotJudgedThere) {
     // Both differences about frame 20 are the same, and it still stands there.
     Recording recording = looks_in_even_motion({});

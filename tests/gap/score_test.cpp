@@ -56,6 +56,16 @@ TEST(Score, Comparison_CountsBlocksOfThreeWindowsOfOneRunAndSignal) {
     EXPECT_NEAR(comparison.significance, 7.0 / 2.0, 1e-12);
 }
 
+TEST(Score, Comparison_CountsEveryFrameByItself) {
+    std::vector<Window> frames = windows_of(1, 4, 1);
+    for (Window& frame : frames) frame.signal = Signal::image;
+    const std::vector<double> first(4, std::expm1(2.0)), second{0, 0, 0, std::expm1(1.0)};
+    const Comparison comparison = compare(frames, first, second);
+    EXPECT_EQ(comparison.blocks, 4);
+    // Gains 1, 1, 1, 1/2: mean 7/8, variance 1/16, so 7/2 / sqrt(4 / 16).
+    EXPECT_NEAR(comparison.significance, 7.0, 1e-12);
+}
+
 TEST(Score, BoundIsStudents) {
     // t at one-sided 0.01 and 0.001 (Fisher and Yates, Statistical Tables, 6th ed., 1963).
     EXPECT_NEAR(significance_bound(11, 1, 0.01), 2.764, 0.01);

@@ -65,6 +65,7 @@ struct KnownCase {
     std::size_t number;
     const char* effect;  ///< its first one, by which a draw that has changed is noticed
     bool (*is_right)(const Score&);
+    bool has_frames = false;
 };
 
 void PrintTo(const KnownCase& known, std::ostream* out) {
@@ -93,6 +94,7 @@ TEST_P(SelfCheckCase, IsDiagnosed) {
     options.cases = 1;
     options.first = known.number;
     options.seed = known.seed;
+    if (known.has_frames) options.kinds = {CaseKind::frames, CaseKind::frames_withheld};
     const SelfCheck check =
         run_self_check(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), options, [](const SelfCheck&) {});
     const Outcome& outcome = check.outcomes.at(0);
@@ -123,7 +125,11 @@ INSTANTIATE_TEST_SUITE_P(
         KnownCase{"WeakWaveBesideAMass", 2094, 325, "payload", is_all_right},
         KnownCase{"WeakWaveBesideBristles", 2086, 106, "presliding", is_followed_to_the_floor},
         // Bristles that the catalogue lacks are friction and a mass, which leave next to nothing.
-        KnownCase{"BristlesThatAreNotKnown", 2094, 190, "presliding", has_right_block}),
+        KnownCase{"BristlesThatAreNotKnown", 2094, 190, "presliding", has_right_block},
+        // Where the tags are smeared they say nothing of the camera's geometry, and few others move.
+        KnownCase{"SmearedTags", 2099, 22, "motion_blur", is_followed_to_the_floor, true},
+        KnownCase{"SmearedTagsWithoutItsEffect", 2099, 71, "motion_blur", has_right_block, true},
+        KnownCase{"FarOutOfFocus", 2099, 19, "defocus", is_followed_to_the_floor, true}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
