@@ -130,6 +130,13 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     return changed;
 }
 
+std::vector<const Candidate*> limits_in(const Chain& chain) {
+    std::vector<const Candidate*> limits;
+    for (const Choice& choice : chain.choices)
+        if (choice.candidate->is_limit) limits.push_back(choice.candidate);
+    return limits;
+}
+
 /// The chain without what cannot be named.
 Chain nameable(const Search& search, Chain chain) {
     for (std::size_t k = chain.choices.size(); k-- > 0;)
@@ -194,6 +201,7 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
         selection.is_cut_short = true;
     }
     search.limit(false);
+    if (search.is_at_floor(chain.fitted)) selection.limits = limits_in(chain);
     chain = weightiest_first(search, nameable(search, std::move(chain)));
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     for (std::size_t k = 1; k < chain.choices.size(); ++k)

@@ -13,6 +13,8 @@ struct Selection {
     std::vector<Choice> choices;  ///< what the rest can least do without first
     std::vector<CrossFit> steps;  ///< with the first 0, 1, 2 ... of them
     std::vector<Trial> alone;     ///< what was tried first, alone, best first
+    /// What was taken in and must not be named, Candidate::is_limit, where it left nothing.
+    std::vector<const Candidate*> limits;
     bool is_cut_short = false;    ///< the effort was spent before all was tried that might do better
 };
 

@@ -1,5 +1,6 @@
 #include "gap/starts.h"
 
+#include "gap/balanced_springs.h"
 #include "gap/balanced_waves.h"
 #include "gap/score.h"
 #include "gap/wave_starts.h"
@@ -12,13 +13,17 @@
 namespace fidservo::gap {
 namespace {
 
-/// As a patch that was found, beside the base as it is.
-Promise promise_of(const FrictionPatch& patch, const Candidate& candidate, const Predict& predict,
-                   std::span<const Window> windows, const Wanted& counted, const Surroundings& beside) {
+plant::EffectSetting as_found(const FrictionPatch& patch, const Candidate& candidate) {
     plant::EffectSetting setting{candidate.effect, candidate.shapes.front()};
     setting.values[candidate.patch->level] = patch.level_V;
     setting.values[candidate.patch->centre] = patch.centre_mm;
     setting.values[candidate.patch->width] = patch.width_mm;
+    return setting;
+}
+
+/// Beside the base as it is.
+Promise promise_of(plant::EffectSetting setting, const Predict& predict, std::span<const Window> windows,
+                   const Wanted& counted, const Surroundings& beside) {
     Hypothesis part = part_of(beside.base, beside.places);
     part.push_back(std::move(setting));
     const Errors errors = predict(extended(beside.base, beside.places, part));
@@ -45,7 +50,7 @@ std::vector<Promise> patches_at_first_sight(const Predict& predict, std::span<co
         at_first_sight(predict, windows, counted, beside, with_shapes(candidate, patches));
     if (starts.empty()) return starts;
     for (const FrictionPatch& patch : patches)
-        starts.push_back(promise_of(patch, candidate, predict, windows, counted, beside));
+        starts.push_back(promise_of(as_found(patch, candidate), predict, windows, counted, beside));
     std::ranges::sort(starts, std::greater{}, &Promise::gain);
     return starts;
 }
@@ -92,13 +97,18 @@ AlongRail seen_along_rail(const Evidence& evidence, const Hypothesis& known, con
         std::ranges::any_of(candidates, [](const Candidate* c) { return c->wave.has_value(); });
     const bool asks_for_patches =
         std::ranges::any_of(candidates, [](const Candidate* c) { return c->patch.has_value(); });
-    if (!asks_for_periods && !asks_for_patches) return {};
+    const bool asks_for_springs =
+        std::ranges::any_of(candidates, [](const Candidate* c) { return is_spring(*c->effect); });
+    if (!asks_for_periods && !asks_for_patches && !asks_for_springs) return {};
     const Errors errors = evidence.errors(known, wanted);
     AlongRail along;
     if (asks_for_periods) along.periods = periods_along_rail(evidence, known, errors);
-    for (const Candidate* candidate : candidates)
+    for (const Candidate* candidate : candidates) {
         std::ranges::move(balanced_waves(evidence, wanted, known, *candidate, along.periods),
                           std::back_inserter(along.balanced));
+        std::ranges::move(balanced_springs(evidence, wanted, known, *candidate),
+                          std::back_inserter(along.balanced));
+    }
     if (asks_for_patches) along.patches = strongest_patches(evidence, errors);
     return along;
 }
@@ -112,8 +122,13 @@ std::vector<Promise> starts_of(const Candidate& candidate, const AlongRail& alon
     if (candidate.patch)
         return patches_at_first_sight(predict, windows, counted, beside, candidate, along.patches);
     std::vector<Promise> starts = at_first_sight(predict, windows, counted, beside, candidate);
-    if (candidate.step_within_counts == 0.0) return starts;
-    return best_of(std::move(starts), scanned(predict, windows, counted, beside, candidate));
+    if (candidate.step_within_counts != 0.0)
+        return best_of(std::move(starts), scanned(predict, windows, counted, beside, candidate));
+    std::vector<Promise> of_balance;
+    for (const plant::EffectSetting& setting : along.balanced)
+        if (setting.effect == candidate.effect)
+            of_balance.push_back(promise_of(setting, predict, windows, counted, beside));
+    return of_balance.empty() ? starts : best_of(std::move(starts), std::move(of_balance));
 }
 
 }  // namespace fidservo::gap

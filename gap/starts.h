@@ -12,9 +12,10 @@ namespace fidservo::gap {
 
 /// What errors of the encoder show along the rail.
 struct AlongRail {
-    std::vector<PositionPeriod> periods;         ///< strongest first
-    std::vector<plant::EffectSetting> balanced;  ///< waves of a force (gap/balanced_waves.h)
-    std::vector<FrictionPatch> patches;          ///< strongest first
+    std::vector<PositionPeriod> periods;  ///< strongest first
+    /// Waves of a force (gap/balanced_waves.h), and springs (gap/balanced_springs.h).
+    std::vector<plant::EffectSetting> balanced;
+    std::vector<FrictionPatch> patches;  ///< strongest first
 };
 
 /// Periods on the rail, strongest first.

@@ -82,10 +82,32 @@ constexpr double trust_in_stand_in = 0.3;
 /// wrong.
 constexpr double removed_by_the_cause = 0.9999, removed_at_the_floor = 0.98, trust_in_its_kind = 0.9;
 
+/// Where nothing is named, what nearly was: an effect that must not be named left nothing, so that it is what
+/// the richer ones of its block come to at a limit; or the errors were found to depend on nothing, but one
+/// effect predicts them better than any other.
+std::string block_of_nameless(const Selection& selection, const Remainder& remainder) {
+    const auto is_of_richer = [&](const Candidate* limit) {
+        return std::ranges::all_of(selection.alone, [&](const Trial& trial) {
+            return !is_limit_of(limit->effect->name, trial.candidate->effect->name) ||
+                   trial.candidate->effect->block == limit->effect->block;
+        });
+    };
+    const auto limit = std::ranges::find_if(selection.limits, is_of_richer);
+    if (limit != selection.limits.end()) return std::string((*limit)->effect->block);
+    if (!remainder.depends_on.empty() || !remainder.block.starts_with("macro.") || selection.alone.empty())
+        return remainder.block;
+    const Trial& best = *std::ranges::max_element(selection.alone, {}, &Trial::gain);
+    const std::string_view block = best.candidate->effect->block;
+    return best.gain > least_gain && block.starts_with("macro.") ? std::string(block) : remainder.block;
+}
+
 /// Of an explanation that leaves something.
 Trust trust_beside(const Evidence& evidence, const Selection& selection, const TotalGap& gap,
                    Remainder remainder, double tail) {
-    if (selection.choices.empty()) return {0.0, std::move(remainder)};
+    if (selection.choices.empty()) {
+        remainder.block = block_of_nameless(selection, remainder);
+        return {0.0, std::move(remainder)};
+    }
     double trust = trust_in(typical_floors(evidence.windows(), selection.steps.back().mean_squares));
     const std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
     // A false scale does all that a plate of another pitch does but for the jumps from tag to tag.

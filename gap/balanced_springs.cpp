@@ -1,0 +1,46 @@
+#include "gap/balanced_springs.h"
+
+#include "gap/balance_fit.h"
+#include "gap/parallel.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fidservo::gap {
+namespace {
+
+Fit best_of(const BalanceFit& balanced, std::span<const Hypothesis> starts) {
+    std::vector<Fit> fits(starts.size());
+    parallel_for(fits.size(), [&](std::size_t k) { fits[k] = balanced.fit(starts[k]); });
+    return *std::ranges::min_element(fits, {}, &Fit::loss);
+}
+
+}  // namespace
+
+bool is_spring(const plant::Effect& effect) {
+    return effect.block == "macro.mechanics" && effect.parameters.front().unit == "V/mm";
+}
+
+std::vector<plant::EffectSetting> balanced_springs(const Evidence& evidence, const Wanted& wanted,
+                                                   const Hypothesis& base, const Candidate& candidate) {
+    if (!is_spring(*candidate.effect)) return {};
+    const ForceBalance balance(evidence, wanted);
+    if (balance.supports().empty()) return {};
+    const BalanceFit balanced(balance, evidence.windows(), wanted, base);
+    std::vector<Hypothesis> starts;
+    for (const std::vector<double>& shape : candidate.shapes) starts.push_back({{candidate.effect, shape}});
+    const plant::EffectSetting plain = best_of(balanced, starts).hypothesis.front();
+    starts.clear();
+    for (const Refinement& refinement : refinements_of(*candidate.effect))
+        for (const double value : refinement.values)
+            for (const double share : {1.0, 0.3}) {  // of the pull nearby, which the rest then adds to
+                plant::EffectSetting start = plain;
+                start.values.front() *= share;
+                start.values[refinement.parameter] = value;
+                starts.push_back({std::move(start)});
+            }
+    if (starts.empty()) return {plain};
+    return {plain, best_of(balanced, starts).hypothesis.front()};
+}
+
+}  // namespace fidservo::gap
