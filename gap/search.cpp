@@ -39,6 +39,22 @@ std::span<Search::Contender> near_best(std::span<Search::Contender> sorted, doub
     return sorted.first(count);
 }
 
+/// How many of what is far off are no chance: in each half, or in one half and two recordings.
+struct Enough {
+    std::size_t of_each_half, of_one_half;
+};
+
+/// @param runs  of each that is far off, by half
+bool are_enough(const std::array<std::vector<std::size_t>, 2>& runs, const Enough& enough) {
+    constexpr std::size_t fewest_runs = 2;
+    return std::ranges::all_of(runs,
+                               [&](const auto& of_half) { return of_half.size() >= enough.of_each_half; }) ||
+           std::ranges::any_of(runs, [&](const auto& of_half) {
+               return of_half.size() >= enough.of_one_half &&
+                      std::set(of_half.begin(), of_half.end()).size() >= fewest_runs;
+           });
+}
+
 }  // namespace
 
 Search::Search(const Evidence& evidence, const std::vector<Candidate>& candidates,
@@ -251,47 +267,47 @@ bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
 }
 
 bool Search::clears_what_is_far_off(const CrossFit& without, const CrossFit& with) const {
+    // Of the shapes of tags, which nothing lets go by jumps: a shutter leaves some that shake.
+    constexpr double next_to_nothing = 1e-3;
     const SignalExcess before = fitter_.excess(without.mean_squares),
                        after = fitter_.excess(with.mean_squares);
-    for (std::size_t s = 0; s < signal_count; ++s)
-        if (before[s] > 0.0 && after[s] == 0.0 && is_far_off(without, static_cast<Signal>(s))) return true;
+    for (std::size_t s = 0; s < signal_count; ++s) {
+        const auto signal = static_cast<Signal>(s);
+        const double most_left = signal == Signal::tag ? next_to_nothing * before[s] : 0.0;
+        if (before[s] > 0.0 && after[s] <= most_left && is_far_off(without, signal)) return true;
+    }
     return false;
 }
 
 bool Search::is_far_off(const CrossFit& cross, Signal signal) const {
-    constexpr std::size_t fewest_windows = 3, fewest_of_one_half = 6, fewest_runs = 2;
-    constexpr int fewest_shapes = 6;
+    // Windows, and shapes of tags.
+    constexpr Enough windows_enough{3, 6}, shapes_enough{6, 12};
+    std::array<std::vector<std::size_t>, 2> runs, runs_of_shapes;
     const std::vector<Window>& windows = fitter_.evidence().windows();
-    int halves = 0;
     for (const std::size_t side : {0, 1}) {
         const Wanted half = fitter_.half(side);
-        std::vector<std::size_t> runs;  // of windows far off
         for (std::size_t w = 0; w < windows.size(); ++w)
             if (half[w] != 0 && windows[w].signal == signal && cross.mean_squares[w] > far_off_square)
-                runs.push_back(windows[w].run);
-        if (runs.size() >= fewest_of_one_half && std::set(runs.begin(), runs.end()).size() >= fewest_runs)
-            return true;
-        if (runs.size() >= fewest_windows ||
-            (signal == Signal::tag && shapes_far_off(cross, side) >= fewest_shapes))
-            ++halves;
+                runs[side].push_back(windows[w].run);
+        if (signal == Signal::tag) runs_of_shapes[side] = runs_of_shapes_far_off(cross, side);
     }
-    return halves == 2;
+    return are_enough(runs, windows_enough) || are_enough(runs_of_shapes, shapes_enough);
 }
 
-int Search::shapes_far_off(const CrossFit& cross, std::size_t side) const {
+std::vector<std::size_t> Search::runs_of_shapes_far_off(const CrossFit& cross, std::size_t side) const {
     const std::vector<Window>& windows = fitter_.evidence().windows();
     const Wanted wanted = only_of(windows, fitter_.half(side), only(Signal::tag));
     const Errors errors = fitter_.evidence().errors(cross.of_half[1 - side], wanted);
-    int count = 0;
+    std::vector<std::size_t> runs;
     for (std::size_t w = 0; w < windows.size(); ++w) {
         if (wanted[w] == 0) continue;
         for (std::size_t tag = windows[w].begin; tag < windows[w].end; tag += corner_values) {
             const auto shape = std::span(errors).subspan(tag + 1, corner_values - 1);
             const double square = std::inner_product(shape.begin(), shape.end(), shape.begin(), 0.0);
-            if (square > far_off_square * static_cast<double>(shape.size())) ++count;
+            if (square > far_off_square * static_cast<double>(shape.size())) runs.push_back(windows[w].run);
         }
     }
-    return count;
+    return runs;
 }
 
 bool Search::nearly_clears(const CrossFit& without, const CrossFit& with, double share) const {

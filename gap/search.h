@@ -238,14 +238,14 @@ class Search {
     /// share of what it exceeds it by where nothing is known.
     bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share,
                          double share_of_first = 0.0) const;
-    /// Whether a signal comes to its floor that was far off.
+    /// Whether a signal comes to its floor that was far off; of tags, whether next to nothing is left.
     bool clears_what_is_far_off(const CrossFit& without, const CrossFit& with) const;
     /// Whether a signal is off by 3 floors and more in three windows of each half or in six of one half and
-    /// of two runs, or in the shape of six tags of each half: of what does not depend on where the stages
-    /// are, the errors of one frame say nothing of the next one's.
+    /// of two runs, or in the shapes of twice as many tags: of what does not depend on where the stages are,
+    /// the errors of one frame say nothing of the next one's.
     bool is_far_off(const CrossFit& cross, Signal signal) const;
-    /// Detections of a half, predicted by what the other half has taught.
-    int shapes_far_off(const CrossFit& cross, std::size_t side) const;
+    /// Of each detection of a half, predicted by what the other half has taught.
+    std::vector<std::size_t> runs_of_shapes_far_off(const CrossFit& cross, std::size_t side) const;
     /// Of leaders, best first, the one of fewest parameters among those that tie with the best, leave nothing
     /// in the signals that teach it, or are its limit and no worse than by chance: bristles that bend over no
     /// way are Coulomb friction, fitted a little better.

@@ -129,7 +129,13 @@ INSTANTIATE_TEST_SUITE_P(
         // Where the tags are smeared they say nothing of the camera's geometry, and few others move.
         KnownCase{"SmearedTags", 2099, 22, "motion_blur", is_followed_to_the_floor, true},
         KnownCase{"SmearedTagsWithoutItsEffect", 2099, 71, "motion_blur", has_right_block, true},
-        KnownCase{"FarOutOfFocus", 2099, 19, "defocus", is_followed_to_the_floor, true}),
+        KnownCase{"FarOutOfFocus", 2099, 19, "defocus", is_followed_to_the_floor, true},
+        // One half of the data has hardly a tag that moves.
+        KnownCase{"ShutterThatRollsInOneHalf", 2100, 106, "rolling_shutter", is_followed_to_the_floor, true},
+        // Followed as a spring that does not harden the carriage goes other ways.
+        KnownCase{"HardeningCableOfManyWays", 2097, 337, "cable_force", is_followed_to_the_floor},
+        // Explained by what Stribeck friction and bristles come to at a limit.
+        KnownCase{"DryFrictionThatIsNotKnown", 2097, 367, "coulomb_friction", has_right_block}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
