@@ -1,10 +1,10 @@
 // Waves along the rail, whose losses have a valley for each way in which a carriage may go.
 #include "gap/contender.h"
 #include "gap/parallel.h"
+#include "gap/scatter.h"
 #include "gap/score.h"
 #include "gap/search.h"
 #include "gap/wave_scan.h"
-#include "gap/wave_scatter.h"
 #include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 
@@ -96,7 +96,7 @@ Search::Contender Search::scattered(const CrossFit& base, const Contender& conte
         const Wanted wanted =
             fitter_.instructive_of(side, contender.teachers(), contender.trial.fitted.mean_squares);
         there.trial.fitted.of_half[side] =
-            scatter_wave(fitter_.predictor(wanted), windows, wanted, of_half[side], place).hypothesis;
+            scatter(fitter_.predictor(wanted), windows, wanted, of_half[side], place).hypothesis;
     });
     const std::array<Hypothesis, 2> drawn = there.trial.fitted.of_half;
     parallel_for(2, [&](std::size_t side) {
