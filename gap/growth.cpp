@@ -1,5 +1,7 @@
 #include "gap/growth.h"
 
+#include "gap/scatter.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -109,7 +111,7 @@ bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
 
 bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step) {
     bool is_balanced = false, is_paired = false, is_of_two = false;
-    std::optional<Chain> before_wave;  // that leaves something
+    std::optional<Chain> before_valleys;  // of an effect that leaves something
     const auto is_far_off = [&] { return search.far_off(chain.fitted)[index_of(Signal::encoder)]; };
     while (static_cast<int>(chain.choices.size()) < most_effects) {
         const Chain before = chain;
@@ -117,10 +119,11 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
         if (first_step != nullptr) *first_step = trials;
         first_step = nullptr;
         if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) {
-            if (!before_wave || chain.choices.size() != before_wave->choices.size() + 1) return is_paired;
-            chain = grown_whatever(search, *before_wave,
-                                   search.try_all(before_wave->fitted, before_wave->candidates()));
-            before_wave.reset();
+            if (!before_valleys || chain.choices.size() != before_valleys->choices.size() + 1)
+                return is_paired;
+            chain = grown_whatever(search, *before_valleys,
+                                   search.try_all(before_valleys->fitted, before_valleys->candidates()));
+            before_valleys.reset();
             continue;
         }
         const bool moves_carriage = teachers_of(*trials.front().candidate->effect)[index_of(Signal::encoder)],
@@ -129,7 +132,8 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
         if (moves_carriage && !is_balanced) {
             is_balanced = true;
             is_paired = look_further(search, chain, before, most_effects);
-            if (!is_paired && is_far_off() && chain.choices.back().candidate->wave) before_wave = before;
+            if (!is_paired && is_far_off() && has_valleys(*chain.choices.back().candidate))
+                before_valleys = before;
         }
         if (moves_wire && !is_of_two && search.leaves_much(chain.fitted)[index_of(Signal::hall)] &&
             has_room_for_two(before, most_effects)) {

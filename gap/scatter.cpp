@@ -1,7 +1,7 @@
 #include "gap/scatter.h"
 
 #include "core/random.h"
-#include "gap/candidate.h"
+#include "gap/balanced_springs.h"
 #include "gap/score.h"
 #include "gap/wave.h"
 
@@ -73,6 +73,10 @@ std::vector<plant::EffectSetting> with_harmonics(const plant::EffectSetting& wav
 }
 
 }  // namespace
+
+bool has_valleys(const Candidate& candidate) {
+    return candidate.wave || is_spring(*candidate.effect);
+}
 
 Fit scatter(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
             const Hypothesis& start, std::size_t place) {

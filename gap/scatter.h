@@ -1,5 +1,6 @@
 #pragma once
 // A force along the rail among many small valleys.
+#include "gap/candidate.h"
 #include "gap/coupling.h"
 #include "gap/fit.h"
 
@@ -7,6 +8,9 @@
 #include <span>
 
 namespace fidservo::gap {
+
+/// Whether an effect is such a force: a wave or a spring.
+bool has_valleys(const Candidate& candidate);
 
 /// Values of the wave or the spring at a place of a hypothesis that predict best among many drawn around the
 /// best so far, ever closer: where friction lets a carriage go by jumps, a small force along the rail decides

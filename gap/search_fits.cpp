@@ -1,8 +1,8 @@
 // How a search fits those it tries: simple ones first, the second half for leaders, closely for the best.
-#include "gap/balanced_springs.h"
 #include "gap/contender.h"
 #include "gap/parallel.h"
 #include "gap/polish.h"
+#include "gap/scatter.h"
 #include "gap/score.h"
 #include "gap/search.h"
 
@@ -176,7 +176,7 @@ void Search::fit_second_half(const CrossFit& base, Contender& contender, Threads
 void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatters,
                         double share_of_effort) const {
     const bool is_wave = contender.trial.candidate->wave.has_value(),
-               is_of_spring = is_spring(*contender.trial.candidate->effect);
+               is_in_valleys = has_valleys(*contender.trial.candidate);
     const std::string_view block = contender.trial.candidate->effect->block;
     const bool moves_tags = block == "macro.encoder" || block.starts_with("camera.");
     constexpr int most_times = 4;
@@ -222,7 +222,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
         if (is_off() && !is_worn_out() && !(is_wave && !scatters && is_far_off()) &&
             clears_a_signal(base, closer.trial.fitted, is_wave && !scatters ? in_its_valley : worth_refining))
             or_else(refined(base, closer));
-        if (is_of_spring && scatters && is_far_off() &&
+        if (is_in_valleys && !is_wave && scatters && is_far_off() &&
             clears_a_signal(base, closer.trial.fitted, nearly_all))
             or_else(scattered(base, closer));
         if (is_off()) or_else(crossed(base, closer));
@@ -245,7 +245,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
         }
         if (is_last) break;
     }
-    finding.is_close = scatters || !(is_wave || is_of_spring);
+    finding.is_close = scatters || !is_in_valleys;
 }
 
 Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
