@@ -43,11 +43,12 @@ double to_border_px(const TagDetection& tag, const CameraGeometry& image) {
 
 TagsInFrames smeared_tags(const Recording& recording) {
     TagsInFrames smeared;
-    for (const TagAppearance& seen : recording.appearances)
-        for (const TagDetection& tag :
-             std::ranges::equal_range(recording.detections, seen.time_ns, {}, &TagDetection::time_ns))
-            if (tag.tag_id == seen.tag_id && looks_smeared(seen, cell_px(tag)))
+    for (const TagAppearance& seen : recording.appearances) {
+        auto tag = std::ranges::lower_bound(recording.detections, seen.time_ns, {}, &TagDetection::time_ns);
+        for (; tag != recording.detections.end() && tag->time_ns == seen.time_ns; ++tag)
+            if (tag->tag_id == seen.tag_id && looks_smeared(seen, cell_px(*tag)))
                 smeared.emplace(seen.time_ns, seen.tag_id);
+    }
     return smeared;
 }
 
