@@ -21,6 +21,20 @@ bool is_spring(const plant::Effect& effect) {
     return effect.block == "macro.mechanics" && effect.parameters.front().unit == "V/mm";
 }
 
+std::vector<plant::EffectSetting> richer_forms(const plant::EffectSetting& plain) {
+    constexpr double nearby = 0.3;
+    std::vector<plant::EffectSetting> forms;
+    for (const Refinement& refinement : refinements_of(*plain.effect))
+        for (const double value : refinement.values) {
+            forms.push_back(plain);
+            forms.back().values[refinement.parameter] = value;
+            if (!is_spring(*plain.effect)) continue;
+            forms.push_back(forms.back());
+            forms.back().values.front() *= nearby;
+        }
+    return forms;
+}
+
 std::vector<plant::EffectSetting> balanced_springs(const Evidence& evidence, const Wanted& wanted,
                                                    const Hypothesis& base, const Candidate& candidate) {
     if (!is_spring(*candidate.effect)) return {};
@@ -31,14 +45,7 @@ std::vector<plant::EffectSetting> balanced_springs(const Evidence& evidence, con
     for (const std::vector<double>& shape : candidate.shapes) starts.push_back({{candidate.effect, shape}});
     const plant::EffectSetting plain = best_of(balanced, starts).hypothesis.front();
     starts.clear();
-    for (const Refinement& refinement : refinements_of(*candidate.effect))
-        for (const double value : refinement.values)
-            for (const double share : {1.0, 0.3}) {  // of the pull nearby, which the rest then adds to
-                plant::EffectSetting start = plain;
-                start.values.front() *= share;
-                start.values[refinement.parameter] = value;
-                starts.push_back({std::move(start)});
-            }
+    for (plant::EffectSetting& form : richer_forms(plain)) starts.push_back({std::move(form)});
     if (starts.empty()) return {plain};
     return {plain, best_of(balanced, starts).hypothesis.front()};
 }

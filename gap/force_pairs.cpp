@@ -1,6 +1,7 @@
 #include "gap/force_pairs.h"
 
 #include "gap/balance_fit.h"
+#include "gap/balanced_springs.h"
 #include "gap/parallel.h"
 #include "gap/score.h"
 
@@ -190,13 +191,12 @@ void take(Fit fitted, ForcePair& pair) {
 void refine(const BalanceFit& balanced, ForcePair& pair) {
     const ForcePair plain = pair;
     for (std::size_t place = 0; place < plain.settings.size(); ++place)
-        for (const Refinement& refinement : refinements_of(*plain.settings[place].effect))
-            for (const double value : refinement.values) {
-                Hypothesis start = plain.settings;
-                start[place].values[refinement.parameter] = value;
-                Fit refined = balanced.fit(start);
-                if (refined.loss < pair.loss - least_gain) take(std::move(refined), pair);
-            }
+        for (plant::EffectSetting& form : richer_forms(plain.settings[place])) {
+            Hypothesis start = plain.settings;
+            start[place] = std::move(form);
+            Fit refined = balanced.fit(start);
+            if (refined.loss < pair.loss - least_gain) take(std::move(refined), pair);
+        }
 }
 
 constexpr double most_left = 0.8;  ///< of a loss, where something takes away a good part of it
