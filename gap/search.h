@@ -162,6 +162,10 @@ class Search {
     /// At the typical sizes of both, of both signs.
     void add_typical(const CrossFit& base, const Candidate& first, const Candidate& second,
                      std::vector<PairAttempt>& attempts) const;
+    /// Whether a carriage that is followed with both, as they balance its forces, comes out far better than
+    /// with the one that balances them nearly as well alone: noise hides in the balance what it shows.
+    bool moves_as_a_pair(const CrossFit& base, const ForcePair& pair) const;
+    /// @param only_needed  pairs that the balance or the carriage's way needs
     std::vector<PairAttempt> by_force(const CrossFit& base, std::vector<const Candidate*> candidates,
                                       bool only_needed);
     /// Pairs of those candidates that the balance shows. The last ones are kept.

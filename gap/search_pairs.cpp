@@ -87,12 +87,26 @@ const std::vector<ForcePair>& Search::force_pairs(const CrossFit& base,
     return last_balance_.pairs;
 }
 
+bool Search::moves_as_a_pair(const CrossFit& base, const ForcePair& pair) const {
+    constexpr double clearly_less = 0.5;
+    if (!pair.lone) return false;
+    const auto loss_with = [&](const Hypothesis& settings, const Candidate& taught) {
+        Hypothesis whole = base.of_half[0];
+        whole.insert(whole.end(), settings.begin(), settings.end());
+        return loss_on_half(0, whole, taught);
+    };
+    const double alone = loss_with({*pair.lone}, *pair.first);
+    return std::ranges::any_of(pair.starts, [&](const Hypothesis& start) {
+        return loss_with(start, *pair.first) < clearly_less * alone;
+    });
+}
+
 std::vector<Search::PairAttempt> Search::by_force(const CrossFit& base,
                                                   std::vector<const Candidate*> candidates,
                                                   bool only_needed) {
     std::vector<PairAttempt> attempts;
     for (const ForcePair& pair : force_pairs(base, std::move(candidates)))
-        if (pair.needs_both || !only_needed)
+        if (!only_needed || pair.needs_both || moves_as_a_pair(base, pair))
             for (const Hypothesis& start : pair.starts)
                 attempts.push_back(attempt(base, *pair.first, *pair.second, start));
     return attempts;

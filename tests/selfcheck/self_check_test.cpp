@@ -134,6 +134,9 @@ INSTANTIATE_TEST_SUITE_P(
         KnownCase{"ShutterThatRollsInOneHalf", 2100, 106, "rolling_shutter", is_followed_to_the_floor, true},
         // Followed as a spring that does not harden the carriage goes other ways.
         KnownCase{"HardeningCableOfManyWays", 2097, 337, "cable_force", is_followed_to_the_floor},
+        // The balance needs the cable alone; only where the carriage goes shows the other one.
+        KnownCase{"FrictionByDirectionBesideACable", 2101, 369, "friction_asymmetry",
+                  is_followed_to_the_floor},
         // Explained by what Stribeck friction and bristles come to at a limit.
         KnownCase{"DryFrictionThatIsNotKnown", 2097, 367, "coulomb_friction", has_right_block}),
     [](const auto& instance) { return instance.param.name; });
