@@ -48,7 +48,7 @@ bool take_in_scanned(Search& search, Chain& chain, const Chain& before, int most
 /// @return whether a pair took the place of the last effect
 bool look_further(Search& search, Chain& chain, const Chain& before, int most_effects) {
     if (balance(search, chain, most_effects, true)) return true;
-    constexpr double floors_of_a_way = 10.0;  // that another way leaves
+    constexpr double floors_of_a_way = 3.0;  // that another way leaves
     const auto is_far_off = [&](double floors) {
         return search.far_off(chain.fitted, floors)[index_of(Signal::encoder)];
     };

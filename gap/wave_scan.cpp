@@ -20,7 +20,7 @@ constexpr double step_per_mm = 0.005;
 constexpr double shortest_mm = 1.9, longest_mm = 25.0;
 constexpr int phases = 6;
 constexpr double step_rad = 2.0 * std::numbers::pi / phases;
-constexpr std::array speeds_mm_per_s{1.2, 4.0};
+constexpr std::array speeds_mm_per_s{0.7, 1.5, 4.0};
 constexpr double speed_factor = 1.8;  // half way from one to the other
 
 struct Scanned {

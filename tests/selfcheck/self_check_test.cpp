@@ -122,6 +122,7 @@ INSTANTIATE_TEST_SUITE_P(
         // Fitted no further than from afar, a wave longer than the rail does better.
         KnownCase{"HardeningCable", 2094, 361, "cable_force", is_followed_to_the_floor},
         // Found by a scan: which way the carriage goes is all that shows it.
+        KnownCase{"WaveOfTwoMillivolts", 2101, 278, "cogging", is_followed_to_the_floor},
         KnownCase{"WeakWaveBesideAMass", 2094, 325, "payload", is_all_right},
         KnownCase{"WeakWaveBesideBristles", 2086, 106, "presliding", is_followed_to_the_floor},
         // Bristles that the catalogue lacks are friction and a mass, which leave next to nothing.
