@@ -15,7 +15,7 @@ struct Selection {
     std::vector<Trial> alone;     ///< what was tried first, alone, best first
     /// What was taken in and must not be named, Candidate::is_limit, where it left nothing.
     std::vector<const Candidate*> limits;
-    bool is_cut_short = false;    ///< the effort was spent before all was tried that might do better
+    bool is_cut_short = false;  ///< the effort was spent before all was tried that might do better
 };
 
 struct SelectionOptions {
