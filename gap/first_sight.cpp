@@ -106,6 +106,15 @@ Surroundings surroundings(const Predict& predict, std::span<const Window> window
     return beside;
 }
 
+Promise promise_of(plant::EffectSetting setting, const Predict& predict, std::span<const Window> windows,
+                   const Wanted& counted, const Surroundings& beside, std::span<const double> base_squares) {
+    Hypothesis part = part_of(beside.base, beside.places);
+    part.push_back(std::move(setting));
+    const double gain =
+        gained(windows, counted, base_squares, predict(extended(beside.base, beside.places, part)));
+    return {std::move(part), gain};
+}
+
 std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
                                     const Wanted& counted, const Surroundings& beside,
                                     const Candidate& candidate) {

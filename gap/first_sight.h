@@ -38,6 +38,11 @@ struct Promise {
     double gain;       ///< loss that it saves over the base, in the windows counted and predicted
 };
 
+/// Of a setting beside the base as it is.
+/// @param base_squares  mean squares of the base's errors (gap/score.h)
+Promise promise_of(plant::EffectSetting setting, const Predict& predict, std::span<const Window> windows,
+                   const Wanted& counted, const Surroundings& beside, std::span<const double> base_squares);
+
 /// Along each shape of the grid the sizes that fit best, together with what moves, if errors changed in
 /// proportion to both: weighted least squares of the base's errors. (A base that was fitted without the
 /// candidate has taken over what it can of it. Where that misleads, as with a base of which only a product is

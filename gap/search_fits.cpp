@@ -215,16 +215,18 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
         };
         const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
         const auto is_far_off = [&] { return meet(far_off(closer.trial.fitted), closer.teachers()); };
-        if (is_wave && scatters && is_far_off() && clears_a_signal(base, closer.trial.fitted, nearly_all))
-            or_else(scattered(base, closer));
+        const auto is_worth_scattering = [&] {
+            return is_in_valleys && scatters && is_far_off() &&
+                   clears_a_signal(base, closer.trial.fitted, nearly_all);
+        };
+        if (is_wave && is_worth_scattering()) or_else(scattered(base, closer));
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
         // Of a wave its harmonic, once it is in its valley or has been looked for among many values.
         if (is_off() && !is_worn_out() && !(is_wave && !scatters && is_far_off()) &&
             clears_a_signal(base, closer.trial.fitted, is_wave && !scatters ? in_its_valley : worth_refining))
             or_else(refined(base, closer));
-        if (is_in_valleys && !is_wave && scatters && is_far_off() &&
-            clears_a_signal(base, closer.trial.fitted, nearly_all))
-            or_else(scattered(base, closer));
+        // A spring once it is known whether it hardens.
+        if (!is_wave && is_worth_scattering()) or_else(scattered(base, closer));
         if (is_off()) or_else(crossed(base, closer));
         if (!is_wave && is_off() && !is_worn_out() &&
             (moves_tags || clears_a_signal(base, closer.trial.fitted, nearly_all)))

@@ -90,15 +90,14 @@ const std::vector<ForcePair>& Search::force_pairs(const CrossFit& base,
 bool Search::moves_as_a_pair(const CrossFit& base, const ForcePair& pair) const {
     constexpr double clearly_less = 0.5;
     if (!pair.lone) return false;
-    const auto loss_with = [&](const Hypothesis& settings, const Candidate& taught) {
+    const auto loss_with = [&](const Hypothesis& settings) {
         Hypothesis whole = base.of_half[0];
-        whole.insert(whole.end(), settings.begin(), settings.end());
-        return loss_on_half(0, whole, taught);
+        std::ranges::copy(settings, std::back_inserter(whole));
+        return loss_on_half(0, whole, *pair.first);
     };
-    const double alone = loss_with({*pair.lone}, *pair.first);
-    return std::ranges::any_of(pair.starts, [&](const Hypothesis& start) {
-        return loss_with(start, *pair.first) < clearly_less * alone;
-    });
+    const double enough = clearly_less * loss_with({*pair.lone});
+    return std::ranges::any_of(pair.starts,
+                               [&](const Hypothesis& start) { return loss_with(start) < enough; });
 }
 
 std::vector<Search::PairAttempt> Search::by_force(const CrossFit& base,

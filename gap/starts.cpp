@@ -21,15 +21,6 @@ plant::EffectSetting as_found(const FrictionPatch& patch, const Candidate& candi
     return setting;
 }
 
-/// Beside the base as it is.
-Promise promise_of(plant::EffectSetting setting, const Predict& predict, std::span<const Window> windows,
-                   const Wanted& counted, const Surroundings& beside) {
-    Hypothesis part = part_of(beside.base, beside.places);
-    part.push_back(std::move(setting));
-    const Errors errors = predict(extended(beside.base, beside.places, part));
-    return {std::move(part), gained(windows, counted, mean_squares(windows, beside.errors), errors)};
-}
-
 /// With the places that were found, beside those of its grid.
 Candidate with_shapes(Candidate candidate, std::span<const FrictionPatch> patches) {
     const std::vector<double> typical = candidate.shapes.front();
@@ -49,8 +40,10 @@ std::vector<Promise> patches_at_first_sight(const Predict& predict, std::span<co
     std::vector<Promise> starts =
         at_first_sight(predict, windows, counted, beside, with_shapes(candidate, patches));
     if (starts.empty()) return starts;
+    const std::vector<double> base_squares = mean_squares(windows, beside.errors);
     for (const FrictionPatch& patch : patches)
-        starts.push_back(promise_of(as_found(patch, candidate), predict, windows, counted, beside));
+        starts.push_back(
+            promise_of(as_found(patch, candidate), predict, windows, counted, beside, base_squares));
     std::ranges::sort(starts, std::greater{}, &Promise::gain);
     return starts;
 }
@@ -64,12 +57,10 @@ std::vector<Promise> scanned(const Predict& predict, std::span<const Window> win
     std::vector<Promise> starts;
     for (int k = -most_steps; k <= most_steps; ++k) {
         if (k == 0) continue;
-        Hypothesis part = part_of(beside.base, beside.places);
-        part.push_back({candidate.effect, candidate.shapes.front()});
-        part.back().values[size] =
+        plant::EffectSetting setting{candidate.effect, candidate.shapes.front()};
+        setting.values[size] =
             candidate.effect->parameters[size].vanishing + k * candidate.step_within_counts;
-        const Errors errors = predict(extended(beside.base, beside.places, part));
-        starts.push_back({std::move(part), gained(windows, counted, base_squares, errors)});
+        starts.push_back(promise_of(std::move(setting), predict, windows, counted, beside, base_squares));
     }
     return starts;
 }
@@ -124,10 +115,11 @@ std::vector<Promise> starts_of(const Candidate& candidate, const AlongRail& alon
     std::vector<Promise> starts = at_first_sight(predict, windows, counted, beside, candidate);
     if (candidate.step_within_counts != 0.0)
         return best_of(std::move(starts), scanned(predict, windows, counted, beside, candidate));
+    const std::vector<double> base_squares = mean_squares(windows, beside.errors);
     std::vector<Promise> of_balance;
     for (const plant::EffectSetting& setting : along.balanced)
         if (setting.effect == candidate.effect)
-            of_balance.push_back(promise_of(setting, predict, windows, counted, beside));
+            of_balance.push_back(promise_of(setting, predict, windows, counted, beside, base_squares));
     return of_balance.empty() ? starts : best_of(std::move(starts), std::move(of_balance));
 }
 

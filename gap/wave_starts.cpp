@@ -77,11 +77,7 @@ std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<cons
     constexpr double worth_a_climb = 0.2;  // of the loss
     const std::vector<double> base_squares = mean_squares(windows, beside.errors);
     const auto promise = [&](plant::EffectSetting setting) {
-        Hypothesis part = part_of(beside.base, beside.places);
-        part.push_back(std::move(setting));
-        const double gain =
-            gained(windows, counted, base_squares, predict(extended(beside.base, beside.places, part)));
-        return Promise{std::move(part), gain};
+        return promise_of(std::move(setting), predict, windows, counted, beside, base_squares);
     };
     std::vector<Promise> promises;
     for (const PositionPeriod& period : periods) promises.push_back(promise(wave_at(candidate, period)));
