@@ -119,6 +119,7 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
         if (first_step != nullptr) *first_step = trials;
         first_step = nullptr;
         if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) {
+            if (is_far_off() && search.scan_for_wave(chain.fitted, chain.candidates())) continue;
             if (!before_valleys || chain.choices.size() != before_valleys->choices.size() + 1)
                 return is_paired;
             chain = grown_whatever(search, *before_valleys,

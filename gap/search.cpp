@@ -166,7 +166,8 @@ void Search::remember(const CrossFit& base, const Candidate& candidate, const Cr
                                mean_squares(evidence.windows(), evidence.errors(base.of_half[0], wanted)),
                                evidence.errors(known.placed(base, 0, finding.fitted[0]), wanted));
     finding.starts = {{finding.fitted[0], gain}};
-    finding.is_looked_at = finding.is_close = true;
+    finding.is_looked_at = true;
+    finding.sought = Sought::among_many;
 }
 
 Search::Contender Search::contender(const CrossFit& base, const Candidate& candidate) {

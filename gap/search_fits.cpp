@@ -185,13 +185,14 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
     const double worth_refining = contender.teachers()[index_of(Signal::encoder)] ? 0.9 : 0.5;
     constexpr double worth_another = 4.0 * least_gain;
     Finding& finding = *contender.finding;
-    if (vanishes_on_a_half(contender.trial)) return;
+    const Sought asked = scatters || !is_in_valleys ? Sought::among_many : Sought::from_there;
+    if (finding.sought >= asked || vanishes_on_a_half(contender.trial)) return;
     if (!clears_a_signal(base, contender.trial.fitted, is_wave ? worth_a_simplex : worth_it)) return;
     const double effort_at_start = fitter_.evidence().effort();
     const auto is_worn_out = [&] {
         return fitter_.evidence().effort() - effort_at_start > share_of_effort * options_.most_effort;
     };
-    for (int time = 0; time < most_times && !finding.is_close && !is_worn_out(); ++time) {
+    for (int time = 0; time < most_times && !is_worn_out(); ++time) {
         // Also what only passes the change on: tags can tell more closely how the carriage moves than counts.
         if (!meet(off(contender.trial.fitted), reached_by({contender.trial.fitted.of_half[0].back()})))
             return;
@@ -209,10 +210,11 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
             return fitted_by(
                 [&](std::size_t side) { return fitted_from_there(base, contender, side, step_scales); });
         };
-        Contender closer = is_wave ? by_simplex(contender) : by_slopes(usual_step);
+        Contender closer = contender;
         const auto or_else = [&](Contender other) {
             if (other.gain() > closer.gain()) closer = std::move(other);
         };
+        or_else(is_wave ? by_simplex(contender) : by_slopes(usual_step));
         const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
         const auto is_far_off = [&] { return meet(far_off(closer.trial.fitted), closer.teachers()); };
         const auto is_worth_scattering = [&] {
@@ -247,7 +249,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
         }
         if (is_last) break;
     }
-    finding.is_close = scatters || !is_in_valleys;
+    finding.sought = asked;
 }
 
 Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,

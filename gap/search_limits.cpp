@@ -22,7 +22,7 @@ void Search::fit_plain_form(const CrossFit& base, const Contender& richer, Conte
             fitter_.fit_places(side, start, plain.fitted_places(base), base.mean_squares).hypothesis;
         finding.fitted[side] = found.part(found.trial.fitted.of_half[side]);
     });
-    finding.is_close = false;
+    finding.sought = Sought::nowhere;
     judge_both_halves(base, found);
     if (found.gain() <= plain.gain()) return;
     *plain.finding = std::move(finding);
@@ -54,7 +54,7 @@ void Search::fit_rich_form(const CrossFit& base, const Contender& plain, Contend
     if (found.gain() <= richer.gain()) return;
     for (std::size_t side = 0; side < 2; ++side)
         finding.fitted[side] = found.part(found.trial.fitted.of_half[side]);
-    finding.is_close = false;
+    finding.sought = Sought::nowhere;
     *richer.finding = std::move(finding);
     richer.trial = std::move(found.trial);
 }

@@ -10,6 +10,10 @@
 
 namespace fidservo::gap {
 
+/// Where something closer was looked for: from where a fit ended, or also of a wave or a spring among many
+/// values.
+enum class Sought { nowhere, from_there, among_many };
+
 /// Of a candidate beside those settings of a base that it meets.
 struct Finding {
     std::array<Hypothesis, 2> beside;  ///< as fitted on each half
@@ -17,7 +21,7 @@ struct Finding {
     bool is_scanned = false;           ///< whether they were, of a wave, among all that there may be
     std::vector<Promise> starts;       ///< best first
     std::array<Hypothesis, 2> fitted;  ///< on each half: what is beside, then the candidate; empty before
-    bool is_close = false;             ///< whether nothing more was found from there
+    Sought sought = Sought::nowhere;   ///< where more was looked for than that, and nothing is left to find
 };
 
 class SearchMemory {

@@ -81,7 +81,7 @@ bool Search::scan_for_wave(const CrossFit& base, std::span<const Candidate* cons
         finding.starts = {{std::move(scanned), gain}};
         if (!known.empty()) finding.starts.push_back({known, gain_of_known});
         finding.fitted = {};
-        finding.is_close = false;
+        finding.sought = Sought::nowhere;
         is_found = true;
     }
     return is_found;

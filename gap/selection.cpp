@@ -101,7 +101,7 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
         search.is_at_floor(chain.fitted))
         return true;
     const std::size_t most_first = from_nothing ? 6 : 3;
-    std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates());
+    std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates(), {.scatters = false});
     if (from_nothing) std::ranges::stable_sort(singles, std::greater{}, &Trial::promised);
     std::vector<std::string> classes;
     bool changed = false;
