@@ -214,7 +214,8 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
         const auto or_else = [&](Contender other) {
             if (other.gain() > closer.gain()) closer = std::move(other);
         };
-        or_else(is_wave ? by_simplex(contender) : by_slopes(usual_step));
+        if (time > 0 || finding.sought == Sought::nowhere)
+            or_else(is_wave ? by_simplex(contender) : by_slopes(usual_step));
         const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
         const auto is_far_off = [&] { return meet(far_off(closer.trial.fitted), closer.teachers()); };
         const auto is_worth_scattering = [&] {

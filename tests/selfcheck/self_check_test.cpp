@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
         // Found by a scan: which way the carriage goes is all that shows it.
         KnownCase{"WaveOfTwoMillivolts", 2101, 278, "cogging", is_followed_to_the_floor},
         // Without a scan nothing is worth naming: the best single effect is a wave of another period.
-        KnownCase{"WaveThatNothingStandsInFor", 2101, 131, "cogging", has_right_effect},
+        KnownCase{"WaveThatNothingStandsInFor", 2101, 131, "cogging", is_followed_to_the_floor},
         KnownCase{"WaveOfThreeMillivoltsBesideAMass", 2104, 154, "cogging", is_all_right},
         KnownCase{"WeakWaveBesideAMass", 2094, 325, "payload", is_all_right},
         KnownCase{"WeakWaveBesideBristles", 2086, 106, "presliding", is_followed_to_the_floor},
