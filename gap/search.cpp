@@ -249,14 +249,14 @@ std::size_t Search::simplest(std::span<const Contender> leaders) const {
     return best;
 }
 
-bool Search::is_significant(const Comparison& comparison) const {
+bool Search::is_significant(const Comparison& comparison, double times) const {
     return comparison.significance >
-           significance_bound(comparison.blocks, std::max(trials_, 1), options_.tail);
+           times * significance_bound(comparison.blocks, std::max(trials_, 1), options_.tail);
 }
 
-bool Search::is_no_chance(const CrossFit& without, const CrossFit& with) const {
+bool Search::is_no_chance(const CrossFit& without, const CrossFit& with, double times) const {
     const Comparison comparison = fitter_.compared(without, with);
-    return comparison.gain > least_gain && is_significant(comparison);
+    return comparison.gain > least_gain && is_significant(comparison, times);
 }
 
 bool Search::is_real(const CrossFit& without, const CrossFit& with) const {

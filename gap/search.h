@@ -130,7 +130,8 @@ class Search {
     bool is_real(const CrossFit& without, const CrossFit& with) const;
 
     /// Whether an effect's gain is more than chance, over all that was tried, however much it leaves.
-    bool is_no_chance(const CrossFit& without, const CrossFit& with) const;
+    /// @param times  by how many times the significance that this takes
+    bool is_no_chance(const CrossFit& without, const CrossFit& with, double times = 1.0) const;
 
     /// Whether a signal loses a share of what it exceeds its floor by.
     bool nearly_clears(const CrossFit& without, const CrossFit& with, double share = 0.98) const;
@@ -237,7 +238,7 @@ class Search {
     /// Of all windows of a half that teach an effect.
     double loss_on_half(std::size_t side, const Hypothesis& whole, const Candidate& taught) const;
     /// Over all that was tried.
-    bool is_significant(const Comparison& comparison) const;
+    bool is_significant(const Comparison& comparison, double times = 1.0) const;
     /// Whether some signal loses such a share of its excess, and comes to its floor or loses at least such a
     /// share of what it exceeds it by where nothing is known.
     bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share,

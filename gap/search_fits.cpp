@@ -214,8 +214,10 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
         const auto or_else = [&](Contender other) {
             if (other.gain() > closer.gain()) closer = std::move(other);
         };
-        if (time > 0 || finding.sought == Sought::nowhere)
-            or_else(is_wave ? by_simplex(contender) : by_slopes(usual_step));
+        const auto go_on = [&] { or_else(is_wave ? by_simplex(contender) : by_slopes(usual_step)); };
+        // More of the same comes last.
+        const bool has_gone_on = time == 0 && finding.sought != Sought::nowhere;
+        if (!has_gone_on) go_on();
         const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
         const auto is_far_off = [&] { return meet(far_off(closer.trial.fitted), closer.teachers()); };
         const auto is_worth_scattering = [&] {
@@ -223,6 +225,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
                    clears_a_signal(base, closer.trial.fitted, nearly_all);
         };
         if (is_wave && is_worth_scattering()) or_else(scattered(base, closer));
+        if (has_gone_on && closer.gain() <= contender.gain()) go_on();
         if (!is_wave && is_off()) or_else(by_slopes(close_step));
         // Of a wave its harmonic, once it is in its valley or has been looked for among many values.
         if (is_off() && !is_worn_out() && !(is_wave && !scatters && is_far_off()) &&

@@ -82,10 +82,18 @@ bool exchange(Search& search, Chain& chain, bool changed) {
     return changed;
 }
 
+/// Whether a pair explains what nothing was taken in for: two wrong effects fit most things a little, and by
+/// little more than chance.
+bool explains(const Search& search, const CrossFit& without, const CrossFit& with) {
+    constexpr double most = 0.9, times_chance = 2.0;
+    return search.nearly_clears(without, with) ||
+           (search.nearly_clears(without, with, most) && search.is_no_chance(without, with, times_chance));
+}
+
 /// Where signals stay off their floors, what was taken in for them, one after the other, may be no step on
 /// the way to what there is: instead of it each of the best single effects, with what is best beside it.
 /// Where nothing was taken in, two effects may hide each other: what promises a little is tried as the first
-/// of a pair, which has to explain nearly all, as two wrong effects fit most things a little.
+/// of a pair.
 /// @return whether anything changed
 bool pair_up(Search& search, Chain& chain, int most_effects) {
     constexpr Effort effort{.fits = 3, .leaders = 1};
@@ -120,8 +128,7 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
         std::vector<Trial> trials = search.try_all(one.fitted, one.candidates(), effort);
         if (!has_leader(trials)) continue;
         Chain two = grown(search, one, std::move(trials));
-        if (!is_better(search, two, chain) ||
-            (from_nothing && !search.nearly_clears(chain.fitted, two.fitted)))
+        if (!is_better(search, two, chain) || (from_nothing && !explains(search, chain.fitted, two.fitted)))
             continue;
         chain = std::move(two);
         changed = true;

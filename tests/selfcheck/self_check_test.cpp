@@ -125,6 +125,8 @@ INSTANTIATE_TEST_SUITE_P(
         KnownCase{"WaveOfTwoMillivolts", 2101, 278, "cogging", is_followed_to_the_floor},
         // Without a scan nothing is worth naming: the best single effect is a wave of another period.
         KnownCase{"WaveThatNothingStandsInFor", 2101, 131, "cogging", is_followed_to_the_floor},
+        // A simplex has ended before it came to the bottom.
+        KnownCase{"WaveThatIsPolishedTwice", 2106, 67, "cogging", is_followed_to_the_floor},
         KnownCase{"WaveOfThreeMillivoltsBesideAMass", 2104, 154, "cogging", is_all_right},
         KnownCase{"WeakWaveBesideAMass", 2094, 325, "payload", is_all_right},
         KnownCase{"WeakWaveBesideBristles", 2086, 106, "presliding", is_followed_to_the_floor},
@@ -141,6 +143,8 @@ INSTANTIATE_TEST_SUITE_P(
         // The balance needs the cable alone; only where the carriage goes shows the other one.
         KnownCase{"FrictionByDirectionBesideACable", 2101, 369, "friction_asymmetry",
                   is_followed_to_the_floor},
+        // Effects of which neither is worth naming alone, and which the search does not follow to the floor.
+        KnownCase{"PlayBesideAHardeningCable", 2101, 12, "cable_force", is_all_right},
         // Explained by what Stribeck friction and bristles come to at a limit.
         KnownCase{"DryFrictionThatIsNotKnown", 2097, 367, "coulomb_friction", has_right_block}),
     [](const auto& instance) { return instance.param.name; });
