@@ -104,6 +104,10 @@ class Search {
     /// The same of the pairs of the wire that promise most (gap/pair_sight.h).
     std::optional<Pair> wire_pair(const CrossFit& base, std::span<const Candidate* const> added);
 
+    /// The same of a ripple of the encoder, as the readings show it, with another effect of the encoder: what
+    /// a false scale leaves hides it. None where the two promise little.
+    std::optional<Pair> encoder_pair(const CrossFit& base, std::span<const Candidate* const> added);
+
     /// Takes over from a whole, which is the base and a candidate at a place, what it has found for that one:
     /// try_all beside this base then fits only what promises about as much.
     void remember(const CrossFit& base, const Candidate& candidate, const CrossFit& whole, std::size_t at);
@@ -174,6 +178,9 @@ class Search {
     std::vector<PairAttempt> by_typical_sizes(const CrossFit& base,
                                               std::vector<const Candidate*> candidates) const;
     std::vector<PairAttempt> by_sight(const CrossFit& base, std::vector<const Candidate*> candidates) const;
+    /// At what promises most beside the ripples that the readings show.
+    void add_beside_ripple(const CrossFit& base, const Candidate& other, const Candidate& ripple,
+                           std::vector<PairAttempt>& attempts) const;
     /// On both halves, from such a start of the first one.
     void fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start) const;
     std::optional<Pair> best_of(const CrossFit& base, std::vector<PairAttempt> attempts);

@@ -2,8 +2,10 @@
 #include "gap/contender.h"
 #include "gap/pair_sight.h"
 #include "gap/parallel.h"
+#include "gap/score.h"
 #include "gap/search.h"
 #include "gap/starts.h"
+#include "gap/wave_starts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -146,6 +148,32 @@ std::vector<Search::PairAttempt> Search::by_sight(const CrossFit& base,
     return attempts;
 }
 
+void Search::add_beside_ripple(const CrossFit& base, const Candidate& other, const Candidate& ripple,
+                               std::vector<PairAttempt>& attempts) const {
+    constexpr std::size_t most_periods = 2;
+    constexpr double worth_a_fit = 0.2;  // of the loss
+    const Evidence& evidence = fitter_.evidence();
+    const std::vector<Window>& windows = evidence.windows();
+    const Hypothesis& known = base.of_half[0];
+    const Wanted wanted = fitter_.instructive_of(0, teachers_of(*other.effect), base.mean_squares);
+    const Predict predict = fitter_.predictor(wanted);
+    const double loss = total_loss(windows, wanted, predict(known));
+    std::vector<PositionPeriod> periods =
+        periods_along_rail(evidence, known, evidence.errors(known, fitter_.half(0)));
+    if (periods.size() > most_periods) periods.resize(most_periods);
+    for (const PositionPeriod& period : periods) {
+        Hypothesis rippled = known;
+        rippled.push_back(wave_at(ripple, period));
+        const Errors errors = predict(rippled);
+        const Surroundings beside = surroundings(predict, windows, wanted, rippled, errors, {});
+        const std::vector<Promise> starts = starts_of(other, {}, predict, windows, wanted, beside);
+        if (starts.empty() ||
+            total_loss(windows, wanted, errors) - starts.front().gain > (1.0 - worth_a_fit) * loss)
+            continue;
+        attempts.push_back(attempt(base, other, ripple, {starts.front().start.back(), rippled.back()}));
+    }
+}
+
 std::optional<Pair> Search::best_of(const CrossFit& base, std::vector<PairAttempt> attempts) {
     const auto fit_on = [&](int most_iterations) {
         parallel_for(attempts.size(), [&](std::size_t k) {
@@ -259,6 +287,20 @@ std::optional<Pair> Search::scanned_pair(const CrossFit& base, std::span<const C
 
 std::optional<Pair> Search::best_pair(const CrossFit& base, std::span<const Candidate* const> added) {
     return best_of(base, by_typical_sizes(base, in_question(base, added)));
+}
+
+std::optional<Pair> Search::encoder_pair(const CrossFit& base, std::span<const Candidate* const> added) {
+    std::vector<const Candidate*> candidates = in_question(base, added);
+    std::erase_if(candidates, [](const Candidate* candidate) {
+        return candidate->is_limit || candidate->effect->block != "macro.encoder";
+    });
+    const auto ripple = std::ranges::find_if(
+        candidates, [](const Candidate* candidate) { return candidate->wave.has_value(); });
+    if (ripple == candidates.end()) return {};
+    std::vector<PairAttempt> attempts;
+    for (const Candidate* const other : candidates)
+        if (other != *ripple) add_beside_ripple(base, *other, **ripple, attempts);
+    return best_of(base, std::move(attempts));
 }
 
 std::optional<Pair> Search::wire_pair(const CrossFit& base, std::span<const Candidate* const> added) {

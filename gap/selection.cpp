@@ -103,6 +103,10 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     const Chain rest = rest_of(search, chain, off);
     if (!has_room_for_two(rest, most_effects)) return false;
     const bool from_nothing = chain.choices.size() == rest.choices.size();
+    if (take_in_pair(search, chain, rest, search.encoder_pair(rest.fitted, rest.candidates()),
+                     all_but_nothing, false) &&
+        search.is_at_floor(chain.fitted))
+        return true;
     if (balance(search, chain, most_effects, false) && search.is_at_floor(chain.fitted)) return true;
     if (take_in_pair(search, chain, rest, search.best_pair(rest.fitted, rest.candidates()), all_but_nothing,
                      false) &&

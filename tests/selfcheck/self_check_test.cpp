@@ -145,6 +145,8 @@ INSTANTIATE_TEST_SUITE_P(
                   is_followed_to_the_floor},
         // Effects of which neither is worth naming alone, and which the search does not follow to the floor.
         KnownCase{"PlayBesideAHardeningCable", 2101, 12, "cable_force", is_all_right},
+        // Under a false scale a ripple does more harm than good, though the readings show it.
+        KnownCase{"RippleUnderAFalseScale", 2107, 81, "encoder_scale", is_followed_to_the_floor},
         // Explained by what Stribeck friction and bristles come to at a limit.
         KnownCase{"DryFrictionThatIsNotKnown", 2097, 367, "coulomb_friction", has_right_block}),
     [](const auto& instance) { return instance.param.name; });
