@@ -215,7 +215,7 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
             if (other.gain() > closer.gain()) closer = std::move(other);
         };
         const auto go_on = [&] { or_else(is_wave ? by_simplex(contender) : by_slopes(usual_step)); };
-        // More of the same comes last.
+        // What has gone on before does so again only where scattering finds nothing.
         const bool has_gone_on = time == 0 && finding.sought != Sought::nowhere;
         if (!has_gone_on) go_on();
         const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };

@@ -103,15 +103,13 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     const Chain rest = rest_of(search, chain, off);
     if (!has_room_for_two(rest, most_effects)) return false;
     const bool from_nothing = chain.choices.size() == rest.choices.size();
-    if (take_in_pair(search, chain, rest, search.encoder_pair(rest.fitted, rest.candidates()),
-                     all_but_nothing, false) &&
-        search.is_at_floor(chain.fitted))
-        return true;
+    const auto leaves_nothing_with = [&](std::optional<Pair> pair) {
+        return take_in_pair(search, chain, rest, std::move(pair), all_but_nothing, false) &&
+               search.is_at_floor(chain.fitted);
+    };
+    if (leaves_nothing_with(search.encoder_pair(rest.fitted, rest.candidates()))) return true;
     if (balance(search, chain, most_effects, false) && search.is_at_floor(chain.fitted)) return true;
-    if (take_in_pair(search, chain, rest, search.best_pair(rest.fitted, rest.candidates()), all_but_nothing,
-                     false) &&
-        search.is_at_floor(chain.fitted))
-        return true;
+    if (leaves_nothing_with(search.best_pair(rest.fitted, rest.candidates()))) return true;
     const std::size_t most_first = from_nothing ? 6 : 3;
     std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates(), {.scatters = false});
     if (from_nothing) std::ranges::stable_sort(singles, std::greater{}, &Trial::promised);
