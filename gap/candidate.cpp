@@ -87,7 +87,7 @@ std::vector<double> grid_of(const plant::EffectParameter& parameter, const Trave
     const auto within = [&](double value) { return std::clamp(value, parameter.low, parameter.high); };
     std::vector<double> grid;
     if (parameter.is_choice) {
-        grid = {parameter.high, parameter.low};
+        grid = {parameter.vanishing, parameter.is_high(parameter.vanishing) ? parameter.low : parameter.high};
     } else if (parameter.unit == "Hz") {
         constexpr double ratio = 1.15;  // of neighbours: half the width of a resonance of damping ratio 0.07
         for (double value = parameter.low; value < parameter.high; value *= ratio) grid.push_back(value);
@@ -101,7 +101,8 @@ std::vector<double> grid_of(const plant::EffectParameter& parameter, const Trave
         for (const double factor : {0.4, 2.0}) grid.push_back(within(factor * parameter.typical));
     } else if (parameter.unit == "1/s") {  // what settles within a run, as a rule, or never
         grid = {parameter.vanishing, parameter.vanishing + 10.0 * parameter.negligible};
-    } else if (parameter.low == 0.0 && parameter.typical == 1.0) {  // a share: all or nothing
+    } else if (parameter.unit.empty() && parameter.low == 0.0 && parameter.negligible == 0.0 &&
+               (parameter.typical == 1.0 || parameter.typical == 0.0)) {  // a share: all or nothing
         grid = {1.0, 0.0};
     } else {
         grid.push_back(parameter.typical);

@@ -39,9 +39,11 @@ double effective_V(const plant::MacroAxisParameters& axis, double command_V, dou
     return dead_zone_V(axis.dead_zone, drive_V, axis.dead_zone_on_motion);
 }
 
+/// @param driven_V  what moves the carriage
 double friction_V(const plant::MacroAxisParameters& axis, double velocity_mm_per_s, double direction,
-                  double position_mm) {
-    const double dry_V = plant::dry_friction_V(axis.friction, std::abs(velocity_mm_per_s), position_mm);
+                  double position_mm, double driven_V) {
+    const double dry_V =
+        plant::dry_friction_V(axis.friction, std::abs(velocity_mm_per_s), position_mm, driven_V == 0.0);
     return plant::sliding_friction_V(axis.friction, velocity_mm_per_s, direction, dry_V);
 }
 
@@ -142,7 +144,8 @@ Errors ForceBalance::excess(const plant::PlantParameters& parameters) const {
     const Column column = forces_.of_force(0, [&](const SlidingRow& row) {
         const double position_mm = stretch * (row.position_mm + half_tick_s * row.velocity_mm_per_s);
         const double velocity = stretch * (row.velocity_mm_per_s + half_tick_s * row.acceleration_mm_per_s2);
-        return driven_V(row, position_mm) - friction_V(axis, velocity, row.direction, position_mm);
+        const double driving_V = driven_V(row, position_mm);
+        return driving_V - friction_V(axis, velocity, row.direction, position_mm, driving_V);
     });
     const Needed needs = needed_by(axis, stretch);
     Errors excess(column.values.size(), not_a_number);

@@ -1,7 +1,6 @@
 #include "plant/actual_camera.h"
 
 #include <cmath>
-#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -17,12 +16,12 @@ void set_rotation(CameraGeometry& camera, const Eigen::Quaterniond& turn) {
 }
 
 /// d.
-Eigen::Vector3d aside_mm(const CameraDeviation& deviation) {
-    const auto [u_mm, v_mm] = std::pair(deviation.aside_mm.x(), deviation.aside_mm.y());
+Eigen::Vector3d aside_mm(const CameraDeviation& deviation, double distance_mm) {
     const double angle = deviation.tilt_rad.norm();
-    if (angle == 0.0) return {u_mm, v_mm, 0.0};
-    const Eigen::Vector2d across = Eigen::Vector2d(deviation.tilt_rad.y(), -deviation.tilt_rad.x()) / angle;
-    return {u_mm, v_mm, std::tan(0.5 * angle) * across.dot(deviation.aside_mm)};
+    if (angle == 0.0) return Eigen::Vector3d::Zero();
+    const Eigen::Vector2d axis = deviation.tilt_rad / angle;
+    return deviation.tilt_axis_height * distance_mm *
+           Eigen::Vector3d(-axis.y() * std::sin(angle), axis.x() * std::sin(angle), std::cos(angle) - 1.0);
 }
 
 }  // namespace
@@ -32,8 +31,7 @@ ActualCamera actual_camera(const CameraGeometry& nominal, const CameraDeviation&
     CameraGeometry& camera = actual.geometry;
     camera.focal_px *= deviation.pixel_scale;
     camera.distortion.k1 += deviation.distortion;
-    if (deviation.rotation_rad == 0.0 && deviation.tilt_rad.isZero(0.0) && deviation.aside_mm.isZero(0.0))
-        return actual;
+    if (deviation.rotation_rad == 0.0 && deviation.tilt_rad.isZero(0.0)) return actual;
     camera.rotation_rad = 0.0;
     camera.tilt_rad = deviation.tilt_rad;
     const Eigen::Matrix3d tilt = camera_from_plate(camera);
@@ -42,7 +40,8 @@ ActualCamera actual_camera(const CameraGeometry& nominal, const CameraDeviation&
         set_rotation(camera, Eigen::Quaterniond(camera_from_plate(camera) * camera_from_plate(nominal)));
     const Eigen::Vector3d to_plate_mm(0.0, 0.0, nominal.distance_mm);
     const Eigen::Vector3d way_mm =
-        camera_from_plate(camera).transpose() * (tilt * (to_plate_mm + aside_mm(deviation)) - to_plate_mm);
+        camera_from_plate(camera).transpose() *
+        (tilt * (to_plate_mm + aside_mm(deviation, nominal.distance_mm)) - to_plate_mm);
     actual.foot_mm = way_mm.head<2>();
     camera.distance_mm -= way_mm.z();
     return actual;

@@ -7,13 +7,15 @@
 //     P' = e + R_tilt (R_z P - e - d),   e = (0, 0, Z),     x = P'_x / P'_z,  y = P'_y / P'_z
 //
 // and pictures that with the focal length c f and the radial coefficient k1 + k in place of f and k1. R_z
-// turns from u towards v. R_tilt turns by an angle t about an axis parallel to the image plane, through the
-// place on the plate that the camera looks at, which lies aside of the nominal one by d. A mount turns about
-// a fixed axis somewhere above; (d_x, d_y) says where that is, and d_z = tan(t / 2) times their part across
-// the axis makes it so: the camera's centre stays with Z sin t across, moves with less. c: pixel scale.
-// Looking straight down without a nominal distortion, (u, v) = (u0, v0) + c f (x, y) (1 + k (x^2 + y^2)).
-// actual_camera.h makes one geometry of both. Source: Hartley, Zisserman, Multiple View Geometry, 2nd ed.,
-// 2004, ch. 6 and 7.4; Brown, Close-range camera calibration, Photogrammetric Engineering 37(8), 1971.
+// turns from u towards v. R_tilt turns by an angle t about an axis a parallel to the image plane, at h times
+// the camera's height over the plate: what the camera looks at then lies aside by
+//
+//     d = h Z (-a_y sin t, a_x sin t, cos t - 1)
+//
+// With the axis in the plate, h = 0, it is the same place; at h = 1 the camera's centre stays. c: pixel
+// scale. Looking straight down without a nominal distortion, (u, v) = (u0, v0) + c f (x, y) (1 + k (x^2 +
+// y^2)). actual_camera.h makes one geometry of both. Source: Hartley, Zisserman, Multiple View Geometry, 2nd
+// ed., 2004, ch. 6 and 7.4; Brown, Close-range camera calibration, Photogrammetric Engineering 37(8), 1971.
 //
 // Time. The camera's clock shows c(t) = rate t. It exposes a frame when its clock shows the frame's nominal
 // time, and stamps it with that plus a constant delay. Rows are exposed one after the other, the middle row
@@ -31,7 +33,7 @@ struct CameraDeviation {
     double pixel_scale = 1.0;                            ///< length in the image per nominal one
     double rotation_rad = 0.0;                           ///< of the picture, from u towards v
     Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();  ///< rotation vector's parts along u and v
-    Eigen::Vector2d aside_mm = Eigen::Vector2d::Zero();  ///< d_x and d_y
+    double tilt_axis_height = 0.0;                       ///< h
     double distortion = 0.0;                             ///< k
     double delay_s = 0.0;                                ///< of stamp and arrival
     double clock_rate = 1.0;                             ///< camera seconds per second

@@ -5,6 +5,8 @@
 //     g(|v|, y) = Fc + Fs exp(-(|v| / vs)^n) + Fp exp(-(|y - yp| / wp)^m / 2)     Coulomb, Stribeck, rail
 //     patch F = sgn(v) g + c v                                                         c by direction
 //
+// While the dead zone lets nothing through g is larger by coasting_V, which a driven carriage does not feel.
+//
 // At v = 0 dry friction holds whatever is not above g(0, y), or a little more: hold_V. Friction that creeps
 // does not hold: with a creep speed vc, tanh(v / vc) stands for sgn(v) (Andersson et al., Tribology
 // International 40, 2007).
@@ -49,6 +51,7 @@ struct RailPatch {
 
 struct Friction {
     double coulomb_V = 0.0;
+    double coasting_V = 0.0;  ///< beyond it, where the drive has no voltage for motion
     double hold_V = 0.0;      ///< what is held at rest beyond g
     double stribeck_V = 0.0;  ///< beyond Coulomb friction, at rest
     double stribeck_mm_per_s = 1.0;
@@ -63,7 +66,8 @@ struct Friction {
 
 /// Whether g can be other than 0.
 inline bool is_dry(const Friction& friction) {
-    return friction.coulomb_V != 0.0 || friction.stribeck_V != 0.0 || friction.patch.level_V != 0.0;
+    return friction.coulomb_V != 0.0 || friction.coasting_V != 0.0 || friction.stribeck_V != 0.0 ||
+           friction.patch.level_V != 0.0;
 }
 
 /// Bristles without Coulomb friction would have no stiffness.
@@ -84,8 +88,11 @@ inline double stribeck_friction_V(const Friction& friction, double speed_mm_per_
 }
 
 /// g(|v|, y) in V.
-inline double dry_friction_V(const Friction& friction, double speed_mm_per_s, double position_mm) {
+/// @param coasts  whether the drive has no voltage for motion
+inline double dry_friction_V(const Friction& friction, double speed_mm_per_s, double position_mm,
+                             bool coasts = false) {
     double level_V = friction.coulomb_V;
+    if (coasts) level_V += friction.coasting_V;
     if (friction.stribeck_V != 0.0) level_V += stribeck_friction_V(friction, speed_mm_per_s);
     if (friction.patch.reaches(position_mm)) level_V += friction.patch.friction_V(position_mm);
     return level_V;

@@ -144,7 +144,7 @@ class Motion {
     bool is_straight(const State& x) const {
         const Friction& friction = p_.friction;
         return (!axis_.has_bristles || bend_ == direction_) && !friction.patch.reaches(x[place]) &&
-               (axis_.has_bristles || friction.coulomb_V == 0.0 ||
+               (axis_.has_bristles || (friction.coulomb_V == 0.0 && friction.coasting_V == 0.0) ||
                 slides(friction, std::max(0.0, direction_ * x[speed])));
     }
 
@@ -207,7 +207,8 @@ class Motion {
 
     /// A velocity against the direction, as trial steps beyond a turn have, counts as 0.
     double dry_V_at(const State& x) const {
-        return dry_friction_V(p_.friction, std::max(0.0, direction_ * x[speed]), x[place]);
+        return dry_friction_V(p_.friction, std::max(0.0, direction_ * x[speed]), x[place],
+                              branch_ == DeadZoneBranch::inside);
     }
 
     double bend_at(const State& x, double dry_V) const {

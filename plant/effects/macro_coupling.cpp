@@ -5,7 +5,8 @@ namespace fidservo::plant::effects {
 namespace {
 
 constexpr EffectParameter parameters[] = {
-    {"gain", "", 0.0, 2.0, 0.0, 0.5, "share of the carriage's acceleration that deflects the platform"},
+    {"gain", "", -2.0, 2.0, 0.0, 0.5,
+     "share of the carriage's acceleration that deflects the platform; negative: forwards, as on a lever"},
     {"frequency_Hz", "Hz", 5.0, 200.0, 30.0, 30.0, "undamped resonance of the platform"},
     {"damping_ratio", "", 0.001, 0.9, 0.05, 0.05, "1: no oscillation"},
 };

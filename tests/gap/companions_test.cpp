@@ -54,6 +54,19 @@ TEST(Diagnosis, FrictionThatCreeps_IsFoundWithItsCreepSpeed) {
     }
 }
 
+TEST(Diagnosis, FrictionThatBrakesOnlyWhileItCoasts_IsFoundAsThat) {
+    const Diagnosis diagnosis = diagnosed({"coulomb_friction:level_V=0,dead_zone_share=0.04,only_coasting=1"},
+                                          {"macro-sweep", "macro-pulses", "macro-square"},
+                                          {"coulomb_friction", "presliding", "viscous_friction", "payload"});
+    ASSERT_EQ(names(diagnosis), std::vector<std::string>{"coulomb_friction"});
+    EXPECT_EQ(diagnosis.verdict, Verdict::explained);
+    const auto& parameters = diagnosis.effects.front().parameters;
+    EXPECT_EQ(parameters.back().name, "only_coasting");
+    const auto share = std::ranges::find(parameters, "dead_zone_share", &FittedParameter::name);
+    ASSERT_NE(share, parameters.end());
+    EXPECT_NEAR(share->value, 0.04, 1e-3);
+}
+
 TEST(Diagnosis, FrictionThatDoesNotCreep_HasNoCreepSpeed) {
     const Diagnosis diagnosis =
         diagnosed({"coulomb_friction:level_V=0.3,dead_zone_share=0"},

@@ -41,8 +41,7 @@ TEST(ActualCamera, Rotation_TurnsFromUTowardsV) {
 
 TEST(ActualCamera, Tilt_IsThePinholesPerspective) {
     const double angle = 2.0 * rad_per_deg;
-    const ActualCamera actual =
-        actual_camera(reference, {.tilt_rad = {angle, 0.0}, .aside_mm = {0.0, 20.0 * std::sin(angle)}});
+    const ActualCamera actual = actual_camera(reference, {.tilt_rad = {angle, 0.0}, .tilt_axis_height = 1.0});
     // About u: y' = y cos - z sin, z' = y sin + z cos.
     for (const Eigen::Vector2d& point : {Eigen::Vector2d(0.0, 0.0), {1.0, 0.7}, {-2.0, -1.5}}) {
         const double y = point.y() * std::cos(angle) - 20.0 * std::sin(angle);
@@ -80,7 +79,7 @@ TEST(ActualCamera, BackProjection_IsTheInverse) {
             .pixel_scale = 0.9 + 0.2 * draw.uniform(),
             .rotation_rad = 0.3 * (draw.uniform() - 0.5),
             .tilt_rad = {0.1 * (draw.uniform() - 0.5), 0.1 * (draw.uniform() - 0.5)},
-            .aside_mm = {draw.uniform() - 0.5, draw.uniform() - 0.5},
+            .tilt_axis_height = 2.0 * draw.uniform() - 0.5,
             .distortion = 4.0 * (draw.uniform() - 0.5)};
         const ActualCamera actual = actual_camera(reference, deviation);
         const Eigen::Vector2d pixel(1280.0 * draw.uniform(), 960.0 * draw.uniform());
@@ -103,7 +102,7 @@ TEST(ActualCamera, DeviationOfAGeneralCamera_FollowsTheNominalRotation) {
             .pixel_scale = 0.9 + 0.2 * draw.uniform(),
             .rotation_rad = 0.3 * (draw.uniform() - 0.5),
             .tilt_rad = {0.1 * (draw.uniform() - 0.5), 0.1 * (draw.uniform() - 0.5)},
-            .aside_mm = {draw.uniform() - 0.5, draw.uniform() - 0.5},
+            .tilt_axis_height = 2.0 * draw.uniform() - 0.5,
             .distortion = 0.2 * (draw.uniform() - 0.5)};
         const ActualCamera actual = actual_camera(nominal, deviation);
         const Eigen::Vector2d point(100.0 + 2.0 * draw.uniform(), draw.uniform());
@@ -116,13 +115,10 @@ TEST(ActualCamera, DeviationOfAGeneralCamera_FollowsTheNominalRotation) {
         const Eigen::Vector3d about(deviation.tilt_rad.x() / angle, deviation.tilt_rad.y() / angle, 0.0);
         const Eigen::AngleAxisd tilt(angle, about);
         const Eigen::AngleAxisd turn(deviation.rotation_rad, Eigen::Vector3d::UnitZ());
-        const Eigen::Vector3d to_plate(0.0, 0.0, 20.0);
-        const Eigen::Vector2d across(about.y(), -about.x());
-        const Eigen::Vector3d aside(deviation.aside_mm.x(), deviation.aside_mm.y(),
-                                    std::tan(0.5 * angle) * across.dot(deviation.aside_mm));
+        const Eigen::Vector3d axis_mm(0.0, 0.0, 20.0 * (1.0 - deviation.tilt_axis_height));
         const Eigen::Vector3d nominally =
             camera_from_plate(nominal) * (Eigen::Vector3d(point.x(), point.y(), 20.0) - s_mm * axis);
-        const Eigen::Vector3d seen = to_plate + tilt * (turn * nominally - to_plate - aside);
+        const Eigen::Vector3d seen = axis_mm + tilt * (turn * nominally - axis_mm);
         LensDistortion lens = nominal.distortion;
         lens.k1 += deviation.distortion;
         const Eigen::Vector2d pictured = distort(lens, seen.head<2>() / seen.z());

@@ -33,7 +33,7 @@ std::vector<Case> geometries() {
             {"rotation", {.rotation_rad = 3.0 * deg}},
             {"tilt_about_u", {.tilt_rad = {1.0 * deg, 0.0}}},
             {"tilt_about_v", {.tilt_rad = {0.0, -2.0 * deg}}},
-            {"tilt_about_the_camera", {.tilt_rad = {1.0 * deg, 0.0}, .aside_mm = {0.0, 0.349}}},
+            {"tilt_about_the_camera", {.tilt_rad = {1.0 * deg, 0.0}, .tilt_axis_height = 1.0}},
             {"barrel", {.distortion = -0.5}},
             {"pincushion", {.distortion = 0.5}},
             {"all",

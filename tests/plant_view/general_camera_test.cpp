@@ -56,7 +56,7 @@ std::vector<Case> cameras() {
              {.pixel_scale = 1.01,
               .rotation_rad = -2.0 * deg,
               .tilt_rad = {0.0, 0.5 * deg},
-              .aside_mm = {0.1, -0.05},
+              .tilt_axis_height = 0.6,
               .distortion = 0.1}}};
 }
 

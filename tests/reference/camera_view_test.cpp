@@ -42,9 +42,7 @@ TEST(Camera, Tilt_IsThatOfThePlantsCamera) {
         const double tilt_rad = within(-0.05, 0.05), axis_rad = within(-3.0, 3.0), height = draw.uniform();
         model.departures = {.tilt_rad = tilt_rad, .tilt_axis_rad = axis_rad, .tilt_height = height};
         const Eigen::Vector2d axis(std::cos(axis_rad), std::sin(axis_rad));
-        const double aside_mm = height * 20.0 * std::sin(tilt_rad);
-        const plant::CameraDeviation deviation{.tilt_rad = -tilt_rad * axis,
-                                               .aside_mm = aside_mm * Eigen::Vector2d(axis.y(), -axis.x())};
+        const plant::CameraDeviation deviation{.tilt_rad = -tilt_rad * axis, .tilt_axis_height = height};
         const Eigen::Vector2d plate_mm(within(47.0, 53.0), within(-2.0, 2.0));
         const Eigen::Vector2d seen =
             plant::actual_camera(model.camera.geometry, deviation).image_px(plate_mm, 50.0);

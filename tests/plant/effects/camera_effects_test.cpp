@@ -31,8 +31,7 @@ TEST(CameraEffects, Tilt_IsARotationVectorInTheImage) {
     constexpr double deg = std::numbers::pi / 180.0;
     const CameraDeviation tilted = deviation_of("camera_tilt:about_u_deg=1,about_v_deg=-2");
     EXPECT_NEAR((tilted.tilt_rad - deg * Eigen::Vector2d(1.0, -2.0)).norm(), 0.0, 1e-15);
-    EXPECT_EQ(deviation_of("camera_tilt:aside_u_mm=0.8,aside_v_mm=-0.5").aside_mm,
-              Eigen::Vector2d(0.8, -0.5));
+    EXPECT_EQ(deviation_of("camera_tilt:axis_height=0.8").tilt_axis_height, 0.8);
 }
 
 TEST(CameraEffects, Light_FallsOffInAddition) {

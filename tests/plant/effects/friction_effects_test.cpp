@@ -34,6 +34,28 @@ TEST(CoulombFriction, SteadySpeed_IsThatOfTheVoltageBeyondIt) {
     }
 }
 
+TEST(CoulombFriction, OnlyCoasting_BrakesWhereTheDriveHasNoVoltageAndNowhereElse) {
+    const MacroAxis axis =
+        endless_axis_with("coulomb_friction:level_V=0,dead_zone_share=0.05,only_coasting=1", true);
+    const MacroAxis nominal = endless_axis_with("coulomb_friction:level_V=0,dead_zone_share=0", true);
+    const DeadZone& zone = axis.parameters.dead_zone;
+    for (const double command_V : {3.5, -5.0}) {
+        const MacroAxisState driven = after(axis, start(axis, 0.0), command_V, 400),
+                             as_driven = after(nominal, start(nominal, 0.0), command_V, 400);
+        EXPECT_NEAR(driven.position_mm, as_driven.position_mm, 1e-6);
+        // Commanded back while it moves it is driven, too.
+        EXPECT_NEAR(after(axis, driven, -command_V, 20).position_mm,
+                    after(nominal, as_driven, -command_V, 20).position_mm, 1e-6);
+
+        const double v0 = std::abs(driven.velocity_mm_per_s), tau_s = axis.parameters.time_constant_s;
+        const double drag = gain * 0.05 * (zone.slope * zone.threshold_V - zone.offset_V);
+        const double way_mm = tau_s * (v0 - drag * std::log1p(v0 / drag));
+        for (const double within_V : {0.0, 0.9 * zone.threshold_V})
+            EXPECT_NEAR(std::abs(after(axis, driven, within_V, 500).position_mm - driven.position_mm), way_mm,
+                        1e-5);
+    }
+}
+
 TEST(StribeckFriction, SteadySpeed_LiesOnTheCurve) {
     const MacroAxis axis = endless_axis_with("stribeck_friction:level_V=0.2,speed_mm_per_s=12");
     for (const double voltage_V : {0.21, 0.4, -1.0}) {

@@ -31,6 +31,18 @@ TEST(MacroCoupling, EvenAcceleration_BendsTheFlexureByGainOverStiffness) {
     EXPECT_NEAR(state.velocity_mm_per_s, 0.0, 1e-9);
 }
 
+TEST(MacroCoupling, NegativeGain_SwingsTheOtherWay) {
+    const PlatformSwing swing = make_platform_swing({40.0, 0.2, 0.7}, 0.001),
+                        other = make_platform_swing({40.0, 0.2, -0.7}, 0.001);
+    SwingState state, mirrored;
+    for (int k = 0; k < 60; ++k) {
+        const double acceleration = k < 20 ? 3000.0 : -1000.0;
+        advance(swing, state, {.acceleration_mm_per_s2 = acceleration});
+        advance(other, mirrored, {.acceleration_mm_per_s2 = acceleration});
+        EXPECT_NEAR(mirrored.position_mm, -state.position_mm, 1e-12);
+    }
+}
+
 TEST(MacroCoupling, StepOfAcceleration_IsTheTextbooksStepResponse) {
     for (const double tick_s : {0.001, 0.0002, 0.007}) {
         const PlatformSwing swing = make_platform_swing({30.0, 0.05, 1.0}, tick_s);
