@@ -10,7 +10,7 @@ constexpr EffectParameter parameters[] = {
     {"about_u_deg", "deg", -10.0, 10.0, 0.0, 0.5,
      "part of the rotation vector along the image's rows; right-handed, z towards the plate"},
     {"about_v_deg", "deg", -10.0, 10.0, 0.0, 0.5, "part along its columns"},
-    {"axis_height", "", 0.0, 3.0, 0.0, 0.0,
+    {"axis_height", "", 0.0, 1.25, 0.0, 0.0,
      "of what it turns about, over the plate: 0 in the plate, 1 at the camera's centre"},
 };
 
