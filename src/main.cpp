@@ -5,8 +5,9 @@
 
 namespace {
 
-/// A diagnosis makes predictions of some MB by the thousand, on several threads. The allocator keeps what they
-/// leave: given back to the system, every page is faulted in again, which takes as long as the diagnosis.
+/// A diagnosis makes predictions of some MB by the thousand, on several threads. The allocator keeps what
+/// they leave: given back to the system, every page is faulted in again, which takes as long as the
+/// diagnosis.
 void keep_freed_memory() {
     constexpr int mapped_from_bytes = 32 << 20, returned_from_bytes = 256 << 20;
     mallopt(M_MMAP_THRESHOLD, mapped_from_bytes);
