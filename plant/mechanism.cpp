@@ -207,8 +207,17 @@ class Motion {
 
     /// A velocity against the direction, as trial steps beyond a turn have, counts as 0.
     double dry_V_at(const State& x) const {
-        return dry_friction_V(p_.friction, std::max(0.0, direction_ * x[speed]), x[place],
-                              branch_ == DeadZoneBranch::inside);
+        return dry_friction_V(p_.friction, std::max(0.0, direction_ * x[speed]), x[place], coasts());
+    }
+
+    bool coasts() const { return branch_ == DeadZoneBranch::inside; }
+
+    /// What dry friction holds at rest: a belt may pull then, too.
+    double held_V() const {
+        const Friction& friction = p_.friction;
+        if (axis_.has_bristles) return 0.0;
+        const bool holds_more = coasts() && friction.creep_mm_per_s == 0.0;
+        return breakaway_V(friction, x_[place]) + (holds_more ? friction.coasting_V : 0.0);
     }
 
     double bend_at(const State& x, double dry_V) const {
@@ -234,7 +243,7 @@ class Motion {
     void find_hold_range() {
         const double gain = p_.velocity_gain_mm_per_s_per_V;
         const double bent = axis_.has_bristles ? gain * p_.friction.coulomb_V * bend_ : 0.0;
-        const double held = axis_.has_bristles ? 0.0 : gain * breakaway_V(p_.friction, x_[place]);
+        const double held = gain * held_V();
         hold_low_ = bent - held - rest_mm_per_s;
         hold_high_ = bent + held + rest_mm_per_s;
         if (x_[place] <= axis_.driven_low_mm) hold_low_ = -std::numeric_limits<double>::infinity();

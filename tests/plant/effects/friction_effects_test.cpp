@@ -56,6 +56,18 @@ TEST(CoulombFriction, OnlyCoasting_BrakesWhereTheDriveHasNoVoltageAndNowhereElse
     }
 }
 
+TEST(CoulombFriction, OnlyCoasting_HoldsWhatABeltPullsAtRest) {
+    const EffectSetting effects[] = {
+        parse_effect("coulomb_friction:level_V=0,dead_zone_share=0.05,only_coasting=1"),
+        parse_effect("belt_compliance:stretch_um_per_V=100")};
+    const MacroAxis axis = endless_axis_with(effects, true);
+    MacroAxisState state = after(axis, start(axis, 0.0), 4.0, 100);
+    int steps = 0;
+    for (int k = 0; k < 500; ++k) steps += advance(axis, state, 0.0);
+    EXPECT_EQ(state.velocity_mm_per_s, 0.0);
+    EXPECT_LT(steps, 500 * 100);
+}
+
 TEST(StribeckFriction, SteadySpeed_LiesOnTheCurve) {
     const MacroAxis axis = endless_axis_with("stribeck_friction:level_V=0.2,speed_mm_per_s=12");
     for (const double voltage_V : {0.21, 0.4, -1.0}) {
