@@ -95,7 +95,10 @@ TEST(Refinements, AreWhatAnEffectMayBeWithoutAndCountAsNoParameter) {
             }
         }
         EXPECT_EQ(names, refined) << name;
-        EXPECT_EQ(unrefined_parameters(effect), effect.parameters.size() - refined.size()) << name;
+        const auto choices = std::ranges::count_if(effect.parameters, &plant::EffectParameter::is_choice);
+        EXPECT_EQ(unrefined_parameters(effect) + refined.size() + static_cast<std::size_t>(choices),
+                  effect.parameters.size())
+            << name;
     }
     EXPECT_TRUE(refinements_of(*plant::find_effect("presliding")).empty());
 }
@@ -106,7 +109,7 @@ TEST(Slope, OfWhatAnEffectIsWithout_IsZeroUnasked) {
     int asked = 0;
     const Predict predict = [&](const Hypothesis& hypothesis) {
         ++asked;
-        return Errors{static_cast<float>(hypothesis.front().values.back())};
+        return Errors{static_cast<float>(hypothesis.front().values[2])};
     };
     const ScaledParameters rigid(effects({"coulomb_friction"}));
     EXPECT_TRUE(rigid.is_level(2));
