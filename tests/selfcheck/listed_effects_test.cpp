@@ -38,16 +38,16 @@ const std::vector<Pair>& pairs() {
         {"drive_gain", [](Departures& rig) { rig.drive.gain = 1.05; }, {1.05}},
         {"drive_delay", [](Departures& rig) { rig.drive.delay_s = 5.4e-3; }, {5.4}},
         {"drive_offset", [](Departures& rig) { rig.drive.offset_V = 0.2; }, {0.2}},
-        {"coulomb_friction", [](Departures& rig) { rig.friction.coulomb_V = 0.1; }, {0.1, 0.0, 0.0}},
+        {"coulomb_friction", [](Departures& rig) { rig.friction.coulomb_V = 0.1; }, {0.1, 0.0, 0.0, 0.0}},
         {"coulomb_friction",
          [](Departures& rig) { rig.friction.dead_zone_on_motion = 0.4; },
-         {0.0, 0.4, 0.0}},
+         {0.0, 0.4, 0.0, 0.0}},
         {"coulomb_friction",
          [](Departures& rig) {
              rig.friction.coulomb_V = 0.1;
              rig.friction.creep_mm_per_s = 0.5;
          },
-         {0.1, 0.0, 0.5}},
+         {0.1, 0.0, 0.5, 0.0}},
         {"stribeck_friction",
          [](Departures& rig) {
              rig.friction.stribeck_V = 0.3;
@@ -172,7 +172,7 @@ const std::vector<Pair>& pairs() {
              rig.camera.tilt_axis_rad = std::numbers::pi / 2.0;
              rig.camera.tilt_height = 0.4;
          },
-         {0.0, 1.0, -0.4 * 20.0 * std::sin(std::numbers::pi / 180.0), 0.0}},
+         {0.0, 1.0, 0.4}},
         {"lens_distortion", [](Departures& rig) { rig.camera.distortion = 0.5; }, {0.5}},
         {"camera_latency", [](Departures& rig) { rig.camera.latency_s = 0.05; }, {50.0}},
         {"clock_skew", [](Departures& rig) { rig.camera.clock_skew = 1e-3; }, {1000.0}},
@@ -195,6 +195,7 @@ TEST(SlowListedEffects, DepartureOfTheReference_IsTheEffectOfThatName) {
     for (const Pair& pair : pairs()) {
         TrueRig true_rig{rig, {}};
         pair.depart(true_rig.departures);
+        ASSERT_EQ(pair.values.size(), plant::find_effect(pair.effect)->parameters.size()) << pair.effect;
         std::vector<Recording> recordings;
         for (const CampaignRun& run : campaign_runs(rig))
             if (std::ranges::find(names, run.name) != names.end())
