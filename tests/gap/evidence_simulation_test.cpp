@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"camera_latency:delay_ms=30", Signal::tag, 2.0},
                       Case{"clock_skew:skew_ppm=1000", Signal::tag, 1.2},
                       Case{"rolling_shutter", Signal::tag, 1.2}, Case{"pixel_scale", Signal::tag, 5.0},
-                      Case{"camera_tilt", Signal::tag, 3.0}));
+                      Case{"camera_tilt:axis_height=0.5", Signal::tag, 5.0}));
 
 TEST(Evidence, SensorThatWouldReadHighAtAColdWire_IsNoWarmWire) {
     const Evidence evidence(reference_rig(), simulated({}, {"micro-steps"}, 9));
