@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
+#include <ranges>
 
 namespace fidservo::gap {
 namespace {
 
-/// Floors along the motion of tags that stand.
-constexpr double far_at_rest = 3.0;
+/// What a reading displaces it displaces at rest, too: more than this share of the error along the motion. Of
+/// simulated false scales all of it is seen at rest, of late and skewed clocks a tenth at most.
+constexpr double share_at_rest = 0.5;
 
 std::string_view carriage_block(std::optional<Dependence> dependence) {
     if (dependence == Dependence::command || dependence == Dependence::command_share ||
@@ -58,9 +58,8 @@ std::string_view view_block(const Pattern& pattern, std::optional<Dependence> de
         dependence == Dependence::tag_size || dependence == Dependence::tag_itself)
         return "plate";
     if (!is_displacement(pattern)) return "camera.geometry";
-    // A time that is wrong displaces nothing that stands, and a tag that is off by more than a count the
-    // encoder has not seen where it is.
-    return pattern.tag_at_rest > far_at_rest ? "macro.encoder" : "camera.timing";
+    // A time that is wrong displaces nothing that stands.
+    return pattern.tag_at_rest > share_at_rest * pattern.tag_along ? "macro.encoder" : "camera.timing";
 }
 
 bool off(const Pattern& pattern, Signal signal) {
@@ -71,15 +70,11 @@ bool off(const Pattern& pattern, Signal signal) {
 /// share of the encoder's floors; where the encoder reads falsely, by more.
 constexpr double between_counts = 2.0;
 
-/// The standard deviation of a normal distribution that four of five errors say: where a few frames mislead
-/// the place within a count, tags that stand are far off for the rest of a window.
-double typical(std::vector<double> absolute_errors) {
-    constexpr double share = 0.8, deviations = 1.2816;
-    if (absolute_errors.empty()) return 0.0;
-    const auto at = absolute_errors.begin() +
-                    static_cast<std::ptrdiff_t>(share * static_cast<double>(absolute_errors.size() - 1));
-    std::ranges::nth_element(absolute_errors, at);
-    return *at / deviations;
+/// Whether the stages stand over a window of tags, and over the lead-in that tells where the carriage is.
+bool stands(const Evidence& evidence, const Window& window) {
+    const std::size_t detections = (window.end - window.begin) / corner_values;
+    return std::ranges::all_of(std::views::iota(window.first_detection, window.first_detection + detections),
+                               [&](std::size_t i) { return sight_of(evidence, window.run, i).has_stood; });
 }
 
 bool has_no_tags(const Pattern& pattern) {
@@ -103,23 +98,24 @@ Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, co
         const std::size_t s = index_of(gap.signal);
         pattern.floors[s] = gap.after / gap.floor / std::sqrt(expected[s] / counts[s]);
     }
-    double along = 0.0, across = 0.0, count = 0.0;
-    std::vector<double> at_rest;
+    double along = 0.0, across = 0.0, count = 0.0, along_at_rest = 0.0, count_at_rest = 0.0;
     for (const Window& window : evidence.windows()) {
         if (window.signal != Signal::tag) continue;
+        const bool is_at_rest = stands(evidence, window);
         for (std::size_t k = window.begin; k + corner_values <= window.end; k += corner_values) {
             if (std::isnan(errors[k])) continue;
             const double square = std::pow(errors[k], 2);
             along += square;
-            const std::size_t detection = window.first_detection + (k - window.begin) / corner_values;
-            if (sight_of(evidence, window.run, detection).has_stood) at_rest.push_back(std::abs(errors[k]));
             for (std::size_t i = 1; i < corner_values; ++i) across += std::pow(errors[k + i], 2);
             count += 1.0;
+            if (!is_at_rest) continue;
+            along_at_rest += square;
+            count_at_rest += 1.0;
         }
     }
     if (count == 0.0) return pattern;
     pattern.tag_along = std::sqrt(along / count);
-    pattern.tag_at_rest = typical(std::move(at_rest));
+    if (count_at_rest > 0.0) pattern.tag_at_rest = std::sqrt(along_at_rest / count_at_rest);
     pattern.tag_across = std::sqrt(across / (count * (corner_values - 1)));
     return pattern;
 }

@@ -21,7 +21,7 @@ struct Pattern {
     std::array<double, signal_count> floors{};
     double tag_along = 0.0;    ///< of the tags' corners along the stage's motion
     double tag_across = 0.0;   ///< of their other seven coordinates
-    double tag_at_rest = 0.0;  ///< along it too, of those seen while the stages stand
+    double tag_at_rest = 0.0;  ///< along it too, in windows over which the stages stand
 };
 
 Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, const Errors& errors);

@@ -62,6 +62,27 @@ bool is_patchwork(const Selection& selection) {
     });
 }
 
+/// Whether a setting has gone as far from what is usual as it may.
+bool is_at_a_bound(const plant::EffectSetting& setting) {
+    const std::span<const plant::EffectParameter> parameters = setting.effect->parameters;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+        const double value = setting.values[k];
+        if (value != parameters[k].vanishing && (value == parameters[k].low || value == parameters[k].high))
+            return true;
+    }
+    return false;
+}
+
+/// Whether a camera that is turned about an axis far over its own centre is named: it displaces what it sees,
+/// as a false reading of the encoder does.
+bool is_displacement_by_camera(const Selection& selection) {
+    return std::ranges::any_of(selection.steps.back().of_half, [](const Hypothesis& hypothesis) {
+        return std::ranges::any_of(hypothesis, [](const plant::EffectSetting& setting) {
+            return setting.effect->block == "camera.geometry" && is_at_a_bound(setting);
+        });
+    });
+}
+
 /// On two self-checks of 300 (seeds 2051, 2055) all 48 explanations that leave something and remove less of
 /// the gap than this were wrong, of those that remove more 43 of 69.
 constexpr double least_removed_by_the_cause = 0.85;
@@ -113,8 +134,8 @@ Trust trust_beside(const Evidence& evidence, const Selection& selection, const T
     // A false scale does all that a plate of another pitch does but for the jumps from tag to tag.
     const double most_removed =
         whole && whole->block == "plate" ? removed_by_the_cause : most_removed_by_stand_in;
-    const bool stands_in = is_patchwork(selection) || gap.removed() < least_removed_by_the_cause ||
-                           gap.after > most_floors_left ||
+    const bool stands_in = is_patchwork(selection) || is_displacement_by_camera(selection) ||
+                           gap.removed() < least_removed_by_the_cause || gap.after > most_floors_left ||
                            (gap.removed() < most_removed && whole &&
                             (has_stand_in(selection, *whole, 1) || lacks_place(selection, *whole)));
     if (stands_in) trust = std::min(trust, trust_in_stand_in);
@@ -140,7 +161,12 @@ std::optional<Trust> trust_in_another(const Evidence& evidence, const Selection&
     });
     if (selection.choices.size() < 2 && !is_of_view) return {};
     std::optional<Remainder> whole = remainder_of(evidence, selection.steps.front(), tail);
-    if (!whole || !has_one_face(*whole)) return {};
+    if (!whole) return {};
+    if (is_displacement_by_camera(selection)) {
+        whole->text = "tags: what is named predicts them, but only where it is as large as it may be";
+        return Trust{trust_in_stand_in, std::move(*whole)};
+    }
+    if (!has_one_face(*whole)) return {};
     const bool is_of_plate = whole->block == "plate";
     if (!has_stand_in(selection, *whole, is_of_plate ? 1 : 2)) return {};
     whole->text = fmt::format(

@@ -90,7 +90,7 @@ inline double stribeck_friction_V(const Friction& friction, double speed_mm_per_
 /// g(|v|, y) in V.
 /// @param coasts  whether the drive has no voltage for motion
 inline double dry_friction_V(const Friction& friction, double speed_mm_per_s, double position_mm,
-                             bool coasts = false) {
+                             bool coasts) {
     double level_V = friction.coulomb_V;
     if (coasts) level_V += friction.coasting_V;
     if (friction.stribeck_V != 0.0) level_V += stribeck_friction_V(friction, speed_mm_per_s);
@@ -99,8 +99,11 @@ inline double dry_friction_V(const Friction& friction, double speed_mm_per_s, do
 }
 
 /// What dry friction holds at rest, in V: without bristles, which always give way a little.
-inline double breakaway_V(const Friction& friction, double position_mm) {
-    return friction.creep_mm_per_s > 0.0 ? 0.0 : friction.hold_V + dry_friction_V(friction, 0.0, position_mm);
+/// @param coasts  whether the drive has no voltage for motion: a belt may pull all the same
+inline double breakaway_V(const Friction& friction, double position_mm, bool coasts) {
+    return friction.creep_mm_per_s > 0.0
+               ? 0.0
+               : friction.hold_V + dry_friction_V(friction, 0.0, position_mm, coasts);
 }
 
 /// F without bristles, in V, of a motion in a direction (+1 right, -1 left) where g is dry_V.
@@ -126,9 +129,9 @@ struct Creep {
 /// The velocity at which friction that creeps balances what pulls; nothing where that is near what would let
 /// it slide.
 inline std::optional<Creep> balanced_creep(const Friction& friction, double velocity_mm_per_s,
-                                           double position_mm, double pull_V) {
+                                           double position_mm, bool coasts, double pull_V) {
     constexpr double far_below = 0.9;
-    const double dry_V = dry_friction_V(friction, std::abs(velocity_mm_per_s), position_mm);
+    const double dry_V = dry_friction_V(friction, std::abs(velocity_mm_per_s), position_mm, coasts);
     const double balance = pull_V / dry_V, now = std::tanh(velocity_mm_per_s / friction.creep_mm_per_s);
     if (!(std::abs(balance) <= far_below)) return std::nullopt;
     const double slope = 1.0 - std::max(balance * balance, now * now);

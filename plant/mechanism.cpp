@@ -152,7 +152,7 @@ class Motion {
     bool creeps_evenly(double duration_s) {
         if (has_belt || p_.friction.creep_mm_per_s == 0.0 || axis_.has_bristles) return false;
         const double gain = p_.velocity_gain_mm_per_s_per_V, tau_s = p_.time_constant_s;
-        const auto creep = balanced_creep(p_.friction, x_[speed], x_[place], effective_V(x_));
+        const auto creep = balanced_creep(p_.friction, x_[speed], x_[place], coasts(), effective_V(x_));
         constexpr double time_constants = 8.0;
         if (!creep || duration_s * creep->slope_V_s_per_mm * gain < time_constants * tau_s) return false;
         State end = x_;
@@ -212,14 +212,6 @@ class Motion {
 
     bool coasts() const { return branch_ == DeadZoneBranch::inside; }
 
-    /// What dry friction holds at rest: a belt may pull then, too.
-    double held_V() const {
-        const Friction& friction = p_.friction;
-        if (axis_.has_bristles) return 0.0;
-        const bool holds_more = coasts() && friction.creep_mm_per_s == 0.0;
-        return breakaway_V(friction, x_[place]) + (holds_more ? friction.coasting_V : 0.0);
-    }
-
     double bend_at(const State& x, double dry_V) const {
         if (bend_ == direction_ && dry_is_coulomb_) return direction_;
         return bristle_bend(p_.friction, bend_, x[place] - x_[place], direction_, start_dry_V_, dry_V);
@@ -243,7 +235,7 @@ class Motion {
     void find_hold_range() {
         const double gain = p_.velocity_gain_mm_per_s_per_V;
         const double bent = axis_.has_bristles ? gain * p_.friction.coulomb_V * bend_ : 0.0;
-        const double held = gain * held_V();
+        const double held = axis_.has_bristles ? 0.0 : gain * breakaway_V(p_.friction, x_[place], coasts());
         hold_low_ = bent - held - rest_mm_per_s;
         hold_high_ = bent + held + rest_mm_per_s;
         if (x_[place] <= axis_.driven_low_mm) hold_low_ = -std::numeric_limits<double>::infinity();

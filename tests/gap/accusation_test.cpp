@@ -74,6 +74,12 @@ TEST(Accusation, TagsThatAreDisplacedWhileNothingMoves_AreNoMatterOfTime) {
     EXPECT_EQ(accused_block(displaced, Signal::tag, Dependence::velocity), "camera.timing");
 }
 
+TEST(Accusation, TagsThatAreDisplacedAtRestByAShareOnly_AreAMatterOfTime) {
+    Pattern late = pattern(0.4, 1.0, 146.0, 412.0, 1.0);
+    late.tag_at_rest = 24.0;
+    EXPECT_EQ(accused_block(late, Signal::tag, {}), "camera.timing");
+}
+
 TEST(Accusation, ShiftInTimeOfTheReadingAlone_AccusesTheSensor_OneOfTheWireTheHeater) {
     const Pattern drifting = pattern(0.4, 2.8, 1.0, 1.0, 1.0);
     EXPECT_EQ(accused_block(drifting, Signal::hall, Dependence::time), "micro.hall");

@@ -81,10 +81,7 @@ bool is_all_right(const Score& score) {
 bool is_followed_to_the_floor(const Score& score) {
     return score.all_right && score.after < 1.1;
 }
-bool is_not_misnamed(const Score& score) {
-    return !score.is_confident_wrong;
-}
-/// Of an effect that the catalogue lacks.
+/// Of an effect that the catalogue lacks, or that is withheld.
 bool has_right_block(const Score& score) {
     return score.right_block_first && !score.is_confident_wrong;
 }
@@ -150,8 +147,9 @@ INSTANTIATE_TEST_SUITE_P(
         KnownCase{"PlayBesideAHardeningCable", 2101, 12, "cable_force", is_all_right},
         // Under a false scale a ripple does more harm than good, though the readings show it.
         KnownCase{"RippleUnderAFalseScale", 2107, 81, "encoder_scale", is_followed_to_the_floor},
-        // Withheld; a camera that may look aside without being tilted passes for it.
-        KnownCase{"ScaleAndNoTilt", 2110, 306, "encoder_scale", is_not_misnamed},
+        // Withheld; a camera that turns about an axis far over it looks aside, and passes for it.
+        KnownCase{"ScaleAndNoTilt", 2110, 306, "encoder_scale", has_right_block},
+        KnownCase{"ScaleAndNoTiltAboutAFarAxis", 2111, 107, "encoder_scale", has_right_block},
         // Explained by what Stribeck friction and bristles come to at a limit.
         KnownCase{"DryFrictionThatIsNotKnown", 2097, 367, "coulomb_friction", has_right_block}),
     [](const auto& instance) { return instance.param.name; });
