@@ -73,7 +73,7 @@ function(fidservo_in_a_test_program)
 endfunction()
 
 # The allocator keeps what a diagnosis gives back, as in the program (src/main.cpp): half the time of the slow tests.
-set(fidservo_test_environment "MALLOC_MMAP_THRESHOLD_=33554432;MALLOC_TRIM_THRESHOLD_=268435456")
+set(fidservo_test_environment "GLIBC_TUNABLES=glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=268435456")
 
 # fidservo_test(NAME [SERIAL] SOURCES a.cpp ... USES targets...): one GoogleTest program.
 # Tests whose name begins with Slow get the label slow, the others quick. SERIAL: no other test runs at the same
