@@ -2,6 +2,7 @@
 
 #include "core/failure.h"
 #include "gap/evidence_parts.h"
+#include "gap/parallel.h"
 #include "gap/wire_path.h"
 #include "plant/effects/catalogue.h"
 
@@ -313,11 +314,11 @@ Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted, doub
                       errors.begin() + static_cast<std::ptrdiff_t>(window.begin));
         }
         if (std::ranges::none_of(touched.signals, std::identity{})) return errors;
-        std::size_t rows = parts.windows.size() * rows_worth_a_window;
-        for (std::size_t run = 0; run < parts.recordings.size(); ++run)
-            rows +=
+        parts_->effort += parts.windows.size() * rows_worth_a_window;
+        parallel_for(parts.recordings.size(), [&](std::size_t run) {
+            parts_->effort +=
                 RunPredictor(parts, run, wanted, models, touched.carriage).predict(touched.signals, errors);
-        parts_->effort += rows;
+        });
         return errors;
     } catch (const InputError&) {
         return {};

@@ -34,13 +34,9 @@ class Linearised : public ceres::EvaluationCallback {
         }
         if (!with_derivatives || has_derivatives_ || errors.empty()) return;
         by_parameter.assign(parameters_.size(), {});
-        const auto differentiate = [this](std::size_t k) {
+        parallel_for(parameters_.size(), [this](std::size_t k) {
             by_parameter[k] = slope(predict_, parameters_, k, errors, options_.step_scales);
-        };
-        if (options_.threads == Threads::one)
-            for (std::size_t k = 0; k < parameters_.size(); ++k) differentiate(k);
-        else
-            parallel_for(parameters_.size(), differentiate);
+        });
         for (std::size_t k = 0; k < parameters_.size(); ++k)
             if (is_held(k)) std::ranges::fill(by_parameter[k], 0.0F);
         has_derivatives_ = true;

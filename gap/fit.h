@@ -27,13 +27,10 @@ struct Fit {
 /// equally good.
 inline constexpr double usual_step = 0.01, close_step = 0.001;
 
-enum class Threads { one, all };
-
 struct FitOptions {
     int most_iterations = 12;
     double tolerance = 1e-4;          ///< relative, of loss and parameters, at which a fit ends
     bool with_covariance = false;     ///< costs a prediction a parameter
-    Threads threads = Threads::one;   ///< that predict at the same time
     double step_scales = usual_step;  ///< of differences
 };
 

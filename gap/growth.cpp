@@ -60,7 +60,8 @@ bool look_further(Search& search, Chain& chain, const Chain& before, int most_ef
         take_in_scanned(search, chain, before, most_effects))
         return true;
     const Candidate& last = *chain.choices.back().candidate;
-    return is_far_off(3.0) && last.wave && !search.balances_alone(before.fitted, before.candidates(), last) &&
+    return is_far_off(floors_of_a_way) && last.wave &&
+           !search.balances_alone(before.fitted, before.candidates(), last) &&
            balance(search, chain, most_effects, false);
 }
 
@@ -105,8 +106,8 @@ bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
     const Chain rest = rest_of(search, chain, only(Signal::encoder));
     if (!has_room_for_two(rest, most_effects)) return false;
     return take_in_pair(search, chain, rest,
-                        search.balanced_pair(rest.fitted, rest.candidates(), only_needed), nearly_all,
-                        only_needed);
+                        search.balanced_pair(rest.fitted, rest.candidates(), only_needed, chain.fitted.loss),
+                        nearly_all, only_needed);
 }
 
 bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step) {

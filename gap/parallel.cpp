@@ -8,6 +8,19 @@
 #include <vector>
 
 namespace fidservo::gap {
+namespace {
+
+std::atomic<std::size_t> idle_cores = std::max(1U, std::thread::hardware_concurrency()) - 1;
+
+/// @return how many of the idle cores it has taken, as many as wanted at most
+std::size_t take_cores(std::size_t wanted) {
+    std::size_t idle = idle_cores, taken = 0;
+    do taken = std::min(wanted, idle);
+    while (!idle_cores.compare_exchange_weak(idle, idle - taken));
+    return taken;
+}
+
+}  // namespace
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work) {
     std::atomic<std::size_t> next = 0;
@@ -24,8 +37,11 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
         }
     };
     std::vector<std::jthread> others;
-    const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-    for (std::size_t k = 1; k < std::min(cores, count); ++k) others.emplace_back(run);
+    for (std::size_t k = take_cores(count > 0 ? count - 1 : 0); k > 0; --k)
+        others.emplace_back([&] {
+            run();
+            ++idle_cores;
+        });
     run();
     others.clear();
     if (failed) std::rethrow_exception(failed);

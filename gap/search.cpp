@@ -92,8 +92,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     fit_simple_first(base, fitted);
     std::ranges::sort(fitted, std::greater{}, &Contender::gain);
     std::span leaders = near_best(fitted, share_of_gain, 0.0, effort.leaders, std::mem_fn(&Contender::gain));
-    const Threads each = leaders.size() > 1 ? Threads::one : Threads::all;
-    parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k], each); });
+    parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k]); });
     throw_if_exhausted();
     // What follows takes the place of what there is only where it is judged to be better, so none of it is
     // lost.
@@ -140,7 +139,7 @@ std::optional<CrossFit> Search::with(const CrossFit& base, const Candidate& cand
     fit_first_half(base, std::array{&one});
     throw_if_exhausted();
     if (one.finding->fitted[0].empty()) return {};
-    fit_second_half(base, one, Threads::all);
+    fit_second_half(base, one);
     throw_if_exhausted();
     return std::move(one.trial.fitted);
 }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -85,8 +86,9 @@ class Search {
     /// Of the pairs that balance the forces of a carriage best (gap/force_pairs.h), added to a base, the one
     /// that predicts the first half best; fitted on both.
     /// @param only_needed  of pairs of which one alone does not balance them nearly as well
+    /// @param loss_to_beat  what loses more, once it is fitted, is not followed any further
     std::optional<Pair> balanced_pair(const CrossFit& base, std::span<const Candidate* const> added,
-                                      bool only_needed);
+                                      bool only_needed, double loss_to_beat);
 
     /// Whether a candidate balances them best alone, as well as any two.
     bool balances_alone(const CrossFit& base, std::span<const Candidate* const> added,
@@ -183,7 +185,8 @@ class Search {
                            std::vector<PairAttempt>& attempts) const;
     /// On both halves, from such a start of the first one.
     void fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start) const;
-    std::optional<Pair> best_of(const CrossFit& base, std::vector<PairAttempt> attempts);
+    std::optional<Pair> best_of(const CrossFit& base, std::vector<PairAttempt> attempts,
+                                double loss_to_beat = std::numeric_limits<double>::infinity());
     /// By those encoder windows of the first half that are far off without a wave (gap/wave_scan.h). None
     /// where the predicted carriage never runs away, as a weak wave shows by nothing else, and none of a
     /// carriage on a belt, whose predictions are too dear.
@@ -199,7 +202,7 @@ class Search {
     /// From each of a contender's best starts; then judges it on some windows of the other half.
     void fit_first_half(const CrossFit& base, std::span<Contender* const> contenders) const;
     void judge_first_half(const CrossFit& base, Contender& contender) const;
-    void fit_second_half(const CrossFit& base, Contender& contender, Threads threads) const;
+    void fit_second_half(const CrossFit& base, Contender& contender) const;
     /// From what a richer effect, of which it is the limit, has found on both halves: beside what the richer
     /// one has taken it may promise nothing by itself. Keeps what it had if that is better.
     void fit_plain_form(const CrossFit& base, const Contender& richer, Contender& plain) const;

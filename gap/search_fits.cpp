@@ -160,12 +160,11 @@ void Search::judge_first_half(const CrossFit& base, Contender& contender) const 
     trial.gain = fitter_.compared(base, trial.fitted).gain;
 }
 
-void Search::fit_second_half(const CrossFit& base, Contender& contender, Threads threads) const {
+void Search::fit_second_half(const CrossFit& base, Contender& contender) const {
     Finding& finding = *contender.finding;
     if (finding.fitted[1].empty()) {
-        const Fit fit =
-            fitter_.fit_places(1, contender.placed(base, 1, finding.fitted[0]), contender.fitted_places(base),
-                               base.mean_squares, {.threads = threads});
+        const Fit fit = fitter_.fit_places(1, contender.placed(base, 1, finding.fitted[0]),
+                                           contender.fitted_places(base), base.mean_squares);
         finding.fitted[1] = contender.part(fit.hypothesis);
     }
     for (std::size_t side = 0; side < 2; ++side)

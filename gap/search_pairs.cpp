@@ -174,7 +174,8 @@ void Search::add_beside_ripple(const CrossFit& base, const Candidate& other, con
     }
 }
 
-std::optional<Pair> Search::best_of(const CrossFit& base, std::vector<PairAttempt> attempts) {
+std::optional<Pair> Search::best_of(const CrossFit& base, std::vector<PairAttempt> attempts,
+                                    double loss_to_beat) {
     const auto fit_on = [&](int most_iterations) {
         parallel_for(attempts.size(), [&](std::size_t k) {
             PairAttempt& attempt = attempts[k];
@@ -197,6 +198,7 @@ std::optional<Pair> Search::best_of(const CrossFit& base, std::vector<PairAttemp
     pair.fitted.mean_squares = base.mean_squares;
     fit_pair(base, pair, best.fitted.hypothesis);
     throw_if_exhausted();
+    if (pair.fitted.loss > loss_to_beat) return {};
     // Both are judged against what they begin from, also where the effort is spent on the way.
     pair.fitted = closer(base, std::move(pair.fitted), *pair.second);
     return in_plain_form(base, std::move(pair));
@@ -212,8 +214,7 @@ void Search::fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start)
         pair.fitted.of_half[side] =
             fitter_
                 .fit_places(side, with_part(std::move(whole), places, found), places,
-                            pair.fitted.mean_squares,
-                            {.tolerance = 1e-7, .threads = Threads::all, .step_scales = close_step})
+                            pair.fitted.mean_squares, {.tolerance = 1e-7, .step_scales = close_step})
                 .hypothesis;
         found = part_of(pair.fitted.of_half[side], places);
     }
@@ -255,8 +256,8 @@ Pair Search::in_plain_form(const CrossFit& base, Pair pair) const {
 }
 
 std::optional<Pair> Search::balanced_pair(const CrossFit& base, std::span<const Candidate* const> added,
-                                          bool only_needed) {
-    return best_of(base, by_force(base, in_question(base, added), only_needed));
+                                          bool only_needed, double loss_to_beat) {
+    return best_of(base, by_force(base, in_question(base, added), only_needed), loss_to_beat);
 }
 
 bool Search::balances_alone(const CrossFit& base, std::span<const Candidate* const> added,

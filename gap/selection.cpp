@@ -103,18 +103,21 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     const Chain rest = rest_of(search, chain, off);
     if (!has_room_for_two(rest, most_effects)) return false;
     const bool from_nothing = chain.choices.size() == rest.choices.size();
-    const auto leaves_nothing_with = [&](std::optional<Pair> pair) {
-        return take_in_pair(search, chain, rest, std::move(pair), all_but_nothing, false) &&
-               search.is_at_floor(chain.fitted);
+    bool changed = false;
+    const auto leaves_nothing_after = [&](bool has_changed) {
+        changed = changed || has_changed;
+        return has_changed && search.is_at_floor(chain.fitted);
     };
-    if (leaves_nothing_with(search.encoder_pair(rest.fitted, rest.candidates()))) return true;
-    if (balance(search, chain, most_effects, false) && search.is_at_floor(chain.fitted)) return true;
-    if (leaves_nothing_with(search.best_pair(rest.fitted, rest.candidates()))) return true;
+    const auto take_in = [&](std::optional<Pair> pair) {
+        return take_in_pair(search, chain, rest, std::move(pair), all_but_nothing, false);
+    };
+    if (leaves_nothing_after(take_in(search.encoder_pair(rest.fitted, rest.candidates())))) return true;
+    if (leaves_nothing_after(balance(search, chain, most_effects, false))) return true;
+    if (leaves_nothing_after(take_in(search.best_pair(rest.fitted, rest.candidates())))) return true;
     const std::size_t most_first = from_nothing ? 6 : 3;
     std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates(), {.scatters = false});
     if (from_nothing) std::ranges::stable_sort(singles, std::greater{}, &Trial::promised);
     std::vector<std::string> classes;
-    bool changed = false;
     for (const Trial& single : singles) {
         const bool is_new = std::ranges::find(classes, single.candidate->class_name) == classes.end();
         const bool is_hopeless = from_nothing ? single.promised <= 0.0 : single.gain < least_gain;
@@ -188,10 +191,7 @@ Fit fit_to_all(const Evidence& evidence, const CrossFit& cross) {
     const Wanted wanted = everything(evidence);
     const Predict predict = [&](const Hypothesis& hypothesis) { return evidence.errors(hypothesis, wanted); };
     return fit(predict, evidence.windows(), wanted, cross.of_half[0],
-               {.most_iterations = most_iterations,
-                .tolerance = 1e-6,
-                .with_covariance = true,
-                .threads = Threads::all});
+               {.most_iterations = most_iterations, .tolerance = 1e-6, .with_covariance = true});
 }
 
 Selection select(const Evidence& evidence, const std::vector<Candidate>& candidates,

@@ -84,7 +84,8 @@ inline double stribeck_friction_V(const Friction& friction, double speed_mm_per_
     const double share = speed_mm_per_s / friction.stribeck_mm_per_s;
     const double n = friction.stribeck_exponent;
     const double power = n == 1.0 ? share : n == 2.0 ? share * share : std::pow(share, n);
-    return friction.stribeck_V * std::exp(-power);
+    constexpr double next_to_nothing = 40.0;
+    return power > next_to_nothing ? 0.0 : friction.stribeck_V * std::exp(-power);
 }
 
 /// g(|v|, y) in V.

@@ -38,6 +38,7 @@ class Motion {
           standing_(p_.standing),
           turns_matter_(axis.has_friction || p_.play_mm > 0.0),
           dry_is_coulomb_(p_.friction.stribeck_V == 0.0 && p_.friction.patch.level_V == 0.0),
+          per_s_(1.0 / p_.time_constant_s),
           drive_V_(drive_V),
           x_(start),
           bend_(bend) {}
@@ -77,6 +78,10 @@ class Motion {
         if (creeps_evenly(longest_s)) return longest_s;
         Step step = step_from(first, std::min(longest_s, trial_s_));
         double error = error_of(step);
+        if (error <= 1.0 && step.duration_s == longest_s && slack(step.end) >= 0.0) {
+            settle(step.end);
+            return longest_s;
+        }
         while (!(error <= 1.0) && step.duration_s > shortest_step_s) {
             step = step_from(first,
                              step.duration_s * (std::isfinite(error) ? std::min(fitting(error), 0.9) : 0.1));
@@ -199,7 +204,6 @@ class Motion {
     }
 
     double friction_V(const State& x) const {
-        if (!axis_.has_friction) return 0.0;
         const double dry_V = dry_V_at(x);
         if (!axis_.has_bristles) return sliding_friction_V(p_.friction, x[speed], direction_, dry_V);
         return bristle_friction_V(p_.friction, x[speed], direction_, bend_at(x, dry_V), dry_V);
@@ -220,14 +224,14 @@ class Motion {
     State rate(const State& x) const {
         const double tau_s = p_.time_constant_s, gain = p_.velocity_gain_mm_per_s_per_V;
         const double pull = pull_mm_per_s(x);
-        const double net = pull - gain * friction_V(x);
+        const double net = axis_.has_friction ? pull - gain * friction_V(x) : pull;
         if constexpr (has_belt) {
             const double share = p_.belt.motor_share;
             const double motor_rate = (gain * effective_V(x) - x[motor] - pull) / (share * tau_s);
             if (held_) return {0.0, 0.0, x[motor], motor_rate};
             return {x[speed], net / ((1.0 - share) * tau_s), x[motor] - x[speed], motor_rate};
         } else {
-            return {x[speed], (net - x[speed]) / tau_s};
+            return {x[speed], per_s_ * (net - x[speed])};
         }
     }
 
@@ -295,6 +299,7 @@ class Motion {
     StandingForceNearby standing_;
     bool turns_matter_;  ///< friction turns round, or play begins, where the carriage does
     bool dry_is_coulomb_;
+    double per_s_;  ///< 1 / time constant
     double drive_V_;
     State x_;
     double bend_;                                               ///< at x_
