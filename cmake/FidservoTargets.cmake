@@ -34,19 +34,19 @@ if(FIDSERVO_FUZZ)
   target_compile_options(fidservo_compile_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# fidservo_precompiled_headers(TARGET): takes part in the precompiled headers, if there are any.
-function(fidservo_precompiled_headers target)
-  if(TARGET fidservo_precompiled)
-    target_precompile_headers(${target} REUSE_FROM fidservo_precompiled)
-  endif()
-endfunction()
+# What tests spend their time in is in the libraries: -O1 compiles them in half the time of -O3.
+add_library(fidservo_test_options INTERFACE)
+target_link_libraries(fidservo_test_options INTERFACE fidservo_compile_options)
+target_compile_options(fidservo_test_options INTERFACE $<$<CONFIG:Release>:-O1>)
 
 # fidservo_library(NAME SOURCES a.cpp ... USES targets...): the one library target of a room.
 function(fidservo_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;USES;PRIVATELY" ${ARGN})
   add_library(fidservo_${name} STATIC ${ARG_SOURCES})
   target_link_libraries(fidservo_${name} PUBLIC fidservo_compile_options ${ARG_USES} PRIVATE ${ARG_PRIVATELY})
-  fidservo_precompiled_headers(fidservo_${name})
+  if(FIDSERVO_PRECOMPILED)
+    target_precompile_headers(fidservo_${name} REUSE_FROM fidservo_precompiled)
+  endif()
 endfunction()
 
 # Under a sanitizer the libraries' start takes longer than most tests: there a few processes run all quick tests of a
@@ -83,8 +83,8 @@ function(fidservo_test name)
   cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;USES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   fidservo_in_a_test_program(${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE fidservo_compile_options ${ARG_USES} GTest::gtest_main GTest::gmock)
-  fidservo_precompiled_headers(${name})
+  target_link_libraries(${name} PRIVATE fidservo_test_options ${ARG_USES} GTest::gtest_main GTest::gmock)
+  target_precompile_headers(${name} REUSE_FROM fidservo_precompiled)
   target_compile_definitions(${name} PRIVATE
     FIDSERVO_ASSETS_DIR="${CMAKE_SOURCE_DIR}/assets"
     FIDSERVO_SOURCE_DIR="${CMAKE_SOURCE_DIR}"

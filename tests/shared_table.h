@@ -2,6 +2,7 @@
 // Columns of the shared text tables. Tests skip where the data are absent, unless FIDSERVO_REQUIRE_DATA is
 // set.
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -13,7 +14,7 @@ namespace fidservo::testing {
 
 /// Rows of numbers, separated by blanks or commas, below `header_lines`; empty if the file is absent.
 inline std::vector<std::vector<double>> shared_table(const std::string& name, int header_lines) {
-    std::ifstream file(std::string(FIDSERVO_DATA_DIR) + "/" + name);
+    std::ifstream file(std::filesystem::path(FIDSERVO_DATA_DIR) / name);
     if (!file) {
         EXPECT_EQ(std::getenv("FIDSERVO_REQUIRE_DATA"), nullptr) << "the shared data are absent: " << name;
         return {};

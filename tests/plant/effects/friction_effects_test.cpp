@@ -190,9 +190,9 @@ TEST(Presliding, BesideOtherFriction_IsLuGreOfConstantStiffness) {
 
 TEST(RailPatch, WithSteepEdges_IsLevelBetweenThem) {
     const Friction friction{.patch = {.level_V = 0.2, .centre_mm = 50.0, .width_mm = 10.0, .exponent = 8.0}};
-    EXPECT_NEAR(dry_friction_V(friction, 1.0, 45.0), 0.2 * std::exp(-0.5 / 256.0), 1e-12);
-    EXPECT_NEAR(dry_friction_V(friction, 1.0, 60.0), 0.2 * std::exp(-0.5), 1e-12);
-    EXPECT_LT(dry_friction_V(friction, 1.0, 65.0), 1e-5);
+    EXPECT_NEAR(dry_friction_V(friction, 1.0, 45.0, false), 0.2 * std::exp(-0.5 / 256.0), 1e-12);
+    EXPECT_NEAR(dry_friction_V(friction, 1.0, 60.0, false), 0.2 * std::exp(-0.5), 1e-12);
+    EXPECT_LT(dry_friction_V(friction, 1.0, 65.0, false), 1e-5);
 }
 
 TEST(RailPatch, SteadySpeed_IsLowerOnThePatchOnly) {
