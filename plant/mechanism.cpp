@@ -38,7 +38,6 @@ class Motion {
           standing_(p_.standing),
           turns_matter_(axis.has_friction || p_.play_mm > 0.0),
           dry_is_coulomb_(p_.friction.stribeck_V == 0.0 && p_.friction.patch.level_V == 0.0),
-          per_s_(1.0 / p_.time_constant_s),
           drive_V_(drive_V),
           x_(start),
           bend_(bend) {}
@@ -231,7 +230,7 @@ class Motion {
             if (held_) return {0.0, 0.0, x[motor], motor_rate};
             return {x[speed], net / ((1.0 - share) * tau_s), x[motor] - x[speed], motor_rate};
         } else {
-            return {x[speed], per_s_ * (net - x[speed])};
+            return {x[speed], (net - x[speed]) / tau_s};
         }
     }
 
@@ -299,7 +298,6 @@ class Motion {
     StandingForceNearby standing_;
     bool turns_matter_;  ///< friction turns round, or play begins, where the carriage does
     bool dry_is_coulomb_;
-    double per_s_;  ///< 1 / time constant
     double drive_V_;
     State x_;
     double bend_;                                               ///< at x_
