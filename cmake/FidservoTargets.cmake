@@ -94,8 +94,8 @@ function(fidservo_test name)
   else()
     gtest_discover_tests(${name} TEST_FILTER "-Slow*" PROPERTIES LABELS quick RUN_SERIAL ${ARG_SERIAL} TIMEOUT 300 DISCOVERY_TIMEOUT 60)
   endif()
-  gtest_discover_tests(${name} TEST_FILTER "Slow*" PROPERTIES LABELS slow RUN_SERIAL ${ARG_SERIAL} TIMEOUT 1500 DISCOVERY_TIMEOUT 60
-    ENVIRONMENT "${fidservo_test_environment}")
+  gtest_discover_tests(${name} TEST_FILTER "Slow*" DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS slow RUN_SERIAL ${ARG_SERIAL} TIMEOUT 1500 ENVIRONMENT ${fidservo_test_environment})
 endfunction()
 
 # Data made by other people, kept out of the repository. Tests that use it skip where it is absent.

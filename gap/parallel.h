@@ -4,8 +4,8 @@
 
 namespace fidservo::gap {
 
-/// Calls work(0) ... work(count - 1) in any order, on the caller's core and those that are idle then: work may
-/// call it again. The first exception is thrown again once all have ended.
+/// Calls work(0) ... work(count - 1) in any order, on the caller's core and those that are idle then: work
+/// may call it again. The first exception is thrown again once all have ended.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work);
 
 }  // namespace fidservo::gap
