@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 namespace fidservo::gap {
 namespace {
@@ -73,8 +72,9 @@ constexpr double between_counts = 2.0;
 /// Whether the stages stand over a window of tags, and over the lead-in that tells where the carriage is.
 bool stands(const Evidence& evidence, const Window& window) {
     const std::size_t detections = (window.end - window.begin) / corner_values;
-    return std::ranges::all_of(std::views::iota(window.first_detection, window.first_detection + detections),
-                               [&](std::size_t i) { return sight_of(evidence, window.run, i).has_stood; });
+    for (std::size_t i = 0; i < detections; ++i)
+        if (!sight_of(evidence, window.run, window.first_detection + i).has_stood) return false;
+    return true;
 }
 
 bool has_no_tags(const Pattern& pattern) {
