@@ -34,7 +34,7 @@ if(FIDSERVO_FUZZ)
   target_compile_options(fidservo_compile_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# What tests spend their time in is in the libraries: -O1 compiles them in half the time of -O3.
+# What tests spend their time in is in the libraries: for the tests themselves -O1 is enough.
 add_library(fidservo_test_options INTERFACE)
 target_link_libraries(fidservo_test_options INTERFACE fidservo_compile_options)
 target_compile_options(fidservo_test_options INTERFACE $<$<CONFIG:Release>:-O1>)
@@ -72,7 +72,7 @@ function(fidservo_in_a_test_program)
   endforeach()
 endfunction()
 
-# The allocator keeps what a diagnosis gives back, as in the program (src/main.cpp): half the time of the slow tests.
+# The allocator keeps what a diagnosis gives back, as in the program: the same bounds as in src/main.cpp.
 set(fidservo_test_environment "GLIBC_TUNABLES=glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=268435456")
 
 # fidservo_test(NAME [SERIAL] SOURCES a.cpp ... USES targets...): one GoogleTest program.
