@@ -27,7 +27,7 @@ bool is_at_rest(const plant::MacroAxis& axis, const plant::MacroAxisState& state
                      std::abs(mechanism.stretching_mm_per_s)}) <= rest_mm_per_s;
 }
 
-/// Runs the plant over rows; what it shows at row k goes to element k - origin.
+/// Runs the plant over rows; what it shows at row k, or its place alone, goes to element k - origin.
 /// @return the effort, in rows
 std::size_t run_rows(const CarriageModel& model, const CarriageRun& run, std::size_t first, std::size_t end,
                      plant::MacroAxisState& state, CarriagePath& motion, std::size_t origin = 0) {
@@ -35,17 +35,19 @@ std::size_t run_rows(const CarriageModel& model, const CarriageRun& run, std::si
     constexpr std::size_t of_step = 20, of_belt_step = 25;
     const plant::MacroAxis& axis = axis_of(model, run);
     const bool may_rest = axis.parameters.delay_s == 0.0;  // else commands are on their way
+    const bool only_places = motion.velocity_mm_per_s.empty();
     bool was_at_rest = false, rests = false;
     std::size_t steps = 0;
     for (std::size_t k = first; k < end; ++k) {
         const double before_mm = state.position_mm, before_mm_per_s = state.velocity_mm_per_s;
         motion.position_mm[k - origin] = before_mm;
-        motion.velocity_mm_per_s[k - origin] = before_mm_per_s;
         if (!rests || run.command_V[k] != run.command_V[k - 1])
             steps += static_cast<std::size_t>(plant::advance(axis, state, run.command_V[k]));
         const bool is_now = is_at_rest(axis, state);
         rests = may_rest && is_now && was_at_rest;
         was_at_rest = is_now;
+        if (only_places) continue;
+        motion.velocity_mm_per_s[k - origin] = before_mm_per_s;
         const plant::Shaking shaking = plant::shaking_of(state.position_mm - before_mm, before_mm_per_s,
                                                          state.velocity_mm_per_s, run.tick_s);
         motion.acceleration_mm_per_s2[k - origin] = shaking.acceleration_mm_per_s2;
@@ -71,10 +73,10 @@ plant::MacroAxisState first_state(const CarriageModel& model, const CarriageRun&
 /// The rows before a window, run from a state that the counts correct.
 class Lead {
   public:
-    Lead(const CarriageModel& model, const CarriageRun& run)
+    Lead(const CarriageModel& model, const CarriageRun& run, Followed followed)
         : model_(model),
           run_(run),
-          motion_(unknown_path(lead_rows(run.tick_s))),
+          motion_(unknown_path(lead_rows(run.tick_s), followed)),
           trial_(motion_),
           errors_(motion_.position_mm.size()) {}
 
@@ -209,8 +211,9 @@ PredictedCounts simulate(const CarriageModel& model, const CarriageRun& run,
                          std::span<const std::uint8_t> wanted, CarriagePath* path) {
     const std::size_t rows = run.command_V.size();
     PredictedCounts predicted{std::vector<double>(rows, nan)};
-    CarriagePath motion = unknown_path(rows);
-    Lead lead(model, run);
+    const Followed followed = path ? Followed::motion : Followed::places;
+    CarriagePath motion = unknown_path(rows, followed);
+    Lead lead(model, run, followed);
     const std::vector<Passage> all = passages(model.axis, run);
     const std::vector<bool> needed = needed_windows(model, run, all, wanted);
     plant::MacroAxisState carried, state;

@@ -27,9 +27,12 @@ void bridge(std::vector<double>& values) {
 
 }  // namespace
 
-CarriagePath unknown_path(std::size_t rows) {
-    const std::vector<double> unknown(rows, std::numeric_limits<double>::quiet_NaN());
-    return {unknown, unknown, unknown, unknown, unknown};
+CarriagePath unknown_path(std::size_t rows, Followed followed) {
+    const auto unknown = [rows] {
+        return std::vector<double>(rows, std::numeric_limits<double>::quiet_NaN());
+    };
+    if (followed == Followed::places) return {unknown(), {}, {}, {}, {}};
+    return {unknown(), unknown(), unknown(), unknown(), unknown()};
 }
 
 double position_mm(const plant::Encoder& encoder, double reading_count) {

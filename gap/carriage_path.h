@@ -16,8 +16,11 @@ struct CarriagePath {
     std::vector<double> entering_mm;
 };
 
-/// A path of which nothing is known: NaN.
-CarriagePath unknown_path(std::size_t rows);
+/// What is followed of a carriage.
+enum class Followed { places, motion };
+
+/// A path of which nothing is known: NaN; of places alone, nothing else has a value.
+CarriagePath unknown_path(std::size_t rows, Followed followed);
 
 /// The carriage's place of a reading, in mm: the inverse of the encoder.
 double position_mm(const plant::Encoder& encoder, double reading_count);

@@ -1,8 +1,10 @@
 #include "gap/period_search.h"
 
 #include "gap/carriage_forces.h"
+#include "gap/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -184,9 +186,14 @@ std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Er
 }  // namespace
 
 std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Errors& errors) {
+    constexpr std::array half_supports{short_half_support, long_half_support};
+    std::array<std::vector<PositionPeriod>, half_supports.size()> of_support;
+    parallel_for(half_supports.size(), [&](std::size_t k) {
+        of_support[k] = strongest_periods(evidence, errors, half_supports[k]);
+    });
     std::vector<PositionPeriod> all;
-    for (const std::size_t half_support : {short_half_support, long_half_support})
-        std::ranges::copy(strongest_periods(evidence, errors, half_support), std::back_inserter(all));
+    for (const std::vector<PositionPeriod>& some : of_support)
+        std::ranges::copy(some, std::back_inserter(all));
     std::ranges::sort(all, std::greater{}, &PositionPeriod::share);
     return all;
 }

@@ -1,5 +1,6 @@
 #include "gap/regression.h"
 
+#include "gap/parallel.h"
 #include "gap/score.h"
 
 #include <algorithm>
@@ -84,12 +85,13 @@ Regression::Regression(std::span<const Window> windows, Signal signal, const Err
                        std::span<const std::uint8_t> half)
     : windows_(windows) {
     for (const Column& column : columns) group_of_.push_back(column.group);
-    for (std::size_t w = 0; w < windows.size(); ++w) {
-        if (windows[w].signal != signal) continue;
-        CondensedWindow condensed{w, half[w], 0.0, {}};
-        condensed.gram = gram_of(windows[w], errors, columns, nuisances, condensed.count);
-        if (condensed.count > 0.0) condensed_.push_back(std::move(condensed));
-    }
+    for (std::size_t w = 0; w < windows.size(); ++w)
+        if (windows[w].signal == signal) condensed_.push_back({w, half[w], 0.0, {}});
+    parallel_for(condensed_.size(), [&](std::size_t k) {
+        CondensedWindow& condensed = condensed_[k];
+        condensed.gram = gram_of(windows[condensed.window], errors, columns, nuisances, condensed.count);
+    });
+    std::erase_if(condensed_, [](const CondensedWindow& condensed) { return condensed.count == 0.0; });
     drop_gross_windows(condensed_);
 }
 
@@ -156,14 +158,14 @@ std::vector<int> Regression::significant_groups(double tail, double as_good) con
     int count = 0;
     for (;;) {
         std::vector<Trial> trials;
-        for (const int group : all) {
-            if (std::ranges::find(taken, group) != taken.end()) continue;
+        for (const int group : all)
+            if (std::ranges::find(taken, group) == taken.end()) trials.push_back({group, {}, {}});
+        parallel_for(trials.size(), [&](std::size_t k) {
             std::vector<int> more = taken;
-            more.push_back(group);
-            std::vector<double> after = mean_squares(more);
-            const Comparison comparison = compare(windows_, before, after);
-            trials.push_back({group, comparison, std::move(after)});
-        }
+            more.push_back(trials[k].group);
+            trials[k].squares = mean_squares(more);
+            trials[k].comparison = compare(windows_, before, trials[k].squares);
+        });
         count += static_cast<int>(trials.size());
         std::erase_if(trials, [&](const Trial& trial) {
             return trial.comparison.gain <= least_gain ||

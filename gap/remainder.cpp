@@ -11,9 +11,11 @@
 #include "gap/surrogate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,44 +52,75 @@ struct Dependences {
     double period_mm = 0.0;
 };
 
-Dependences dependences(const Evidence& evidence, Signal signal, const Surrogate& surrogate,
-                        const Errors& errors, std::span<const std::uint8_t> half, double tail) {
-    const Regression regression(evidence.windows(), signal, errors, surrogate.columns, surrogate.nuisances,
-                                half);
-    return {regression.significant_groups(tail, surrogate.as_good), surrogate.period_mm};
+/// A surrogate fitted to the errors, that may be asked with several tails.
+struct Model {
+    Regression regression;
+    double as_good;
+    double period_mm;
+
+    Dependences dependences(double tail) const {
+        return {regression.significant_groups(tail, as_good), period_mm};
+    }
+};
+
+Model model_of(const Evidence& evidence, Signal signal, const Surrogate& surrogate, const Errors& errors,
+               std::span<const std::uint8_t> half) {
+    return {Regression(evidence.windows(), signal, errors, surrogate.columns, surrogate.nuisances, half),
+            surrogate.as_good, surrogate.period_mm};
+}
+
+/// By the first tail that finds any.
+Dependences first_found(const Model& model, std::span<const double> tails) {
+    Dependences found;
+    for (const double tail : tails) {
+        found = model.dependences(tail);
+        if (!found.groups.empty()) break;
+    }
+    return found;
 }
 
 /// What friction does where the carriage hardly moves shows at the edge of the dead zone only: it is looked
 /// for there where nothing is found elsewhere, and at last where the carriage is held though it is pushed.
 Dependences dependences_of_carriage(const Evidence& evidence, const Errors& errors,
-                                    std::span<const std::uint8_t> usual_half, double tail) {
+                                    std::span<const std::uint8_t> usual_half, std::span<const double> tails) {
     const std::vector<std::uint8_t> half = has_own_zeros(evidence)
                                                ? halves_of_each_run(evidence)
                                                : std::vector(usual_half.begin(), usual_half.end());
     const std::vector<PositionPeriod> periods = strongest_periods(evidence, errors);
     const PositionPeriod period = periods.empty() ? PositionPeriod{} : periods.front();
+    constexpr std::array edges_V{usual_edge_V, 0.0};
+    std::vector<Model> models;
     Dependences found;
-    for (const double edge_V : {usual_edge_V, 0.0}) {
-        const Surrogate surrogate = carriage_surrogate(evidence, errors, edge_V, period);
-        found = dependences(evidence, Signal::encoder, surrogate, surrogate.errors, half, tail);
-        if (!found.groups.empty()) return found;
+    for (const double tail : tails) {
+        for (std::size_t k = 0; k < edges_V.size(); ++k) {
+            if (k == models.size()) {
+                const Surrogate surrogate = carriage_surrogate(evidence, errors, edges_V[k], period);
+                models.push_back(model_of(evidence, Signal::encoder, surrogate, surrogate.errors, half));
+            }
+            found = models[k].dependences(tail);
+            if (!found.groups.empty()) return found;
+        }
+        if (!carriage_is_held(evidence)) continue;
+        found.groups = {static_cast<int>(Dependence::standing)};
+        return found;
     }
-    if (carriage_is_held(evidence)) found.groups = {static_cast<int>(Dependence::standing)};
     return found;
 }
 
+/// @param tails  of finding something by chance, each larger than the one before
 Dependences dependences(const Evidence& evidence, Signal signal, const Errors& errors,
-                        std::span<const std::uint8_t> half, double tail) {
+                        std::span<const std::uint8_t> half, std::span<const double> tails) {
     switch (signal) {
         case Signal::encoder:
-            return dependences_of_carriage(evidence, errors, half, tail);
+            return dependences_of_carriage(evidence, errors, half, tails);
         case Signal::hall:
             if (only_minor_loops_are_off(evidence, errors))
                 return {{static_cast<int>(Dependence::minor_loops)}};
-            return dependences(evidence, signal, platform_surrogate(evidence), errors, half, tail);
+            return first_found(model_of(evidence, signal, platform_surrogate(evidence), errors, half), tails);
         case Signal::tag:
             if (tags_are_sheared(evidence, errors)) return {{static_cast<int>(Dependence::motion_by_row)}};
-            return dependences(evidence, signal, tag_surrogate(evidence, errors), errors, half, tail);
+            return first_found(model_of(evidence, signal, tag_surrogate(evidence, errors), errors, half),
+                               tails);
         case Signal::macro_command:
         case Signal::micro_command:
         case Signal::image:
@@ -132,10 +165,12 @@ std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& 
     for (const SignalGap& gap : gaps) {
         if (floors(gap) < least_floors) continue;
         if (gap.signal == Signal::tag && tags_are_innocent(pattern)) continue;
-        Dependences found = dependences(evidence, gap.signal, errors, half, tail);
-        if (found.groups.empty() && floors(gap) < clear_floors) continue;
-        // That there is a gap is beyond doubt then: what it likely depends on says more than nothing.
-        if (found.groups.empty()) found = dependences(evidence, gap.signal, errors, half, likely * tail);
+        // Where a gap is beyond doubt, what it likely depends on says more than nothing.
+        const bool is_clear = floors(gap) >= clear_floors;
+        const std::array tails{tail, likely * tail};
+        const Dependences found =
+            dependences(evidence, gap.signal, errors, half, std::span(tails).first(is_clear ? 2 : 1));
+        if (found.groups.empty() && !is_clear) continue;
         return remainder_of_signal(gap, pattern, found);
     }
     return {};
