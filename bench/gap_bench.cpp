@@ -58,6 +58,11 @@ BENCHMARK_CAPTURE(predict, encoder_stribeck_creeping, "stribeck_friction:creep_m
                   Signal::encoder)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(predict, encoder_cogging, "cogging", Signal::encoder)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, encoder_cogging_with_harmonic, "cogging:second_sine=0.2", Signal::encoder)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, encoder_cable, "cable_force:hardening=0.3", Signal::encoder)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, encoder_ripple, "encoder_ripple", Signal::encoder)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(predict, encoder_belt, "belt_compliance", Signal::encoder)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(predict, encoder_belt_creeping, "belt_compliance+stribeck_friction:creep_mm_per_s=0.37",
                   Signal::encoder)
@@ -68,6 +73,7 @@ BENCHMARK_CAPTURE(predict, hall_coupling, "macro_coupling", Signal::hall)->Unit(
 BENCHMARK_CAPTURE(predict, tag_pixel_scale, "pixel_scale", Signal::tag)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(predict, tag_tilt, "camera_tilt", Signal::tag)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(predict, tag_hall_gain, "hall_gain", Signal::tag)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(predict, tag_encoder_ripple, "encoder_ripple", Signal::tag)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(predict, tag_drive_gain, "drive_gain:factor=1.02", Signal::tag)
     ->Unit(benchmark::kMillisecond);
 

@@ -31,18 +31,18 @@ bool is_at_rest(const plant::MacroAxis& axis, const plant::MacroAxisState& state
 /// @return the effort, in rows
 std::size_t run_rows(const CarriageModel& model, const CarriageRun& run, std::size_t first, std::size_t end,
                      plant::MacroAxisState& state, CarriagePath& motion, std::size_t origin = 0) {
-    // By how long a step takes beside a row in closed form (bench/gap_bench.cpp).
-    constexpr std::size_t of_step = 20, of_belt_step = 25;
+    // By how long it takes beside a row in closed form (bench/gap_bench.cpp).
+    constexpr std::size_t of_step = 20, of_belt_step = 25, of_series_step = 14, of_rippled_row = 2;
     const plant::MacroAxis& axis = axis_of(model, run);
     const bool may_rest = axis.parameters.delay_s == 0.0;  // else commands are on their way
     const bool only_places = motion.velocity_mm_per_s.empty();
     bool was_at_rest = false, rests = false;
-    std::size_t steps = 0;
+    plant::StepCount steps;
     for (std::size_t k = first; k < end; ++k) {
         const double before_mm = state.position_mm, before_mm_per_s = state.velocity_mm_per_s;
         motion.position_mm[k - origin] = before_mm;
         if (!rests || run.command_V[k] != run.command_V[k - 1])
-            steps += static_cast<std::size_t>(plant::advance(axis, state, run.command_V[k]));
+            steps += plant::advance(axis, state, run.command_V[k]);
         const bool is_now = is_at_rest(axis, state);
         rests = may_rest && is_now && was_at_rest;
         was_at_rest = is_now;
@@ -53,7 +53,9 @@ std::size_t run_rows(const CarriageModel& model, const CarriageRun& run, std::si
         motion.acceleration_mm_per_s2[k - origin] = shaking.acceleration_mm_per_s2;
         motion.jerk_mm_per_s3[k - origin] = shaking.jerk_mm_per_s3;
     }
-    return end - first + steps * (axis.has_belt ? of_belt_step : of_step);
+    return (end - first) * (model.encoder.ripple.amplitude_mm != 0.0 ? of_rippled_row : 1) +
+           static_cast<std::size_t>(steps.integrated) * (axis.has_belt ? of_belt_step : of_step) +
+           static_cast<std::size_t>(steps.in_series) * of_series_step;
 }
 
 /// The state in which a stretch begins, before its counts correct it: at its first count; at rest, or as fast

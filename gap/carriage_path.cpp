@@ -37,18 +37,19 @@ CarriagePath unknown_path(std::size_t rows, Followed followed) {
 
 double position_mm(const plant::Encoder& encoder, double reading_count) {
     constexpr int enough = 8;
+    constexpr double next_to_nothing_mm = 1e-9;
     double place_mm = reading_count * encoder.resolution_mm;
     if (encoder.ripple.amplitude_mm == 0.0) return place_mm;
-    for (int step = 0; step < enough; ++step)
-        place_mm += encoder.resolution_mm * (reading_count - mean_reading_count(encoder, place_mm));
+    for (int step = 0; step < enough; ++step) {
+        const double on_mm = encoder.resolution_mm * (reading_count - mean_reading_count(encoder, place_mm));
+        place_mm += on_mm;
+        if (std::abs(on_mm) < next_to_nothing_mm) break;
+    }
     return place_mm;
 }
 
 double mm_per_count(const plant::Encoder& encoder, double position_mm) {
-    const double step_mm = 1e-3 * encoder.resolution_mm;
-    return 2.0 * step_mm /
-           (mean_reading_count(encoder, position_mm + step_mm) -
-            mean_reading_count(encoder, position_mm - step_mm));
+    return 1.0 / counts_per_mm(encoder, position_mm);
 }
 
 void pull_to_counts(const plant::Encoder& encoder, const CarriageRun& run, const WindowRows& window,

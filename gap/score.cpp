@@ -27,22 +27,25 @@ double student_bound(double freedom, double tail) {
     return z + (first + (second + (third + fourth / freedom) / freedom) / freedom) / freedom;
 }
 
+/// NaN where nothing is judged.
+double mean_square(const Window& window, const Errors& errors) {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t k = window.begin; k < window.end; ++k) {
+        const double error = errors[k];
+        if (std::isnan(error)) continue;
+        sum += error * error;
+        count += 1.0;
+    }
+    return count > 0.0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
 
 std::vector<double> mean_squares(std::span<const Window> windows, const Errors& errors) {
     if (errors.empty()) return std::vector(windows.size(), std::numeric_limits<double>::quiet_NaN());
     std::vector<double> means;
     means.reserve(windows.size());
-    for (const Window& window : windows) {
-        double sum = 0.0, count = 0.0;
-        for (std::size_t k = window.begin; k < window.end; ++k) {
-            const double error = errors[k];
-            if (std::isnan(error)) continue;
-            sum += error * error;
-            count += 1.0;
-        }
-        means.push_back(count > 0.0 ? sum / count : std::numeric_limits<double>::quiet_NaN());
-    }
+    for (const Window& window : windows) means.push_back(mean_square(window, errors));
     return means;
 }
 
@@ -59,21 +62,24 @@ double total_loss(std::span<const double> mean_squares) {
 
 double total_loss(std::span<const Window> windows, const Wanted& counted, const Errors& errors) {
     if (errors.empty()) return std::numeric_limits<double>::infinity();
-    const std::vector<double> squares = mean_squares(windows, errors);
     double loss = 0.0;
-    for (std::size_t w = 0; w < windows.size(); ++w)
-        if (counted[w] != 0 && !std::isnan(squares[w])) loss += window_loss(squares[w]);
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        if (counted[w] == 0) continue;
+        const double square = mean_square(windows[w], errors);
+        if (!std::isnan(square)) loss += window_loss(square);
+    }
     return loss;
 }
 
 double gained(std::span<const Window> windows, const Wanted& counted, std::span<const double> base_squares,
               const Errors& errors) {
     if (errors.empty()) return -std::numeric_limits<double>::infinity();
-    const std::vector<double> squares = mean_squares(windows, errors);
     double gain = 0.0;
-    for (std::size_t w = 0; w < windows.size(); ++w)
-        if (counted[w] != 0 && !std::isnan(base_squares[w]) && !std::isnan(squares[w]))
-            gain += window_loss(base_squares[w]) - window_loss(squares[w]);
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        if (counted[w] == 0 || std::isnan(base_squares[w])) continue;
+        const double square = mean_square(windows[w], errors);
+        if (!std::isnan(square)) gain += window_loss(base_squares[w]) - window_loss(square);
+    }
     return gain;
 }
 

@@ -3,7 +3,9 @@
 //
 // It counts from where it was switched on: before homing a count says nothing about the position. Recordings
 // of the reference rig are made after homing, with the origin at the left end of travel (origin 0).
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace fidservo::plant {
 
@@ -12,6 +14,8 @@ struct EncoderRipple {
     double amplitude_mm = 0.0;
     double period_mm = 1.0;
     double phase_rad = 0.0;
+
+    double rad_per_mm() const { return 2.0 * std::numbers::pi / period_mm; }
 };
 
 struct Encoder {
@@ -32,7 +36,24 @@ struct EncoderState {
 EncoderState start(const Encoder& encoder, double position_mm, EncoderOrigin origin);
 
 /// What is rounded to the count, in counts from the left end of travel: (y + ripple) / resolution.
-double mean_reading_count(const Encoder& encoder, double position_mm);
+inline double mean_reading_count(const Encoder& encoder, double position_mm) {
+    const EncoderRipple& ripple = encoder.ripple;
+    const double error_mm =
+        ripple.amplitude_mm == 0.0
+            ? 0.0
+            : ripple.amplitude_mm * std::sin(ripple.rad_per_mm() * position_mm + ripple.phase_rad);
+    return (position_mm + error_mm) / encoder.resolution_mm;
+}
+
+/// Its derivative by the position.
+inline double counts_per_mm(const Encoder& encoder, double position_mm) {
+    const EncoderRipple& ripple = encoder.ripple;
+    const double error_per_mm = ripple.amplitude_mm == 0.0
+                                    ? 0.0
+                                    : ripple.amplitude_mm * ripple.rad_per_mm() *
+                                          std::cos(ripple.rad_per_mm() * position_mm + ripple.phase_rad);
+    return (1.0 + error_per_mm) / encoder.resolution_mm;
+}
 
 /// The count at a carriage position in mm.
 std::int64_t sample(const Encoder& encoder, const EncoderState& state, double position_mm);

@@ -95,10 +95,10 @@ void advance_in_closed_form(const MacroAxis& axis, MacroAxisState& state, double
     state.velocity_mm_per_s = after.velocity_mm_per_s;
 }
 
-int advance_by(const MacroAxis& axis, MacroAxisState& state, double command_V, double duration_s) {
+StepCount advance_by(const MacroAxis& axis, MacroAxisState& state, double command_V, double duration_s) {
     if (axis.has_closed_form) {
         advance_in_closed_form(axis, state, command_V, duration_s);
-        return 0;
+        return {};
     }
     const MacroAxisParameters& parameters = axis.parameters;
     return move(axis, state, drive_voltage_V(parameters, command_V) + parameters.drive_bias_V, duration_s);
@@ -141,6 +141,7 @@ MacroAxis make_macro_axis(const MacroAxisParameters& parameters, double tick_s) 
     axis.has_closed_form =
         !axis.has_standing_force && !axis.has_friction && !axis.has_belt && parameters.play_mm == 0.0;
     if (!axis.has_closed_form) axis.whole_steps = whole_steps(axis);
+    axis.has_series = has_series(axis);
     return axis;
 }
 
@@ -160,9 +161,9 @@ double effective_voltage_V(const MacroAxisParameters& parameters, double command
     return dead_zone_V(parameters.dead_zone, drive_V, parameters.dead_zone_on_motion);
 }
 
-int advance(const MacroAxis& axis, MacroAxisState& state, double command_V) {
+StepCount advance(const MacroAxis& axis, MacroAxisState& state, double command_V) {
     if (axis.parameters.delay_s == 0.0) return advance_by(axis, state, command_V, axis.tick_s);
-    int steps = 0;
+    StepCount steps;
     pass(state.delay, axis.parameters.delay_s, axis.tick_s, command_V,
          [&](double acting_V, double duration_s) { steps += advance_by(axis, state, acting_V, duration_s); });
     return steps;

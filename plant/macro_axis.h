@@ -62,6 +62,7 @@ struct MacroAxis {
     double driven_high_mm = 0.0;
     double longest_step_s = 0.0;  ///< of the integration
     WholeSteps whole_steps{};
+    bool has_series = false;  ///< motion is a power series
 };
 
 /// The axis of a rig, without effects. tau = -T / ln(pole).
@@ -80,7 +81,7 @@ double drive_voltage_V(const MacroAxisParameters& parameters, double command_V);
 double effective_voltage_V(const MacroAxisParameters& parameters, double command_V);
 
 /// Moves the carriage by one tick under a held command in V.
-/// @return how many steps were integrated; 0 where there was an exact solution
-int advance(const MacroAxis& axis, MacroAxisState& state, double command_V);
+/// @return what that took; nothing where there was an exact solution
+StepCount advance(const MacroAxis& axis, MacroAxisState& state, double command_V);
 
 }  // namespace fidservo::plant

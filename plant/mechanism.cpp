@@ -4,11 +4,13 @@
 #include "plant/dormand_prince.h"
 #include "plant/event_step.h"
 #include "plant/macro_axis.h"
+#include "plant/motion_series.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace fidservo::plant {
 namespace {
@@ -44,7 +46,7 @@ class Motion {
 
     const State& state() const { return x_; }
     double bend() const { return bend_; }
-    int steps() const { return steps_; }
+    const StepCount& steps() const { return steps_; }
 
     /// Begins a stretch of motion without events. Returns whether anything moves in it.
     bool begin() {
@@ -65,6 +67,8 @@ class Motion {
 
     /// Moves on by at most `longest_s`, to the next event if there is one before. Returns the time it took.
     double advance(double longest_s) {
+        if (axis_.has_series)
+            if (const std::optional<double> in_series_s = advance_in_series(longest_s)) return *in_series_s;
         if (axis_.has_bristles) start_dry_V_ = dry_V_at(x_);
         const State first = rate(x_);
         if (is_whole(longest_s) && is_straight(x_)) {
@@ -118,6 +122,11 @@ class Motion {
         double duration_s;
     };
 
+    struct Reached {
+        State end;
+        double duration_s;
+    };
+
     /// The way in which it moves, until the next event.
     std::size_t way() const {
         const int branch = static_cast<int>(branch_) + 1;
@@ -167,6 +176,43 @@ class Motion {
         return true;
     }
 
+    /// Nothing where dry friction changes.
+    std::optional<double> advance_in_series(double longest_s) {
+        if (has_belt || !is_straight(x_)) return std::nullopt;
+        const MotionSeries series = series_of(longest_s);
+        const auto reach = [&](double duration_s) {
+            const auto [place_mm, speed_mm_per_s] = series.at(duration_s / longest_s);
+            Reached reached{x_, duration_s};
+            reached.end[place] = place_mm;
+            reached.end[speed] = speed_mm_per_s;
+            return reached;
+        };
+        const auto slack_of = [&](const Reached& there) { return slack(there.end); };
+        ++steps_.in_series;
+        Reached there = reach(longest_s * series.trusted_share(place_tolerance_mm, speed_tolerance_mm_per_s));
+        if (slack_of(there) < 0.0) there = step_to_event(slack(x_), there, reach, slack_of);
+        if (!is_straight(there.end)) return std::nullopt;
+        settle(there.end);
+        return there.duration_s;
+    }
+
+    MotionSeries series_of(double duration_s) const {
+        const double tau_s = p_.time_constant_s, gain = p_.velocity_gain_mm_per_s_per_V;
+        const double without_V = dead_zone_V(p_.dead_zone, branch_, drive_V_, p_.dead_zone_on_motion);
+        const double passed =
+            dead_zone_V(p_.dead_zone, branch_, drive_V_ + 1.0, p_.dead_zone_on_motion) - without_V;
+        const double viscous = direction_ > 0.0 ? p_.friction.right_V_s_per_mm : p_.friction.left_V_s_per_mm;
+        const double dry_V = axis_.has_friction ? direction_ * dry_V_at(x_) : 0.0;
+        const auto [sine, cosine] = standing_.sine_and_cosine(x_[place]);
+        return {{gain * (without_V - dry_V) / tau_s, gain * passed / tau_s, (1.0 + gain * viscous) / tau_s},
+                p_.standing,
+                sine,
+                cosine,
+                x_[place],
+                x_[speed],
+                duration_s};
+    }
+
     State whole_step(const State& first) const {
         const SquareMatrix<4>& step = axis_.whole_steps.of_way[way()];
         State end = x_;
@@ -176,7 +222,7 @@ class Motion {
     }
 
     Step step_from(const State& first, double h) {
-        ++steps_;
+        ++steps_.integrated;
         return {dormand_prince_step([this](const State& x) { return rate(x); }, x_, first, h), h};
     }
 
@@ -303,7 +349,7 @@ class Motion {
     double bend_;                                               ///< at x_
     double start_dry_V_ = 0.0;                                  ///< likewise, where there are bristles
     double trial_s_ = std::numeric_limits<double>::infinity();  ///< step to try next
-    int steps_ = 0;                                             ///< integrated
+    StepCount steps_;
 
     // What stays as it is until the next event.
     double direction_ = 1.0;
@@ -329,7 +375,7 @@ void carry(const MacroAxis& axis, MacroAxisState& state, double driven_mm, doubl
 }
 
 template <std::size_t size>
-int move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
+StepCount move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
     MechanismState& mechanism = state.mechanism;
     std::array<double, size> start{};
     start[place] = state.position_mm - mechanism.play_mm;
@@ -365,7 +411,12 @@ WholeSteps whole_steps(const MacroAxis& axis) {
     return axis.has_belt ? Motion<4>::whole_steps(sliding) : Motion<2>::whole_steps(sliding);
 }
 
-int move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
+bool has_series(const MacroAxis& axis) {
+    return axis.has_standing_force && !is_straight(axis.parameters.standing) && !axis.has_belt &&
+           !axis.has_bristles && axis.parameters.friction.stribeck_V == 0.0;
+}
+
+StepCount move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
     return axis.has_belt ? move_by_steps<4>(axis, state, drive_V, duration_s)
                          : move_by_steps<2>(axis, state, drive_V, duration_s);
 }

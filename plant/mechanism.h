@@ -7,7 +7,8 @@
 //
 // Between events the right-hand side is smooth, and an embedded Runge-Kutta pair integrates it, its steps
 // kept to the tolerances in mechanism.cpp; where all forces are straight lines, a whole step without an event
-// has an exact solution (plant/affine_step.h). Events are located within the tick: the velocity's zero (turn,
+// has an exact solution (plant/affine_step.h), and where all but those by position are, the motion is a power
+// series (plant/motion_series.h). Events are located within the tick: the velocity's zero (turn,
 // stop) where friction or play makes it one, an edge of the dead zone, an end of travel, break-away. What is
 // held stays exactly where it is; nothing chatters.
 #include "plant/affine_step.h"
@@ -38,9 +39,23 @@ struct WholeSteps {
 /// Of an axis that is otherwise made.
 WholeSteps whole_steps(const MacroAxis& axis);
 
+/// What it took to move.
+struct StepCount {
+    int integrated = 0;  ///< those that were given up included
+    int in_series = 0;
+
+    StepCount& operator+=(const StepCount& more) {
+        integrated += more.integrated;
+        in_series += more.in_series;
+        return *this;
+    }
+};
+
+/// Whether motion is a power series where dry friction does not change.
+bool has_series(const MacroAxis& axis);
+
 /// Moves the carriage under a held voltage of the drive, before standing forces and dead zone. Does not
 /// allocate.
-/// @return how many steps were integrated, those that were given up included
-int move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s);
+StepCount move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s);
 
 }  // namespace fidservo::plant

@@ -22,6 +22,8 @@ struct StandingForce {
     double cable_V_per_mm = 0.0;
     double cable_centre_mm = 0.0;
     double cable_hardening = 0.0;  ///< c
+
+    double hardening_per_mm2() const { return 1e-4 * cable_hardening; }
 };
 
 inline bool acts(const StandingForce& force) {
@@ -49,10 +51,29 @@ class StandingForceNearby {
     }
 
     double volts(double position_mm) const {
-        constexpr double per_mm = 1e-2;
-        const double off_mm = position_mm - force_.cable_centre_mm, off = per_mm * off_mm;
-        const double cable_V = -force_.cable_V_per_mm * off_mm * (1.0 + force_.cable_hardening * off * off);
+        const double off_mm = position_mm - force_.cable_centre_mm;
+        const double cable_V =
+            -force_.cable_V_per_mm * off_mm * (1.0 + force_.hardening_per_mm2() * off_mm * off_mm);
         return force_.cogging_V == 0.0 ? cable_V : cable_V + force_.cogging_V * wave(position_mm);
+    }
+
+    /// Of the wave's angle.
+    std::pair<double, double> sine_and_cosine(double position_mm) const {
+        const double on_rad = rad_per_mm_ * (position_mm - here_mm_);
+        if (!(std::abs(on_rad) <= near_rad))
+            return {std::sin(phase_rad(position_mm)), std::cos(phase_rad(position_mm))};
+        if (on_rad == 0.0) return {sine_, cosine_};
+        // Their series, Horner's way; what is left out is below 1e-17.
+        constexpr std::array sine_terms{-1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6, 1.0};
+        constexpr std::array cosine_terms{1.0 / 479001600, -1.0 / 3628800, 1.0 / 40320, -1.0 / 720,
+                                          1.0 / 24,        -1.0 / 2,       1.0};
+        const auto series = [square = on_rad * on_rad](const auto& terms) {
+            double sum = 0.0;
+            for (const double term : terms) sum = sum * square + term;
+            return sum;
+        };
+        const double sine_on = on_rad * series(sine_terms), cosine_on = series(cosine_terms);
+        return {sine_ * cosine_on + cosine_ * sine_on, cosine_ * cosine_on - sine_ * sine_on};
     }
 
   private:
@@ -66,23 +87,6 @@ class StandingForceNearby {
         const auto [sine, cosine] = sine_and_cosine(position_mm);
         const double g = force_.cogging_second_sine, h = force_.cogging_second_cosine;
         return g == 0.0 && h == 0.0 ? sine : sine + 2.0 * g * sine * cosine + h * (1.0 - 2.0 * sine * sine);
-    }
-
-    std::pair<double, double> sine_and_cosine(double position_mm) const {
-        const double on_rad = rad_per_mm_ * (position_mm - here_mm_);
-        if (!(std::abs(on_rad) <= near_rad))
-            return {std::sin(phase_rad(position_mm)), std::cos(phase_rad(position_mm))};
-        // Their series, Horner's way; what is left out is below 1e-17.
-        constexpr std::array sine_terms{-1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6, 1.0};
-        constexpr std::array cosine_terms{1.0 / 479001600, -1.0 / 3628800, 1.0 / 40320, -1.0 / 720,
-                                          1.0 / 24,        -1.0 / 2,       1.0};
-        const auto series = [square = on_rad * on_rad](const auto& terms) {
-            double sum = 0.0;
-            for (const double term : terms) sum = sum * square + term;
-            return sum;
-        };
-        const double sine_on = on_rad * series(sine_terms), cosine_on = series(cosine_terms);
-        return {sine_ * cosine_on + cosine_ * sine_on, cosine_ * cosine_on - sine_ * sine_on};
     }
 
     const StandingForce& force_;

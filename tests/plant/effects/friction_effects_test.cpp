@@ -63,7 +63,7 @@ TEST(CoulombFriction, OnlyCoasting_HoldsWhatABeltPullsAtRest) {
     const MacroAxis axis = endless_axis_with(effects, true);
     MacroAxisState state = after(axis, start(axis, 0.0), 4.0, 100);
     int steps = 0;
-    for (int k = 0; k < 500; ++k) steps += advance(axis, state, 0.0);
+    for (int k = 0; k < 500; ++k) steps += advance(axis, state, 0.0).integrated;
     EXPECT_EQ(state.velocity_mm_per_s, 0.0);
     EXPECT_LT(steps, 500 * 100);
 }

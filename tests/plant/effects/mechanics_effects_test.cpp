@@ -121,6 +121,28 @@ TEST(Mechanism, HundredTimesFinerSteps_GiveTheSameMotion) {
     EXPECT_NEAR(after_three_seconds_mm(all, 1.0), after_three_seconds_mm(all, 1e-5), hundredth_count_mm);
 }
 
+TEST(Mechanism, ForcesAlongTheRail_MoveInSeriesAsWhenIntegrated) {
+    constexpr double thousandth_count_mm = 5e-5;
+    for (const std::string_view effect : {"cogging:amplitude_V=0.15,second_sine=0.3",
+                                          "cogging:amplitude_V=0.004", "cable_force:hardening=3"}) {
+        MacroAxis integrated = endless_axis_with(effect, true);
+        ASSERT_TRUE(integrated.has_series) << effect;
+        integrated.has_series = false;
+        const MacroAxis in_series = endless_axis_with(effect, true);
+        MacroAxisState one = start(in_series, 60.0), other = start(integrated, 60.0);
+        StepCount steps, other_steps;
+        for (int k = 0; k < 5000; ++k) {
+            const double command_V = 4.0 * std::sin(0.0025 * k) + 1.2 * std::sin(0.0107 * k);
+            steps += advance(in_series, one, command_V);
+            other_steps += advance(integrated, other, command_V);
+            ASSERT_NEAR(one.position_mm, other.position_mm, thousandth_count_mm) << effect << ", " << k;
+        }
+        EXPECT_EQ(steps.integrated, 0) << effect;
+        EXPECT_EQ(other_steps.in_series, 0) << effect;
+        EXPECT_GT(steps.in_series, 1000) << effect;
+    }
+}
+
 TEST(Mechanism, EndOfTravel_StopsTheCarriageDeadWhateverTheEffects) {
     const StagePlant plant = make_stage_plant(reference_rig(), all_of_the_macro_stage());
     StageState state = start(plant, 190.0, 1);
@@ -142,7 +164,7 @@ TEST(Mechanism, CarriageThatRunsIntoTheEndItStandsAt_TakesFewSteps) {
         state.velocity_mm_per_s = side * 2e-4;
         state.mechanism.stretching_mm_per_s = side * 0.015;
         const double at_mm = state.position_mm;
-        EXPECT_LT(advance(axis, state, side * 3.1), 100) << side;
+        EXPECT_LT(advance(axis, state, side * 3.1).integrated, 100) << side;
         EXPECT_EQ(state.position_mm, at_mm);
         EXPECT_EQ(state.velocity_mm_per_s, 0.0);
     }
