@@ -2,75 +2,111 @@
 
 #include "core/random.h"
 #include "gap/balanced_springs.h"
+#include "gap/parallel.h"
 #include "gap/score.h"
 #include "gap/wave.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 namespace fidservo::gap {
 namespace {
 
-/// Standard deviations of what is drawn first.
-constexpr double size_shares = 0.5, phase_rad = 0.5, waves_per_mm = 0.25 / 200.0, harmonic_shares = 0.15,
-                 centre_mm = 30.0, hardening_shares = 0.7, least_hardening = 0.5;
+using Moves = std::vector<double>;
 
-double within(const plant::EffectParameter& parameter, double value) {
-    return std::clamp(value, parameter.low, parameter.high);
-}
+/// A wave or a spring and what is drawn of it, as moves from where it is.
+class Drawn {
+  public:
+    explicit Drawn(const plant::EffectSetting& start)
+        : start_(start), wave_(wave_of(*start.effect)), refinements_(refinements_of(*start.effect)) {}
 
-plant::EffectSetting drawn_wave(const plant::EffectSetting& around, double radius, NoiseStream& draw) {
-    plant::EffectSetting there = around;
-    const WaveParameters wave = *wave_of(*there.effect);
-    const auto& parameters = there.effect->parameters;
-    double &amplitude = there.values[wave.amplitude], &period_mm = there.values[wave.period],
-           &phase = there.values[wave.phase];
-    amplitude =
-        within(parameters[wave.amplitude], amplitude * std::exp(radius * size_shares * draw.normal()));
-    phase += radius * phase_rad * draw.normal();
-    const double before_mm = period_mm;
-    period_mm = within(parameters[wave.period],
-                       1.0 / std::max(1.0 / before_mm + radius * waves_per_mm * draw.normal(), 1e-6));
-    phase = phase_in_step(phase, before_mm, period_mm);
-    for (const Refinement& harmonic : refinements_of(*there.effect)) {
-        double& share = there.values[harmonic.parameter];
-        share = within(parameters[harmonic.parameter], share + radius * harmonic_shares * draw.normal());
+    /// Of the first generation.
+    Moves deviations() const {
+        constexpr double size_shares = 0.35, phase_rad = 0.35, waves_per_mm = 0.175 / 200.0,
+                         harmonic_shares = 0.105, centre_mm = 20.0, hardening_shares = 0.5,
+                         least_hardening = 0.5;
+        Moves deviations =
+            wave_ ? Moves{size_shares, waves_per_mm, phase_rad} : Moves{size_shares, centre_mm};
+        for (const Refinement& refinement : refinements_)
+            deviations.push_back(wave_ ? harmonic_shares
+                                       : hardening_shares *
+                                             std::max(start_.values[refinement.parameter], least_hardening));
+        return deviations;
     }
-    return there;
-}
 
-plant::EffectSetting drawn_spring(const plant::EffectSetting& around, double radius, NoiseStream& draw) {
-    plant::EffectSetting there = around;
-    const auto& parameters = there.effect->parameters;
-    double &stiffness = there.values[0], &middle_mm = there.values[1];
-    stiffness = within(parameters[0], stiffness * std::exp(radius * size_shares * draw.normal()));
-    middle_mm = within(parameters[1], middle_mm + radius * centre_mm * draw.normal());
-    for (const Refinement& refinement : refinements_of(*there.effect)) {
-        double& hardening = there.values[refinement.parameter];
-        const double width = radius * hardening_shares * std::max(hardening, least_hardening);
-        hardening = within(parameters[refinement.parameter], hardening + width * draw.normal());
-    }
-    return there;
-}
-
-/// A wave with any harmonic: of a few strengths, all around.
-std::vector<plant::EffectSetting> with_harmonics(const plant::EffectSetting& wave) {
-    constexpr int phases = 8;
-    const std::vector<Refinement> parts = refinements_of(*wave.effect);
-    std::vector<plant::EffectSetting> all;
-    if (!wave_of(*wave.effect) || parts.size() != 2) return all;
-    for (const double share : {0.06, 0.12, 0.22})
-        for (int k = 0; k < phases; ++k) {
-            const double angle_rad = 2.0 * std::numbers::pi * k / phases;
-            all.push_back(wave);
-            all.back().values[parts[0].parameter] = share * std::cos(angle_rad);
-            all.back().values[parts[1].parameter] = share * std::sin(angle_rad);
+    plant::EffectSetting at(const Moves& moves) const {
+        plant::EffectSetting there = start_;
+        const auto set = [&](std::size_t k, double value) {
+            there.values[k] =
+                std::clamp(value, there.effect->parameters[k].low, there.effect->parameters[k].high);
+        };
+        std::size_t next = 0;
+        if (wave_) {
+            constexpr double longest_mm = 1e6;
+            const auto [amplitude, period, phase, is_force] = *wave_;
+            const double before_mm = start_.values[period];
+            set(amplitude, start_.values[amplitude] * std::exp(moves[next++]));
+            set(period, 1.0 / std::max(1.0 / before_mm + moves[next++], 1.0 / longest_mm));
+            there.values[phase] =
+                phase_in_step(start_.values[phase] + moves[next++], before_mm, there.values[period]);
+        } else {
+            constexpr std::size_t stiffness = 0, centre = 1;
+            set(stiffness, start_.values[stiffness] * std::exp(moves[next++]));
+            set(centre, start_.values[centre] + moves[next++]);
         }
-    return all;
-}
+        for (const Refinement& refinement : refinements_)
+            set(refinement.parameter, start_.values[refinement.parameter] + moves[next++]);
+        return there;
+    }
+
+  private:
+    const plant::EffectSetting& start_;
+    std::optional<WaveParameters> wave_;
+    std::vector<Refinement> refinements_;
+};
+
+struct Draw {
+    Moves moves;
+    double loss = 0.0;
+};
+
+/// Mean and standard deviations of moves, the best of which count most.
+class Elite {
+  public:
+    explicit Elite(Moves deviations) : mean_(deviations.size(), 0.0), deviations_(std::move(deviations)) {}
+
+    Moves drawn(NoiseStream& noise) const {
+        Moves moves = mean_;
+        for (std::size_t k = 0; k < moves.size(); ++k) moves[k] += deviations_[k] * noise.normal();
+        return moves;
+    }
+
+    /// @param best  sorted
+    void learn(std::span<const Draw> best) {
+        constexpr double wider = 1.2;  // a spread of few is too small, as a rule
+        for (std::size_t k = 0; k < mean_.size(); ++k) {
+            const auto weighted = [&](const auto& value) {
+                double sum = 0.0, weights = 0.0;
+                for (std::size_t rank = 0; rank < best.size(); ++rank) {
+                    const double weight = std::log((static_cast<double>(best.size()) + 0.5) /
+                                                   (static_cast<double>(rank) + 1.0));
+                    sum += weight * value(best[rank].moves[k]);
+                    weights += weight;
+                }
+                return sum / weights;
+            };
+            const double mean = weighted([](double move) { return move; });
+            mean_[k] = mean;
+            deviations_[k] =
+                wider * std::sqrt(weighted([mean](double move) { return (move - mean) * (move - mean); }));
+        }
+    }
+
+  private:
+    Moves mean_, deviations_;
+};
 
 }  // namespace
 
@@ -80,25 +116,30 @@ bool has_valleys(const Candidate& candidate) {
 
 Fit scatter(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
             const Hypothesis& start, std::size_t place) {
-    constexpr int draws = 40;
-    const auto drawn = wave_of(*start[place].effect) ? drawn_wave : drawn_spring;
-    Fit best{start, total_loss(windows, counted, predict(start)), {}};
-    NoiseStream draw(1, "wave");
-    Fit found = best;
-    const auto try_out = [&](plant::EffectSetting setting) {
-        Hypothesis there = best.hypothesis;
-        there[place] = std::move(setting);
-        const double loss = total_loss(windows, counted, predict(there));
-        if (loss < found.loss) found = {std::move(there), loss, {}};
+    constexpr int generations = 8;
+    constexpr std::size_t draws = 30, best_of_all = 8;
+    const Drawn drawn(start[place]);
+    const auto at = [&](const Moves& moves) {
+        Hypothesis there = start;
+        there[place] = drawn.at(moves);
+        return there;
     };
-    for (const double radius : {1.0, 0.4, 0.15, 0.05}) {
-        // What is nearly right may lack its harmonic alone.
-        for (plant::EffectSetting& there : with_harmonics(best.hypothesis[place])) try_out(std::move(there));
-        best = found;
-        for (int k = 0; k < draws; ++k) try_out(drawn(best.hypothesis[place], radius, draw));
-        best = found;
+    Elite elite(drawn.deviations());
+    std::vector<Draw> best{
+        {Moves(drawn.deviations().size(), 0.0), total_loss(windows, counted, predict(start))}};
+    NoiseStream noise(1, "wave");
+    for (int generation = 0; generation < generations; ++generation) {
+        std::vector<Draw> fresh(draws);
+        for (Draw& draw : fresh) draw.moves = elite.drawn(noise);
+        parallel_for(draws, [&](std::size_t k) {
+            fresh[k].loss = total_loss(windows, counted, predict(at(fresh[k].moves)));
+        });
+        std::ranges::move(fresh, std::back_inserter(best));
+        std::ranges::stable_sort(best, {}, &Draw::loss);
+        best.resize(best_of_all);
+        elite.learn(best);
     }
-    return best;
+    return {at(best.front().moves), best.front().loss, {}};
 }
 
 }  // namespace fidservo::gap
