@@ -112,7 +112,6 @@ bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
 
 bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step) {
     bool is_balanced = false, is_paired = false, is_of_two = false;
-    std::optional<Chain> before_valleys;  // of an effect that leaves something
     const auto is_far_off = [&] { return search.far_off(chain.fitted)[index_of(Signal::encoder)]; };
     while (static_cast<int>(chain.choices.size()) < most_effects) {
         const Chain before = chain;
@@ -121,12 +120,7 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
         first_step = nullptr;
         if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) {
             if (is_far_off() && search.scan_for_wave(chain.fitted, chain.candidates())) continue;
-            if (!before_valleys || chain.choices.size() != before_valleys->choices.size() + 1)
-                return is_paired;
-            chain = grown_whatever(search, *before_valleys,
-                                   search.try_all(before_valleys->fitted, before_valleys->candidates()));
-            before_valleys.reset();
-            continue;
+            return is_paired;
         }
         const bool moves_carriage = teachers_of(*trials.front().candidate->effect)[index_of(Signal::encoder)],
                    moves_wire = is_of_wire(*trials.front().candidate);
@@ -135,7 +129,7 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
             is_balanced = true;
             is_paired = look_further(search, chain, before, most_effects);
             if (!is_paired && is_far_off() && has_valleys(*chain.choices.back().candidate))
-                before_valleys = before;
+                chain = grown_whatever(search, before, search.try_all(before.fitted, before.candidates()));
         }
         if (moves_wire && !is_of_two && search.leaves_much(chain.fitted)[index_of(Signal::hall)] &&
             has_room_for_two(before, most_effects)) {

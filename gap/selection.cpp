@@ -116,6 +116,12 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     if (leaves_nothing_after(take_in(search.best_pair(rest.fitted, rest.candidates())))) return true;
     const std::size_t most_first = from_nothing ? 6 : 3;
     std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates(), {.scatters = false});
+    if (!from_nothing && has_leader(singles)) {
+        Chain one = grown(search, rest, singles);
+        const bool is_closer = is_better(search, one, chain);
+        if (is_closer) chain = std::move(one);
+        if (leaves_nothing_after(is_closer)) return true;
+    }
     if (from_nothing) std::ranges::stable_sort(singles, std::greater{}, &Trial::promised);
     std::vector<std::string> classes;
     for (const Trial& single : singles) {
