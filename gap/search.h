@@ -42,8 +42,8 @@ inline constexpr double in_its_valley = 0.999;
 
 struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
-    /// After which it is exhausted (Evidence::effort): 15 to 30 s of two cores, for a campaign of 5 minutes.
-    double most_effort = 5'500.0;
+    /// After which it is exhausted (Evidence::effort): 12 to 25 s of two cores, for a campaign of 5 minutes.
+    double most_effort = 5'000.0;
     /// Asked at every prediction. Once true fits end at once, and what the search returns is worth nothing.
     std::function<bool()> stop = {};
     double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search
