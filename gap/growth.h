@@ -20,8 +20,8 @@ bool take_in_pair(Search& search, Chain& chain, const Chain& rest, std::optional
 bool balance(Search& search, Chain& chain, int most_effects, bool only_needed);
 
 /// Takes in what is best, as long as it is no chance; for a carriage or a wire that one effect leaves off,
-/// two at once. A weak wave is scanned for where the carriage stays far off; one that leaves something is
-/// looked for among many values once nothing is found beside it.
+/// two at once. A weak wave is scanned for where the carriage stays far off; a wave or a spring that leaves
+/// much is looked for among many values before anything is looked for beside it.
 /// @return whether a pair took the place of something
 bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step);
 

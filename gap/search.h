@@ -164,6 +164,7 @@ class Search {
 
   private:
     struct PairAttempt;
+    class CloserFit;
     PairAttempt attempt(const CrossFit& base, const Candidate& first, const Candidate& second,
                         Hypothesis settings) const;
     /// At the typical sizes of both, of both signs.

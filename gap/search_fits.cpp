@@ -2,7 +2,6 @@
 #include "gap/contender.h"
 #include "gap/parallel.h"
 #include "gap/polish.h"
-#include "gap/scatter.h"
 #include "gap/score.h"
 #include "gap/search.h"
 
@@ -20,16 +19,6 @@ namespace {
 /// well is no better explanation.
 bool is_simple(const Candidate& candidate) {
     return unrefined_parameters(*candidate.effect) <= 2;
-}
-
-/// Whether one half of the recordings has no use for a candidate.
-bool vanishes_on_a_half(const Trial& trial) {
-    return std::ranges::any_of(trial.fitted.of_half, [&](const Hypothesis& hypothesis) {
-        const plant::EffectSetting& fitted = hypothesis.back();
-        return std::ranges::all_of(trial.candidate->sizes, [&](std::size_t k) {
-            return fitted.values[k] == fitted.effect->parameters[k].vanishing;
-        });
-    });
 }
 
 /// Whether any of the effects has it: one that several share acts on them all.
@@ -170,89 +159,6 @@ void Search::fit_second_half(const CrossFit& base, Contender& contender) const {
     for (std::size_t side = 0; side < 2; ++side)
         contender.trial.fitted.of_half[side] = contender.placed(base, side, finding.fitted[side]);
     judge_both_halves(base, contender);
-}
-
-void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatters,
-                        double share_of_effort) const {
-    const bool is_wave = contender.trial.candidate->wave.has_value(),
-               is_in_valleys = has_valleys(*contender.trial.candidate);
-    const std::string_view block = contender.trial.candidate->effect->block;
-    const bool moves_tags = block == "macro.encoder" || block.starts_with("camera.");
-    constexpr int most_times = 4;
-    // Shares of a signal's excess. Where nothing is let go by jumps a form is seen from further off.
-    constexpr double worth_it = 0.1, worth_a_simplex = 0.5, nearly_all = 0.98;
-    const double worth_refining = contender.teachers()[index_of(Signal::encoder)] ? 0.9 : 0.5;
-    constexpr double worth_another = 4.0 * least_gain;
-    Finding& finding = *contender.finding;
-    const Sought asked = scatters || !is_in_valleys ? Sought::among_many : Sought::from_there;
-    if (finding.sought >= asked || vanishes_on_a_half(contender.trial)) return;
-    if (!clears_a_signal(base, contender.trial.fitted, is_wave ? worth_a_simplex : worth_it)) return;
-    const double effort_at_start = fitter_.evidence().effort();
-    const auto is_worn_out = [&] {
-        return fitter_.evidence().effort() - effort_at_start > share_of_effort * options_.most_effort;
-    };
-    for (int time = 0; time < most_times && !is_worn_out(); ++time) {
-        // Also what only passes the change on: tags can tell more closely how the carriage moves than counts.
-        if (!meet(off(contender.trial.fitted), reached_by({contender.trial.fitted.of_half[0].back()})))
-            return;
-        const auto fitted_by = [&](const auto& fit_side) {
-            Contender closer = contender;
-            parallel_for(2, [&](std::size_t side) { closer.trial.fitted.of_half[side] = fit_side(side); });
-            judge_both_halves(base, closer);
-            return closer;
-        };
-        const Places last{base.of_half[0].size()};
-        const auto by_simplex = [&](const Contender& from) {
-            return fitted_by([&](std::size_t side) { return polished(from, side, last).hypothesis; });
-        };
-        const auto by_slopes = [&](double step_scales) {
-            return fitted_by(
-                [&](std::size_t side) { return fitted_from_there(base, contender, side, step_scales); });
-        };
-        Contender closer = contender;
-        const auto or_else = [&](Contender other) {
-            if (other.gain() > closer.gain()) closer = std::move(other);
-        };
-        const auto go_on = [&] { or_else(is_wave ? by_simplex(contender) : by_slopes(usual_step)); };
-        // What has gone on before does so again only where scattering finds nothing.
-        const bool has_gone_on = time == 0 && finding.sought != Sought::nowhere;
-        if (!has_gone_on) go_on();
-        const auto is_off = [&] { return meet(off(closer.trial.fitted), closer.teachers()); };
-        const auto is_far_off = [&] { return meet(far_off(closer.trial.fitted), closer.teachers()); };
-        const auto is_worth_scattering = [&] {
-            return is_in_valleys && scatters && is_far_off() &&
-                   clears_a_signal(base, closer.trial.fitted, nearly_all);
-        };
-        if (is_wave && is_worth_scattering()) or_else(scattered(base, closer));
-        if (has_gone_on && closer.gain() <= contender.gain()) go_on();
-        if (!is_wave && is_off()) or_else(by_slopes(close_step));
-        // Of a wave its harmonic, once it is in its valley or has been looked for among many values.
-        if (is_off() && !is_worn_out() && !(is_wave && !scatters && is_far_off()) &&
-            clears_a_signal(base, closer.trial.fitted, is_wave && !scatters ? in_its_valley : worth_refining))
-            or_else(refined(base, closer));
-        // A spring once it is known whether it hardens.
-        if (!is_wave && is_worth_scattering()) or_else(scattered(base, closer));
-        if (is_off()) or_else(crossed(base, closer));
-        if (!is_wave && is_off() && !is_worn_out() &&
-            (moves_tags || clears_a_signal(base, closer.trial.fitted, nearly_all)))
-            or_else(by_simplex(closer));
-        if (is_off() && !is_worn_out() && !contender.coupled.empty() &&
-            clears_a_signal(base, closer.trial.fitted, nearly_all))
-            or_else(fitted_by([&](std::size_t side) {
-                return polished(closer, side, contender.fitted_places(base)).hypothesis;
-            }));
-        // Where a wave stays far off, more of the same does not help, but another valley.
-        const bool is_of_another_valley = is_wave && !scatters && is_far_off();
-        const bool is_better = closer.gain() > contender.gain(),
-                   is_last = is_of_another_valley || closer.gain() < contender.gain() + worth_another;
-        if (is_better) {
-            for (std::size_t side = 0; side < 2; ++side)
-                finding.fitted[side] = contender.part(closer.trial.fitted.of_half[side]);
-            contender = std::move(closer);
-        }
-        if (is_last) break;
-    }
-    finding.sought = asked;
 }
 
 Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,

@@ -41,7 +41,7 @@ TEST(EncoderScale, ErrorsOverSeeds_AreAsLargeAsTheirStandardErrorsSay) {
     EXPECT_GT(zero_squares, low);
 }
 
-TEST(EncoderScale, StandsThatPileUpAtTheEdgesOfCounts_KeepTheirStandardErrors) {
+TEST(SlowEncoderScale, StandsThatPileUpAtTheEdgesOfCounts_KeepTheirStandardErrors) {
     // A drive that stops as soon as its count is reached: nothing like the even spread that a likelihood of
     // rounding supposes.
     constexpr int seeds = 100, way_counts = 3800;

@@ -1,14 +1,10 @@
-// Springs along the rail: from the balance of the forces along the way recorded, and scattered where one
-// valley lies beside another.
+// Springs along the rail, from the balance of the forces along the way recorded.
 #include "gap/balanced_springs.h"
 
-#include "gap/scatter.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -64,26 +60,6 @@ TEST(BalancedSprings, BesideWhatIsKnown_TakesNoneOfIt) {
 TEST(BalancedSprings, OfAnotherEffect_AreNone) {
     EXPECT_TRUE(springs_of({}, {}, "drive_offset").empty());
     EXPECT_TRUE(springs_of({}, {}, "belt_compliance").empty());
-}
-
-/// Valleys beside each other: a loss that is level but within a little of the truth, and slopes there.
-TEST(Scatter, Spring_IsFoundWhereNoSlopeLeads) {
-    const Hypothesis truth = effects({"cable_force:stiffness_V_per_mm=0.002,centre_mm=90,hardening=2"}),
-                     start = effects({"cable_force:stiffness_V_per_mm=0.0025,centre_mm=80,hardening=1"});
-    std::vector<Window> windows(1);
-    windows.front().end = 1;
-    const Predict predict = [&](const Hypothesis& hypothesis) {
-        const auto& [stiffness, centre, hardening] =
-            std::tie(hypothesis[0].values[0], hypothesis[0].values[1], hypothesis[0].values[2]);
-        const double away =
-            std::hypot(std::log(stiffness / truth[0].values[0]) / 0.2, (centre - truth[0].values[1]) / 10.0,
-                       (hardening - truth[0].values[2]) / 1.0);
-        return Errors{static_cast<float>(100.0 * (std::floor(4.0 * away) / 4.0 + 0.01 * away))};
-    };
-    const Fit found = scatter(predict, windows, {1}, start, 0);
-    EXPECT_NEAR(found.hypothesis[0].values[0], 0.002, 2e-4);
-    EXPECT_NEAR(found.hypothesis[0].values[1], 90.0, 4.0);
-    EXPECT_NEAR(found.hypothesis[0].values[2], 2.0, 0.5);
 }
 
 }  // namespace

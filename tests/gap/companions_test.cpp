@@ -30,7 +30,7 @@ const FoundEffect& found(const Diagnosis& diagnosis, std::string_view name) {
 }
 
 /// From the small offset that it is taken for alone, a gain leads nowhere.
-TEST(Diagnosis, TwoEffectsThatHideEachOther_AreBothNamed) {
+TEST(SlowDiagnosis, TwoEffectsThatHideEachOther_AreBothNamed) {
     const Diagnosis diagnosis = diagnosed({"drive_offset:offset_V=-0.257", "drive_gain:factor=1.081"},
                                           {"macro-sweep", "macro-pulses", "macro-square"},
                                           {"drive_offset", "drive_gain", "friction_asymmetry", "payload"});
@@ -41,7 +41,7 @@ TEST(Diagnosis, TwoEffectsThatHideEachOther_AreBothNamed) {
 }
 
 /// From afar a creep speed only seems to do harm.
-TEST(Diagnosis, FrictionThatCreeps_IsFoundWithItsCreepSpeed) {
+TEST(SlowDiagnosis, FrictionThatCreeps_IsFoundWithItsCreepSpeed) {
     for (const std::string name : {"coulomb_friction", "stribeck_friction"}) {
         const Diagnosis diagnosis = diagnosed({name + ":level_V=0.4,creep_mm_per_s=0.5"},
                                               {"macro-sweep", "macro-pulses", "macro-square"},
@@ -76,7 +76,7 @@ TEST(Diagnosis, FrictionThatDoesNotCreep_HasNoCreepSpeed) {
         EXPECT_NE(parameter.name, "creep_mm_per_s");
 }
 
-TEST(Diagnosis, SearchWhoseEffortIsSpent_KeepsWhatItHasFoundAndSaysSo) {
+TEST(SlowDiagnosis, SearchWhoseEffortIsSpent_KeepsWhatItHasFoundAndSaysSo) {
     const Evidence evidence = campaign(effects({"drive_gain:factor=0.97", "airflow:factor=0.9"}),
                                        {"macro-sweep", "macro-square", "micro-steps"});
     DiagnosisOptions options{
@@ -91,7 +91,7 @@ TEST(Diagnosis, SearchWhoseEffortIsSpent_KeepsWhatItHasFoundAndSaysSo) {
 }
 
 /// What one half of the runs teaches helps the other a little, and what that one teaches does harm.
-TEST(Diagnosis, HalvesThatContradictEachOther_AreEndedWithAnAnswer) {
+TEST(SlowDiagnosis, HalvesThatContradictEachOther_AreEndedWithAnAnswer) {
     std::vector<Recording> recordings;
     for (const std::string_view kind : {"macro-square", "macro-sweep"})
         for (const auto& [seed, more] : {std::pair(21, 0.0006), std::pair(22, 0.0036)}) {
@@ -122,7 +122,7 @@ TEST(Diagnosis, SmallFalseScaleOfEitherSign_IsFound) {
 }
 
 /// Between the places of a coarse grid.
-TEST(Diagnosis, NarrowPatchOfFriction_IsFoundWithItsPlace) {
+TEST(SlowDiagnosis, NarrowPatchOfFriction_IsFoundWithItsPlace) {
     const Diagnosis diagnosis = diagnosed({"rail_patch:level_V=0.15,centre_mm=73,width_mm=3"},
                                           {"macro-square", "macro-sweep", "macro-pulses"},
                                           {"rail_patch", "viscous_friction", "drive_gain"});
@@ -133,7 +133,7 @@ TEST(Diagnosis, NarrowPatchOfFriction_IsFoundWithItsPlace) {
 }
 
 /// A tilted camera predicts nearly all that the tags show of it, but nothing of what the encoder shows.
-TEST(Diagnosis, FalseScaleThatIsWithheld_IsNoMatterOfTheCamera) {
+TEST(SlowDiagnosis, FalseScaleThatIsWithheld_IsNoMatterOfTheCamera) {
     const Diagnosis diagnosis = diagnosed({"encoder_scale:factor=1.001"}, {"macro-square", "integrated"},
                                           {"camera_tilt", "viscous_friction", "drive_gain"});
     ASSERT_FALSE(diagnosis.where.empty());
@@ -142,7 +142,7 @@ TEST(Diagnosis, FalseScaleThatIsWithheld_IsNoMatterOfTheCamera) {
 }
 
 /// Its period is one of the rail, which the encoder reads at a false scale.
-TEST(Diagnosis, RippleBesideAFalseScale_IsFoundWithItsPeriod) {
+TEST(SlowDiagnosis, RippleBesideAFalseScale_IsFoundWithItsPeriod) {
     const Diagnosis diagnosis =
         diagnosed({"encoder_scale:factor=1.01", "encoder_ripple:amplitude_um=60,period_mm=8,phase_rad=1"},
                   {"macro-sweep", "integrated"}, {"encoder_scale", "encoder_ripple", "viscous_friction"});
@@ -152,7 +152,7 @@ TEST(Diagnosis, RippleBesideAFalseScale_IsFoundWithItsPeriod) {
 }
 
 /// What the platform feels is fitted first where the carriage moves as its file says, which it does not.
-TEST(Diagnosis, PlatformThatFeelsACarriageOfAnotherGain_HasNoThirdEffect) {
+TEST(SlowDiagnosis, PlatformThatFeelsACarriageOfAnotherGain_HasNoThirdEffect) {
     const Diagnosis diagnosis =
         diagnosed({"drive_gain:factor=0.97", "macro_coupling"}, {"macro-square", "macro-sweep", "integrated"},
                   {"drive_gain", "macro_coupling", "payload", "stroke_change", "hall_crosstalk"});

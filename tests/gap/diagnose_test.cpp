@@ -152,7 +152,7 @@ TEST(Diagnosis, RippleOfTheReading_IsFoundWithItsAmplitude) {
 }
 
 /// Jumps from tag to tag tell it from an encoder whose counts are shorter, which explains nearly all.
-TEST(Diagnosis, PlateOfAnotherPitch_AccusesThePlate) {
+TEST(SlowDiagnosis, PlateOfAnotherPitch_AccusesThePlate) {
     Rig wider = reference_rig();
     wider.fiducials->pitch_x_mm *= 1.0008;
     const Diagnosis diagnosis = diagnose(
@@ -192,7 +192,7 @@ TEST(SlowDiagnosis, WaveAlongTheRail_IsFoundWithItsPeriodAndPhase) {
 }
 
 /// Wherever it is.
-TEST(Diagnosis, SearchThatIsStopped_Ends) {
+TEST(SlowDiagnosis, SearchThatIsStopped_Ends) {
     const Evidence evidence =
         campaign(effects({"drive_gain:factor=1.01", "drive_offset:offset_V=0.05"}), {"macro-sweep"});
     for (const int asked_before : {0, 30, 100, 300, 600, 900, 1200, 1500}) {

@@ -93,7 +93,7 @@ TEST(ForcePairs, TwoEffects_ComeBackWithTheirSizes) {
     EXPECT_NEAR(gain->values[0], 0.92, 0.005);
 }
 
-TEST(ForcePairs, WaveBesideFrictionThatFallsWithSpeed_ComesBackFirst) {
+TEST(SlowForcePairs, WaveBesideFrictionThatFallsWithSpeed_ComesBackFirst) {
     const std::vector<ForcePair> pairs =
         pairs_of(campaign(effects({"cogging:amplitude_V=0.35,period_mm=5.08,phase_rad=1",
                                    "stribeck_friction:level_V=0.4,speed_mm_per_s=30"}),
@@ -108,7 +108,7 @@ TEST(ForcePairs, WaveBesideFrictionThatFallsWithSpeed_ComesBackFirst) {
     EXPECT_NEAR(friction->values[0], 0.4, 0.15);
 }
 
-TEST(ForcePairs, BeltBesideAWave_ComesBack) {
+TEST(SlowForcePairs, BeltBesideAWave_ComesBack) {
     const std::vector<ForcePair> pairs = pairs_of(
         campaign(effects({"cogging:amplitude_V=0.3,period_mm=12.7,phase_rad=1",
                           "belt_compliance:stretch_um_per_V=1000,damping_ratio=0.08,motor_share=0.4"}),
@@ -127,7 +127,7 @@ TEST(ForcePairs, BeltBesideAWave_ComesBack) {
     EXPECT_NEAR(belt->values[2], 0.4, 0.1);
 }
 
-TEST(ForcePairs, BendOfBristles_WhichTheBalanceDoesNotShow_IsLeftOpen) {
+TEST(SlowForcePairs, BendOfBristles_WhichTheBalanceDoesNotShow_IsLeftOpen) {
     const std::vector<ForcePair> pairs =
         pairs_of(campaign(effects({"presliding:level_V=0.3,distance_um=200", "rail_patch:level_V=0.5"}),
                           {"macro-sweep", "macro-pulses", "macro-square"}));

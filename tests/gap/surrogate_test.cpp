@@ -133,7 +133,7 @@ TEST(Surrogate, PeriodOfTheReading_IsToldFromThatOfAForce) {
 }
 
 /// Strong ones among them, which let the carriage go by jumps.
-TEST(Surrogate, ForcesOnTheCarriage_AccuseTheirBlock) {
+TEST(SlowSurrogate, ForcesOnTheCarriage_AccuseTheirBlock) {
     struct Case {
         std::string_view effect, block, dependence;
     };
@@ -161,7 +161,7 @@ TEST(Surrogate, BodyThatStoresHeat_AccusesTheHeater) {
 }
 
 /// It hardly contracts, as if its stroke were short.
-TEST(Surrogate, WireThatIsHeatedFarTooLittle_AccusesTheHeater) {
+TEST(SlowSurrogate, WireThatIsHeatedFarTooLittle_AccusesTheHeater) {
     for (const char* effect : {"heater_gain:factor=0.7", "heater_gain:factor=0.55", "airflow:factor=0.5"}) {
         const Diagnosis diagnosis = unnamed(reference_rig(), testing::effects({effect}),
                                             {"micro-steps", "micro-triangle", "micro-servo"}, "clock_skew");
@@ -227,7 +227,7 @@ TEST(Surrogate, WireThatCreeps_AccusesTheHysteresis) {
     EXPECT_EQ(diagnosis.where.front().block, "micro.hysteresis");
 }
 
-TEST(Surrogate, LongerStroke_AccusesTheHysteresis) {
+TEST(SlowSurrogate, LongerStroke_AccusesTheHysteresis) {
     for (const char* stroke : {"stroke_change:factor=1.013", "stroke_change:factor=0.93"}) {
         const Diagnosis diagnosis = unnamed(reference_rig(), testing::effects({stroke}),
                                             {"micro-steps", "micro-triangle", "micro-servo"}, "clock_skew");

@@ -53,7 +53,7 @@ void expect_is_wave(const std::optional<plant::EffectSetting>& found, double amp
                 0.0, std::numbers::pi / 3.0);
 }
 
-TEST(WaveScan, WaveOfFewMillivolts_IsFound) {
+TEST(SlowWaveScan, WaveOfFewMillivolts_IsFound) {
     expect_is_wave(scanned(effects({"cogging:amplitude_V=0.006,period_mm=3.33,phase_rad=1.2"}), {}), 0.006,
                    3.33, 1.2);
 }

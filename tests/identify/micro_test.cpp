@@ -89,7 +89,7 @@ TextTable kiln_table() {
     return table_of({std::move(input), std::move(output)});
 }
 
-TEST(IdentifyHysteresis, KilnCycles_GiveTheRigsTable) {
+TEST(SlowIdentifyHysteresis, KilnCycles_GiveTheRigsTable) {
     const Identified hysteresis = identify_hysteresis({reference(), {}, kiln_table(), 1.0});
     ASSERT_NE(hysteresis.fod, nullptr);
     EXPECT_THAT(hysteresis.notes.at(0), HasSubstr("10 descending curves"));

@@ -39,7 +39,7 @@ Worst worst_residual(std::string_view name, const Departures& departures) {
     return worst;
 }
 
-TEST(Campaign, NoEffect_IsFollowedToTheNoiseFloor) {
+TEST(SlowCampaign, NoEffect_IsFollowedToTheNoiseFloor) {
     const Worst worst = worst_residual("no-effect", {});
     if (worst.recordings == 0) GTEST_SKIP() << "the shared data are absent";
     EXPECT_EQ(worst.recordings, 16u);

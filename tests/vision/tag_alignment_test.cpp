@@ -103,7 +103,7 @@ TEST(TagAlignment, LargeTagFifteenPixelsOff_IsFound) {
     }
 }
 
-TEST(TagAlignment, AnotherTagAtThePlace_IsNeverTakenForTheExpectedOne) {
+TEST(SlowTagAlignment, AnotherTagAtThePlace_IsNeverTakenForTheExpectedOne) {
     constexpr std::uint64_t seed = 13;
     constexpr int pictures = fidservo::testing::cases(3000, 300);
     Draw random(seed);

@@ -74,7 +74,7 @@ TEST(TagDetector, Image_IsNotModified) {
     EXPECT_EQ(cv::norm(image, before, cv::NORM_INF), 0.0);
 }
 
-TEST(TagDetector, ThoroughOptions_ReadTagsWithOneAndAHalfPixelsABit) {
+TEST(SlowTagDetector, ThoroughOptions_ReadTagsWithOneAndAHalfPixelsABit) {
     int found_by_both = 0;
     int found = 0;
     for (int id = 0; id < 20; ++id) {

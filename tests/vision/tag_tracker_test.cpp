@@ -146,7 +146,7 @@ Event draw_event(double u) {
     return Event::blank;
 }
 
-TEST(TagTracker, WhateverHappensToTheTag_NoWrongIdAndNoTagMissed) {
+TEST(SlowTagTracker, WhateverHappensToTheTag_NoWrongIdAndNoTagMissed) {
     constexpr std::uint64_t seed = 21;
     constexpr int sequences = fidservo::testing::cases(60, 8), frames = 25;
     NoiseStream random(seed, "events");

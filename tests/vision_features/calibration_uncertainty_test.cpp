@@ -37,7 +37,7 @@ RestImage read_with_another_camera(RestImage image, const Eigen::Vector2d& ancho
     return image;
 }
 
-TEST(CalibrationUncertainty, PlacesAndSizes_AreAsFarOffAsStated) {
+TEST(SlowCalibrationUncertainty, PlacesAndSizes_AreAsFarOffAsStated) {
     constexpr int draws = 150;
     constexpr std::uint64_t seed = 20261122;
     RecordProperty("seed", std::to_string(seed));
