@@ -1,363 +1,12 @@
 #include "plant/mechanism.h"
 
-#include "core/dead_zone.h"
-#include "plant/dormand_prince.h"
-#include "plant/event_step.h"
 #include "plant/macro_axis.h"
-#include "plant/motion_series.h"
+#include "plant/motion.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <optional>
 
 namespace fidservo::plant {
 namespace {
-
-constexpr std::size_t place = 0, speed = 1, stretch = 2, motor = 3;  // mm, mm/s, mm, mm/s
-
-/// Error of one step. With a thousand steps a second it adds up to less than 0.001 counts of 50 um a second.
-constexpr double place_tolerance_mm = 1e-8;
-constexpr double speed_tolerance_mm_per_s = 1e-6;
-
-/// Slower than this, and pulled less than would keep it at this, is at rest.
-constexpr double rest_mm_per_s = 1e-9;
-
-/// Bristles that lack less than this share of their bend slide.
-constexpr double fully_bent = 1e-8;
-
-/// A motion under a held voltage: of the carriage alone (2 states), or of motor and carriage (4).
-template <std::size_t size>
-class Motion {
-  public:
-    using State = std::array<double, size>;
-    static constexpr bool has_belt = size == 4;
-
-    Motion(const MacroAxis& axis, double drive_V, const State& start, double bend)
-        : axis_(axis),
-          p_(axis.parameters),
-          standing_(p_.standing),
-          turns_matter_(axis.has_friction || p_.play_mm > 0.0),
-          dry_is_coulomb_(p_.friction.stribeck_V == 0.0 && p_.friction.patch.level_V == 0.0),
-          drive_V_(drive_V),
-          x_(start),
-          bend_(bend) {}
-
-    const State& state() const { return x_; }
-    double bend() const { return bend_; }
-    const StepCount& steps() const { return steps_; }
-
-    /// Begins a stretch of motion without events. Returns whether anything moves in it.
-    bool begin() {
-        if (axis_.has_standing_force) standing_.go_to(x_[place]);
-        const double w_V = drive_V_ + (axis_.has_standing_force ? standing_V(x_) : 0.0);
-        branch_ = dead_zone_branch(p_.dead_zone, w_V);
-        voltage_V_ = dead_zone_V(p_.dead_zone, branch_, w_V, p_.dead_zone_on_motion);
-        if (std::abs(x_[speed]) <= rest_mm_per_s || runs_into_end()) x_[speed] = 0.0;
-        held_ = false;
-        direction_ = x_[speed] < 0.0 ? -1.0 : 1.0;
-        if (x_[speed] != 0.0) return true;
-        find_hold_range();
-        const double pull = pull_mm_per_s(x_);
-        held_ = pull >= hold_low_ && pull <= hold_high_;
-        direction_ = pull < hold_low_ ? -1.0 : 1.0;
-        return !held_ || !motor_rests();
-    }
-
-    /// Moves on by at most `longest_s`, to the next event if there is one before. Returns the time it took.
-    double advance(double longest_s) {
-        if (axis_.has_series)
-            if (const std::optional<double> in_series_s = advance_in_series(longest_s)) return *in_series_s;
-        if (axis_.has_bristles) start_dry_V_ = dry_V_at(x_);
-        const State first = rate(x_);
-        if (is_whole(longest_s) && is_straight(x_)) {
-            const State end = whole_step(first);
-            if (slack(end) >= 0.0 && is_straight(end)) {
-                settle(end);
-                return longest_s;
-            }
-        }
-        if (creeps_evenly(longest_s)) return longest_s;
-        Step step = step_from(first, std::min(longest_s, trial_s_));
-        double error = error_of(step);
-        if (error <= 1.0 && step.duration_s == longest_s && slack(step.end) >= 0.0) {
-            settle(step.end);
-            return longest_s;
-        }
-        while (!(error <= 1.0) && step.duration_s > shortest_step_s) {
-            step = step_from(first,
-                             step.duration_s * (std::isfinite(error) ? std::min(fitting(error), 0.9) : 0.1));
-            error = error_of(step);
-        }
-        trial_s_ = step.duration_s * (error <= 1.0 ? std::max(fitting(error), 0.5) : 5.0);
-        if (slack(step.end) < 0.0)
-            step = step_to_event(
-                slack(x_), step, [&](double h) { return step_from(first, h); },
-                [&](const Step& there) { return slack(there.end); });
-        settle(step.end);
-        return step.duration_s;
-    }
-
-    static WholeSteps whole_steps(const MacroAxis& axis) {
-        WholeSteps steps{axis.longest_step_s, {}};
-        for (const DeadZoneBranch branch :
-             {DeadZoneBranch::left, DeadZoneBranch::inside, DeadZoneBranch::right})
-            for (const double direction : {-1.0, 1.0})
-                for (const bool held : {false, true}) {
-                    Motion motion(axis, 0.0, State{}, direction);
-                    motion.branch_ = branch;
-                    motion.direction_ = direction;
-                    motion.held_ = held;
-                    motion.start_dry_V_ = axis.parameters.friction.coulomb_V;
-                    const auto step = affine_step(motion.rates(), steps.duration_s);
-                    for (std::size_t i = 0; i < size; ++i)
-                        std::ranges::copy(step[i], steps.of_way[motion.way()][i].begin());
-                }
-        return steps;
-    }
-
-  private:
-    struct Step : RungeKuttaStep<size> {
-        double duration_s;
-    };
-
-    struct Reached {
-        State end;
-        double duration_s;
-    };
-
-    /// The way in which it moves, until the next event.
-    std::size_t way() const {
-        const int branch = static_cast<int>(branch_) + 1;
-        return 4 * static_cast<std::size_t>(branch) + (direction_ < 0.0 ? 0U : 2U) + (held_ ? 1U : 0U);
-    }
-
-    /// A of x' = A x + b, where forces are straight lines.
-    SquareMatrix<size> rates() const {
-        SquareMatrix<size> rates;
-        const State at_zero = rate(State{});
-        for (std::size_t k = 0; k < size; ++k) {
-            State one{};
-            one[k] = 1.0;
-            const State at_one = rate(one);
-            for (std::size_t i = 0; i < size; ++i) rates[i][k] = at_one[i] - at_zero[i];
-        }
-        return rates;
-    }
-
-    bool is_whole(double duration_s) const {
-        constexpr double rounding_s = 1e-14;
-        const double whole_s = axis_.whole_steps.duration_s;
-        return whole_s > 0.0 && std::abs(duration_s - whole_s) < rounding_s;
-    }
-
-    /// Whether forces change by straight lines there: bristles have bent as far as they do, a patch is far,
-    /// and what creeps slides or is nothing.
-    bool is_straight(const State& x) const {
-        const Friction& friction = p_.friction;
-        return (!axis_.has_bristles || bend_ == direction_) && !friction.patch.reaches(x[place]) &&
-               (axis_.has_bristles || (friction.coulomb_V == 0.0 && friction.coasting_V == 0.0) ||
-                slides(friction, std::max(0.0, direction_ * x[speed])));
-    }
-
-    /// Moves on by a duration, where friction that creeps is stiff to follow.
-    bool creeps_evenly(double duration_s) {
-        if (has_belt || p_.friction.creep_mm_per_s == 0.0 || axis_.has_bristles) return false;
-        const double gain = p_.velocity_gain_mm_per_s_per_V, tau_s = p_.time_constant_s;
-        const auto creep = balanced_creep(p_.friction, x_[speed], x_[place], coasts(), effective_V(x_));
-        constexpr double time_constants = 8.0;
-        if (!creep || duration_s * creep->slope_V_s_per_mm * gain < time_constants * tau_s) return false;
-        State end = x_;
-        end[place] += duration_s * creep->velocity_mm_per_s;
-        end[speed] = creep->velocity_mm_per_s;
-        direction_ = end[speed] < 0.0 ? -1.0 : 1.0;
-        settle(end);
-        return true;
-    }
-
-    /// Nothing where dry friction changes.
-    std::optional<double> advance_in_series(double longest_s) {
-        if (has_belt || !is_straight(x_)) return std::nullopt;
-        const MotionSeries series = series_of(longest_s);
-        const auto reach = [&](double duration_s) {
-            const auto [place_mm, speed_mm_per_s] = series.at(duration_s / longest_s);
-            Reached reached{x_, duration_s};
-            reached.end[place] = place_mm;
-            reached.end[speed] = speed_mm_per_s;
-            return reached;
-        };
-        const auto slack_of = [&](const Reached& there) { return slack(there.end); };
-        ++steps_.in_series;
-        Reached there = reach(longest_s * series.trusted_share(place_tolerance_mm, speed_tolerance_mm_per_s));
-        if (slack_of(there) < 0.0) there = step_to_event(slack(x_), there, reach, slack_of);
-        if (!is_straight(there.end)) return std::nullopt;
-        settle(there.end);
-        return there.duration_s;
-    }
-
-    MotionSeries series_of(double duration_s) const {
-        const double tau_s = p_.time_constant_s, gain = p_.velocity_gain_mm_per_s_per_V;
-        const double without_V = dead_zone_V(p_.dead_zone, branch_, drive_V_, p_.dead_zone_on_motion);
-        const double passed =
-            dead_zone_V(p_.dead_zone, branch_, drive_V_ + 1.0, p_.dead_zone_on_motion) - without_V;
-        const double viscous = direction_ > 0.0 ? p_.friction.right_V_s_per_mm : p_.friction.left_V_s_per_mm;
-        const double dry_V = axis_.has_friction ? direction_ * dry_V_at(x_) : 0.0;
-        const auto [sine, cosine] = standing_.sine_and_cosine(x_[place]);
-        return {{gain * (without_V - dry_V) / tau_s, gain * passed / tau_s, (1.0 + gain * viscous) / tau_s},
-                p_.standing,
-                sine,
-                cosine,
-                x_[place],
-                x_[speed],
-                duration_s};
-    }
-
-    State whole_step(const State& first) const {
-        const SquareMatrix<4>& step = axis_.whole_steps.of_way[way()];
-        State end = x_;
-        for (std::size_t i = 0; i < size; ++i)
-            for (std::size_t k = 0; k < size; ++k) end[i] += step[i][k] * first[k];
-        return end;
-    }
-
-    Step step_from(const State& first, double h) {
-        ++steps_.integrated;
-        return {dormand_prince_step([this](const State& x) { return rate(x); }, x_, first, h), h};
-    }
-
-    /// The share of a step of such an error, in tolerances, that would keep within them: 0.1 to 5.
-    static double fitting(double error) {
-        constexpr double safety = 0.9, most = 5.0, of_most = 1.8e-4;  // (safety / most)^5
-        return error < of_most ? most : std::max(safety * std::pow(error, -0.2), 0.1);
-    }
-
-    double standing_V(const State& x) const { return standing_.volts(x[place]); }
-
-    double effective_V(const State& x) const {
-        return axis_.has_standing_force
-                   ? dead_zone_V(p_.dead_zone, branch_, drive_V_ + standing_V(x), p_.dead_zone_on_motion)
-                   : voltage_V_;
-    }
-
-    /// What acts on the carriage besides its friction, as the velocity that it would sustain.
-    double pull_mm_per_s(const State& x) const {
-        if constexpr (has_belt)
-            return axis_.belt.per_mm * x[stretch] + axis_.belt.per_mm_per_s * (x[motor] - x[speed]);
-        else
-            return p_.velocity_gain_mm_per_s_per_V * effective_V(x);
-    }
-
-    double friction_V(const State& x) const {
-        const double dry_V = dry_V_at(x);
-        if (!axis_.has_bristles) return sliding_friction_V(p_.friction, x[speed], direction_, dry_V);
-        return bristle_friction_V(p_.friction, x[speed], direction_, bend_at(x, dry_V), dry_V);
-    }
-
-    /// A velocity against the direction, as trial steps beyond a turn have, counts as 0.
-    double dry_V_at(const State& x) const {
-        return dry_friction_V(p_.friction, std::max(0.0, direction_ * x[speed]), x[place], coasts());
-    }
-
-    bool coasts() const { return branch_ == DeadZoneBranch::inside; }
-
-    double bend_at(const State& x, double dry_V) const {
-        if (bend_ == direction_ && dry_is_coulomb_) return direction_;
-        return bristle_bend(p_.friction, bend_, x[place] - x_[place], direction_, start_dry_V_, dry_V);
-    }
-
-    State rate(const State& x) const {
-        const double tau_s = p_.time_constant_s, gain = p_.velocity_gain_mm_per_s_per_V;
-        const double pull = pull_mm_per_s(x);
-        const double net = axis_.has_friction ? pull - gain * friction_V(x) : pull;
-        if constexpr (has_belt) {
-            const double share = p_.belt.motor_share;
-            const double motor_rate = (gain * effective_V(x) - x[motor] - pull) / (share * tau_s);
-            if (held_) return {0.0, 0.0, x[motor], motor_rate};
-            return {x[speed], net / ((1.0 - share) * tau_s), x[motor] - x[speed], motor_rate};
-        } else {
-            return {x[speed], (net - x[speed]) / tau_s};
-        }
-    }
-
-    /// Between which pulls a carriage at rest stays so. Beyond an end of travel it cannot be pulled.
-    void find_hold_range() {
-        const double gain = p_.velocity_gain_mm_per_s_per_V;
-        const double bent = axis_.has_bristles ? gain * p_.friction.coulomb_V * bend_ : 0.0;
-        const double held = axis_.has_bristles ? 0.0 : gain * breakaway_V(p_.friction, x_[place], coasts());
-        hold_low_ = bent - held - rest_mm_per_s;
-        hold_high_ = bent + held + rest_mm_per_s;
-        if (x_[place] <= axis_.driven_low_mm) hold_low_ = -std::numeric_limits<double>::infinity();
-        if (x_[place] >= axis_.driven_high_mm) hold_high_ = std::numeric_limits<double>::infinity();
-    }
-
-    bool motor_rests() {
-        if constexpr (!has_belt) return true;
-        const double excess = p_.velocity_gain_mm_per_s_per_V * effective_V(x_) - pull_mm_per_s(x_);
-        if (std::abs(x_[motor]) > rest_mm_per_s || std::abs(excess) > rest_mm_per_s) return false;
-        x_[motor] = 0.0;
-        return true;
-    }
-
-    /// How far it is from the nearest event; negative beyond it.
-    double slack(const State& x) const {
-        if (held_) {
-            const double pull = pull_mm_per_s(x);
-            return std::min(pull - hold_low_, hold_high_ - pull);
-        }
-        double least = std::min(x[place] - axis_.driven_low_mm, axis_.driven_high_mm - x[place]);
-        if (turns_matter_) least = std::min(least, direction_ * x[speed]);
-        if (axis_.has_standing_force)
-            least = std::min(least, dead_zone_slack_V(p_.dead_zone, branch_, drive_V_ + standing_V(x)));
-        return least;
-    }
-
-    static double error_of(const RungeKuttaStep<size>& step) {
-        double worst = 0.0;
-        for (std::size_t i = 0; i < size; ++i) {
-            const double tolerance = i % 2 == 0 ? place_tolerance_mm : speed_tolerance_mm_per_s;
-            const double error = std::abs(step.error[i]) / tolerance;
-            if (!(error <= worst)) worst = error;
-        }
-        return worst;
-    }
-
-    /// Takes over the end of a step, put right where an event has just been passed.
-    void settle(const State& end) {
-        if (axis_.has_bristles && !held_) {
-            bend_ = bend_at(end, dry_V_at(end));
-            if (std::abs(bend_ - direction_) < fully_bent) bend_ = direction_;
-        }
-        x_ = end;
-        if (held_) return;
-        x_[place] = std::clamp(x_[place], axis_.driven_low_mm, axis_.driven_high_mm);
-        if (runs_into_end() || (turns_matter_ && direction_ * x_[speed] < 0.0)) x_[speed] = 0.0;
-    }
-
-    bool runs_into_end() const {
-        return (x_[place] <= axis_.driven_low_mm && x_[speed] < 0.0) ||
-               (x_[place] >= axis_.driven_high_mm && x_[speed] > 0.0);
-    }
-
-    const MacroAxis& axis_;
-    const MacroAxisParameters& p_;
-    StandingForceNearby standing_;
-    bool turns_matter_;  ///< friction turns round, or play begins, where the carriage does
-    bool dry_is_coulomb_;
-    double drive_V_;
-    State x_;
-    double bend_;                                               ///< at x_
-    double start_dry_V_ = 0.0;                                  ///< likewise, where there are bristles
-    double trial_s_ = std::numeric_limits<double>::infinity();  ///< step to try next
-    StepCount steps_;
-
-    // What stays as it is until the next event.
-    double direction_ = 1.0;
-    DeadZoneBranch branch_ = DeadZoneBranch::inside;
-    double voltage_V_ = 0.0;
-    bool held_ = false;
-    double hold_low_ = 0.0, hold_high_ = 0.0;
-};
 
 /// Where the carriage is, and how fast, when what drives it has moved one way to a place.
 void carry(const MacroAxis& axis, MacroAxisState& state, double driven_mm, double driven_mm_per_s) {
@@ -376,26 +25,28 @@ void carry(const MacroAxis& axis, MacroAxisState& state, double driven_mm, doubl
 
 template <std::size_t size>
 StepCount move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
+    using Motion = plant::Motion<size>;
     MechanismState& mechanism = state.mechanism;
-    std::array<double, size> start{};
-    start[place] = state.position_mm - mechanism.play_mm;
-    start[speed] = axis.parameters.play_mm > 0.0 ? mechanism.driven_mm_per_s : state.velocity_mm_per_s;
+    typename Motion::State start{};
+    start[Motion::place] = state.position_mm - mechanism.play_mm;
+    start[Motion::speed] =
+        axis.parameters.play_mm > 0.0 ? mechanism.driven_mm_per_s : state.velocity_mm_per_s;
     if constexpr (size == 4) {
-        start[stretch] = mechanism.stretch_mm;
-        start[motor] = start[speed] + mechanism.stretching_mm_per_s;
+        start[Motion::stretch] = mechanism.stretch_mm;
+        start[Motion::motor] = start[Motion::speed] + mechanism.stretching_mm_per_s;
     }
-    Motion<size> motion(axis, drive_V, start, mechanism.bristle_bend);
+    Motion motion(axis, drive_V, start, mechanism.bristle_bend);
     constexpr double no_time_s = 1e-15;
     bool moves = true;
     while (duration_s > no_time_s && (moves = motion.begin())) {
         duration_s -= motion.advance(std::min(duration_s, axis.longest_step_s));
-        carry(axis, state, motion.state()[place], motion.state()[speed]);
+        carry(axis, state, motion.state()[Motion::place], motion.state()[Motion::speed]);
     }
-    if (!moves) carry(axis, state, motion.state()[place], 0.0);
+    if (!moves) carry(axis, state, motion.state()[Motion::place], 0.0);
     mechanism.bristle_bend = motion.bend();
     if constexpr (size == 4) {
-        mechanism.stretch_mm = motion.state()[stretch];
-        mechanism.stretching_mm_per_s = motion.state()[motor] - motion.state()[speed];
+        mechanism.stretch_mm = motion.state()[Motion::stretch];
+        mechanism.stretching_mm_per_s = motion.state()[Motion::motor] - motion.state()[Motion::speed];
     }
     return motion.steps();
 }

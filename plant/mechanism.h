@@ -6,11 +6,11 @@
 //     tau dv/dt = K (V - F) - v         friction (plant/friction.h); belt: plant/transmission.h
 //
 // Between events the right-hand side is smooth, and an embedded Runge-Kutta pair integrates it, its steps
-// kept to the tolerances in mechanism.cpp; where all forces are straight lines, a whole step without an event
-// has an exact solution (plant/affine_step.h), and where all but those by position are, the motion is a power
-// series (plant/motion_series.h). Events are located within the tick: the velocity's zero (turn,
-// stop) where friction or play makes it one, an edge of the dead zone, an end of travel, break-away. What is
-// held stays exactly where it is; nothing chatters.
+// kept to the tolerances in plant/motion.h; where all forces are straight lines, a whole step without an
+// event has an exact solution (plant/affine_step.h), and where all but those by position are, the motion is a
+// power series (plant/motion_series.h). Events are located within the tick: the velocity's zero (turn, stop)
+// where friction or play makes it one, an edge of the dead zone, an end of travel, break-away. What is held
+// stays exactly where it is; nothing chatters.
 #include "plant/affine_step.h"
 
 #include <array>
