@@ -55,7 +55,7 @@ class Motion {
 
     /// Moves on by at most `longest_s`, to the next event if there is one before. Returns the time it took.
     double advance(double longest_s) {
-        if (axis_.has_series)
+        if constexpr (!has_belt)
             if (const std::optional<double> in_series_s = advance_in_series(longest_s)) return *in_series_s;
         if (axis_.has_bristles) start_dry_V_ = dry_V_at(x_);
         const State first = rate(x_);
@@ -174,16 +174,12 @@ class Motion {
         return true;
     }
 
-    /// Nothing where dry friction changes.
+    /// Nothing where the motion is no power series, or dry friction changes. Without a belt.
     std::optional<double> advance_in_series(double longest_s) {
-        if (has_belt || !is_straight(x_)) return std::nullopt;
+        if (!axis_.has_series || !is_straight(x_)) return std::nullopt;
         const MotionSeries series = series_of(longest_s);
         const auto reach = [&](double duration_s) {
-            const auto [place_mm, speed_mm_per_s] = series.at(duration_s / longest_s);
-            Reached reached{x_, duration_s};
-            reached.end[place] = place_mm;
-            reached.end[speed] = speed_mm_per_s;
-            return reached;
+            return Reached{series.at(duration_s / longest_s), duration_s};
         };
         const auto slack_of = [&](const Reached& there) { return slack(there.end); };
         ++steps_.in_series;

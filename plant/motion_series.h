@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace fidservo::plant {
 
@@ -32,7 +33,7 @@ class MotionSeries {
     /// @param sine, cosine  of the wave's angle at the start
     MotionSeries(const ForcesOnMotion& forces, const StandingForce& standing, double sine, double cosine,
                  double position_mm, double velocity_mm_per_s, double duration_s)
-        : sine_{sine}, cosine_{cosine} {
+        : rad_per_mm_(2.0 * std::numbers::pi / standing.cogging_period_mm), sine_{sine}, cosine_{cosine} {
         place_[0] = position_mm;
         speed_[0] = velocity_mm_per_s;
         off_[0] = position_mm - standing.cable_centre_mm;
@@ -83,8 +84,7 @@ class MotionSeries {
 
     double wave_V(const StandingForce& force, std::size_t n) {
         if (n > 0) {
-            const double rad_per_mm = 2.0 * std::numbers::pi / force.cogging_period_mm;
-            way_[n] = static_cast<double>(n) * rad_per_mm * place_[n];
+            way_[n] = static_cast<double>(n) * rad_per_mm_ * place_[n];
             double sine = 0.0, cosine = 0.0;
             for (std::size_t j = 1; j <= n; ++j) {
                 sine += way_[j] * cosine_[n - j];
@@ -107,6 +107,7 @@ class MotionSeries {
         return force.cable_V_per_mm * (off_[n] + product(off_, square_, n));
     }
 
+    double rad_per_mm_;
     Series place_{}, speed_{}, off_{}, square_{}, way_{}, sine_, cosine_, second_{};
 };
 
