@@ -1,5 +1,8 @@
 #include "vision/image_sequence.h"
 
+#include "vision/images/image_file.h"
+#include "vision/images/media.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -9,9 +12,6 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 namespace fidservo::vision {
 namespace {
@@ -74,15 +74,6 @@ std::vector<FrameReference> read_folder(const fs::path& folder) {
     return frames;
 }
 
-/// Any depth and any number of channels to 8-bit grey.
-cv::Mat grey_of(const cv::Mat& image) {
-    cv::Mat grey = image;
-    if (image.channels() == 3) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-    if (image.channels() == 4) cv::cvtColor(image, grey, cv::COLOR_BGRA2GRAY);
-    if (grey.depth() == CV_16U) grey.convertTo(grey, CV_8U, 1.0 / 257.0);
-    return grey;
-}
-
 }  // namespace
 
 bool is_image_file(const fs::path& file) {
@@ -131,26 +122,18 @@ std::vector<FrameReference> list_images(const fs::path& input) {
 }
 
 Result<Frame> load_frame(const FrameReference& reference) {
-    cv::Mat image;
-    try {
-        image = cv::imread(reference.file.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-    } catch (const cv::Exception&) {
-        image.release();  // too large, or a broken header
-    }
-    if (image.empty())
-        return failure(Reason::device,
-                       fmt::format("{}: cannot be read as an image", reference.file.string()));
-    return Frame{image, reference.time_ns, reference.time_ns, reference.sequence,
+    Result<cv::Mat> image = read_grey(reference.file);
+    if (!image) return tl::make_unexpected(image.error());
+    return Frame{*std::move(image), reference.time_ns, reference.time_ns, reference.sequence,
                  reference.file.filename().string()};
 }
 
 struct ImageSequence::Impl {
     std::vector<FrameReference> frames;
     std::size_t next = 0;
-    std::unique_ptr<cv::VideoCapture> video;
+    std::unique_ptr<Video> video;
     std::string video_name;
     double rate_hz = 0.0;
-    std::size_t video_frames = 0;
 
     TimeNs time_of(std::size_t frame) const { return nanoseconds(static_cast<double>(frame) / rate_hz); }
 };
@@ -159,14 +142,11 @@ ImageSequence::ImageSequence(const fs::path& input, double rate_hz) : impl_(std:
     FIDSERVO_DEMAND(rate_hz > 0);
     impl_->rate_hz = rate_hz;
     if (fs::is_regular_file(input) && is_video_file(input)) {
-        impl_->video = std::make_unique<cv::VideoCapture>(input.string(), cv::CAP_FFMPEG);
-        if (!impl_->video->isOpened())
-            throw InputError(fmt::format("{}: cannot be read as a video", input.string()));
+        Result<std::unique_ptr<Video>> video = open_video(input);
+        if (!video) throw InputError(video.error().text);
+        impl_->video = *std::move(video);
         impl_->video_name = input.filename().string();
-        const double fps = impl_->video->get(cv::CAP_PROP_FPS);
-        if (fps > 0) impl_->rate_hz = fps;
-        impl_->video_frames =
-            static_cast<std::size_t>(std::max(0.0, impl_->video->get(cv::CAP_PROP_FRAME_COUNT)));
+        if (const double stated_hz = impl_->video->rate_hz(); stated_hz > 0) impl_->rate_hz = stated_hz;
         return;
     }
     impl_->frames = list_images(input);
@@ -178,12 +158,12 @@ ImageSequence::~ImageSequence() = default;
 
 Result<std::optional<Frame>> ImageSequence::next() {
     if (impl_->video) {
-        cv::Mat image;
-        if (!impl_->video->read(image) || image.empty()) return std::optional<Frame>();
+        const auto picture = impl_->video->next();
+        if (!picture) return std::optional<Frame>();
         const std::size_t number = impl_->next++;
         const TimeNs time_ns = impl_->time_of(number);
-        return std::optional<Frame>({grey_of(image).clone(), time_ns, time_ns, number,
-                                     fmt::format("{}#{}", impl_->video_name, number)});
+        return std::optional<Frame>(
+            {picture->grey, time_ns, time_ns, number, fmt::format("{}#{}", impl_->video_name, number)});
     }
     if (impl_->next == impl_->frames.size()) return std::optional<Frame>();
     Result<Frame> frame = load_frame(impl_->frames[impl_->next++]);
@@ -196,7 +176,7 @@ Result<std::optional<Frame>> ImageSequence::poll(TimeNs /*now_ns*/) {
 }
 
 std::size_t ImageSequence::size() const {
-    return impl_->video ? impl_->video_frames : impl_->frames.size();
+    return impl_->video ? impl_->video->stated_frames() : impl_->frames.size();
 }
 
 }  // namespace fidservo::vision

@@ -2,11 +2,11 @@
 
 #include "core/units.h"
 #include "src/inspect/outline.h"
+#include "vision/images/image_file.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 
 namespace fidservo::inspect {
 namespace {
@@ -95,8 +95,9 @@ CheckedView compare_view(const CheckContext& context, const ReferenceCheck& chec
 
 vision::ReferenceImage load_reference(const std::filesystem::path& file, const CameraParameters& camera,
                                       const Plate& nominal, int tag_id) {
-    const cv::Mat grey = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
-    if (grey.empty()) throw InputError(fmt::format("{}: not an image that can be read", file.string()));
+    const auto read = vision::read_grey(file);
+    if (!read) throw InputError(read.error().text);
+    const cv::Mat& grey = *read;
     if (grey.cols != camera.geometry.width_px || grey.rows != camera.geometry.height_px)
         throw InputError(fmt::format("{}: {} x {} px; a reference image must have the camera's {} x {}",
                                      file.string(), grey.cols, grey.rows, camera.geometry.width_px,

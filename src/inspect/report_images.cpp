@@ -1,10 +1,10 @@
 #include "src/inspect/report_sections.h"
 #include "src/report/html.h"
+#include "vision/images/image_file.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 
 namespace fidservo::inspect {
 namespace {
@@ -36,9 +36,9 @@ std::string shape(const Overlay& overlay) {
 /// The image as inline JPEG with its overlays; pixel centres at integers, so the drawing is shifted by half.
 std::string shot(const OutputFolder& output, const CameraGeometry& camera, const Visit& visit,
                  const ViewResult& view) {
-    const cv::Mat grey = cv::imread((output.root / view.image).string(), cv::IMREAD_GRAYSCALE);
-    std::vector<unsigned char> jpeg;
-    if (!grey.empty()) cv::imencode(".jpg", grey, jpeg, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
+    const auto grey = vision::read_grey(output.root / view.image);
+    const std::vector<unsigned char> jpeg =
+        grey ? vision::encode_jpeg(*grey, jpeg_quality) : std::vector<unsigned char>();
     std::string html = fmt::format(
         "<figure><button class=\"shot\" type=\"button\" aria-label=\"enlarge\"><img alt=\"site {}, view {}\" "
         "loading=\"lazy\" width=\"{}\" height=\"{}\" "

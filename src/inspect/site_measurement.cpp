@@ -1,20 +1,19 @@
 #include "src/inspect/site_measurement.h"
 
 #include "src/recording/durable_file.h"
+#include "vision/images/image_file.h"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
-
-#include <opencv2/imgcodecs.hpp>
 
 namespace fidservo::inspect {
 namespace {
 
 void save_image(const std::filesystem::path& file, const cv::Mat& grey) {
     set_aside(file);
-    std::vector<unsigned char> png;
-    cv::imencode(".png", grey, png, {cv::IMWRITE_PNG_COMPRESSION, 3});
+    constexpr int small_and_fast_compression = 3;
+    const std::vector<unsigned char> png = vision::encode_png(grey, small_and_fast_compression);
     replace_file(file, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 

@@ -1,12 +1,13 @@
 #include "src/live/live_board.h"
 
+#include "vision/images/image_file.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace fidservo {
@@ -26,8 +27,7 @@ std::shared_ptr<const std::string> jpeg_of(const cv::Mat& image) {
     if (image.cols > shown_width_px)
         cv::resize(image, shown, {shown_width_px, image.rows * shown_width_px / image.cols}, 0, 0,
                    cv::INTER_AREA);
-    std::vector<unsigned char> bytes;
-    cv::imencode(".jpg", shown, bytes, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
+    const std::vector<unsigned char> bytes = vision::encode_jpeg(shown, jpeg_quality);
     return std::make_shared<const std::string>(bytes.begin(), bytes.end());
 }
 

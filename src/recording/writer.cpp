@@ -3,6 +3,7 @@
 #include "core/spsc_ring.h"
 #include "src/recording/durable_file.h"
 #include "src/recording/row_format.h"
+#include "vision/images/image_file.h"
 
 #include <atomic>
 #include <chrono>
@@ -11,7 +12,6 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 
 namespace fidservo {
 
@@ -19,11 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-
-struct ImageToKeep {
-    TimeNs time_ns = 0;
-    cv::Mat image;
-};
 
 constexpr std::size_t most_detections_per_frame = 32;
 constexpr std::size_t image_ring_size = 64;
@@ -69,6 +64,11 @@ StageColumns columns_of(const Rig& rig) {
 }
 
 struct RecordingWriter::Impl {
+    struct ImageToKeep {
+        TimeNs time_ns = 0;
+        cv::Mat image;
+    };
+
     Impl(const fs::path& folder_, const RecordingOptions& options_)
         : folder(folder_),
           options(options_),
@@ -145,8 +145,7 @@ struct RecordingWriter::Impl {
 
     Status keep(const ImageToKeep& frame) {
         constexpr int fast_compression = 1;
-        std::vector<unsigned char> png;
-        cv::imencode(".png", frame.image, png, {cv::IMWRITE_PNG_COMPRESSION, fast_compression});
+        const std::vector<unsigned char> png = vision::encode_png(frame.image, fast_compression);
         const std::string name = image_name(frame.time_ns);
         const std::string_view bytes(reinterpret_cast<const char*>(png.data()), png.size());
         if (auto status = write_durably(folder / "cam0" / "data" / name, bytes); !status) return status;
@@ -218,7 +217,7 @@ Status RecordingWriter::add(const TagDetection& detection) {
 
 Status RecordingWriter::add_frame(TimeNs time_ns, const cv::Mat& image) {
     FIDSERVO_DEMAND(impl_->frames_file.has_value());
-    return impl_->hand_over(impl_->images, ImageToKeep{time_ns, image});
+    return impl_->hand_over(impl_->images, Impl::ImageToKeep{time_ns, image});
 }
 
 Status RecordingWriter::close() {

@@ -2,6 +2,8 @@
 
 #include "core/failure.h"
 #include "src/recording/reader.h"
+#include "vision/images/image_file.h"
+#include "vision/images/media.h"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +11,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 namespace fidservo {
 
@@ -41,23 +40,18 @@ fs::path camera_root(const fs::path& folder) {
 
 struct ReplayFrames::Video {
     fs::path file;
-    cv::VideoCapture capture;
+    std::unique_ptr<vision::Video> decoder;
     std::size_t series;
     std::size_t next_index = 0;
 
     std::optional<ReplayFrame> next() {
-        cv::Mat colour;
-        const double time_ms = capture.get(cv::CAP_PROP_POS_MSEC);
-        if (!capture.read(colour) || colour.empty()) return std::nullopt;
+        const auto picture = decoder->next();
+        if (!picture) return std::nullopt;
         ReplayFrame frame;
         frame.name = fmt::format("{}#{}", file.string(), next_index++);
         frame.series = series;
-        frame.time_ns = nanoseconds(time_ms * 1e-3);
-        if (colour.channels() == 1) {
-            frame.decoded = colour.clone();
-        } else {
-            cv::cvtColor(colour, frame.decoded, cv::COLOR_BGR2GRAY);
-        }
+        frame.time_ns = nanoseconds(picture->place_s);
+        frame.decoded = picture->grey;
         return frame;
     }
 };
@@ -128,9 +122,10 @@ void ReplayFrames::add_video(const fs::path& file) {
     auto video = std::make_unique<Video>();
     video->file = file;
     video->series = series_.size();
-    if (!video->capture.open(file.string(), cv::CAP_FFMPEG))
-        throw InputError(fmt::format("{}: cannot be read as a video", file.string()));
-    size_ += static_cast<std::size_t>(std::max(0.0, video->capture.get(cv::CAP_PROP_FRAME_COUNT)));
+    auto decoder = vision::open_video(file);
+    if (!decoder) throw InputError(decoder.error().text);
+    video->decoder = *std::move(decoder);
+    size_ += video->decoder->stated_frames();
     Series series;
     series.video = std::move(video);
     series_.push_back(std::move(series));
@@ -155,14 +150,9 @@ std::optional<ReplayFrame> ReplayFrames::next() {
 
 cv::Mat decode(const ReplayFrame& frame) {
     if (!frame.decoded.empty()) return frame.decoded;
-    cv::Mat image;
-    try {
-        image = cv::imread(frame.file.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-    } catch (const cv::Exception&) {
-        image.release();  // too large or damaged: the same to the user
-    }
-    if (image.empty()) throw InputError(fmt::format("{}: cannot be read as an image", frame.file.string()));
-    return image;
+    Result<cv::Mat> image = vision::read_grey(frame.file);
+    if (!image) throw InputError(image.error().text);
+    return *std::move(image);
 }
 
 }  // namespace fidservo

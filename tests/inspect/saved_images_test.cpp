@@ -4,12 +4,13 @@
 #include "src/inspect/inspection_run.h"
 #include "tests/inspect/small_recipe.h"
 #include "tests/src/temporary_folder.h"
+#include "vision/images/image_file.h"
 
+#include <fstream>
 #include <functional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
 namespace fidservo::inspect {
 namespace {
@@ -24,7 +25,9 @@ class SavedImagesOf : public ::testing::Test {
     fidservo::testing::TemporaryFolder folder;
 
     void save(const std::filesystem::path& file, cv::Size size) const {
-        cv::imwrite((folder / file).string(), cv::Mat(size, CV_8UC1, cv::Scalar(100)));
+        const auto png = vision::encode_png(cv::Mat(size, CV_8UC1, cv::Scalar(100)), 1);
+        std::ofstream(folder / file, std::ios::binary)
+            .write(reinterpret_cast<const char*>(png.data()), std::ssize(png));
     }
 };
 

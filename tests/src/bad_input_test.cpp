@@ -158,7 +158,7 @@ TEST(Program, InspectionWithAReferenceThatIsNoImage_ExitsWithTwoBeforeItBegins) 
                  "    offset_um: 0\n"
                  "    checks: [{ reference: { longest_defect_um: 25, image: golden.png } }]\n");
     expect_refusal({"inspect", "recipe.yaml", "--out", "o"}, folder.path(), 2,
-                   {"golden.png: not an image that can be read"});
+                   {"golden.png: cannot be read as an image"});
     EXPECT_FALSE(std::filesystem::exists(folder / "o"));
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // A frame's bytes as a grey image.
 #include "core/failure.h"
+#include "vision/images/jpeg_decoder.h"
 #include "vision/v4l2/capture_format.h"
-#include "vision/v4l2/jpeg_decoder.h"
 
 #include <cstddef>
 #include <span>

@@ -7,7 +7,10 @@
 
 #include <opencv2/core/mat.hpp>
 
-namespace fidservo::vision::v4l2 {
+namespace fidservo::vision {
+
+/// Is this a JPEG whose first channel is the luma: grey or YCbCr? Those for print (CMYK) are not.
+bool is_jpeg_of_luma(std::span<const std::byte> bytes);
 
 /// JPEG to grey: the luma alone is decoded. A frame without Huffman tables has the standard's, as in
 /// motion-JPEG. Single-threaded.
@@ -18,7 +21,8 @@ class JpegDecoder {
     JpegDecoder(const JpegDecoder&) = delete;
     JpegDecoder& operator=(const JpegDecoder&) = delete;
 
-    /// The image, CV_8UC1. Fails with Reason::device for data that are damaged anywhere or cut short.
+    /// The image, CV_8UC1. Fails with Reason::device for data that are damaged anywhere or cut short, or of
+    /// more than most_pixels.
     Result<cv::Mat> decode(std::span<const std::byte> jpeg);
 
   private:
@@ -26,4 +30,4 @@ class JpegDecoder {
     std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace fidservo::vision::v4l2
+}  // namespace fidservo::vision
