@@ -11,14 +11,14 @@ namespace fidservo::calib {
 
 namespace {
 
-constexpr std::size_t stride = 5;  ///< every fifth tick enters the fit
-constexpr int parameters = 5;
+constexpr std::size_t tick_stride = 5;  ///< every fifth tick enters the fit
+constexpr int deviations = 5;
 
 /// Offsets and factors relative to the rig file: ambient [degC], stroke, gain, heating tau, cooling tau.
-using Deviation = std::array<double, parameters>;
-constexpr Deviation nominal{0.0, 1.0, 1.0, 1.0, 1.0};
-constexpr Deviation lowest{-15.0, 0.85, 0.8, 0.7, 0.7};
-constexpr Deviation highest{15.0, 1.15, 1.25, 1.4, 1.4};
+using Deviation = std::array<double, deviations>;
+constexpr Deviation nominal_deviation{0.0, 1.0, 1.0, 1.0, 1.0};
+constexpr Deviation lowest_deviation{-15.0, 0.85, 0.8, 0.7, 0.7};
+constexpr Deviation highest_deviation{15.0, 1.15, 1.25, 1.4, 1.4};
 
 HeaterParameters deviate(const HeaterParameters& heater, const double* x) {
     HeaterParameters result = heater;
@@ -35,7 +35,7 @@ class SweepResidual {
                   std::span<const double> command_V)
         : model_(model), tick_s_(tick_s), position_mm_(position_mm), command_V_(command_V) {}
 
-    int count() const { return static_cast<int>(position_mm_.size() / stride); }
+    int count() const { return static_cast<int>(position_mm_.size() / tick_stride); }
 
     bool operator()(double const* const* blocks, double* residual_mm) const {
         const double* x = blocks[0];
@@ -43,7 +43,7 @@ class SweepResidual {
         PreisachMemory wire = preisach_start(*model_.fod, heater.ambient_degC);
         int next = 0;
         for (std::size_t k = 0; next < count(); ++k) {
-            if (k % stride == 0) residual_mm[next++] = x[1] * wire.contraction_mm - position_mm_[k];
+            if (k % tick_stride == 0) residual_mm[next++] = x[1] * wire.contraction_mm - position_mm_[k];
             preisach_step(*model_.fod, wire,
                           heater_step_degC(heater, wire.temp_degC, command_V_[k], tick_s_));
         }
@@ -68,18 +68,18 @@ Result<ActuatorTuning> tune_actuator(const MicroModel& model, double tick_s,
 
     SweepResidual residual(model, tick_s, position_mm, command_V);
     const int count = residual.count();
-    Deviation x = nominal;
+    Deviation x = nominal_deviation;
     ceres::Problem::Options ownership;
     ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::DynamicNumericDiffCostFunction<SweepResidual, ceres::CENTRAL> cost(&residual,
                                                                               ceres::DO_NOT_TAKE_OWNERSHIP);
-    cost.AddParameterBlock(parameters);
+    cost.AddParameterBlock(deviations);
     cost.SetNumResiduals(count);
     ceres::Problem problem(ownership);
     problem.AddResidualBlock(&cost, nullptr, x.data());
-    for (int i = 0; i < parameters; ++i) {
-        problem.SetParameterLowerBound(x.data(), i, lowest[static_cast<std::size_t>(i)]);
-        problem.SetParameterUpperBound(x.data(), i, highest[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < deviations; ++i) {
+        problem.SetParameterLowerBound(x.data(), i, lowest_deviation[static_cast<std::size_t>(i)]);
+        problem.SetParameterUpperBound(x.data(), i, highest_deviation[static_cast<std::size_t>(i)]);
     }
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;

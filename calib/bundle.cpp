@@ -14,8 +14,8 @@ namespace fidservo::calib {
 namespace {
 
 template <class T>
-Eigen::Matrix<T, 8, 1> corners_of(const std::array<Eigen::Vector2d, 4>& printed_mm, const T* lens,
-                                  const T* pose) {
+Eigen::Matrix<T, 8, 1> corners_from_pose(const std::array<Eigen::Vector2d, 4>& printed_mm, const T* lens,
+                                         const T* pose) {
     Eigen::Matrix<T, 8, 1> corners;
     for (int k = 0; k < 4; ++k) {
         const Eigen::Vector2d& p = printed_mm[static_cast<std::size_t>(k)];
@@ -59,7 +59,7 @@ struct Bundle::Residual {
     Sight sight;
     template <class T>
     bool operator()(const T* lens, const T* pose, T* residual) const {
-        const Eigen::Matrix<T, 8, 1> error = sight.seen_px - corners_of(sight.printed_mm, lens, pose);
+        const Eigen::Matrix<T, 8, 1> error = sight.seen_px - corners_from_pose(sight.printed_mm, lens, pose);
         Eigen::Map<Eigen::Matrix<T, 8, 1>> out(residual);
         out = sight.weights.whiten.cast<T>() * error;
         return true;
@@ -161,7 +161,7 @@ std::optional<BundleCovariance> Bundle::covariance(BundleState state, const Lens
 Eigen::Matrix<double, 8, 1> Bundle::error_px(const BundleState& state, std::size_t view,
                                              std::size_t tag) const {
     const Sight& sight = sights_[view][tag];
-    return sight.seen_px - corners_of(sight.printed_mm, state.lens.data(), state.poses[view].data());
+    return sight.seen_px - corners_from_pose(sight.printed_mm, state.lens.data(), state.poses[view].data());
 }
 
 double Bundle::mean_square(const BundleState& state, std::size_t view, std::size_t tag) const {

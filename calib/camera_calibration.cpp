@@ -1,6 +1,7 @@
 #include "calib/camera_calibration.h"
 
 #include "calib/bundle.h"
+#include "calib/dense.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,14 +53,14 @@ PlanePose mirrored(const PlanePose& pose, const TargetView& view) {
     const Eigen::Vector3d normal = pose.turn.col(2);
     const Eigen::Vector3d other = 2.0 * sight_line.dot(normal) * sight_line - normal;
     PlanePose result;
-    result.turn = Eigen::Quaterniond::FromTwoVectors(normal, other).toRotationMatrix() * pose.turn;
+    result.turn = turn_between(normal, other).toRotationMatrix() * pose.turn;
     result.shift_mm = seen - result.turn * middle;
     return result;
 }
 
 /// A lens and a pose of every view to begin with.
-Result<BundleState> start(const std::vector<TargetView>& views, const CameraCalibrationOptions& options,
-                          const Bundle& bundle) {
+Result<BundleState> start_camera(const std::vector<TargetView>& views,
+                                 const CameraCalibrationOptions& options, const Bundle& bundle) {
     const CameraGeometry lens =
         options.start ? *options.start : plain_lens(options, start_focal_px(plain_lens(options, 1.0), views));
     BundleState state{lens_of(lens), {}};
@@ -174,7 +175,7 @@ Result<CameraCalibration> calibrate_camera(const std::vector<TargetView>& views,
     constexpr int most_rounds = 4;
     if (views.empty()) return failure(Reason::not_identifiable, "there is no view of the target");
     Bundle bundle(views, options.extra_std_px);
-    Result<BundleState> started = start(views, options, bundle);
+    Result<BundleState> started = start_camera(views, options, bundle);
     if (!started) return tl::make_unexpected(started.error());
     BundleState state = *started;
     approach(bundle, options, state);

@@ -21,9 +21,9 @@ using Place = std::array<double, 2>;  ///< s, y
 
 /// Image points of a tag's corners as eight numbers.
 template <class T>
-Eigen::Matrix<T, 8, 1> corners_of(const Lens& lens, const Eigen::Vector3d& axis,
-                                  const std::array<Eigen::Vector2d, 4>& printed_mm, const T* mount,
-                                  const T* place) {
+Eigen::Matrix<T, 8, 1> corners_from_mount(const Lens& lens, const Eigen::Vector3d& axis,
+                                          const std::array<Eigen::Vector2d, 4>& printed_mm, const T* mount,
+                                          const T* place) {
     const std::array<T, 3> tilt{mount[tilt_u], mount[tilt_v], T(0.0)};
     const std::array<T, 3> about_z{T(0.0), T(0.0), mount[rotation]};
     std::array<T, lens_parameters> lens_T;
@@ -60,15 +60,16 @@ struct MountResidual {
     template <class T>
     bool operator()(const T* mount, const T* place, T* residual) const {
         Eigen::Map<Eigen::Matrix<T, 8, 1>> out(residual);
-        const Eigen::Matrix<T, 8, 1> error = corners_of(lens, axis, printed_mm, mount, place) - seen_px;
+        const Eigen::Matrix<T, 8, 1> error =
+            corners_from_mount(lens, axis, printed_mm, mount, place) - seen_px;
         out = whiten.cast<T>() * error;
         return true;
     }
 };
 
 /// The mount by the view that shows most tags, and every view's place by its own homography.
-Status start(const CameraGeometry& lens, const std::vector<TargetView>& views, Mount& mount,
-             std::vector<Place>& places) {
+Status start_mount(const CameraGeometry& lens, const std::vector<TargetView>& views, Mount& mount,
+                   std::vector<Place>& places) {
     const Eigen::Vector3d axis = stage_axis(lens);
     std::size_t most_tags = 1;
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -90,7 +91,7 @@ Status start(const CameraGeometry& lens, const std::vector<TargetView>& views, M
     return {};
 }
 
-struct Sums {
+struct MisfitSums {
     double squared_px = 0.0, corners = 0.0;
     double rms_px() const { return std::sqrt(squared_px / corners); }
 };
@@ -100,7 +101,7 @@ struct Sums {
 Result<CameraMount> fit_camera_mount(const CameraGeometry& lens, const std::vector<TargetView>& views) {
     Mount mount{};
     std::vector<Place> places(views.size());
-    if (const Status started = start(lens, views, mount, places); !started)
+    if (const Status started = start_mount(lens, views, mount, places); !started)
         return tl::make_unexpected(started.error());
 
     const Lens numbers = lens_of(lens);
@@ -144,12 +145,12 @@ Result<CameraMount> fit_camera_mount(const CameraGeometry& lens, const std::vect
     result.camera.distance_mm = mount[distance];
     covariance.GetCovarianceBlock(mount.data(), mount.data(), result.covariance.data());
     result.covariance *= widen;
-    Sums all;
+    MisfitSums all;
     for (std::size_t i = 0; i < views.size(); ++i) {
-        Sums sums;
+        MisfitSums sums;
         for (const TagSight& sight : views[i].tags) {
-            sums.squared_px += (corners_of(numbers, axis, vision::corners_mm(sight.printed), mount.data(),
-                                           places[i].data()) -
+            sums.squared_px += (corners_from_mount(numbers, axis, vision::corners_mm(sight.printed),
+                                                   mount.data(), places[i].data()) -
                                 seen_corners_px(sight))
                                    .squaredNorm();
             sums.corners += 4.0;

@@ -1,6 +1,10 @@
 #include "calib/dense.h"
 
+#include <cmath>
+
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
 
 namespace fidservo::calib {
 
@@ -15,6 +19,25 @@ Eigen::MatrixXd propagated(const Eigen::MatrixXd& covariance, const Eigen::Matri
 SymmetricParts symmetric_parts(const Eigen::MatrixXd& matrix) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
     return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+    return a.colPivHouseholderQr().solve(b);
+}
+
+Eigen::MatrixXd inverse_of_gram(const Eigen::MatrixXd& a) {
+    return (a.transpose() * a).inverse();
+}
+
+Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    const double cosine = from.dot(to);
+    if (cosine < -1.0 + Eigen::NumTraits<double>::dummy_precision()) {
+        const Eigen::Vector3d across = from.unitOrthogonal();
+        return {0.0, across.x(), across.y(), across.z()};
+    }
+    const double doubled = std::sqrt(2.0 * (1.0 + cosine));
+    const Eigen::Vector3d axis = from.cross(to) / doubled;
+    return {0.5 * doubled, axis.x(), axis.y(), axis.z()};
 }
 
 }  // namespace fidservo::calib

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t least_stands = 4;
 constexpr double least_counts = 20.0;
-constexpr double least_noise_count = 2e-4;
+constexpr double least_noise_beside_rounding_count = 2e-4;
 constexpr double reach_in_noise = 6.0;  ///< beyond a count's edge nothing is left of the likelihood
 
 /// Stands about their middle: c = slope way + offset.
@@ -157,7 +157,7 @@ Result<EncoderScale> fit_encoder_scale(std::span<const EncoderStand> stands) {
     const double rough = (data.way_mm * data.count).sum() / data.way_mm.square().sum();
     const double slack = 4.0 / way_mm;  // two counts at either end
     const double best = widest_slope(data, rough - slack, rough + slack);
-    data.noise_count = std::max(least_noise_count, std::sqrt(variance_mm2) * std::abs(best));
+    data.noise_count = std::max(least_noise_beside_rounding_count, std::sqrt(variance_mm2) * std::abs(best));
 
     EncoderScale scale{};
     scale.excess_count = std::max(0.0, -0.5 * offsets_at(data, best).width());

@@ -1,5 +1,6 @@
 #include "calib/hall_curve.h"
 
+#include "calib/dense.h"
 #include "calib/preisach_data.h"
 
 #include <algorithm>
@@ -43,21 +44,20 @@ Eigen::Matrix4d derivatives(const Polynomial& p, const Eigen::Vector4d& std, dou
 }
 
 /// A linear fit with what is needed to judge it. Powers of x - about, which keeps the columns apart.
-struct Fit {
+struct CurveFit {
     Eigen::VectorXd coefficients;
     Eigen::MatrixXd covariance;
     double rms = 0.0;
 };
 
-Fit fit_columns(const Eigen::MatrixXd& a, const Eigen::VectorXd& v, double floor) {
-    Fit fit;
-    const auto factor = a.colPivHouseholderQr();
-    fit.coefficients = factor.solve(v);
+CurveFit fit_columns(const Eigen::MatrixXd& a, const Eigen::VectorXd& v, double floor) {
+    CurveFit fit;
+    fit.coefficients = least_squares(a, v);
     const Eigen::VectorXd residual = v - a * fit.coefficients;
     const auto freedom = static_cast<double>(a.rows() - a.cols());
     const double variance = std::max(residual.squaredNorm() / freedom, floor * floor);
     const double length = correlation_length({residual.data(), static_cast<std::size_t>(residual.size())});
-    fit.covariance = (a.transpose() * a).inverse() * variance * length;
+    fit.covariance = inverse_of_gram(a) * variance * length;
     fit.rms = std::sqrt(residual.squaredNorm() / static_cast<double>(a.rows()));
     return fit;
 }
@@ -90,7 +90,7 @@ Data usable(const HallParameters& hall, std::span<const HallSample> samples) {
 }
 
 /// Mid and span with centre and cubic as the nominal curve has them.
-Fit fit_line(const HallParameters& nominal, const Data& data, double floor_V) {
+CurveFit fit_nominal_line(const HallParameters& nominal, const Data& data, double floor_V) {
     HallParameters unit = nominal;
     unit.mid_V = 0.0;
     unit.span_V = 1.0;
@@ -100,20 +100,20 @@ Fit fit_line(const HallParameters& nominal, const Data& data, double floor_V) {
     return fit_columns(a, data.reading_V, floor_V);
 }
 
-Fit fit_cubic(const Data& data, double about_mm, double floor_V) {
+CurveFit fit_cubic(const Data& data, double about_mm, double floor_V) {
     Eigen::MatrixXd a(data.reference_mm.size(), 4);
     const Eigen::ArrayXd d = data.reference_mm.array() - about_mm;
     a << Eigen::VectorXd::Ones(d.size()), d.matrix(), d.square().matrix(), d.cube().matrix();
     return fit_columns(a, data.reading_V, floor_V);
 }
 
-double end_error_V(const Fit& cubic, double at_mm) {
+double end_error_V(const CurveFit& cubic, double at_mm) {
     const Eigen::Vector4d powers(1.0, at_mm, at_mm * at_mm, at_mm * at_mm * at_mm);
     return std::sqrt(powers.dot(cubic.covariance * powers));
 }
 
 /// Why a cubic is not a curve to be trusted over the travel; empty if it is.
-std::string doubt(const Fit& cubic, double worst_end_lsb) {
+std::string doubt(const CurveFit& cubic, double worst_end_lsb) {
     const double bend_std = std::sqrt(cubic.covariance(3, 3));
     if (!std::isfinite(bend_std) || std::abs(cubic.coefficients(3)) < significance * bend_std)
         return "the readings do not show the curve's bend: centre and cubic need references on both flat "
@@ -152,7 +152,7 @@ Result<HallCurve> fit_hall_curve(const HallParameters& nominal, std::span<const 
                                   travel_high_mm - travel_low_mm));
 
     const double floor_V = hall_lsb_V(nominal) / std::sqrt(12.0);
-    const Fit line = fit_line(nominal, data, floor_V);
+    const CurveFit line = fit_nominal_line(nominal, data, floor_V);
     const double span_V = line.coefficients(1);
     if (!(span_V > significance * std::sqrt(line.covariance(1, 1))))
         return refuse("the readings do not rise with the references");
@@ -174,7 +174,7 @@ Result<HallCurve> fit_hall_curve(const HallParameters& nominal, std::span<const 
     curve.hall.span_V = span_V;
 
     const double about = 0.5 * (low + high);
-    const Fit cubic = fit_cubic(data, about, floor_V);
+    const CurveFit cubic = fit_cubic(data, about, floor_V);
     const double worst_end_lsb =
         std::max(end_error_V(cubic, travel_low_mm - about), end_error_V(cubic, travel_high_mm - about)) /
         hall_lsb_V(nominal);

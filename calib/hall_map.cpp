@@ -1,5 +1,7 @@
 #include "calib/hall_map.h"
 
+#include "calib/dense.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -44,7 +46,7 @@ class NominalTrace {
     std::vector<double> sum_;
 };
 
-struct Fit {
+struct MapFit {
     Eigen::VectorXd coefficients;  ///< y, k1, k2, k3 (or y, k1)
     double slope_std = 0.0;
     double squares = std::numeric_limits<double>::infinity();
@@ -52,8 +54,8 @@ struct Fit {
     Eigen::Index sights = 0;
 };
 
-Fit fit_at_delay(const NominalTrace& trace, TimeNs start_ns, std::span<const CameraSight> sights,
-                 double exposure_s, double delay_s) {
+MapFit fit_at_delay(const NominalTrace& trace, TimeNs start_ns, std::span<const CameraSight> sights,
+                    double exposure_s, double delay_s) {
     std::vector<std::pair<double, double>> pairs;
     for (const CameraSight& sight : sights) {
         const double d_mm = trace.mean_mm(seconds(sight.time_ns - start_ns) - delay_s, exposure_s);
@@ -61,7 +63,7 @@ Fit fit_at_delay(const NominalTrace& trace, TimeNs start_ns, std::span<const Cam
     }
     if (pairs.size() < least_sights) return {};
     const auto [low, high] = std::minmax_element(pairs.begin(), pairs.end());
-    Fit fit;
+    MapFit fit;
     fit.travel_mm = high->first - low->first;
     fit.sights = static_cast<Eigen::Index>(pairs.size());
     const Eigen::Index terms = fit.travel_mm >= cubic_travel_mm ? 4 : 2;
@@ -72,9 +74,9 @@ Fit fit_at_delay(const NominalTrace& trace, TimeNs start_ns, std::span<const Cam
         for (Eigen::Index j = 0; j < terms; ++j) a(i, j) = std::pow(d_mm, static_cast<double>(j));
         s(i) = s_mm;
     }
-    fit.coefficients = a.colPivHouseholderQr().solve(s);
+    fit.coefficients = least_squares(a, s);
     fit.squares = (a * fit.coefficients - s).squaredNorm();
-    const Eigen::MatrixXd inverse = (a.transpose() * a).inverse();
+    const Eigen::MatrixXd inverse = inverse_of_gram(a);
     fit.slope_std = std::sqrt(inverse(1, 1) * fit.squares / static_cast<double>(fit.sights - terms));
     return fit;
 }
@@ -99,7 +101,7 @@ Result<HallMap> fit_hall_map(const HallParameters& hall, const HallTrace& trace,
     const double curvature = (below - 2.0 * best_squares + above) / (delay_step_s * delay_step_s);
     if (std::isfinite(curvature) && curvature > 0.0)
         best_s += (below - above) / (2.0 * delay_step_s * curvature);
-    const Fit fit = at(best_s);
+    const MapFit fit = at(best_s);
     if (!(fit.travel_mm >= least_travel_mm))
         return failure(Reason::not_identifiable,
                        "the platform moved less than 1 mm in view during the tuning sweep");

@@ -9,12 +9,12 @@ namespace fidservo::calib {
 
 namespace {
 
-constexpr std::size_t window = 11, half_window = window / 2;
+constexpr std::size_t median_window = 11, half_median_window = median_window / 2;
 
 /// The values around k, fewer at the ends.
 std::span<const double> around(std::span<const double> values, std::size_t k) {
-    const std::size_t first = k - std::min(k, half_window),
-                      last = std::min(values.size(), k + half_window + 1);
+    const std::size_t first = k - std::min(k, half_median_window),
+                      last = std::min(values.size(), k + half_median_window + 1);
     return values.subspan(first, last - first);
 }
 
@@ -44,12 +44,12 @@ std::vector<std::size_t> corrupt_samples(std::span<const double> command) {
     const double range = usual_range(command);
     std::vector<std::size_t> corrupt;
     corrupt.reserve(16);
-    if (command.size() < window) return corrupt;
+    if (command.size() < median_window) return corrupt;
     for (std::size_t k = 0; k < command.size(); ++k) {
         const auto near = around(command, k);
         const double middle = median_of(std::vector(near.begin(), near.end()));
         std::vector<double> away;
-        away.reserve(window);
+        away.reserve(median_window);
         for (const double value : near) away.push_back(std::abs(value - middle));
         const double threshold = std::max(share_of_range * range, spreads * median_of(away));
         if (std::abs(command[k] - middle) > threshold) corrupt.push_back(k);

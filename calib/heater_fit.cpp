@@ -19,7 +19,7 @@ namespace fidservo::calib {
 namespace {
 
 constexpr int numbers = static_cast<int>(heater_numbers);
-constexpr std::size_t most_rows = 40'000;
+constexpr std::size_t most_heater_rows = 40'000;
 constexpr std::size_t least_rows = 50;
 constexpr double least_share_of_stroke = 0.1;
 
@@ -60,7 +60,7 @@ class Residuals {
         : runs_(runs), predict_(predict), scale_(scale) {
         std::size_t all = 0;
         for (const HeaterRun& run : runs) all += run.reading.size();
-        stride_ = 1 + all / most_rows;
+        stride_ = 1 + all / most_heater_rows;
         for (const HeaterRun& run : runs)
             for (std::size_t k = 0; k < run.reading.size(); k += stride_) count_ += weight(run, k) > 0.0;
     }
@@ -267,13 +267,13 @@ Status check(const std::vector<HeaterRun>& runs) {
     return {};
 }
 
-struct Range {
+struct ColumnRange {
     double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
     double size() const { return high - low; }
 };
 
-Range range_over(const std::vector<HeaterRun>& runs, std::vector<double> HeaterRun::*column) {
-    Range range;
+ColumnRange range_over(const std::vector<HeaterRun>& runs, std::vector<double> HeaterRun::*column) {
+    ColumnRange range;
     for (const HeaterRun& run : runs)
         for (const double value : run.*column) {
             range.low = std::min(range.low, value);
@@ -337,7 +337,7 @@ std::vector<double> predict_hall(const MicroModel& model, const HeaterParameters
 
 Result<HeaterFit> fit_heater(const MicroModel& model, const std::vector<HeaterRun>& runs) {
     if (const Status checked = check(runs); !checked) return tl::make_unexpected(checked.error());
-    const Range adc = range_over(runs, &HeaterRun::reading);
+    const ColumnRange adc = range_over(runs, &HeaterRun::reading);
     const double stroke_lsb = (hall_voltage_V(model.hall, model.stroke_scale * model.fod->stroke_mm()) -
                                hall_voltage_V(model.hall, 0.0)) /
                               hall_lsb_V(model.hall);
@@ -358,7 +358,8 @@ Result<HeaterFit> fit_heater(const MicroModel& model, const std::vector<HeaterRu
 
 Result<HeaterFit> fit_heater_to_temperature(const std::vector<HeaterRun>& runs) {
     if (const Status checked = check(runs); !checked) return tl::make_unexpected(checked.error());
-    const Range command = range_over(runs, &HeaterRun::command), temp = range_over(runs, &HeaterRun::reading);
+    const ColumnRange command = range_over(runs, &HeaterRun::command),
+                      temp = range_over(runs, &HeaterRun::reading);
     if (!(command.size() > 0.0)) return failure(Reason::not_identifiable, "the command does not move");
     if (!(temp.size() > 0.0)) return failure(Reason::not_identifiable, "the temperature does not move");
     std::vector<HeaterRun> started = runs;

@@ -16,7 +16,7 @@ namespace {
 constexpr double prior_width = 10.0;              // times what the data show
 constexpr double prior_log_time_constant = -2.3;  // 0.1 s, within a factor of e^3
 constexpr double prior_log_time_constant_std = 3.0;
-constexpr double least_noise_count = 0.05;
+constexpr double least_encoder_noise_count = 0.05;
 
 /// Largest mean speed over 20 ms.
 double fastest(const std::vector<MacroWindow>& windows) {
@@ -151,7 +151,7 @@ double MacroEstimator::residual_count(const MacroPoint& point) const {
 
 double MacroEstimator::noise_count(const MacroPoint& point) const {
     const double residual = residual_count(point);
-    return std::max(least_noise_count, std::sqrt(std::max(0.0, residual * residual - 1.0 / 12.0)));
+    return std::max(least_encoder_noise_count, std::sqrt(std::max(0.0, residual * residual - 1.0 / 12.0)));
 }
 
 /// Columns: derivative of the predicted place (counts) by each parameter, then by the start's position and

@@ -1,5 +1,6 @@
 #include "calib/macro_step_response.h"
 
+#include "calib/dense.h"
 #include "calib/macro_threshold.h"
 #include "core/failure.h"
 
@@ -109,7 +110,7 @@ Result<DeadZoneModel> dead_zone_from_amplitudes(std::span<const SteadySpeed> spe
     }
     if (rows < 2 || high_V - low_V < least_span * 0.5 * (high_V + low_V))
         return failure(Reason::not_identifiable, "a0 and delta need steps of several amplitudes");
-    const Eigen::Vector2d fit = line.colPivHouseholderQr().solve(speed);
+    const Eigen::Vector2d fit = least_squares(line, speed);
     return DeadZoneModel{fit[0], 1.0 + fit[1] / fit[0] * (threshold_V - unit_V), fit[1] / fit[0]};
 }
 

@@ -96,7 +96,7 @@ struct Line {
 };
 
 /// Weighted by the variances' own scatter at the modelled variance, in a few rounds; the points take it over.
-Line fit_line(std::vector<TransferPoint>& points) {
+Line fit_transfer_line(std::vector<TransferPoint>& points) {
     constexpr int rounds = 4;
     std::vector<double> relative_std;
     relative_std.reserve(points.size());
@@ -160,7 +160,7 @@ Result<PhotonTransfer> measure_noise(const std::vector<std::vector<cv::Mat>>& bu
     if (points.size() < least_points)
         return failure(Reason::not_identifiable,
                        "too few pixels away from edges and from black and white for the camera's noise");
-    const Line line = fit_line(points);
+    const Line line = fit_transfer_line(points);
     const double widen = std::max(1.0, line.misfit);
     const double slope = line.value(0);
     const double slope_std = std::sqrt(widen * line.covariance(0, 0));

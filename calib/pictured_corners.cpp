@@ -9,13 +9,13 @@ namespace fidservo::calib {
 
 namespace {
 
-constexpr int cells = 8;
-constexpr int points = (cells + 1) * (cells + 1);
+constexpr int picture_cells = 8;
+constexpr int picture_points = (picture_cells + 1) * (picture_cells + 1);
 
 /// Of point i, in units of half the tag's side.
 Eigen::Vector2d point_at(int i) {
-    const int column = i % (cells + 1), row = i / (cells + 1);
-    return {2.0 * column / cells - 1.0, 2.0 * row / cells - 1.0};
+    const int column = i % (picture_cells + 1), row = i / (picture_cells + 1);
+    return {2.0 * column / picture_cells - 1.0, 2.0 * row / picture_cells - 1.0};
 }
 
 /// The border is an edge all along; of the lines between cells about half.
@@ -35,8 +35,8 @@ using Smoother = Eigen::Matrix<double, 8, Eigen::Dynamic>;
 /// From the shifts of all points to those of the nearest perspective picture's corners.
 Smoother make_smoother() {
     Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
-    Smoother weighted(8, 2 * points);
-    for (int i = 0; i < points; ++i) {
+    Smoother weighted(8, 2 * picture_points);
+    for (int i = 0; i < picture_points; ++i) {
         const Eigen::Vector2d p = point_at(i);
         const auto changes = perspective_changes(p);
         weighted.middleCols<2>(2 * i) = weight_at(p) * changes.transpose();
@@ -65,8 +65,8 @@ std::array<Eigen::Vector2d, 4> pictured_corners(const CameraGeometry& camera, co
     const Eigen::Vector2d along = (corners[1] - corners[0]).normalized();
     Eigen::Matrix2d picture_from_tag;
     picture_from_tag << along.x(), -along.y(), along.y(), along.x();
-    Eigen::Matrix<double, 2 * points, 1> shift;
-    for (int i = 0; i < points; ++i) {
+    Eigen::Matrix<double, 2 * picture_points, 1> shift;
+    for (int i = 0; i < picture_points; ++i) {
         const Eigen::Vector2d plate_mm = tag.centre_mm + tag_turn * (0.5 * tag.side_mm * point_at(i));
         const Eigen::Vector2d ideal_px = project(pinhole, plate_mm, s_mm);
         Eigen::Vector2d ideal = (ideal_px - camera.principal_point_px) / camera.focal_px;

@@ -73,8 +73,7 @@ PlanePose pose_of_homography(const CameraGeometry& lens, const Eigen::Matrix3d& 
 CameraGeometry camera_at(const CameraGeometry& lens, const PlanePose& pose) {
     // R = R_tilt R_z with R_tilt about an axis in the image plane: R_tilt takes the z axis to R's third
     // column.
-    const Eigen::Quaterniond tilt =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), pose.turn.col(2));
+    const Eigen::Quaterniond tilt = turn_between(Eigen::Vector3d::UnitZ(), pose.turn.col(2));
     const Eigen::AngleAxisd tilt_vector(tilt);
     const Eigen::Matrix3d turn = tilt.toRotationMatrix().transpose() * pose.turn;
     CameraGeometry camera = lens;

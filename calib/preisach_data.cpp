@@ -15,11 +15,11 @@ constexpr std::size_t fewest_nodes = 3, most_nodes = 80;
 constexpr double range_share = 0.01;  ///< this near to the end of its range an input counts as there
 constexpr double largest = 1e100;     ///< beyond, squares overflow
 
-struct Range {
+struct InputRange {
     double low, high;
 };
 
-Range range_of(std::span<const double> values) {
+InputRange range_of(std::span<const double> values) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     return {*low, *high};
 }
@@ -29,7 +29,7 @@ bool all_usable(std::span<const double> values) {
                        [](double value) { return std::isfinite(value) && std::abs(value) < largest; });
 }
 
-bool moves(const Range& range) {
+bool moves(const InputRange& range) {
     return range.high - range.low > 1e-9 * std::max(std::abs(range.low), std::abs(range.high));
 }
 
@@ -152,7 +152,7 @@ double smallest_step(std::span<const double> values) {
 
 std::size_t first_known_memory(std::span<const double> input) {
     if (input.empty()) return 0;
-    const Range range = range_of(input);
+    const InputRange range = range_of(input);
     const double near = range_share * (range.high - range.low);
     const auto found = std::find_if(input.begin(), input.end(), [&](double value) {
         return value <= range.low + near || value >= range.high - near;

@@ -12,11 +12,11 @@ namespace fidservo::calib {
 
 namespace {
 
-constexpr std::size_t most_rows = 9000, stretches = 10;
+constexpr std::size_t most_preisach_rows = 9000, stretches = 10;
 constexpr std::array penalties{1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
 
 /// The moments of the two alternately held-out parts, and the cells' extreme shares.
-struct Sums {
+struct FoldMoments {
     std::array<PreisachMoments, 2> parts;
     std::vector<double> least, most;
     std::size_t rows = 0, stride = 1;
@@ -36,14 +36,15 @@ void for_each_row(const PreisachGrid& grid, std::span<const double> input, std::
     }
 }
 
-Sums accumulate(const PreisachGrid& grid, std::span<const double> input, std::span<const double> output,
-                double direction, std::size_t first, std::size_t last) {
+FoldMoments accumulate(const PreisachGrid& grid, std::span<const double> input,
+                       std::span<const double> output, double direction, std::size_t first,
+                       std::size_t last) {
     const std::size_t n = cell_count(grid);
-    Sums sums{{PreisachMoments(n), PreisachMoments(n)},
-              std::vector<double>(n, 1.0),
-              std::vector<double>(n, 0.0),
-              0,
-              1 + (last - first) / most_rows};
+    FoldMoments sums{{PreisachMoments(n), PreisachMoments(n)},
+                     std::vector<double>(n, 1.0),
+                     std::vector<double>(n, 0.0),
+                     0,
+                     1 + (last - first) / most_preisach_rows};
     for_each_row(grid, input, first, last, sums.stride, [&](std::size_t k, std::span<const double> shares) {
         const std::size_t stretch = (k - first) * stretches / (last - first);
         sums.parts[stretch % 2].add(shares, direction * output[k]);
@@ -60,7 +61,7 @@ struct Choice {
     double penalty, held_out_rms;
 };
 
-Choice choose_penalty(const Sums& sums, std::span<const double> rough) {
+Choice choose_penalty(const FoldMoments& sums, std::span<const double> rough) {
     Choice best{penalties.back(), std::numeric_limits<double>::infinity()};
     for (const double penalty : penalties) {
         double squares = 0.0, count = 0.0;
@@ -99,7 +100,7 @@ Result<PreisachFit> fit_preisach(const HysteresisTrace& trace, const PreisachFit
         return failure(Reason::not_identifiable, "the grid's lower end is not below its upper end");
     const PreisachGrid grid{low, (high - low) / static_cast<double>(options.nodes - 1), options.nodes};
     const double direction = direction_of(trace);
-    const Sums sums = accumulate(grid, input, trace.output, direction, first, last);
+    const FoldMoments sums = accumulate(grid, input, trace.output, direction, first, last);
     const std::vector<double> rough = roughness(grid);
     const Choice choice = choose_penalty(sums, rough);
     PreisachMoments all = sums.parts[0];

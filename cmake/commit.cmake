@@ -11,6 +11,10 @@ file(CONFIGURE OUTPUT ${FILE} @ONLY CONTENT [[#include "src/commit.h"
 
 namespace fidservo {
 
+const char* program_version() {
+    return "@VERSION@";
+}
+
 const char* built_from_commit() {
     return "@commit@";
 }

@@ -24,7 +24,7 @@ constexpr int finish_limit_ms = 2'000;
 /// In timeouts: a guardian that does not look at the program for so long is taken for dead.
 constexpr int guardian_patience = 10;
 
-[[noreturn]] void fail(const char* what) {
+[[noreturn]] void throw_not_started(const char* what) {
     throw RunFault(std::string("the guardian process cannot be started: ") + what + ": " +
                    std::strerror(errno));
 }
@@ -64,7 +64,7 @@ std::string first_words(int ready_fd) {
 GuardianMemory* map_shared() {
     void* const shared =
         ::mmap(nullptr, sizeof(GuardianMemory), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (shared == MAP_FAILED) fail("shared memory");
+    if (shared == MAP_FAILED) throw_not_started("shared memory");
     return new (shared) GuardianMemory;
 }
 
@@ -84,7 +84,7 @@ Guardian::Guardian(GuardianOptions options, BoardFactory open_board)
 
 void Guardian::start() {
     std::array<int, 2> ready{};
-    if (::pipe2(ready.data(), O_CLOEXEC) != 0) fail("pipe");
+    if (::pipe2(ready.data(), O_CLOEXEC) != 0) throw_not_started("pipe");
     {
         const SignalsBlocked no_signals;
         const pid_t program = ::getpid();

@@ -14,7 +14,7 @@ namespace fidservo::control {
 
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, int error) {
+[[noreturn]] void throw_board_fault(const std::filesystem::path& file, int error) {
     throw RunFault(file.string() + ": registers of the simulated board: " + std::strerror(error));
 }
 
@@ -22,10 +22,10 @@ namespace {
 /// a bus error.
 int open_with_room(const std::filesystem::path& file, std::size_t bytes) {
     const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    if (fd < 0) fail(file, errno);
+    if (fd < 0) throw_board_fault(file, errno);
     if (const int error = ::posix_fallocate(fd, 0, static_cast<off_t>(bytes)); error != 0) {
         ::close(fd);
-        fail(file, error);
+        throw_board_fault(file, error);
     }
     return fd;
 }
@@ -42,7 +42,7 @@ SimulatedBoard::SimulatedBoard(const std::filesystem::path& file) {
     void* const mapped = ::mmap(nullptr, sizeof(Registers), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     const int error = errno;
     ::close(fd);
-    if (mapped == MAP_FAILED) fail(file, error);
+    if (mapped == MAP_FAILED) throw_board_fault(file, error);
     registers_ = new (mapped) Registers{0.0, 0.0};
 }
 

@@ -7,15 +7,15 @@ namespace fidservo::control {
 
 namespace {
 
-void enter(PositionerState& state, PositionerPhase phase) {
+void enter_phase(PositionerState& state, PositionerPhase phase) {
     state.phase = phase;
     state.phase_s = 0.0;
 }
 
-void fail(PositionerState& state, Reason why) {
+void give_up(PositionerState& state, Reason why) {
     state.why = why;
     state.macro.setpoint_count.reset();
-    enter(state, PositionerPhase::failed);
+    enter_phase(state, PositionerPhase::failed);
 }
 
 bool in_reach(const PositionerParams& params, double position_mm) {
@@ -31,33 +31,33 @@ void begin_macro(const PositionerParams& params, PositionerState& state, double 
     const double goal_count =
         static_cast<double>(state.macro.last_count.value_or(0)) + carriage_mm / params.count_mm;
     macro_go_to(state.macro, std::clamp(goal_count, state.travel.low_count, state.travel.high_count));
-    enter(state, PositionerPhase::macro_move);
+    enter_phase(state, PositionerPhase::macro_move);
 }
 
 void begin_look(PositionerState& state, TimeNs now_ns) {
     state.rest_since_ns = now_ns;
     state.frames = 0;
-    enter(state, PositionerPhase::look);
+    enter_phase(state, PositionerPhase::look);
 }
 
 void begin_micro(const PositionerParams& params, PositionerState& state) {
-    if (++state.moves > params.most_moves) return fail(state, Reason::no_convergence);
+    if (++state.moves > params.most_moves) return give_up(state, Reason::no_convergence);
     micro_begin_move(params.micro, state.micro, state.micro.average_mm + state.reached.needed_mm);
-    enter(state, PositionerPhase::micro_move);
+    enter_phase(state, PositionerPhase::micro_move);
 }
 
 /// Decides on two frames that agree.
 void decide(const PositionerParams& params, PositionerState& state) {
     if (std::abs(state.reached.needed_mm) <= params.tolerance_mm)
-        return enter(state, PositionerPhase::arrived);
+        return enter_phase(state, PositionerPhase::arrived);
     if (in_reach(params, state.micro.average_mm + state.reached.needed_mm)) return begin_micro(params, state);
-    if (++state.recentres > params.most_recentres) return fail(state, Reason::out_of_reach);
+    if (++state.recentres > params.most_recentres) return give_up(state, Reason::out_of_reach);
     begin_macro(params, state, state.reached.needed_mm);
 }
 
 void look(const PositionerParams& params, PositionerState& state, const std::optional<TargetOffset>& seen) {
     if (state.phase_s > params.look_timeout_s)
-        return fail(state, state.frames ? Reason::not_at_rest : Reason::no_tag);
+        return give_up(state, state.frames ? Reason::not_at_rest : Reason::no_tag);
     if (!seen || seen->time_ns < state.rest_since_ns) return;
     state.looks[0] = state.looks[1];
     state.looks[1] = *seen;
@@ -72,14 +72,14 @@ void look(const PositionerParams& params, PositionerState& state, const std::opt
 void macro_move(const PositionerParams& params, PositionerState& state) {
     if (macro_is_near(state.macro, params.macro_near_count) || macro_is_quiet(params.macro, state.macro)) {
         state.macro.setpoint_count.reset();
-        enter(state, PositionerPhase::macro_settle);
+        enter_phase(state, PositionerPhase::macro_settle);
     } else if (state.phase_s > params.macro_timeout_s) {
-        fail(state, Reason::no_convergence);
+        give_up(state, Reason::no_convergence);
     }
 }
 
-void advance(const PositionerParams& params, PositionerState& state, const StageSample& sample,
-             const std::optional<TargetOffset>& seen) {
+void advance_phase(const PositionerParams& params, PositionerState& state, const StageSample& sample,
+                   const std::optional<TargetOffset>& seen) {
     switch (state.phase) {
         case PositionerPhase::macro_move:
             return macro_move(params, state);
@@ -90,8 +90,8 @@ void advance(const PositionerParams& params, PositionerState& state, const Stage
         case PositionerPhase::look:
             return look(params, state, seen);
         case PositionerPhase::micro_move:
-            if (state.micro.phase == MicroPhase::failed) return fail(state, Reason::no_convergence);
-            if (state.micro.phase == MicroPhase::hold) enter(state, PositionerPhase::micro_settle);
+            if (state.micro.phase == MicroPhase::failed) return give_up(state, Reason::no_convergence);
+            if (state.micro.phase == MicroPhase::hold) enter_phase(state, PositionerPhase::micro_settle);
             return;
         case PositionerPhase::micro_settle:
             if (state.phase_s >= params.micro_settle_s) begin_look(state, sample.time_ns);
@@ -129,7 +129,7 @@ void positioner_begin(const PositionerParams& params, PositionerState& state, do
     state.move_s = state.macro_s = state.micro_s = 0.0;
     state.moves = state.recentres = 0;
     if (in_reach(params, state.micro.average_mm + needed_mm)) {
-        enter(state, PositionerPhase::macro_settle);
+        enter_phase(state, PositionerPhase::macro_settle);
     } else {
         begin_macro(params, state, needed_mm);
     }
@@ -142,7 +142,7 @@ PositionerOutput positioner_update(const PositionerParams& params, PositionerSta
     state.phase_s += params.macro.tick_s;
     state.move_s += params.macro.tick_s;
     if (state.moves > 0) state.micro_s += params.macro.tick_s;
-    advance(params, state, sample, seen);
+    advance_phase(params, state, sample, seen);
     return {{macro_V, micro_V}, state.phase == PositionerPhase::look};
 }
 

@@ -21,15 +21,15 @@ constexpr double answer_mm = 0.05;       ///< of the platform
 constexpr int rest_counts = 2;           ///< that the encoder may show of a stage at rest
 constexpr double cooling_taus = 3.0;
 
-void enter(StageCheckState& state, StageCheckPhase phase) {
+void enter_check(StageCheckState& state, StageCheckPhase phase) {
     if (state.phase == StageCheckPhase::push) state.pushed_s = state.phase_s;
     state.phase = phase;
     state.phase_start_ns.reset();
 }
 
-void fail(StageCheckState& state, std::string why) {
+void fail_check(StageCheckState& state, std::string why) {
     state.why = std::move(why);
-    enter(state, StageCheckPhase::failed);
+    enter_check(state, StageCheckPhase::failed);
 }
 
 struct Push {
@@ -55,13 +55,14 @@ void rest(const StageCheckParams& params, StageCheckState& state, const StageSam
     if (state.hall_samples++ == 0) state.start_count = sample.encoder_count;
     state.hall_sum += sample.hall_adc;
     if (std::abs(sample.encoder_count - state.start_count) > rest_counts)
-        return fail(state, "the encoder moves although the motor is off");
+        return fail_check(state, "the encoder moves although the motor is off");
     if (state.phase_s < params.rest_s) return;
     const double hall = state.hall_sum / state.hall_samples;
     if (hall < params.hall_low_adc || hall > params.hall_high_adc)
-        return fail(state, fmt::format("the Hall sensor reads {:.0f}; {:.0f} to {:.0f} belong to the travel",
-                                       hall, params.hall_low_adc, params.hall_high_adc));
-    enter(state, StageCheckPhase::push);
+        return fail_check(
+            state, fmt::format("the Hall sensor reads {:.0f}; {:.0f} to {:.0f} belong to the travel", hall,
+                               params.hall_low_adc, params.hall_high_adc));
+    enter_check(state, StageCheckPhase::push);
 }
 
 void judge_push(const StageCheckParams& params, StageCheckState& state, const StageSample& sample) {
@@ -71,20 +72,20 @@ void judge_push(const StageCheckParams& params, StageCheckState& state, const St
     const double good_for_mm = params.move_mm * state.pushed_s / push.duration_s;
     if (std::abs(along_mm) < params.least_share * params.move_mm) {
         if (++state.attempt == static_cast<int>(pushes.size()))
-            return fail(state, "the encoder does not answer to the motor, whichever way it is pushed");
+            return fail_check(state, "the encoder does not answer to the motor, whichever way it is pushed");
         state.start_count = sample.encoder_count;
-        return enter(state, StageCheckPhase::push);
+        return enter_check(state, StageCheckPhase::push);
     }
     if (along_mm < 0.0)
-        return fail(state,
-                    fmt::format("the encoder ran {:.2f} mm against the motor: one of "
-                                "stage.comedi.macro.reversed and stage.comedi.encoder.reversed is wrong",
-                                -along_mm));
+        return fail_check(
+            state, fmt::format("the encoder ran {:.2f} mm against the motor: one of "
+                               "stage.comedi.macro.reversed and stage.comedi.encoder.reversed is wrong",
+                               -along_mm));
     if (along_mm > params.most_share * good_for_mm)
-        return fail(state, fmt::format("the encoder ran {:.2f} mm at a push that is good for {:.2f} mm",
-                                       along_mm, good_for_mm));
+        return fail_check(state, fmt::format("the encoder ran {:.2f} mm at a push that is good for {:.2f} mm",
+                                             along_mm, good_for_mm));
     state.moved_mm = along_mm;
-    enter(state, StageCheckPhase::back);
+    enter_check(state, StageCheckPhase::back);
 }
 
 /// The platform may still be on its way down from an earlier heating: what counts is its way up from the
@@ -93,37 +94,37 @@ void judge_heat(const StageCheckParams& params, StageCheckState& state, const St
     const int lowest = state.lowest_hall_adc.value_or(sample.hall_adc);
     state.lowest_hall_adc = std::min(lowest, sample.hall_adc);
     if (sample.hall_adc - *state.lowest_hall_adc >= params.hall_answer_adc)
-        return enter(state, StageCheckPhase::cool);
+        return enter_check(state, StageCheckPhase::cool);
     if (state.phase_s < params.heat_limit_s) return;
     const double change = sample.hall_adc - state.hall_sum / state.hall_samples;
     if (change <= -params.hall_answer_adc)
-        return fail(state, "the Hall sensor's reading falls when the wire is heated");
-    fail(state, fmt::format("the Hall sensor does not answer to the heater: {:.0f} after {:.1f} s", change,
-                            params.heat_limit_s));
+        return fail_check(state, "the Hall sensor's reading falls when the wire is heated");
+    fail_check(state, fmt::format("the Hall sensor does not answer to the heater: {:.0f} after {:.1f} s",
+                                  change, params.heat_limit_s));
 }
 
-void advance(const StageCheckParams& params, StageCheckState& state, const StageSample& sample) {
+void advance_check(const StageCheckParams& params, StageCheckState& state, const StageSample& sample) {
     switch (state.phase) {
         case StageCheckPhase::rest:
             return rest(params, state, sample);
         case StageCheckPhase::push:
             if (state.phase_s >= push_of(params, state.attempt).duration_s)
-                enter(state, StageCheckPhase::coast);
+                enter_check(state, StageCheckPhase::coast);
             return;
         case StageCheckPhase::coast:
             if (state.phase_s >= params.coast_s) judge_push(params, state, sample);
             return;
         case StageCheckPhase::back:
             if (state.phase_s >= push_of(params, state.attempt).duration_s)
-                enter(state, StageCheckPhase::settle);
+                enter_check(state, StageCheckPhase::settle);
             return;
         case StageCheckPhase::settle:
-            if (state.phase_s >= params.coast_s) enter(state, StageCheckPhase::heat);
+            if (state.phase_s >= params.coast_s) enter_check(state, StageCheckPhase::heat);
             return;
         case StageCheckPhase::heat:
             return judge_heat(params, state, sample);
         case StageCheckPhase::cool:
-            if (state.phase_s >= params.cool_s) enter(state, StageCheckPhase::passed);
+            if (state.phase_s >= params.cool_s) enter_check(state, StageCheckPhase::passed);
             return;
         case StageCheckPhase::passed:
         case StageCheckPhase::failed:
@@ -151,7 +152,7 @@ StageCommand stage_check_update(const StageCheckParams& params, StageCheckState&
                                 const StageSample& sample) {
     if (!state.phase_start_ns) state.phase_start_ns = sample.time_ns;
     state.phase_s = seconds(sample.time_ns - *state.phase_start_ns);
-    advance(params, state, sample);
+    advance_check(params, state, sample);
     if (!state.phase_start_ns) state.phase_start_ns = sample.time_ns;
     if (state.phase == StageCheckPhase::push) return {push_of(params, state.attempt).command_V, 0.0};
     if (state.phase == StageCheckPhase::back) return {-push_of(params, state.attempt).command_V, 0.0};

@@ -9,7 +9,7 @@
 namespace fidservo::gap {
 namespace {
 
-Fit best_of(const BalanceFit& balanced, std::span<const Hypothesis> starts) {
+Fit best_balanced(const BalanceFit& balanced, std::span<const Hypothesis> starts) {
     std::vector<Fit> fits(starts.size());
     parallel_for(fits.size(), [&](std::size_t k) { fits[k] = balanced.fit(starts[k]); });
     return *std::ranges::min_element(fits, {}, &Fit::loss);
@@ -43,11 +43,11 @@ std::vector<plant::EffectSetting> balanced_springs(const Evidence& evidence, con
     const BalanceFit balanced(balance, evidence.windows(), wanted, base);
     std::vector<Hypothesis> starts;
     for (const std::vector<double>& shape : candidate.shapes) starts.push_back({{candidate.effect, shape}});
-    const plant::EffectSetting plain = best_of(balanced, starts).hypothesis.front();
+    const plant::EffectSetting plain = best_balanced(balanced, starts).hypothesis.front();
     starts.clear();
     for (plant::EffectSetting& form : richer_forms(plain)) starts.push_back({std::move(form)});
     if (starts.empty()) return {plain};
-    return {plain, best_of(balanced, starts).hypothesis.front()};
+    return {plain, best_balanced(balanced, starts).hypothesis.front()};
 }
 
 }  // namespace fidservo::gap

@@ -136,7 +136,7 @@ bool hides_within_counts(const plant::Effect& effect) {
     return effect.block == "macro.encoder" && unrefined_parameters(effect) == 1;
 }
 
-bool names(std::span<const std::string> list, std::string_view name) {
+bool is_in(std::span<const std::string> list, std::string_view name) {
     return std::ranges::find(list, name) != list.end();
 }
 
@@ -217,7 +217,7 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
             without, [&](const std::string& other) { return class_of(other) == class_of(name); });
     };
     const auto is_left_out = [&](std::string_view name) {
-        return is_withheld(name) || (!only.empty() && !names(only, name));
+        return is_withheld(name) || (!only.empty() && !is_in(only, name));
     };
     const auto is_limit = [&](std::string_view name) {
         return std::ranges::any_of(

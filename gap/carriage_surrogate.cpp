@@ -23,7 +23,7 @@ constexpr std::array<std::size_t, 2> late_ticks{2, 8};
 using Quantity = std::function<double(const SlidingRow&)>;
 
 /// What commands leave for motion by the file's friction, row by row of every recording, V.
-std::vector<std::vector<double>> effective_V(const Evidence& evidence) {
+std::vector<std::vector<double>> drive_after_dead_zone_V(const Evidence& evidence) {
     const DeadZone& zone = evidence.rig().macro.dead_zone;
     std::vector<std::vector<double>> all;
     for (const Recording& recording : evidence.recordings()) {
@@ -48,7 +48,7 @@ Quantity passed(const Quantity& force_V) {
 }
 
 /// Any force that is a function of a quantity, times a factor.
-void add_hats(
+void add_force_hats(
     std::vector<Column>& columns, const CarriageForces& forces, Dependence dependence,
     std::size_t knots_count, const Quantity& quantity,
     const Quantity& factor = [](const SlidingRow&) { return 1.0; }) {
@@ -81,7 +81,7 @@ void add_waves(std::vector<Column>& columns, const CarriageForces& forces, doubl
 /// of true gives it a periodic share of what the drive pushes with.
 /// @param effective_V  of effective_V()
 void add_waves_of_drive(std::vector<Column>& columns, const CarriageForces& forces,
-                        const Quantity& share_passed, const Quantity& effective_V) {
+                        const Quantity& share_passed, const Quantity& drive_after_dead_zone_V) {
     constexpr double shortest_V = 0.1, longest_V = 1.0, shortest_mm = 5.0, longest_mm = 50.0;
     const auto add = [&](Dependence dependence, const Quantity& quantity, const Quantity& factor,
                          double shortest, double longest, std::span<const double> harmonics) {
@@ -98,8 +98,8 @@ void add_waves_of_drive(std::vector<Column>& columns, const CarriageForces& forc
         Dependence::command_period, [](const SlidingRow& at) { return at.command_V; }, share_passed,
         shortest_V, longest_V, std::array{1.0, 2.0});
     add(
-        Dependence::position_drive, [](const SlidingRow& at) { return at.position_mm; }, effective_V,
-        shortest_mm, longest_mm, std::array{1.0});
+        Dependence::position_drive, [](const SlidingRow& at) { return at.position_mm; },
+        drive_after_dead_zone_V, shortest_mm, longest_mm, std::array{1.0});
 }
 
 /// Way gone from a recording's first row on, row by row of every recording, mm.
@@ -139,33 +139,33 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, dou
     const Quantity position_mm = [](const SlidingRow& at) { return at.position_mm; };
     const Quantity direction = [](const SlidingRow& at) { return at.direction; };
     const Quantity acceleration = [](const SlidingRow& at) { return at.acceleration_mm_per_s2; };
-    add_hats(columns, forces, Dependence::velocity, 12,
-             [](const SlidingRow& at) { return at.velocity_mm_per_s; });
+    add_force_hats(columns, forces, Dependence::velocity, 12,
+                   [](const SlidingRow& at) { return at.velocity_mm_per_s; });
     columns.push_back(
         force(forces, Dependence::velocity_share, [](const SlidingRow& at) { return at.velocity_mm_per_s; }));
     columns.push_back(force(forces, Dependence::direction, direction));
     columns.push_back(force(forces, Dependence::nothing, share_passed));
-    add_hats(columns, forces, Dependence::position, 16, position_mm, share_passed);
-    add_hats(columns, forces, Dependence::position_friction, 16, position_mm, direction);
+    add_force_hats(columns, forces, Dependence::position, 16, position_mm, share_passed);
+    add_force_hats(columns, forces, Dependence::position_friction, 16, position_mm, direction);
     columns.push_back(force(forces, Dependence::acceleration, acceleration));
     columns.push_back(reading(forces, Dependence::acceleration, acceleration));
-    add_hats(
+    add_force_hats(
         columns, forces, Dependence::command, 12, [](const SlidingRow& at) { return at.command_V; },
         share_passed);
     columns.push_back(
         force(forces, Dependence::command_share, passed([](const SlidingRow& at) { return at.command_V; })));
-    const std::vector<std::vector<double>> effective = effective_V(evidence);
+    const std::vector<std::vector<double>> effective = drive_after_dead_zone_V(evidence);
     for (const std::size_t ticks : late_ticks)
         columns.push_back(force(forces, Dependence::command_change, [&, ticks](const SlidingRow& at) {
             const std::vector<double>& of_run = effective[at.run];
             return of_run[at.row >= ticks ? at.row - ticks : 0] - of_run[at.row];
         }));
     const Quantity time_s = [](const SlidingRow& at) { return at.time_s; };
-    add_hats(columns, forces, Dependence::time, 6, time_s, share_passed);
+    add_force_hats(columns, forces, Dependence::time, 6, time_s, share_passed);
     const Quantity drive_V = [&](const SlidingRow& at) { return effective[at.run][at.row]; };
-    add_hats(columns, forces, Dependence::time, 6, time_s, drive_V);
+    add_force_hats(columns, forces, Dependence::time, 6, time_s, drive_V);
     const std::vector<std::vector<double>> way = way_mm(evidence);
-    add_hats(
+    add_force_hats(
         columns, forces, Dependence::way_friction, 6,
         [&](const SlidingRow& at) { return way[at.run][at.row]; }, direction);
     add_waves_of_drive(columns, forces, share_passed, drive_V);

@@ -13,7 +13,7 @@ namespace fidservo::gap {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double no_limit_V = std::numeric_limits<double>::infinity();
 
 /// Commands of a stretch, from the state in which a controller starts, or that its commands show where it is
@@ -21,7 +21,7 @@ constexpr double no_limit_V = std::numeric_limits<double>::infinity();
 using Replay = std::function<std::vector<double>(const Stretch&)>;
 
 /// Of the rows that it says something of; infinite where that is none.
-double mean_square(const std::vector<double>& errors) {
+double mean_square_of_finite(const std::vector<double>& errors) {
     double sum = 0.0, count = 0.0;
     for (const double error : errors) {
         if (std::isnan(error)) continue;
@@ -40,7 +40,7 @@ bool is_under_way(const Recording& recording, const Stretch& stretch, double Sta
 ControllerRun best_run(const Recording& recording, const std::vector<bool>& usable,
                        const std::vector<Replay>& candidates, double StageRow::*command_V) {
     ControllerRun run;
-    run.error_V.assign(recording.rows.size(), nan);
+    run.error_V.assign(recording.rows.size(), no_value);
     if (candidates.empty()) return run;
     for (const Stretch& stretch : stretches(recording, usable)) {
         const auto windows = cut(stretch, recording.tick_s, LeadIn::none);
@@ -49,7 +49,7 @@ ControllerRun best_run(const Recording& recording, const std::vector<bool>& usab
             std::vector<double> errors = replay(stretch);
             for (std::size_t i = 0; i < errors.size(); ++i)
                 errors[i] -= recording.rows[stretch.first + i].*command_V;
-            if (!best.empty() && mean_square(errors) >= mean_square(best)) continue;
+            if (!best.empty() && mean_square_of_finite(errors) >= mean_square_of_finite(best)) continue;
             best = std::move(errors);
         }
         for (const WindowRows& window : windows) {
@@ -82,7 +82,7 @@ ControllerRun macro_controller_run(const Recording& recording, const Rig& rig) {
                 if (restarts && is_new) state = {};
                 commands.push_back(control::pd_update(*rig.macro.pd, limit_V, state, error_count[k]));
             }
-            if (is_under_way(recording, stretch, &StageRow::macro_setpoint_mm)) commands.front() = nan;
+            if (is_under_way(recording, stretch, &StageRow::macro_setpoint_mm)) commands.front() = no_value;
             return commands;
         };
     };
@@ -106,7 +106,7 @@ ControllerRun macro_controller_run(const Recording& recording, const Rig& rig) {
                     control::pid_update(*rig.macro.pid, limit_V, recording.tick_s, state, error_count[k]));
             } else {
                 state.last_error_count = error_count[k];
-                commands.push_back(nan);
+                commands.push_back(no_value);
             }
         }
         return commands;
@@ -138,7 +138,7 @@ ControllerRun micro_controller_run(const Recording& recording, const Rig& rig) {
                     is_known = true;
                 }
                 commands.push_back(is_known ? control::pi_update(gains, recording.tick_s, state, error_mm)
-                                            : nan);
+                                            : no_value);
             }
             return commands;
         });

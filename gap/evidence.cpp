@@ -16,9 +16,9 @@ namespace fidservo::gap {
 
 namespace {
 
-constexpr std::array<std::string_view, signal_count> names{"encoder",       "hall",          "tag",
-                                                           "macro_command", "micro_command", "image"};
-constexpr std::array<std::string_view, signal_count> units{"count", "adc", "px", "V", "V", "floor"};
+constexpr std::array<std::string_view, signal_count> signal_names{"encoder",       "hall",          "tag",
+                                                                  "macro_command", "micro_command", "image"};
+constexpr std::array<std::string_view, signal_count> signal_units{"count", "adc", "px", "V", "V", "floor"};
 
 /// A hypothesis as the plants of the signal chain.
 struct Models {
@@ -221,11 +221,11 @@ double command_floor_V(const std::vector<Recording>& recordings, double StageRow
 }  // namespace
 
 std::string_view name_of(Signal signal) {
-    return names[index_of(signal)];
+    return signal_names[index_of(signal)];
 }
 
 std::string_view unit_of(Signal signal) {
-    return units[index_of(signal)];
+    return signal_units[index_of(signal)];
 }
 
 Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings) : parts_(std::make_unique<Parts>()) {

@@ -1,5 +1,6 @@
 #include "gap/first_sight.h"
 
+#include "gap/minimum_norm.h"
 #include "gap/parallel.h"
 #include "gap/score.h"
 #include "gap/slopes.h"
@@ -87,7 +88,7 @@ Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& count
         right += own_right / (count + squares);
     }
     const Eigen::MatrixXd full = normal.selfadjointView<Eigen::Lower>();
-    return full.completeOrthogonalDecomposition().solve(right);
+    return minimum_norm_solution(full, right);
 }
 
 Surroundings surroundings(const Predict& predict, std::span<const Window> windows, const Wanted& counted,

@@ -1,5 +1,6 @@
 #include "gap/fit.h"
 
+#include "gap/minimum_norm.h"
 #include "gap/parallel.h"
 #include "gap/scaled_parameters.h"
 #include "gap/score.h"
@@ -143,7 +144,7 @@ Eigen::MatrixXd sandwich(const Linearised& at, std::span<const Window> windows, 
         normal += weight * own;
         scatter += (weight * weight) * gradient * gradient.transpose();
     }
-    const Eigen::MatrixXd inverse = normal.completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::MatrixXd inverse = pseudo_inverse(normal);
     const Eigen::MatrixXd of_free = inverse * scatter * inverse;
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(all, all);
     for (Eigen::Index i = 0; i < width; ++i)

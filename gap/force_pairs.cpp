@@ -54,7 +54,7 @@ Shape shape_of(const Candidate& candidate, double period_mm) {
 }
 
 /// At shares of its typical sizes; nothing where a bound forbids that.
-std::optional<plant::EffectSetting> sized(const Shape& shape, const Eigen::VectorXd& shares) {
+std::optional<plant::EffectSetting> pair_setting(const Shape& shape, const Eigen::VectorXd& shares) {
     const Candidate& candidate = *shape.candidate;
     plant::EffectSetting setting{candidate.effect, shape.values};
     if (candidate.wave) {
@@ -137,8 +137,8 @@ class Products {
     Eigen::MatrixXd products_;
 };
 
-std::vector<Shape> shapes_of(std::span<const Candidate* const> candidates,
-                             std::span<const PositionPeriod> periods) {
+std::vector<Shape> shapes_of_pairs(std::span<const Candidate* const> candidates,
+                                   std::span<const PositionPeriod> periods) {
     std::vector<Shape> shapes;
     for (const Candidate* candidate : candidates)
         if (candidate->wave)
@@ -166,8 +166,8 @@ std::vector<ForcePair> best_along_shapes(const Products& products, std::span<con
                 return pair.first == one.candidate && pair.second == other.candidate;
             });
             if (known != pairs.end() && known->loss <= solution.left) continue;
-            const auto first = sized(one, solution.shares.head(one.columns())),
-                       second = sized(other, solution.shares.tail(other.columns()));
+            const auto first = pair_setting(one, solution.shares.head(one.columns())),
+                       second = pair_setting(other, solution.shares.tail(other.columns()));
             if (!first || !second) continue;
             ForcePair pair{.first = one.candidate,
                            .second = other.candidate,
@@ -260,7 +260,7 @@ std::vector<ForcePair> strongest_force_pairs(const Evidence& evidence, const Wan
     if (candidates.size() < 2) return {};
     const ForceBalance balance(evidence, wanted);
     if (balance.supports().empty()) return {};
-    std::vector<Shape> shapes = shapes_of(candidates, periods);
+    std::vector<Shape> shapes = shapes_of_pairs(candidates, periods);
     const std::vector<Window>& windows = evidence.windows();
     const Products products(evidence, balance, base, shapes);
     std::erase_if(shapes, [&](const Shape& shape) { return !products.shows(shape); });

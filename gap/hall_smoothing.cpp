@@ -62,7 +62,7 @@ std::vector<Stretch> pieces_of(const PlatformRun& run) {
 }
 
 /// Rows on either side, as far as there are.
-Stretch around(std::size_t at, std::size_t half, std::size_t rows) {
+Stretch stretch_around(std::size_t at, std::size_t half, std::size_t rows) {
     return {at < half ? 0 : at - half, std::min(rows, at + half + 1)};
 }
 
@@ -70,7 +70,7 @@ Stretch around(std::size_t at, std::size_t half, std::size_t rows) {
 std::size_t width_at(const LineFits& fits, std::size_t at, std::size_t rows, double floor_lsb) {
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = 0; i < half_widths.size(); ++i) {
-        const Stretch fitted = around(at, half_widths[i], rows);
+        const Stretch fitted = stretch_around(at, half_widths[i], rows);
         const double fit = fits.line(at, fitted.first, fitted.end);
         const double reach =
             interval_stds * floor_lsb * std::sqrt(LineFits::variance(at, fitted.first, fitted.end));
@@ -111,7 +111,7 @@ void smooth(const PlatformRun& run, const Stretch& piece, std::span<const double
     const std::vector<std::size_t> steady = medians(widths);
     for (std::size_t i = 0; i < rows; ++i) {
         const std::size_t k = piece.first + i;
-        const Stretch fitted = around(i, half_widths[steady[i]], rows);
+        const Stretch fitted = stretch_around(i, half_widths[steady[i]], rows);
         found.reading_lsb[k] = path_lsb[k] + residual_fits.line(i, fitted.first, fitted.end);
         found.std_lsb[k] =
             bias_share * run.floor_lsb * std::sqrt(LineFits::variance(i, fitted.first, fitted.end));

@@ -19,7 +19,7 @@ struct Look {
     Errors change = {};  ///< of the errors, per share of the shape's sizes
 };
 
-plant::EffectSetting sized(const Look& look, double share) {
+plant::EffectSetting at_share(const Look& look, double share) {
     const Candidate& candidate = *look.candidate;
     return sized(candidate, look.shape,
                  Eigen::VectorXd::Constant(static_cast<Eigen::Index>(candidate.sizes.size()), share));
@@ -37,7 +37,7 @@ std::vector<Look> looks_of(const Predict& predict, const Hypothesis& base, const
     for (const Candidate* candidate : candidates)
         for (const std::vector<double>& shape : candidate->shapes) looks.push_back({candidate, shape});
     parallel_for(looks.size(), [&](std::size_t k) {
-        looks[k].change = predict(with(base, std::array{sized(looks[k], probe)}));
+        looks[k].change = predict(with(base, std::array{at_share(looks[k], probe)}));
         for (std::size_t i = 0; i < looks[k].change.size(); ++i)
             looks[k].change[i] = (looks[k].change[i] - base_errors[i]) / static_cast<float>(probe);
     });
@@ -64,7 +64,7 @@ std::vector<PairSight> pairs_at_first_sight(const Predict& predict, std::span<co
         const Eigen::VectorXd shares = best_shares(windows, counted, base_errors, {one.change, other.change});
         PairSight& sight = sights[k] = {one.candidate, other.candidate, {}, 0.0};
         for (const double part : {1.0, 0.4}) {
-            Hypothesis settings{sized(one, part * shares(0)), sized(other, part * shares(1))};
+            Hypothesis settings{at_share(one, part * shares(0)), at_share(other, part * shares(1))};
             const double gain = gained(windows, counted, base_squares, predict(with(base, settings)));
             if (sight.settings.empty() || gain > sight.gain) {
                 sight.settings = std::move(settings);

@@ -16,7 +16,7 @@
 namespace fidservo::gap {
 namespace {
 
-constexpr double shortest_mm = 0.8, longest_mm = 50.0;
+constexpr double shortest_period_mm = 0.8, longest_period_mm = 50.0;
 
 /// What the supports of one window lack, and where they begin in the rows.
 struct Lacking {
@@ -90,7 +90,7 @@ class Waves {
 };
 
 /// The wave whose lack leaves errors of these shares of cosine and sine.
-Wave wave_of(const Eigen::Vector2d& cosine_sine) {
+Wave wave_from(const Eigen::Vector2d& cosine_sine) {
     return {cosine_sine.norm(), std::atan2(-cosine_sine.x(), -cosine_sine.y())};
 }
 
@@ -118,8 +118,8 @@ class Periodogram {
             right += window.weight * columns.transpose() * window.of_support;
         }
         const Eigen::Vector4d found = matrix.completeOrthogonalDecomposition().solve(right);
-        return {1.0 / per_mm, found.dot(right) / squares_, half_support_, wave_of(found.tail<2>()),
-                wave_of(found.head<2>())};
+        return {1.0 / per_mm, found.dot(right) / squares_, half_support_, wave_from(found.tail<2>()),
+                wave_from(found.head<2>())};
     }
 
     /// The highest place within a step to each side, by thirds.
@@ -171,11 +171,11 @@ std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Er
     if (forces.supports().empty()) return {};
     const auto [low, high] = std::ranges::minmax_element(forces.rows(), {}, &SlidingRow::position_mm);
     const double range_mm = high->position_mm - low->position_mm;
-    if (range_mm < 2.0 * shortest_mm) return {};
+    if (range_mm < 2.0 * shortest_period_mm) return {};
     Periodogram periodogram(evidence, forces);
     const double step_per_mm = 0.5 / range_mm;
     std::vector<PositionPeriod> all;
-    for (double per_mm = 1.0 / std::min(longest_mm, range_mm); per_mm <= 1.0 / shortest_mm;
+    for (double per_mm = 1.0 / std::min(longest_period_mm, range_mm); per_mm <= 1.0 / shortest_period_mm;
          per_mm += step_per_mm)
         all.push_back(periodogram.at(per_mm));
     std::vector<PositionPeriod> strongest = peaks(all);

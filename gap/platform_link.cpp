@@ -10,7 +10,7 @@ namespace fidservo::gap {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// What the carried temperature is trusted to. Where the wire is flat, readings say little of its
 /// temperature, and the noise that a looser trust lets in shows when the wire gets steep (50 LSB per degree
@@ -46,7 +46,7 @@ class Pass {
     Pass(const PlatformModel& model, const PlatformRun& run, const CarriagePath* carriage)
         : model_(model), run_(run), carriage_(carriage) {
         const std::size_t rows = run.command_V.size();
-        found_ = {std::vector(rows, nan), std::vector(rows, nan), std::vector(rows, nan)};
+        found_ = {std::vector(rows, not_known), std::vector(rows, not_known), std::vector(rows, not_known)};
     }
 
     PlatformPrediction predict() {

@@ -19,9 +19,9 @@ struct Row {
     double direction;  ///< of the temperature: -1 cooling, 1 heating
 };
 
-class Columns {
+class PlatformColumns {
   public:
-    explicit Columns(const Evidence& evidence) : evidence_(evidence) {
+    explicit PlatformColumns(const Evidence& evidence) : evidence_(evidence) {
         for (const Window& window : evidence.windows())
             if (window.signal == Signal::hall) size_ = std::max(size_, window.end);
     }
@@ -94,7 +94,7 @@ std::vector<std::vector<float>> of_each_run(
 /// What lies between the wire and the readings, whatever the temperature. With play between wire and platform
 /// the platform stays where it is after each turn of the wire, for the same way at any temperature; a wire
 /// that creeps follows itself with a lag, also where its end states are reached and warmth changes nothing.
-void add_wire_paths(std::vector<Column>& columns, const Columns& make, const Evidence& evidence) {
+void add_wire_paths(std::vector<Column>& columns, const PlatformColumns& make, const Evidence& evidence) {
     const auto wire_mm = of_each_run(evidence, [&](std::size_t run) { return wire_path_mm(evidence, run); });
     const auto add = [&](Dependence group, const std::function<std::vector<float>(std::size_t)>& changed) {
         const auto changed_mm = of_each_run(evidence, changed);
@@ -113,7 +113,7 @@ void add_wire_paths(std::vector<Column>& columns, const Columns& make, const Evi
 }  // namespace
 
 Surrogate platform_surrogate(const Evidence& evidence) {
-    const Columns make(evidence);
+    const PlatformColumns make(evidence);
     Surrogate surrogate{Signal::hall, {}, {}};
     std::vector<Column>& columns = surrogate.columns;
     const double tick_s = evidence.rig().tick_s;

@@ -1,5 +1,6 @@
 #include "gap/regression.h"
 
+#include "gap/minimum_norm.h"
 #include "gap/parallel.h"
 #include "gap/score.h"
 
@@ -16,7 +17,7 @@ namespace fidservo::gap {
 namespace {
 
 /// Standard deviations of its lead up to which the best group is not told from others.
-constexpr double tie_significance = 3.0;
+constexpr double column_tie_significance = 3.0;
 
 /// Of the columns' own weight: enough to hold columns that hardly differ from each other. Of the mean weight
 /// in their group: enough to hold those that the fitted half hardly has, as places that it does not visit.
@@ -42,7 +43,7 @@ Eigen::MatrixXd gram_of(const Window& window, const Errors& errors, std::span<co
     if (unknown.cols() == 0 || height <= unknown.cols()) return full;
     const Eigen::MatrixXd mixed = unknown.transpose() * all;
     const Eigen::MatrixXd own = unknown.transpose() * unknown;
-    return full - mixed.transpose() * own.completeOrthogonalDecomposition().solve(mixed);
+    return full - mixed.transpose() * minimum_norm_solutions(own, mixed);
 }
 
 double square_of(const CondensedWindow& window, std::span<const Eigen::Index> columns,
@@ -176,7 +177,7 @@ std::vector<int> Regression::significant_groups(double tail, double as_good) con
         const Trial best = *std::ranges::max_element(trials, {}, gain);
         std::erase_if(trials, [&](const Trial& trial) {
             return gain(trial) < as_good * gain(best) ||
-                   compare(windows_, trial.squares, best.squares).significance > tie_significance;
+                   compare(windows_, trial.squares, best.squares).significance > column_tie_significance;
         });
         const auto simplest = std::ranges::min_element(trials, {}, [&](const Trial& trial) {
             return std::pair(std::ranges::count(group_of_, trial.group), -gain(trial));

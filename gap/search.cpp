@@ -16,7 +16,7 @@ namespace fidservo::gap {
 namespace {
 
 /// A tie: what is behind the best by fewer standard deviations than this is not told from it.
-constexpr double tie_significance = 2.0;
+constexpr double effect_tie_significance = 2.0;
 
 /// Of what a signal exceeds its floor by where nothing is known: what an effect has to take away where it
 /// does not bring the signal to its floor.
@@ -354,7 +354,7 @@ bool Search::leaves_little(const CrossFit& fitted) const {
 
 bool Search::ties(const CrossFit& best, const CrossFit& other) const {
     const Comparison lead = fitter_.compared(other, best);
-    return lead.gain < least_gain || lead.significance < tie_significance;
+    return lead.gain < least_gain || lead.significance < effect_tie_significance;
 }
 
 }  // namespace fidservo::gap

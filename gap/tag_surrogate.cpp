@@ -18,9 +18,9 @@ namespace {
 using Pattern = std::function<CornerValues(const TagSight&)>;  ///< of corners, px
 using Along = std::function<double(const TagSight&)>;          ///< along the motion, px
 
-class Columns {
+class TagColumns {
   public:
-    explicit Columns(const Evidence& evidence) {
+    explicit TagColumns(const Evidence& evidence) {
         for (const Window& window : evidence.windows()) {
             if (window.signal != Signal::tag) continue;
             size_ = std::max(size_, window.end);
@@ -108,7 +108,7 @@ CornerValues across(const TagSight& sight) {
 /// the motion, one that is turned across it, both in proportion to a tag's place on the plate, wherever in
 /// the image it is seen. Tags that are each misplaced by themselves show across the motion alone, where no
 /// false reading of the stages can displace them.
-void add_plate(std::vector<Column>& columns, const Columns& make) {
+void add_plate(std::vector<Column>& columns, const TagColumns& make) {
     columns.push_back(make.along(Dependence::plate_place,
                                  [](const TagSight& sight) { return 1e-2 * sight.tag.centre_mm.x(); }));
     columns.push_back(make.of_corners(Dependence::plate_turn, [](const TagSight& sight) {
@@ -120,8 +120,8 @@ void add_plate(std::vector<Column>& columns, const Columns& make) {
         }));
 }
 
-void add_hats(std::vector<Column>& columns, const Columns& make, Dependence group, std::size_t count,
-              const Along& quantity) {
+void add_tag_hats(std::vector<Column>& columns, const TagColumns& make, Dependence group, std::size_t count,
+                  const Along& quantity) {
     const std::vector<double> knots = knots_by_share(make.all(quantity), count);
     if (knots.size() < 2) return;
     for (std::size_t k = 0; k < knots.size(); ++k)
@@ -131,7 +131,7 @@ void add_hats(std::vector<Column>& columns, const Columns& make, Dependence grou
 
 /// The period in the carriage's position that takes most of the errors along the motion, with each window's
 /// mean free; 0 where there are none.
-double strongest_period_mm(const Evidence& evidence, const Errors& errors, const Columns& make) {
+double strongest_period_mm(const Evidence& evidence, const Errors& errors, const TagColumns& make) {
     constexpr double shortest_mm = 1.0, longest_mm = 50.0;
     const std::vector<float> places = make.all([](const TagSight& sight) { return sight.position_mm; });
     if (places.empty()) return 0.0;
@@ -169,7 +169,7 @@ double strongest_period_mm(const Evidence& evidence, const Errors& errors, const
     return best_mm;
 }
 
-void add_image_places(std::vector<Column>& columns, const Columns& make, const CameraGeometry& camera) {
+void add_image_places(std::vector<Column>& columns, const TagColumns& make, const CameraGeometry& camera) {
     using Place = Eigen::Vector2d;
     const auto add = [&](const std::function<Place(const Place&)>& shift) {
         columns.push_back(make.of_corners(Dependence::image_place, by_image_place(camera, shift)));
@@ -187,7 +187,7 @@ void add_image_places(std::vector<Column>& columns, const Columns& make, const C
 }  // namespace
 
 Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors) {
-    const Columns make(evidence);
+    const TagColumns make(evidence);
     Surrogate surrogate{
         Signal::tag, {}, {make.along(Dependence::position, [](const TagSight&) { return 1.0; })}};
     surrogate.as_good = 0.95;
@@ -197,8 +197,8 @@ Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors) {
     columns.push_back(make.along(Dependence::velocity, [](const TagSight& sight) {
         return 1e-3 * sight.time_s * sight.velocity_mm_per_s;
     }));
-    add_hats(columns, make, Dependence::position, 16,
-             [](const TagSight& sight) { return sight.position_mm; });
+    add_tag_hats(columns, make, Dependence::position, 16,
+                 [](const TagSight& sight) { return sight.position_mm; });
     columns.push_back(make.along(Dependence::position_share,
                                  [](const TagSight& sight) { return 1e-2 * sight.position_mm; }));
     surrogate.period_mm = strongest_period_mm(evidence, errors, make);
@@ -208,8 +208,8 @@ Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors) {
                 return std::sin(2.0 * std::numbers::pi * sight.position_mm / surrogate.period_mm + phase);
             }));
     if (evidence.rig().micro)
-        add_hats(columns, make, Dependence::contraction, 8,
-                 [](const TagSight& sight) { return sight.contraction_mm; });
+        add_tag_hats(columns, make, Dependence::contraction, 8,
+                     [](const TagSight& sight) { return sight.contraction_mm; });
     columns.push_back(make.of_corners(
         Dependence::image_share,
         by_image_place(evidence.rig().camera->geometry, [](const Eigen::Vector2d& at) { return at; })));

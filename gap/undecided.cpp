@@ -85,20 +85,20 @@ void add_missing_signals(const Evidence& evidence, Lines& lines) {
 }
 
 /// Windows in which effects are looked for, and what the rig file predicts there.
-struct Look {
+struct GlanceAtWindows {
     Wanted wanted;
     Errors errors;
 };
 
-Look look_at(const Evidence& evidence, const CrossFit& nothing, std::size_t windows_of_a_signal) {
-    Look look{
+GlanceAtWindows look_at(const Evidence& evidence, const CrossFit& nothing, std::size_t windows_of_a_signal) {
+    GlanceAtWindows look{
         instructive(evidence.windows(), everything(evidence), nothing.mean_squares, windows_of_a_signal), {}};
     look.errors = evidence.errors({}, look.wanted);
     return look;
 }
 
 /// The loss that an effect would make, by the change of the predictions.
-double loss_of(const Evidence& evidence, const Look& look, const Wanted& wanted,
+double loss_of(const Evidence& evidence, const GlanceAtWindows& look, const Wanted& wanted,
                const plant::EffectSetting& effect) {
     Errors difference = evidence.errors({effect}, wanted);
     if (difference.empty()) return 0.0;
@@ -106,7 +106,7 @@ double loss_of(const Evidence& evidence, const Look& look, const Wanted& wanted,
     return total_loss(evidence.windows(), wanted, difference);
 }
 
-bool would_show(const Evidence& evidence, const Candidate& candidate, const Look& look) {
+bool would_show(const Evidence& evidence, const Candidate& candidate, const GlanceAtWindows& look) {
     constexpr double least_loss = 4.0;
     const Wanted wanted = only_of(evidence.windows(), look.wanted, reached_by({{candidate.effect, {}}}));
     return std::ranges::any_of(candidate.shapes, [&](const std::vector<double>& shape) {
@@ -120,7 +120,7 @@ void add_what_would_not_show(const Evidence& evidence, std::span<const Candidate
     for (const Candidate& candidate : tried)
         if (!candidate.is_limit) hidden.push_back(&candidate);
     for (const std::size_t windows_of_a_signal : {4U, 12U, 48U}) {  // most show in the first few
-        const Look look = look_at(evidence, selection.steps.front(), windows_of_a_signal);
+        const GlanceAtWindows look = look_at(evidence, selection.steps.front(), windows_of_a_signal);
         std::vector<std::uint8_t> shows(hidden.size());
         parallel_for(hidden.size(),
                      [&](std::size_t k) { shows[k] = would_show(evidence, *hidden[k], look) ? 1 : 0; });

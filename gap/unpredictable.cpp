@@ -13,7 +13,7 @@ namespace {
 constexpr std::array offsets_count{0.0, -0.45, -0.25, -0.1, 0.1, 0.25, 0.45};
 
 /// The largest mean square by which predictions differ from the first.
-double spread(const Window& window, const std::array<Errors, offsets_count.size()>& errors) {
+double spread_of(const Window& window, const std::array<Errors, offsets_count.size()>& errors) {
     double largest = 0.0;
     for (std::size_t k = 1; k < errors.size(); ++k) {
         double sum = 0.0, count = 0.0;
@@ -53,7 +53,7 @@ std::vector<bool> unpredictable_windows(const Evidence& evidence, const CrossFit
         for (std::size_t w = 0; w < windows.size(); ++w) {
             const double square = fitted.mean_squares[w];
             if (wanted[w] == 0 || !(square > floor_square)) continue;
-            const double by_start = spread(windows[w], errors);
+            const double by_start = spread_of(windows[w], errors);
             found[w] = by_start > least_spread && square < as_large * by_start;
         }
     }

@@ -17,7 +17,7 @@ namespace {
 
 /// Of inverse periods: half a turn over the rail's length; over what a carriage goes as a rule much less.
 constexpr double step_per_mm = 0.005;
-constexpr double shortest_mm = 1.9, longest_mm = 25.0;
+constexpr double shortest_wave_mm = 1.9, longest_wave_mm = 25.0;
 constexpr int phases = 6;
 constexpr double step_rad = 2.0 * std::numbers::pi / phases;
 constexpr std::array speeds_mm_per_s{0.7, 1.5, 4.0};
@@ -30,16 +30,16 @@ struct Scanned {
 
 std::vector<Scanned> all_waves() {
     std::vector<Scanned> all;
-    for (int row = 0; 1.0 / longest_mm + row * step_per_mm < 1.0 / shortest_mm; ++row)
+    for (int row = 0; 1.0 / longest_wave_mm + row * step_per_mm < 1.0 / shortest_wave_mm; ++row)
         for (const double speed_mm_per_s : speeds_mm_per_s)
             for (int k = 0; k < phases; ++k)
-                all.push_back(
-                    {speed_mm_per_s, 1.0 / longest_mm + row * step_per_mm, step_rad * (k + 0.5 * (row % 2))});
+                all.push_back({speed_mm_per_s, 1.0 / longest_wave_mm + row * step_per_mm,
+                               step_rad * (k + 0.5 * (row % 2))});
     return all;
 }
 
 /// Between a wave and those next to it.
-std::vector<Scanned> around(const Scanned& wave) {
+std::vector<Scanned> neighbours_of(const Scanned& wave) {
     std::vector<Scanned> all;
     for (const double factor : {1.0 / speed_factor, 1.0, speed_factor})
         for (const double steps : {-0.5, 0.0, 0.5})
@@ -63,7 +63,7 @@ std::vector<Scanned> best_valleys(std::span<const Scanned> sorted, std::size_t m
 }
 
 /// Those asked for, such that the first few are spread over all of them, too: golden sections of the rest.
-std::vector<std::size_t> spread(const Wanted& asked) {
+std::vector<std::size_t> spread_over_windows(const Wanted& asked) {
     constexpr double golden = 0.61803398875;
     std::vector<std::size_t> rest, order;
     for (std::size_t w = 0; w < asked.size(); ++w)
@@ -86,7 +86,7 @@ std::optional<plant::EffectSetting> scan_for_wave(const std::function<Predict(Wa
                                                   const MacroParameters& macro) {
     constexpr std::size_t at_first = 5, then = 15;  // windows
     constexpr std::size_t most_then = 240, most_valleys = 12, most_at_last = 60;
-    const std::vector<std::size_t> order = spread(asked);
+    const std::vector<std::size_t> order = spread_over_windows(asked);
     if (order.empty()) return {};
     const auto setting = [&](const Scanned& wave) {
         plant::EffectSetting set{candidate.effect, candidate.shapes.front()};
@@ -117,7 +117,7 @@ std::optional<plant::EffectSetting> scan_for_wave(const std::function<Predict(Wa
     judge(waves, at_first, then);
     std::vector<Scanned> finer;
     for (const Scanned& wave : best_valleys(waves, most_valleys))
-        std::ranges::move(around(wave), std::back_inserter(finer));
+        std::ranges::move(neighbours_of(wave), std::back_inserter(finer));
     judge(finer, 0, then);
     finer.resize(std::min(finer.size(), most_at_last));
     judge(finer, then, order.size());

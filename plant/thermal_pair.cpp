@@ -23,7 +23,7 @@ Eigen::Matrix2d decay(const Eigen::Matrix2d& A, double time_s) {
     return mean_of_decays * identity + difference_of_decays(m, d, time_s) * (A - m * identity);
 }
 
-ThermalRegime<2> regime_of(const ThermalPair& pair, bool heating, double tick_s) {
+ThermalRegime<2> pair_regime_of(const ThermalPair& pair, bool heating, double tick_s) {
     const double tau_s = heating ? pair.heating_tau_s : pair.cooling_tau_s;
     const double s = pair.surrounding(), p = std::max(1.0, pair.taken);
     const double e = (pair.coupling - s) * (heating ? pair.heating : 1.0) * tau_s / pair.cooling_tau_s;
@@ -33,7 +33,7 @@ ThermalRegime<2> regime_of(const ThermalPair& pair, bool heating, double tick_s)
     return thermal_regime<2>(rates_per_s, at_last, decay(rates_per_s, tick_s), s);
 }
 
-struct Model {
+struct PairModel {
     const ThermalPairTick& tick;
 
     double surrounding() const { return tick.surrounding; }
@@ -51,16 +51,17 @@ double ThermalPair::surrounding() const {
 }
 
 ThermalPairTick thermal_pair_tick(const ThermalPair& pair, double time_s) {
-    return {time_s, pair.surrounding(), regime_of(pair, true, time_s), regime_of(pair, false, time_s)};
+    return {time_s, pair.surrounding(), pair_regime_of(pair, true, time_s),
+            pair_regime_of(pair, false, time_s)};
 }
 
 Eigen::Vector2d advance(const ThermalPairTick& tick, const Eigen::Vector2d& rise_degC, double phi_degC,
                         double time_s) {
-    return through_regimes(Model{tick}, rise_degC, phi_degC, time_s);
+    return through_regimes(PairModel{tick}, rise_degC, phi_degC, time_s);
 }
 
 Eigen::Vector2d advance(const ThermalPairTick& tick, const Eigen::Vector2d& rise_degC, double phi_degC) {
-    return through_tick(Model{tick}, rise_degC, phi_degC, tick.time_s);
+    return through_tick(PairModel{tick}, rise_degC, phi_degC, tick.time_s);
 }
 
 Eigen::Vector2d advance(const ThermalPair& pair, const Eigen::Vector2d& rise_degC, double phi_degC,

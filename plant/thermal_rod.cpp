@@ -33,7 +33,7 @@ RodRegime::Matrix rates_of(const ThermalPair& pair, double diffusion_s, bool hea
     return rates;
 }
 
-RodRegime regime_of(const ThermalPair& pair, double diffusion_s, bool heating, double tick_s) {
+RodRegime rod_regime_of(const ThermalPair& pair, double diffusion_s, bool heating, double tick_s) {
     const RodRegime::Matrix rates = rates_of(pair, diffusion_s, heating);
     const double tau_s = heating ? pair.heating_tau_s : pair.cooling_tau_s;
     const RodRise at_last = rates.fullPivLu().solve(RodRise::Unit(0) * (-1.0 / tau_s));
@@ -49,7 +49,7 @@ RodRegime regime_of(const ThermalPair& pair, double diffusion_s, bool heating, d
             solver.eigenvalues(), ways, to_ways};
 }
 
-struct Model {
+struct RodModel {
     const ThermalRod& rod;
 
     double surrounding() const { return rod.surrounding; }
@@ -65,16 +65,16 @@ struct Model {
 
 ThermalRod thermal_rod(const ThermalPair& pair, double diffusion_s, double tick_s) {
     FIDSERVO_DEMAND(pair.coupling > 0.0 && diffusion_s > 0.0 && tick_s > 0.0);
-    return {tick_s, pair.surrounding(), regime_of(pair, diffusion_s, true, tick_s),
-            regime_of(pair, diffusion_s, false, tick_s)};
+    return {tick_s, pair.surrounding(), rod_regime_of(pair, diffusion_s, true, tick_s),
+            rod_regime_of(pair, diffusion_s, false, tick_s)};
 }
 
 RodRise advance(const ThermalRod& rod, const RodRise& rise_degC, double phi_degC, double time_s) {
-    return through_regimes(Model{rod}, rise_degC, phi_degC, time_s);
+    return through_regimes(RodModel{rod}, rise_degC, phi_degC, time_s);
 }
 
 RodRise advance(const ThermalRod& rod, const RodRise& rise_degC, double phi_degC) {
-    return through_tick(Model{rod}, rise_degC, phi_degC, rod.tick_s);
+    return through_tick(RodModel{rod}, rise_degC, phi_degC, rod.tick_s);
 }
 
 }  // namespace fidservo::plant

@@ -2,6 +2,7 @@
 
 #include "core/failure.h"
 #include "src/commands/commands.h"
+#include "src/commit.h"
 #include "src/config/key_names.h"
 
 #include <algorithm>
@@ -95,7 +96,7 @@ int run_command_line(int argc, const char* const* argv) {
     log_to_stderr();
     CLI::App app{"Visual inspection on a macro-micro positioning stage, on the rig or on its simulation.",
                  "fidservo"};
-    app.set_version_flag("--version", "fidservo " FIDSERVO_VERSION);
+    app.set_version_flag("--version", std::string("fidservo ") + program_version());
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 done; 1 done, but the answer is no (a failed inspection, a target not reached);\n"

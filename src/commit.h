@@ -2,6 +2,9 @@
 
 namespace fidservo {
 
+/// Of the release: major.minor.patch.
+const char* program_version();
+
 /// What git calls the commit that the program was built from, "-dirty" behind it if files were changed;
 /// "unknown" without git.
 const char* built_from_commit();

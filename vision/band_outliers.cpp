@@ -11,7 +11,7 @@ namespace {
 constexpr float most_of_block = 4.4F;
 constexpr float most_of_crossing = 3.6F;
 constexpr float most_of_sum = 3.0F;
-constexpr float left_out = 2.0F;  ///< excess of what goes with its neighbours, or with most of its own
+constexpr float left_out_excess = 2.0F;  ///< excess of what goes with its neighbours, or with most of its own
 
 /// Parts of a crossing's neighbourhood: about the crossing itself, and the edges that leave it.
 enum Place : std::size_t { middle, up, down, left, right, places };
@@ -39,7 +39,7 @@ struct Part {
     bool damaged = false;
 };
 
-struct Crossing {
+struct JudgedCrossing {
     const kernel::Node* node;
     Tally fitting = {};
     std::array<Part, places> parts = {};
@@ -47,7 +47,7 @@ struct Crossing {
     bool is_damaged() const {
         return std::any_of(parts.begin() + up, parts.end(), [](const Part& edge) { return edge.misfits; });
     }
-    bool is_beside(const Crossing& other) const {
+    bool is_beside(const JudgedCrossing& other) const {
         return std::max(std::abs(node->x - other.node->x), std::abs(node->y - other.node->y)) < 1.5F;
     }
 };
@@ -80,17 +80,17 @@ float usual_of(const std::vector<float>& mean_squares, float allowance) {
 }
 
 /// Finds the parts that are damaged at a damaged crossing or beside one.
-void find_damaged_parts(float usual, std::vector<Crossing>& crossings) {
-    thread_local std::vector<const Crossing*> centres;  // kept: fresh memory costs more than its use
+void find_damaged_parts(float usual, std::vector<JudgedCrossing>& crossings) {
+    thread_local std::vector<const JudgedCrossing*> centres;  // kept: fresh memory costs more than its use
     centres.clear();
-    for (const Crossing& crossing : crossings)
+    for (const JudgedCrossing& crossing : crossings)
         if (crossing.is_damaged()) centres.push_back(&crossing);
     const auto leans = [&](const Tally& of) {
         return std::abs(of.sum) > most_of_sum * std::sqrt(of.pixels * usual);
     };
-    for (Crossing& crossing : crossings) {
+    for (JudgedCrossing& crossing : crossings) {
         if (std::none_of(centres.begin(), centres.end(),
-                         [&](const Crossing* centre) { return crossing.is_beside(*centre); }))
+                         [&](const JudgedCrossing* centre) { return crossing.is_beside(*centre); }))
             continue;
         const bool whole = leans(crossing.fitting);
         for (Part& part : crossing.parts) part.damaged = whole || part.misfits || leans(part.fitting);
@@ -98,7 +98,7 @@ void find_damaged_parts(float usual, std::vector<Crossing>& crossings) {
 }
 
 /// Damaged parts of a crossing, and what goes with them.
-std::array<bool, places> parts_to_leave_out(const Crossing& crossing) {
+std::array<bool, places> parts_to_leave_out(const JudgedCrossing& crossing) {
     const auto damaged = [](const Part& part) { return part.damaged; };
     std::array<bool, places> out{};
     out[middle] = std::any_of(crossing.parts.begin(), crossing.parts.end(), damaged);
@@ -128,17 +128,17 @@ void judge_blocks(const EdgeBand& band, float allowance, const std::vector<kerne
                             (fitting.pixels * judgement.usual * limit_of(fitting.pixels, most_of_crossing));
         if (whole <= 1.0F) continue;
         for (std::size_t k = node.first_block; k < node.last_block; ++k)
-            excess[k] = std::max(excess[k], std::max(left_out, whole));
+            excess[k] = std::max(excess[k], std::max(left_out_excess, whole));
     }
 }
 
 void follow_damage(const EdgeBand& band, const std::vector<kernel::Residuals>& residuals,
                    BlockJudgement& judgement) {
     std::vector<float>& excess = judgement.excess;
-    thread_local std::vector<Crossing> crossings;  // kept: fresh memory costs more than its use
+    thread_local std::vector<JudgedCrossing> crossings;  // kept: fresh memory costs more than its use
     crossings.clear();
     for (const kernel::Node& node : band.nodes) {
-        Crossing& crossing = crossings.emplace_back(Crossing{&node});
+        JudgedCrossing& crossing = crossings.emplace_back(JudgedCrossing{&node});
         for (std::size_t k = node.first_block; k < node.last_block; ++k) {
             Part& part = crossing.parts[place_of(band.blocks[k])];
             if (excess[k] > 1.0F) {
@@ -150,10 +150,10 @@ void follow_damage(const EdgeBand& band, const std::vector<kernel::Residuals>& r
         }
     }
     find_damaged_parts(judgement.usual, crossings);
-    for (const Crossing& crossing : crossings) {
+    for (const JudgedCrossing& crossing : crossings) {
         const std::array<bool, places> out = parts_to_leave_out(crossing);
         for (std::size_t k = crossing.node->first_block; k < crossing.node->last_block; ++k)
-            if (out[place_of(band.blocks[k])]) excess[k] = std::max(excess[k], left_out);
+            if (out[place_of(band.blocks[k])]) excess[k] = std::max(excess[k], left_out_excess);
     }
 }
 

@@ -13,7 +13,7 @@ namespace fidservo::vision {
 namespace {
 
 constexpr int tile_px = 4;
-constexpr double quiet_zone = 0.2;  ///< room around a box, as a share of its longer side
+constexpr double quiet_zone_share = 0.2;  ///< room around a box, as a share of its longer side
 constexpr int least_room_tiles = 2;
 
 /// Lowest and highest grey level of every tile; pixels beyond the last whole tile belong to that one.
@@ -49,7 +49,7 @@ TileLevels tile_levels(const cv::Mat& image) {
 /// The box in tiles with room around it, within `all`.
 cv::Rect with_room(const cv::Rect& box, const cv::Size& all) {
     const int room =
-        std::max(least_room_tiles, static_cast<int>(quiet_zone * std::max(box.width, box.height)) + 1);
+        std::max(least_room_tiles, static_cast<int>(quiet_zone_share * std::max(box.width, box.height)) + 1);
     return cv::Rect(box.x - room, box.y - room, box.width + 2 * room, box.height + 2 * room) &
            cv::Rect({0, 0}, all);
 }

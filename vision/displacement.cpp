@@ -9,11 +9,11 @@ namespace fidservo::vision {
 namespace {
 
 /// Mean side in px and its standard deviation.
-struct Side {
+struct MeanSide {
     double mean_px, std_px;
 };
 
-Side side_of(const RefinedTag& tag) {
+MeanSide mean_side_of(const RefinedTag& tag) {
     const auto& corners = tag.detection.corners_px;
     double sum_px = 0.0;
     Eigen::Matrix<double, 1, 8> gradient = Eigen::Matrix<double, 1, 8>::Zero();
@@ -46,7 +46,7 @@ std::vector<Displacement> DisplacementTracker::add(const std::vector<RefinedTag>
         const auto origin = std::find_if(origins_.begin(), origins_.end(),
                                          [id](const Origin& of) { return of.tag_id == id; });
         if (origin == origins_.end()) {
-            const Side side = side_of(tag);
+            const MeanSide side = mean_side_of(tag);
             origins_.push_back({id, now_px, covariance_px2, um_from_mm(tag_side_mm_) / side.mean_px,
                                 side.std_px / side.mean_px});
             moved.push_back({tag.detection.time_ns, id, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()});

@@ -1,5 +1,7 @@
 #include "vision/quad.h"
 
+#include <algorithm>
+
 #include <Eigen/LU>
 
 namespace fidservo::vision {
@@ -25,6 +27,18 @@ Eigen::Matrix3d square_to_image(const std::array<Eigen::Vector2d, 4>& corners_px
 
 Eigen::Vector2d centre_of(const std::array<Eigen::Vector2d, 4>& corners_px) {
     return map_point(square_to_image(corners_px), {0.0, 0.0});
+}
+
+double longest_side_px(const std::array<Eigen::Vector2d, 4>& corners_px) {
+    double longest = 0.0;
+    for (std::size_t k = 0; k < 4; ++k)
+        longest = std::max(longest, (corners_px[(k + 1) % 4] - corners_px[k]).norm());
+    return longest;
+}
+
+bool same_place(const std::array<Eigen::Vector2d, 4>& a_px, const std::array<Eigen::Vector2d, 4>& b_px) {
+    return (centre_of(a_px) - centre_of(b_px)).norm() <
+           0.5 * std::min(longest_side_px(a_px), longest_side_px(b_px));
 }
 
 }  // namespace fidservo::vision

@@ -21,6 +21,11 @@ inline Eigen::Vector2d map_point(const Eigen::Matrix3d& homography, const Eigen:
 /// Where the diagonals cross: the image of the tag's centre.
 Eigen::Vector2d centre_of(const std::array<Eigen::Vector2d, 4>& corners_px);
 
+double longest_side_px(const std::array<Eigen::Vector2d, 4>& corners_px);
+
+/// Two finds of one printed tag: nearer to each other than two printed tags can be.
+bool same_place(const std::array<Eigen::Vector2d, 4>& a_px, const std::array<Eigen::Vector2d, 4>& b_px);
+
 /// Does a point lie where bilinear interpolation has its four neighbours?
 inline bool can_sample(const cv::Mat& image, const Eigen::Vector2d& at_px) {
     return at_px.x() >= 0 && at_px.y() >= 0 && at_px.x() < image.cols - 1 && at_px.y() < image.rows - 1;

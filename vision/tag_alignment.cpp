@@ -1,5 +1,6 @@
 #include "vision/tag_alignment.h"
 
+#include "core/normal_equations.h"
 #include "vision/quad.h"
 #include "vision/tag_pattern.h"
 
@@ -14,7 +15,7 @@ namespace fidservo::vision {
 namespace {
 
 constexpr double cells_per_side = 8.0;
-constexpr double least_side_px = 24.0;
+constexpr double least_outline_side_px = 24.0;
 constexpr int scans = 9;                     ///< a side
 constexpr double first_scan = 0.14;          ///< of the side's length; the last one lies opposite
 constexpr int least_agreeing = 5;            ///< scan lines, for a side to be seen
@@ -26,7 +27,7 @@ constexpr int most_samples = 128;
 using Corners = std::array<Eigen::Vector2d, 4>;
 
 /// A side of the expected outline, from corner k to corner k + 1.
-struct Side {
+struct ExpectedSide {
     Eigen::Vector2d from_px, along;  ///< `along` is the side's whole vector
     Eigen::Vector2d inwards;         ///< unit normal
 };
@@ -42,7 +43,7 @@ struct SideLine {
     double at_start_px, change_px;
 };
 
-Side side_of(const Corners& corners, std::size_t k) {
+ExpectedSide expected_side(const Corners& corners, std::size_t k) {
     const Eigen::Vector2d along = corners[(k + 1) % 4] - corners[k];
     Eigen::Vector2d inwards = Eigen::Vector2d(-along.y(), along.x()).normalized();
     if (inwards.dot(corners[(k + 2) % 4] - corners[k]) < 0) inwards = -inwards;
@@ -113,21 +114,21 @@ std::optional<SideLine> agreed_line(const Meetings& meetings, double least_step)
         normal += terms * terms.transpose();
         right += terms * meetings[k].inwards_px;
     }
-    const Eigen::Vector2d fit = normal.ldlt().solve(right);
+    const Eigen::Vector2d fit = solve_normal(normal, right);
     return SideLine{fit(0), fit(1)};
 }
 
-using Sides = std::array<Side, 4>;
+using ExpectedSides = std::array<ExpectedSide, 4>;
 using SideLines = std::array<std::optional<SideLine>, 4>;
 
 /// Places hidden sides by a similarity that takes the expected outline to the sides seen. Two sides that meet
 /// tell shift and turn, three the scale as well; a prior keeps it near 1. False if the seen sides do not tell
 /// the shift.
-bool place_hidden(const Sides& sides, SideLines& lines) {
+bool place_hidden(const ExpectedSides& sides, SideLines& lines) {
     constexpr double scale_std = 0.003, turn_std = 0.05, line_std_px = 0.3;
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-    for (const Side& side : sides) middle += 0.25 * side.from_px;
-    const auto terms = [&](const Side& side, double t) {
+    for (const ExpectedSide& side : sides) middle += 0.25 * side.from_px;
+    const auto terms = [&](const ExpectedSide& side, double t) {
         const Eigen::Vector2d from_middle = side.from_px + t * side.along - middle;
         const Eigen::Vector2d turned(-from_middle.y(), from_middle.x());
         return Eigen::Vector4d(side.inwards.x(), side.inwards.y(), side.inwards.dot(turned),
@@ -146,7 +147,7 @@ bool place_hidden(const Sides& sides, SideLines& lines) {
         }
     }
     if (normal.topLeftCorner<2, 2>().determinant() < line_weight * line_weight) return false;
-    const Eigen::Vector4d similarity = normal.ldlt().solve(right);
+    const Eigen::Vector4d similarity = solve_normal(normal, right);
     for (std::size_t k = 0; k < 4; ++k) {
         if (lines[k]) continue;
         const double start = terms(sides[k], 0.0).dot(similarity);
@@ -156,7 +157,7 @@ bool place_hidden(const Sides& sides, SideLines& lines) {
 }
 
 /// Corner k lies on the sides k - 1 and k.
-Corners corners_of(const Sides& sides, const SideLines& lines) {
+Corners corners_of(const ExpectedSides& sides, const SideLines& lines) {
     Corners corners;
     for (std::size_t k = 0; k < 4; ++k) {
         Eigen::Matrix2d directions;
@@ -176,13 +177,13 @@ Corners corners_of(const Sides& sides, const SideLines& lines) {
 /// The outline within reach of the expected one; empty if there is none.
 std::optional<Corners> find_outline(const cv::Mat& image, const ExpectedTag& expected,
                                     double least_contrast) {
-    Sides sides;
+    ExpectedSides sides;
     double shortest_px = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 4; ++k) {
-        sides[k] = side_of(expected.corners_px, k);
+        sides[k] = expected_side(expected.corners_px, k);
         shortest_px = std::min(shortest_px, sides[k].along.norm());
     }
-    if (!(shortest_px >= least_side_px)) return std::nullopt;
+    if (!(shortest_px >= least_outline_side_px)) return std::nullopt;
     const double cell_px = shortest_px / cells_per_side;
     const double reach_px = std::min({std::max(expected.reach_px, 1.0), 0.45 * cell_px, most_reach_px});
     const int half = std::clamp(static_cast<int>(cell_px / 6.0), 1, 4);

@@ -1,5 +1,7 @@
 #include "vision/tag_appearance.h"
 
+#include "core/normal_equations.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,11 +14,11 @@ namespace fidservo::vision {
 namespace {
 
 /// A side as pixel lines that cross it: rows where it is upright in the image, columns where it is level.
-class Crossing {
+class SideCrossing {
   public:
     /// @param reach_px  across the side, within which all is sampled
-    Crossing(const cv::Mat& image, const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px,
-             const Eigen::Vector2d& outward, double reach_px)
+    SideCrossing(const cv::Mat& image, const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px,
+                 const Eigen::Vector2d& outward, double reach_px)
         : image_(image), from_px_(from_px), way_px_(to_px - from_px) {
         constexpr double of_corners = 0.12;  // left out of the side at either end
         normal_ = Eigen::Vector2d(way_px_.y(), -way_px_.x()).normalized();
@@ -83,7 +85,7 @@ class Crossing {
 };
 
 /// Light over a strip that runs along the side: even across it, a parabola along it.
-struct Strip {
+struct BorderStrip {
     /// Grey levels: the mean, per px out, along the side, and its bend.
     Eigen::Vector4d light = Eigen::Vector4d::Zero();
     double middle_px = 0.0;       ///< outward from the pixel next to the edge
@@ -99,13 +101,13 @@ struct Strip {
 };
 
 /// From -1 to 1 along the side.
-double along(const Crossing& side, int line) {
+double along(const SideCrossing& side, int line) {
     return (line - side.half_length()) / side.half_length();
 }
 
-Strip strip_of(const Crossing& side, int from, int to) {
+BorderStrip strip_of(const SideCrossing& side, int from, int to) {
     constexpr double most_saturated = 1.0 / 200.0;
-    Strip strip;
+    BorderStrip strip;
     strip.middle_px = 0.5 * (from + to);
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
@@ -120,7 +122,7 @@ Strip strip_of(const Crossing& side, int from, int to) {
             strip.pixels += 1.0;
             saturated += grey <= 0.0 || grey >= 255.0 ? 1.0 : 0.0;
         }
-    strip.light = normal.ldlt().solve(right);
+    strip.light = solve_normal(normal, right);
     strip.variance_grey2 = std::max(0.0, squares - strip.light.dot(right)) / (strip.pixels - 4.0);
     strip.is_saturated = saturated > most_saturated * strip.pixels;
     return strip;
@@ -128,12 +130,12 @@ Strip strip_of(const Crossing& side, int from, int to) {
 
 /// A side's edge within `half` px of the line, and the strips beyond.
 struct Edge {
-    Strip white, black;
+    BorderStrip white, black;
     double variance_px2 = not_measured, std_px2 = not_measured;
     double slope = 0.0;  ///< of the edge against the side, px across per line
 };
 
-Edge edge_of(const Crossing& side, int half, int width) {
+Edge edge_of(const SideCrossing& side, int half, int width) {
     constexpr double least_contrast = 20.0;  // grey levels
     Edge edge{strip_of(side, half + 1, half + width), strip_of(side, -half - width, -half - 1)};
     if (edge.white.is_saturated || edge.black.is_saturated ||
@@ -161,7 +163,7 @@ Edge edge_of(const Crossing& side, int half, int width) {
         right += moment[1] * row;
         moments[static_cast<std::size_t>(line)] = moment;
     }
-    const Eigen::Vector3d parabola = normal.ldlt().solve(right);
+    const Eigen::Vector3d parabola = solve_normal(normal, right);
     double sum = 0.0;
     for (int line = 0; line < lines; ++line) {
         const double at = along(side, line), place = parabola.dot(Eigen::Vector3d(1.0, at, at * at));
@@ -192,7 +194,7 @@ int half_of(double variance_px2) {
 }
 
 /// Begins wide and closes in on the edge. Empty where the tag is too small, too blurred or not all visible.
-std::optional<Edge> measured(const Crossing& side, double border_px) {
+std::optional<Edge> measured(const SideCrossing& side, double border_px) {
     constexpr int least_lines = 12, rounds = 6;
     constexpr double likely = 2.0;  // standard deviations
     // The border holds the edge's inner half, the strip, and the blur of the code's cells.
@@ -217,13 +219,13 @@ std::optional<Edge> measured(const Crossing& side, double border_px) {
 }
 
 /// Mean over those strips that are not saturated and not much noisier than the quietest.
-GreyNoiseSeen noise_of(const std::vector<const Strip*>& strips) {
+GreyNoiseSeen noise_of(const std::vector<const BorderStrip*>& strips) {
     constexpr double outlier = 2.0;
     double quietest = std::numeric_limits<double>::infinity();
-    for (const Strip* strip : strips)
+    for (const BorderStrip* strip : strips)
         if (!strip->is_saturated) quietest = std::min(quietest, strip->variance_grey2);
     double grey = 0.0, variance = 0.0, pixels = 0.0;
-    for (const Strip* strip : strips) {
+    for (const BorderStrip* strip : strips) {
         if (strip->is_saturated || strip->variance_grey2 > outlier * quietest) continue;
         grey += strip->pixels * strip->mean();
         variance += strip->pixels * strip->variance_grey2;
@@ -241,12 +243,12 @@ TagAppearance tag_appearance(const cv::Mat& image, const TagDetection& tag) {
     Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
     for (const Eigen::Vector2d& corner : tag.corners_px) middle_px += 0.25 * corner;
     std::array<std::optional<Edge>, 4> edges;
-    std::vector<const Strip*> white, black;
+    std::vector<const BorderStrip*> white, black;
     for (std::size_t k = 0; k < 4; ++k) {
         const Eigen::Vector2d from_px = tag.corners_px[k], to_px = tag.corners_px[(k + 1) % 4];
         const double cells = code_cells + 2.0 * tag.border_cells;
         const double border_px = (to_px - from_px).norm() / cells * tag.border_cells;
-        const Crossing side(image, from_px, to_px, 0.5 * (from_px + to_px) - middle_px, border_px);
+        const SideCrossing side(image, from_px, to_px, 0.5 * (from_px + to_px) - middle_px, border_px);
         edges[k] = measured(side, border_px);
         if (!edges[k]) continue;
         const Edge& edge = *edges[k];

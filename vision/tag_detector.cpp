@@ -24,24 +24,12 @@ constexpr double library_pixel_centre = 0.5;
 /// Images smaller than this in either direction cannot hold a tag; the library does not expect them.
 constexpr int smallest_image_px = 10;
 
-double longest_side_px(const TagDetection& tag) {
-    double longest = 0.0;
-    for (std::size_t k = 0; k < 4; ++k)
-        longest = std::max(longest, (tag.corners_px[(k + 1) % 4] - tag.corners_px[k]).norm());
-    return longest;
-}
-
-/// Two finds of one printed tag: nearer to each other than two printed tags can be.
-bool same_place(const TagDetection& a, const TagDetection& b) {
-    return (centre_of(a.corners_px) - centre_of(b.corners_px)).norm() <
-           0.5 * std::min(longest_side_px(a), longest_side_px(b));
-}
-
 /// Those of `more` that are not among the tags yet.
 void add_new(std::vector<TagDetection>& tags, const std::vector<TagDetection>& more) {
     for (const TagDetection& tag : more)
-        if (std::none_of(tags.begin(), tags.end(),
-                         [&](const TagDetection& other) { return same_place(tag, other); }))
+        if (std::none_of(tags.begin(), tags.end(), [&](const TagDetection& other) {
+                return same_place(tag.corners_px, other.corners_px);
+            }))
             tags.push_back(tag);
 }
 

@@ -1,6 +1,7 @@
 #include "vision/tag_pattern.h"
 
 #include "core/failure.h"
+#include "core/normal_equations.h"
 #include "vision/quad.h"
 
 #include <algorithm>
@@ -54,7 +55,7 @@ struct CellSums {
     std::array<int, most_cells * most_cells> count{};
 };
 
-CellSums add_up(const cv::Mat& image, const Eigen::Matrix3d& homography, const TagPattern& pattern) {
+CellSums sums_of_cells(const cv::Mat& image, const Eigen::Matrix3d& homography, const TagPattern& pattern) {
     CellSums sums;
     const int cells = pattern.cells;
     for (int row = 0; row < cells; ++row)
@@ -114,15 +115,15 @@ PatternMatch match_pattern(const cv::Mat& image, const std::array<Eigen::Vector2
     const std::array<int, 3> light_terms{0, 2, 3};
     const Eigen::Matrix3d homography = square_to_image(corners_px);
     if (!homography.allFinite()) return {};
-    const CellSums sums = add_up(image, homography, pattern);
+    const CellSums sums = sums_of_cells(image, homography, pattern);
     const auto points =
         static_cast<double>(pattern.cells * pattern.cells * places_in_cell.size() * places_in_cell.size());
     if (sums.normal(0, 0) < 0.75 * points) return {};
-    const Eigen::Vector4d fit = sums.normal.ldlt().solve(sums.right);
+    const Eigen::Vector4d fit = solve_normal(sums.normal, sums.right);
     const Eigen::Matrix3d light_normal = sums.normal(light_terms, light_terms);
     const Eigen::Vector3d light_right = sums.right(light_terms);
     const double left_by_light =
-        sums.sum_of_squares - light_normal.ldlt().solve(light_right).dot(light_right);
+        sums.sum_of_squares - solve_normal(light_normal, light_right).dot(light_right);
     if (!(left_by_light > 0) || !(fit(1) > 0)) return {};
     PatternMatch match;
     match.explained = 1.0 - (sums.sum_of_squares - fit.dot(sums.right)) / left_by_light;

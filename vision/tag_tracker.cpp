@@ -9,20 +9,9 @@
 namespace fidservo::vision {
 namespace {
 
-using Corners = std::array<Eigen::Vector2d, 4>;
+using CornersPx = std::array<Eigen::Vector2d, 4>;
 
 constexpr double any_reach_px = std::numeric_limits<double>::infinity();
-
-double longest_side_px(const Corners& corners) {
-    double longest = 0.0;
-    for (std::size_t k = 0; k < 4; ++k)
-        longest = std::max(longest, (corners[(k + 1) % 4] - corners[k]).norm());
-    return longest;
-}
-
-bool same_place(const Corners& a, const Corners& b) {
-    return (centre_of(a) - centre_of(b)).norm() < 0.5 * std::min(longest_side_px(a), longest_side_px(b));
-}
 
 bool is_known(const std::vector<FoundTag>& tags, const TagDetection& tag) {
     return std::any_of(tags.begin(), tags.end(), [&](const FoundTag& other) {
@@ -45,7 +34,7 @@ cv::Rect region_of(const ExpectedTag& expected) {
     return {first.x(), first.y(), size.x(), size.y()};
 }
 
-bool wholly_inside(const cv::Mat& image, const Corners& corners) {
+bool wholly_inside(const cv::Mat& image, const CornersPx& corners) {
     return std::all_of(corners.begin(), corners.end(),
                        [&](const Eigen::Vector2d& corner) { return can_sample(image, corner); });
 }

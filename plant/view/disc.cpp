@@ -10,7 +10,7 @@ namespace fidservo::plant::view {
 namespace {
 
 constexpr double nodes_per_px = 32.0;
-constexpr double reach_in_sigmas = 4.5;
+constexpr double disc_reach_in_sigmas = 4.5;
 
 /// G(r) by Simpson's rule in the angle t with x = R sin t, which takes the square root out of the integrand.
 double disc_coverage(double r, double R, double sigma) {
@@ -31,8 +31,8 @@ double disc_coverage(double r, double R, double sigma) {
 }  // namespace
 
 Disc::Disc(double diameter_px, double sigma_px)
-    : inner_px_(std::max(0.0, 0.5 * diameter_px - reach_in_sigmas * sigma_px)),
-      outer_px_(0.5 * diameter_px + reach_in_sigmas * sigma_px) {
+    : inner_px_(std::max(0.0, 0.5 * diameter_px - disc_reach_in_sigmas * sigma_px)),
+      outer_px_(0.5 * diameter_px + disc_reach_in_sigmas * sigma_px) {
     const auto nodes = static_cast<int>(std::ceil((outer_px_ - inner_px_) * nodes_per_px)) + 2;
     for (int k = 0; k < nodes; ++k) {
         const double r = inner_px_ + k / nodes_per_px;

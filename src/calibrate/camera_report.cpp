@@ -1,6 +1,7 @@
 #include "src/calibrate/camera_report.h"
 
 #include "src/calibrate/camera_pictures.h"
+#include "src/commit.h"
 #include "src/report/html.h"
 #include "src/report/page.h"
 #include "src/report/xy_chart.h"
@@ -52,7 +53,7 @@ int digits_for(double std) {
     return std::max(0, 1 - static_cast<int>(std::floor(std::log10(std))));
 }
 
-std::string values_table(const CameraAnswer& answer) {
+std::string lens_values_table(const CameraAnswer& answer) {
     std::string html =
         "<table><thead><tr><th>Value</th><th>Found</th><th>Standard error</th></tr></thead><tbody>";
     for (const Row& row : rows_of(answer))
@@ -158,14 +159,14 @@ std::string camera_report(const CameraAnswer& answer) {
             reasons += "<li>" + report::escaped(reason) + "</li>";
         page.body += report::section("verdict", "Why it is not good enough", reasons + "</ul>");
     }
-    page.body += report::section("values", "Values", values_table(answer));
+    page.body += report::section("values", "Values", lens_values_table(answer));
     page.body += report::section("coverage", "Where in the image the target was seen",
                                  coverage_svg(answer.calibration, answer.coverage));
     page.body += report::section("residuals", "What the calibration leaves",
                                  residual_field_svg(answer.calibration) + residual_chart(answer.calibration));
     page.body += report::section("views", "Views", views_table(answer.calibration));
     if (answer.noise) page.body += report::section("noise", "Noise", noise_section(*answer.noise));
-    page.footer = fmt::format("fidservo {}", FIDSERVO_VERSION);
+    page.footer = fmt::format("fidservo {}", program_version());
     return report::render(page);
 }
 

@@ -1,5 +1,6 @@
 #include "src/calibrate/stage_numbers.h"
 
+#include "calib/dense.h"
 #include "core/units.h"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ Status fit_hall(const Rig& rig, StageNumbers& numbers, const std::vector<Platfor
         squares +=
             std::pow(hall_position_mm_of_adc(curve->hall, place.shot->hall_mean()) - place.reference_mm, 2.0);
     }
-    const Eigen::Vector2d fit = line.colPivHouseholderQr().solve(reference_mm);
+    const Eigen::Vector2d fit = calib::least_squares(line, reference_mm);
     const double variance =
         (line * fit - reference_mm).squaredNorm() / (static_cast<double>(n) - line_values);
     numbers.hall_scale = fit(1);

@@ -19,7 +19,7 @@ std::string figure(const std::string& caption, const std::string& svg) {
     return fmt::format("{}<p class=\"caption\">{}</p>\n", svg, escaped(caption));
 }
 
-std::string values_table(const Rig& rig, const StageNumbers& numbers) {
+std::string stage_values_table(const Rig& rig, const StageNumbers& numbers) {
     std::string html =
         "<div class=\"scroll\"><table id=\"values\"><thead><tr><th>Quantity</th><th class=\"n\">Value and "
         "standard error</th><th>Unit</th><th class=\"n\">Rig file</th><th class=\"n\">Change, standard "
@@ -131,7 +131,7 @@ std::string stage_report(const Rig& rig, const StageCalibration& calibration) {
                                 test.passed ? report::Mood::good : report::Mood::bad});
     std::string notes = "<ul>";
     for (const std::string& note : stage_notes(numbers)) notes += "<li>" + escaped(note) + "</li>";
-    page.body = report::section("numbers", "Numbers", values_table(rig, numbers) + notes + "</ul>") +
+    page.body = report::section("numbers", "Numbers", stage_values_table(rig, numbers) + notes + "</ul>") +
                 report::section("check", "Check on fresh moves", tests_table(calibration.tests)) +
                 report::section("pictures", "Tags in the image", picture_charts(calibration)) +
                 report::section("stage", "Platform and carriage", stand_charts(calibration));

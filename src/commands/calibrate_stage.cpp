@@ -42,7 +42,7 @@ void demand_sound(const StageOptions& options) {
 }
 
 /// Calibrated numbers contain such effects: beside them in a file they would act twice.
-void demand_no_effects_twice(const Rig& rig) {
+void demand_no_geometry_stated(const Rig& rig) {
     for (const StatedEffect& effect : rig.effects) {
         const std::string_view block = plant::find_effect(effect.name)->block;
         if (block == "camera.geometry" || block == "macro.encoder" || block == "micro.hall")
@@ -104,7 +104,7 @@ int run_calibrate_stage(const StageOptions& options) {
     demand_sound(options);
     const Rig rig = load_rig(options.session.rig_file);
     const Plate plate = rig_plate(rig, options.session.rig_file);
-    if (!options.write_rig.empty()) demand_no_effects_twice(rig);
+    if (!options.write_rig.empty()) demand_no_geometry_stated(rig);
     const std::filesystem::path& truth = options.session.sim_rig_file;
     const Plate printed = truth.empty() ? plate : rig_plate(load_rig(truth), truth);
     Session session(options.session, rig, plate, printed);

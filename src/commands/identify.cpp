@@ -84,7 +84,7 @@ IdentifyInput read_input(const IdentifyOptions& options, const Identification& i
 
 /// Numbers from a rig that is known to have such effects contain them: beside them in a file they would act
 /// twice. Friction and offset are identified themselves, and replaced.
-void demand_no_effects_twice(const Rig& rig, const Identification& identification) {
+void demand_not_stated(const Rig& rig, const Identification& identification) {
     const bool macro = identification.name == "macro";
     for (const StatedEffect& effect : rig.effects) {
         const bool of_macro = plant::find_effect(effect.name)->block.starts_with("macro.");
@@ -103,7 +103,7 @@ int run_identification(const IdentifyOptions& options, const Identification& ide
     if (!options.json.empty() && options.json.lexically_normal() == options.write_rig.lexically_normal())
         throw InputError(fmt::format("--json, --write-rig: {}: are one file", options.json.string()));
     const IdentifyInput input = read_input(options, identification);
-    if (!options.write_rig.empty()) demand_no_effects_twice(input.rig, identification);
+    if (!options.write_rig.empty()) demand_not_stated(input.rig, identification);
     const Identified identified = identification.run(input);
     fmt::print("{}", describe(identified));
     if (!options.json.empty()) write_identification_json(options.json, identified);

@@ -74,7 +74,7 @@ void check_numerator(const YamlValue& numerator, const MacroParameters& macro, d
             "contradicts velocity gain, pole, tick and encoder resolution, which give {:.6g}", implied));
 }
 
-MacroParameters read_macro(const YamlValue& map, double tick_s) {
+MacroParameters read_macro_parameters(const YamlValue& map, double tick_s) {
     map.allow_only({"travel_mm", "command_limit_V", "velocity_gain_mm_per_s_per_V", "velocity_pole",
                     "velocity_numerator_count_per_V", "dead_zone", "encoder_resolution_mm", "pd", "pid"});
     const Travel travel = read_travel(map.at("travel_mm"));
@@ -201,7 +201,7 @@ Rig load_rig(const std::filesystem::path& file) {
     const double tick_s = root.at("tick_s").number({0.0, 1.0, true});
     return {.name = root.at("name").text(),
             .tick_s = tick_s,
-            .macro = read_macro(root.at("macro"), tick_s),
+            .macro = read_macro_parameters(root.at("macro"), tick_s),
             .micro = read_if_given(root, "micro", read_micro),
             .camera = read_if_given(root, "camera", read_rig_camera),
             .fiducials = read_if_given(root, "fiducials", read_fiducials),

@@ -27,7 +27,7 @@ bool read_reversed(const YamlValue& map) {
     return reversed && reversed->boolean();
 }
 
-MacroChannel read_macro(const YamlValue& map) {
+MacroChannel read_macro_channel(const YamlValue& map) {
     map.allow_only({"subdevice", "channel", "range_V", "reversed", "direction"});
     MacroChannel macro{.output = read_choice(map), .reversed = read_reversed(map), .direction = {}};
     if (const auto line = map.find("direction")) {
@@ -53,7 +53,7 @@ EncoderChannel read_encoder(const YamlValue& map) {
 
 ChannelMap read_comedi(const YamlValue& map) {
     map.allow_only({"macro", "micro", "hall", "encoder"});
-    return {.macro = read_macro(map.at("macro")),
+    return {.macro = read_macro_channel(map.at("macro")),
             .micro = read_plain(map.at("micro")),
             .hall = read_plain(map.at("hall")),
             .encoder = read_encoder(map.at("encoder"))};

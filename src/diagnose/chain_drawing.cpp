@@ -16,10 +16,10 @@ namespace {
 using gap::Signal;
 using report::escaped;
 
-constexpr double width = 1180.0, margin = 6.0;
+constexpr double drawing_width = 1180.0, drawing_margin = 6.0;
 constexpr double block_width = 121.0, boundary_width = 206.0, part_height = 82.0;
-constexpr double step = 20.0;         ///< between two parts
-constexpr double row_height = 146.0;  ///< from one row of parts to the next
+constexpr double part_gap = 20.0;           ///< between two parts
+constexpr double stage_row_height = 146.0;  ///< from one row of parts to the next
 constexpr double first_row = 46.0;
 constexpr double accused_from = 0.5, suspect_from = 0.05;
 
@@ -29,7 +29,7 @@ struct Block {
 };
 
 /// A stage: from its controller to its sensor.
-struct StageRow {
+struct PartsOfStage {
     std::string_view title;
     Signal command, sensor;
     std::vector<Block> blocks;
@@ -101,7 +101,7 @@ class Drawing {
                    "aria-label=\"The signal chain with the gap at each measured boundary\"><defs><marker "
                    "id=\"chain-tip\" viewBox=\"0 0 8 8\" refX=\"7\" refY=\"4\" markerWidth=\"8\" "
                    "markerHeight=\"8\" orient=\"auto\"><path d=\"M0 0L8 4L0 8z\"/></marker></defs>",
-                   width, height) +
+                   drawing_width, height) +
                svg_ + "</svg></div>\n";
     }
 
@@ -141,24 +141,24 @@ std::string straight(double x, double y, double to_x) {
 }
 
 /// Returns where the sensor's boundary ends.
-double draw_stage(Drawing& drawing, const StageRow& row, double y) {
+double draw_stage(Drawing& drawing, const PartsOfStage& row, double y) {
     const double middle = y + part_height / 2;
-    drawing.text(margin, y - 26, "row", row.title, "start");
-    double x = margin;
+    drawing.text(drawing_margin, y - 26, "row", row.title, "start");
+    double x = drawing_margin;
     if (row.is_controlled) drawing.block(x, y, {"controller", "Controller"});
     const double controller = x + block_width / 2;
     x += block_width;
-    if (row.is_controlled) drawing.arrow(straight(x, middle, x + step));
-    x += step;
+    if (row.is_controlled) drawing.arrow(straight(x, middle, x + part_gap));
+    x += part_gap;
     drawing.boundary(x, y, row.command, row.command == Signal::macro_command ? "Command" : "Heater command");
     x += boundary_width;
     for (const Block& block : row.blocks) {
-        drawing.arrow(straight(x, middle, x + step));
-        x += step;
+        drawing.arrow(straight(x, middle, x + part_gap));
+        x += part_gap;
         drawing.block(x, y, block);
         x += block_width;
     }
-    const double sensor = width - margin - boundary_width - step;
+    const double sensor = drawing_width - drawing_margin - boundary_width - part_gap;
     drawing.arrow(straight(x, middle, sensor));
     drawing.boundary(sensor, y, row.sensor,
                      row.sensor == Signal::encoder ? "Encoder reading" : "Hall reading");
@@ -175,20 +175,20 @@ void draw_camera(Drawing& drawing, double y, bool has_looks) {
                                 {"camera.timing", "Frame times"},
                                 {"camera.image", "Image quality"}};
     const double middle = y + part_height / 2;
-    drawing.text(width - margin - step, y - 12, "row", "Camera over the plate", "end");
-    double x = width - margin - step;
-    drawing.arrow(fmt::format("M{:.0f} {:.0f}H{:.0f}", width - margin, middle, x));
+    drawing.text(drawing_width - drawing_margin - part_gap, y - 12, "row", "Camera over the plate", "end");
+    double x = drawing_width - drawing_margin - part_gap;
+    drawing.arrow(fmt::format("M{:.0f} {:.0f}H{:.0f}", drawing_width - drawing_margin, middle, x));
     for (const Block& block : blocks) {
         x -= block_width;
         drawing.block(x, y, block);
-        drawing.arrow(straight(x, middle, x - step));
-        x -= step;
+        drawing.arrow(straight(x, middle, x - part_gap));
+        x -= part_gap;
     }
     x -= boundary_width;
     drawing.boundary(x, y, Signal::tag, "Tags in the image");
     if (!has_looks) return;
-    drawing.arrow(straight(x, middle, x - step));
-    drawing.boundary(x - step - boundary_width, y, Signal::image, "Blur, light, noise");
+    drawing.arrow(straight(x, middle, x - part_gap));
+    drawing.boundary(x - part_gap - boundary_width, y, Signal::image, "Blur, light, noise");
 }
 
 }  // namespace
@@ -198,9 +198,9 @@ std::string chain_drawing_svg(const Rig& rig, const gap::Diagnosis& diagnosis) {
     const bool has_camera = rig.camera && rig.fiducials;
     double y = first_row;
     std::vector<std::pair<double, double>> ends;
-    const auto add = [&](const StageRow& row) {
+    const auto add = [&](const PartsOfStage& row) {
         ends.emplace_back(draw_stage(drawing, row, y), y + part_height / 2);
-        y += row_height;
+        y += stage_row_height;
     };
     add({"Macro stage",
          Signal::macro_command,
@@ -220,15 +220,15 @@ std::string chain_drawing_svg(const Rig& rig, const gap::Diagnosis& diagnosis) {
               {"micro.hall", "Hall sensor"}},
              rig.micro->pi.has_value()});
     if (has_camera) {
-        const double bus = width - margin;
+        const double bus = drawing_width - drawing_margin;
         for (const auto& [x, middle] : ends) drawing.line(straight(x, middle, bus));
         drawing.line(fmt::format("M{0:.0f} {1:.0f}V{2:.0f}", bus, ends.front().second, y + part_height / 2));
         const bool has_looks = std::ranges::find(diagnosis.signals, Signal::image, &gap::SignalGap::signal) !=
                                diagnosis.signals.end();
         draw_camera(drawing, y, has_looks);
-        y += row_height;
+        y += stage_row_height;
     }
-    return drawing.finished(y - row_height + part_height + 8);
+    return drawing.finished(y - stage_row_height + part_height + 8);
 }
 
 }  // namespace fidservo::diagnose

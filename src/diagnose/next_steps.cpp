@@ -39,7 +39,7 @@ std::string diagnose_command(const Request& request, const std::string& more_rec
     return command + more_recordings + options;
 }
 
-std::string step(std::string_view heading, const std::string& html) {
+std::string step_section(std::string_view heading, const std::string& html) {
     return fmt::format("<h3>{}</h3>\n{}", heading, html);
 }
 
@@ -137,12 +137,14 @@ std::string next_steps_html(const gap::Diagnosis& diagnosis, const Rig& rig, con
             "<p>Check on the rig what was found, as the cards above say, before you change anything: a model "
             "that predicts well is a strong hint, and an inspection is the proof.</p>\n");
     if (diagnosis.next_experiment)
-        html += step("An experiment that decides", experiment_html(*diagnosis.next_experiment, request));
+        html +=
+            step_section("An experiment that decides", experiment_html(*diagnosis.next_experiment, request));
     if (diagnosis.unexplained)
-        html += step("What no known effect explains",
-                     remainder_html(*diagnosis.unexplained) + trust_html(diagnosis, rig));
-    if (!diagnosis.effects.empty()) html += step("How to close the gap", closing_html(diagnosis, request));
-    if (!diagnosis.notes.empty()) html += step("What cannot be decided", notes_html(diagnosis.notes));
+        html += step_section("What no known effect explains",
+                             remainder_html(*diagnosis.unexplained) + trust_html(diagnosis, rig));
+    if (!diagnosis.effects.empty())
+        html += step_section("How to close the gap", closing_html(diagnosis, request));
+    if (!diagnosis.notes.empty()) html += step_section("What cannot be decided", notes_html(diagnosis.notes));
     return html;
 }
 

@@ -1,5 +1,6 @@
 #include "src/diagnose/report.h"
 
+#include "src/commit.h"
 #include "src/diagnose/chain_drawing.h"
 #include "src/diagnose/dependence_charts.h"
 #include "src/diagnose/finding_tables.h"
@@ -107,7 +108,7 @@ std::string footer_html(const gap::Evidence& evidence, const gap::Diagnosis& dia
     std::string html = fmt::format(
         "<table><tr><td>Program</td><td>fidservo {}</td></tr><tr><td>Rig</td><td>{} "
         "(<code>{}</code>)</td></tr>",
-        FIDSERVO_VERSION, escaped(evidence.rig().name), escaped(request.rig_file.string()));
+        program_version(), escaped(evidence.rig().name), escaped(request.rig_file.string()));
     for (const plant::EffectSetting& setting : diagnosis.hypothesis) {
         std::string values;
         for (std::size_t k = 0; k < setting.values.size(); ++k)

@@ -13,7 +13,7 @@ namespace {
 
 using report::escaped;
 
-constexpr double width = 1100.0, left = 200.0, right = 700.0, row_height = 40.0, bar_height = 22.0,
+constexpr double waterfall_width = 1100.0, left = 200.0, right = 700.0, row_height = 40.0, bar_height = 22.0,
                  top = 30.0;
 
 /// Logarithmic, from a little below the floor to a little above the largest gap.
@@ -94,7 +94,7 @@ std::string waterfall_svg(const gap::Diagnosis& diagnosis) {
     std::string svg = fmt::format(
         "<div class=\"scroll\"><svg class=\"waterfall\" viewBox=\"0 0 {} {:.0f}\" role=\"img\" "
         "aria-label=\"The gap in floors as effects enter\">",
-        width, bottom + 46);
+        waterfall_width, bottom + 46);
     for (const double tick : x.ticks())
         svg += fmt::format("<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2:.1f}\"/>",
                            x(tick), top, bottom) +

@@ -66,7 +66,7 @@ void refuse_all(const Failure& failed, Identified& identified) {
     for (const Key& key : keys) identified.undetermined.push_back({key.name, failed.text});
 }
 
-Identified from_recordings(const IdentifyInput& input) {
+Identified heater_from_recordings(const IdentifyInput& input) {
     if (!input.rig.micro)
         throw InputError(fmt::format("the rig {} has no micro stage to identify", input.rig.name));
     const MicroModel model = nominal_micro_model(*input.rig.micro);
@@ -143,7 +143,7 @@ void report_held_out(const calib::HeaterRun& run, Identified& identified) {
             {"temperature_second_half_from_first", "degC", rms_between(*fit, run, n / 2, n), std::nullopt});
 }
 
-Identified from_table(const IdentifyInput& input) {
+Identified heater_from_table(const IdentifyInput& input) {
     Identified identified{.part = "heater", .recordings = {input.table->file.string()}};
     std::size_t corrupt = 0;
     const calib::HeaterRun run = run_of(input, corrupt);
@@ -173,7 +173,7 @@ Identified from_table(const IdentifyInput& input) {
 }  // namespace
 
 Identified identify_heater(const IdentifyInput& input) {
-    return input.table ? from_table(input) : from_recordings(input);
+    return input.table ? heater_from_table(input) : heater_from_recordings(input);
 }
 
 }  // namespace fidservo

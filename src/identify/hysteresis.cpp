@@ -20,7 +20,7 @@ struct Source {
 };
 
 /// A table's own units, but lengths in mm where its input is a temperature: those are the rig file's units.
-Source from_table(const TextTable& table) {
+Source hysteresis_from_table(const TextTable& table) {
     const TableColumn &input = *table.find("input"), &output = *table.find("output");
     Source source{{input.values, output.values}, {table.file.string()}, input.unit, output.unit};
     if (input.unit == "degC" && !output.unit.empty()) {
@@ -41,7 +41,7 @@ bool rests(const Recording& recording, const MicroModel& model) {
 
 /// Recordings hold no wire temperature: it is simulated by the rig file's heater. Each recording starts cold,
 /// which wipes the memory of the one before.
-Source from_recordings(const IdentifyInput& input) {
+Source hysteresis_from_recordings(const IdentifyInput& input) {
     if (!input.rig.micro)
         throw InputError(fmt::format("the rig {} has no micro stage to identify", input.rig.name));
     const MicroModel model = nominal_micro_model(*input.rig.micro);
@@ -111,7 +111,8 @@ void report_halves(const Source& source, const calib::PreisachFitOptions& option
 }  // namespace
 
 Identified identify_hysteresis(const IdentifyInput& input) {
-    const Source source = input.table ? from_table(*input.table) : from_recordings(input);
+    const Source source =
+        input.table ? hysteresis_from_table(*input.table) : hysteresis_from_recordings(input);
     Identified identified{.part = "hysteresis", .recordings = source.names};
     constexpr std::size_t wire_nodes = 40, other_nodes = 25;  // a wire transforms within a few degrees
     const calib::PreisachFitOptions options{.nodes = source.input_unit == "degC" ? wire_nodes : other_nodes,

@@ -1,6 +1,7 @@
 #include "src/inspect/identity.h"
 
 #include "core/plumb_bob.h"
+#include "src/commit.h"
 #include "src/inspect/sha256.h"
 
 #include <set>
@@ -98,7 +99,7 @@ RunIdentity identity_of(const Recipe& recipe, const Rig& rig, const SessionOptio
             .seed = session.seed,
             .stage = session.stage,
             .camera = session.camera,
-            .version = FIDSERVO_VERSION};
+            .version = program_version()};
 }
 
 }  // namespace fidservo::inspect

@@ -12,7 +12,7 @@
 namespace fidservo::report {
 namespace {
 
-constexpr ChartArea area{.left = 60.0, .bottom = 316.0, .height = 366.0};
+constexpr ChartArea xy_area{.left = 60.0, .bottom = 316.0, .height = 366.0};
 
 /// The interval of all values, a little wider.
 struct Range {
@@ -72,15 +72,15 @@ std::string xy_chart_svg(const std::string& x_label, const std::string& y_label,
         for (const double value : curve.y) y_range.include(value);
     }
     FIDSERVO_DEMAND(x_range.low <= x_range.high && y_range.low <= y_range.high);
-    const Scale x = x_range.onto(area.left, area.right), y = y_range.onto(area.bottom, area.top);
-    std::string svg = svg_opening(area, y_label + " over " + x_label) + svg_y_axis(area, y, y_label);
+    const Scale x = x_range.onto(xy_area.left, xy_area.right), y = y_range.onto(xy_area.bottom, xy_area.top);
+    std::string svg = svg_opening(xy_area, y_label + " over " + x_label) + svg_y_axis(xy_area, y, y_label);
     std::vector<std::string> names(curves.size());
     for (std::size_t k = 0; k < curves.size(); ++k) {
         names[k] = curves[k].name;
         svg += fmt::format("<g class=\"curve part-{}\">{}</g>", k,
                            curves[k].dots ? dots_of(curves[k], x, y) : line_of(curves[k], x, y));
     }
-    return svg + svg_x_axis(area, x, x_label) + "</svg>\n" + chart_legend(names);
+    return svg + svg_x_axis(xy_area, x, x_label) + "</svg>\n" + chart_legend(names);
 }
 
 }  // namespace fidservo::report

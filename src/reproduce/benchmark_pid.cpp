@@ -14,7 +14,7 @@ namespace fidservo::reproduce {
 
 namespace {
 
-constexpr double duration_s = 30.0, tail_s = 20.0;
+constexpr double cycling_duration_s = 30.0, cycling_tail_s = 20.0;
 
 /// The carriage stands off its set point for a while, then breaks away.
 struct Stick {
@@ -55,7 +55,7 @@ Run run_step(const Laboratory& laboratory, double start_mm, double step_mm, cons
     const double from_mm = count_mm * std::floor(start_mm / count_mm + 0.5), target_mm = from_mm + step_mm;
     Run run{.recording = perform(laboratory, name,
                                  {.kind = "pid-step",
-                                  .duration_s = duration_s,
+                                  .duration_s = cycling_duration_s,
                                   .carriage_mm = start_mm,
                                   .macro_setpoint_mm = [=](double) { return target_mm; },
                                   .macro_loop = MacroLoop::benchmark_pid}),
@@ -64,10 +64,10 @@ Run run_step(const Laboratory& laboratory, double start_mm, double step_mm, cons
             .sticks = {},
             .sticks_in_tail = 0};
     run.carriage_mm = carriage_mm(rig, run.recording);
-    run.response = step_response(run.carriage_mm, from_mm, target_mm, count_mm, tail_s, rig.tick_s);
+    run.response = step_response(run.carriage_mm, from_mm, target_mm, count_mm, cycling_tail_s, rig.tick_s);
     run.sticks = sticks_of(run.carriage_mm, target_mm, rig.tick_s);
     run.sticks_in_tail = std::ranges::count_if(
-        run.sticks, [](const Stick& stick) { return stick.to_s > duration_s - tail_s; });
+        run.sticks, [](const Stick& stick) { return stick.to_s > cycling_duration_s - cycling_tail_s; });
     return run;
 }
 
@@ -93,7 +93,7 @@ std::string table_of(const std::vector<Run>& runs, double count_mm) {
                         fmt::format("{:.2f}", run.response.tail_peak_to_peak),
                         run.cycles(count_mm) ? "limit cycle" : "stands"});
     return table_html({"step, mm", "overshoot, mm", "stood off the set point, times",
-                       fmt::format("peak to peak in the last {:.0f} s, mm", tail_s), "ends as"},
+                       fmt::format("peak to peak in the last {:.0f} s, mm", cycling_tail_s), "ends as"},
                       rows);
 }
 
@@ -146,7 +146,8 @@ Chapter benchmark_pid(const Laboratory& laboratory) {
          holds_if(overshooting == std::ssize(runs)), ""},
         {"fig. 17", "It ends in a limit cycle about the set point, stick and slip in turn.",
          fmt::format("{} of {} steps; the one shown passes {:.2f} mm from peak to peak, {} times in {:.0f} s",
-                     cycling, runs.size(), run.response.tail_peak_to_peak, run.sticks_in_tail, tail_s),
+                     cycling, runs.size(), run.response.tail_peak_to_peak, run.sticks_in_tail,
+                     cycling_tail_s),
          holds_if(2 * cycling >= std::ssize(runs)), ""}};
     return chapter;
 }

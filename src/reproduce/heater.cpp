@@ -19,7 +19,7 @@ namespace fidservo::reproduce {
 namespace {
 
 constexpr std::array levels_V{1.5, 1.6, 1.7, 1.8};
-constexpr double heating_s = 5.0, duration_s = 12.0;
+constexpr double heater_on_s = 5.0, heater_run_s = 12.0;
 
 calib::HeaterRun run_of(const Recording& recording) {
     return {.tick_s = recording.tick_s,
@@ -59,9 +59,9 @@ ControlSteps make_control_steps(const Laboratory& laboratory) {
         const std::string name = fmt::format("ctrl-{:.1f}V", level_V);
         made.recordings.push_back(perform(laboratory, name,
                                           {.kind = name,
-                                           .duration_s = duration_s,
+                                           .duration_s = heater_run_s,
                                            .carriage_mm = 100.0,
-                                           .micro_V = steps({0.0, heating_s}, {level_V, 0.0})}));
+                                           .micro_V = steps({0.0, heater_on_s}, {level_V, 0.0})}));
         made.runs.push_back(run_of(made.recordings.back()));
     }
     return made;
@@ -100,7 +100,7 @@ double extension_s(const Rig& rig, const Recording& recording) {
     const std::vector<double> platform = platform_mm(rig, recording);
     const auto last =
         std::find_if(platform.rbegin(), platform.rend(), [&](double at) { return at > accuracy_mm; });
-    return rig.tick_s * static_cast<double>(platform.rend() - last) - heating_s;
+    return rig.tick_s * static_cast<double>(platform.rend() - last) - heater_on_s;
 }
 
 /// How alike the cooling curves after different heating levels are.
@@ -112,7 +112,7 @@ struct CoolingCurves {
 
 CoolingCurves cooling_curves(const MicroModel& model, const ControlSteps& made, double tick_s) {
     constexpr double common_degC = 55.0, compared_s = 0.3;
-    const auto off = static_cast<std::ptrdiff_t>(std::lround(heating_s / tick_s));
+    const auto off = static_cast<std::ptrdiff_t>(std::lround(heater_on_s / tick_s));
     const auto compared = static_cast<std::ptrdiff_t>(std::lround(compared_s / tick_s));
     std::vector<std::vector<double>> curves;
     std::vector<double> passes_s;
@@ -122,7 +122,7 @@ CoolingCurves cooling_curves(const MicroModel& model, const ControlSteps& made, 
             std::find_if(temp_degC.begin() + off, temp_degC.end(), [](double t) { return t < common_degC; });
         if (temp_degC.end() - passes < compared) continue;
         curves.emplace_back(passes, passes + compared);
-        passes_s.push_back(tick_s * static_cast<double>(passes - temp_degC.begin()) - heating_s);
+        passes_s.push_back(tick_s * static_cast<double>(passes - temp_degC.begin()) - heater_on_s);
     }
     if (curves.size() < 2) throw RunFault("cooling curves: the platform does not show them");
     CoolingCurves alike{0.0, std::ranges::max(passes_s) - std::ranges::min(passes_s)};

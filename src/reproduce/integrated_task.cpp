@@ -22,12 +22,12 @@ struct Target {
     double dx_um;
 };
 
-constexpr std::array targets{Target{40, 0.0}, Target{44, 350.0}, Target{20, -420.0}, Target{21, 150.0},
-                             Target{70, 0.0}};
-constexpr double hold_s = 1.0;
+constexpr std::array visited_targets{Target{40, 0.0}, Target{44, 350.0}, Target{20, -420.0},
+                                     Target{21, 150.0}, Target{70, 0.0}};
+constexpr double observed_s = 1.0;
 
 template <class T>
-T demanded(Result<T> result) {
+T demanded_of_task(Result<T> result) {
     if (!result) throw RunFault(fmt::format("integrated task: {}", result.error().text));
     if constexpr (!std::is_void_v<T>) return *std::move(result);
 }
@@ -39,15 +39,15 @@ std::vector<Arrival> visit_targets(const Laboratory& laboratory, const std::file
     options.rig_file = laboratory.rig_file;
     options.seed = laboratory.seed;
     Session session(options, laboratory.rig, plate, plate);
-    demanded(session.home());
+    demanded_of_task(session.home());
     session.record_to(folder, "integrated");
     std::vector<Arrival> arrivals;
-    arrivals.reserve(targets.size());
-    for (const Target& target : targets) {
-        arrivals.push_back(demanded(session.go_to(target.tag_id, 1e-3 * target.dx_um)));
-        demanded(session.observe(hold_s));
+    arrivals.reserve(visited_targets.size());
+    for (const Target& target : visited_targets) {
+        arrivals.push_back(demanded_of_task(session.go_to(target.tag_id, 1e-3 * target.dx_um)));
+        demanded_of_task(session.observe(observed_s));
     }
-    demanded(session.end_recording());
+    demanded_of_task(session.end_recording());
     return arrivals;
 }
 

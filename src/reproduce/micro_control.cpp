@@ -37,8 +37,8 @@ struct MicroStep {
     StepResponse to_five_um;
 };
 
-std::vector<MicroStep> responses(const Rig& rig, const Recording& recording,
-                                 const std::vector<double>& platform) {
+std::vector<MicroStep> micro_responses(const Rig& rig, const Recording& recording,
+                                       const std::vector<double>& platform) {
     constexpr double five_um_mm = 0.005, tail_s = 0.5;
     std::vector<MicroStep> found;
     double from_mm = 0.0;
@@ -52,7 +52,7 @@ std::vector<MicroStep> responses(const Rig& rig, const Recording& recording,
     return found;
 }
 
-std::string response_table(const std::vector<MicroStep>& steps_made) {
+std::string micro_response_table(const std::vector<MicroStep>& steps_made) {
     std::vector<std::vector<std::string>> rows;
     rows.reserve(steps_made.size());
     for (const auto& [percent, um] : steps_made)
@@ -106,7 +106,7 @@ Chapter micro_steps(const Laboratory& laboratory) {
     const Rig& rig = laboratory.rig;
     const Recording recording = sequential_steps(laboratory);
     const std::vector<double> platform = platform_mm(rig, recording);
-    const std::vector<MicroStep> made = responses(rig, recording, platform);
+    const std::vector<MicroStep> made = micro_responses(rig, recording, platform);
     const MicroStep& contraction = made.at(1);
     const MicroStep& extension = made.at(2);
     double worst_error_um = 0.0;
@@ -129,7 +129,7 @@ Chapter micro_steps(const Laboratory& laboratory) {
               "V",
               {{"heater", column(recording, &StageRow::micro_command_V), true}},
               160}}) +
-        response_table(made);
+        micro_response_table(made);
     chapter.claims = {
         {"fig. 21", "250 ms settling in contraction, for half the travel.",
          fmt::format("{:.0f} ms to 5 % of a step from 1 to 3 mm",

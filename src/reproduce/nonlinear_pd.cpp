@@ -27,8 +27,8 @@ Course decaying_square_wave() {
     return steps(std::move(times_s), std::move(places_mm));
 }
 
-std::vector<StepResponse> responses(const Rig& rig, const Recording& recording,
-                                    const std::vector<double>& carriage) {
+std::vector<StepResponse> pd_responses(const Rig& rig, const Recording& recording,
+                                       const std::vector<double>& carriage) {
     constexpr double tail_s = 0.3;
     const double count_mm = rig.macro.encoder_resolution_mm;
     std::vector<StepResponse> found;
@@ -42,7 +42,7 @@ std::vector<StepResponse> responses(const Rig& rig, const Recording& recording,
     return found;
 }
 
-std::string response_table(const std::vector<StepResponse>& steps_made, double count_mm) {
+std::string pd_response_table(const std::vector<StepResponse>& steps_made, double count_mm) {
     std::vector<std::vector<std::string>> rows;
     rows.reserve(steps_made.size());
     for (const StepResponse& step : steps_made)
@@ -126,8 +126,8 @@ Chapter nonlinear_pd(const Laboratory& laboratory) {
            {"carriage (encoder)", carriage, false, 2}}},
          {"Error", "mm", {{"set point - carriage", error, false, 2}}, 160},
          {"Motor command", "V", {{"motor", column(recording, &StageRow::macro_command_V), true}}, 160}});
-    const std::vector<StepResponse> steps_made = responses(rig, recording, carriage);
-    chapter.html += response_table(steps_made, count_mm);
+    const std::vector<StepResponse> steps_made = pd_responses(rig, recording, carriage);
+    chapter.html += pd_response_table(steps_made, count_mm);
     const double overshoot_mm = largest(steps_made, &StepResponse::overshoot);
     const double error_mm = largest(steps_made, &StepResponse::final_error);
     chapter.claims = {

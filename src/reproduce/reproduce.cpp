@@ -1,6 +1,7 @@
 #include "src/reproduce/reproduce.h"
 
 #include "core/failure.h"
+#include "src/commit.h"
 #include "src/config/rig_file.h"
 #include "src/progress.h"
 #include "src/recording/durable_file.h"
@@ -106,7 +107,7 @@ report::Page page_of(const std::vector<Chapter>& written, const std::vector<Clai
         page.body += report::section(chapter.id, chapter.heading, chapter.html);
     page.footer = fmt::format(
         "<p>fidservo {}, rig {}, seed {}. The recordings behind each figure are in recordings/.</p>",
-        FIDSERVO_VERSION, report::escaped(rig.name), seed);
+        program_version(), report::escaped(rig.name), seed);
     return page;
 }
 

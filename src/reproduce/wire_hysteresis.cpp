@@ -18,7 +18,7 @@ namespace fidservo::reproduce {
 
 namespace {
 
-constexpr double kiln_encoder_mm = 0.014, um_per_mm = 1e3;
+constexpr double kiln_encoder_mm = 0.014, um_in_mm = 1e3;
 
 /// Straight ramps through some temperatures, a sample every quarter of a degree.
 std::vector<double> ramps(const std::vector<double>& turns_degC) {
@@ -117,19 +117,19 @@ Chapter wire_hysteresis(const Laboratory& laboratory) {
         chart_figure(fmt::format("Validation on another profile of loops within loops: {:.1f} um r.m.s. "
                                  "between model and encoder, "
                                  "whose rounding alone is {:.1f} um.",
-                                 um_per_mm * validation_mm, um_per_mm * kiln_encoder_mm / std::sqrt(12.0)),
+                                 um_in_mm * validation_mm, um_in_mm * kiln_encoder_mm / std::sqrt(12.0)),
                      report::xy_chart_svg("temperature, degC", "contraction, mm",
                                           {{"encoder", other.input, other.output},
                                            {"Preisach model", other.input, predicted}}));
     chapter.claims = {
         {"fig. 12",
          "The Preisach model from the descending curves predicts a profile that it was not made from.",
-         fmt::format("{:.1f} um r.m.s. of {:.2f} mm stroke ({:.2f} %)", um_per_mm * validation_mm,
+         fmt::format("{:.1f} um r.m.s. of {:.2f} mm stroke ({:.2f} %)", um_in_mm * validation_mm,
                      wire.stroke_mm(), 100.0 * validation_mm / wire.stroke_mm()),
          holds_if(validation_mm < 0.01 * wire.stroke_mm()), ""},
         {"eq. 8", "The model can be inverted: from a displacement to the temperature that gives it.",
          fmt::format("200 displacements asked for, {:.1f} um r.m.s. missed by the wire",
-                     um_per_mm * inverse_mm),
+                     um_in_mm * inverse_mm),
          holds_if(inverse_mm < 0.01 * wire.stroke_mm()), ""}};
     return chapter;
 }

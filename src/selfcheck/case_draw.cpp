@@ -16,8 +16,8 @@ namespace fidservo::selfcheck {
 namespace {
 
 using enum CaseKind;
-constexpr std::array kinds{none, none, one, one, one, one, two, two, withheld, unlisted};
-constexpr KindCycle cycle(kinds, "cycle");
+constexpr std::array kinds_in_turn{none, none, one, one, one, one, two, two, withheld, unlisted};
+constexpr KindCycle cycle(kinds_in_turn, "cycle");
 
 /// Sizes reach down to this many floors, but not below this share of the largest.
 constexpr double smallest_floors = 0.7, smallest_share = 1.0 / 300.0;

@@ -44,7 +44,7 @@ void rolling_shutter(Departures& rig, double size_s, NoiseStream& draw) {
     rig.image.readout_s = random_sign(draw) * size_s;
 }
 
-constexpr std::array draws{
+constexpr std::array frame_draws{
     EffectDraw{"defocus", "", 0.18, 3.0, defocus},
     EffectDraw{"defocus", "disc", 0.18, 3.0, defocus_disc},
     EffectDraw{"motion_blur", "", 2e-3, 0.012, motion_blur},
@@ -54,25 +54,25 @@ constexpr std::array draws{
     EffectDraw{"sensor_noise", "gains", 4e-3, 0.04, unequal_gains},
     EffectDraw{"rolling_shutter", "", 3e-4, 0.018, rolling_shutter},
 };
-constexpr double smallest_floors = 0.7;
+constexpr double smallest_frame_floors = 0.7;
 
 using enum CaseKind;
-constexpr std::array kinds{frames, frames, frames_withheld, frames_none};
-constexpr KindCycle cycle(kinds, "frames/row");
+constexpr std::array frame_kinds{frames, frames, frames_withheld, frames_none};
+constexpr KindCycle frame_cycle(frame_kinds, "frames/row");
 
 }  // namespace
 
 bool has_frames(CaseKind kind) {
-    return cycle.has(kind);
+    return frame_cycle.has(kind);
 }
 
 CaseKind kind_of_frames_case(std::uint64_t seed, std::size_t number) {
-    return cycle.kind_of(seed, number);
+    return frame_cycle.kind_of(seed, number);
 }
 
 std::vector<std::string_view> effects_in_frames() {
     std::vector<std::string_view> names;
-    for (const EffectDraw& way : draws)
+    for (const EffectDraw& way : frame_draws)
         if (names.empty() || names.back() != way.effect) names.push_back(way.effect);
     return names;
 }
@@ -86,14 +86,14 @@ Case draw_frames_case(const Rig& nominal, std::uint64_t seed, std::size_t number
                .campaign_seed = draw.bits()};
     const CaseKind kind = drawn.label.kind;
     if (kind == frames_none) return drawn;
-    const std::size_t k = cycle.ordinal_of(seed, number);
+    const std::size_t k = frame_cycle.ordinal_of(seed, number);
     const std::vector<std::string_view> names = effects_in_frames();
     const std::string_view effect = met(std::span(names), seed, kind, k);
     std::vector<const EffectDraw*> ways;
-    for (const EffectDraw& way : draws)
+    for (const EffectDraw& way : frame_draws)
         if (way.effect == effect) ways.push_back(&way);
     const EffectDraw& way = *ways[index_below(draw, ways.size())];
-    const double size = log_uniform(draw, smallest_floors * way.floor_size, way.largest);
+    const double size = log_uniform(draw, smallest_frame_floors * way.floor_size, way.largest);
     way.put(drawn.true_rig.departures, size, draw);
     drawn.label.effects.push_back({.effect = std::string(effect),
                                    .class_name = std::string(effect),

@@ -19,7 +19,7 @@ namespace v4l2 = vision::v4l2;
 
 constexpr std::string_view v4l2_prefix = "v4l2:";
 
-[[noreturn]] void refuse(const SessionOptions& options, std::string_view why) {
+[[noreturn]] void refuse_camera(const SessionOptions& options, std::string_view why) {
     std::vector<std::string> allowed{"sim"};
     for (const v4l2::ListedCamera& camera : v4l2::list_cameras())
         allowed.push_back(std::string(v4l2_prefix) + camera.node.string());
@@ -50,11 +50,11 @@ bool camera_is_simulated(const SessionOptions& options) {
 
 std::shared_ptr<vision::Camera> open_camera(const SessionOptions& options, const CameraParameters& camera) {
     if (options.camera.starts_with("images:"))
-        refuse(options, "images on disk cannot guide a motion; inspect measures them again");
-    if (!options.camera.starts_with(v4l2_prefix)) refuse(options, "no such camera");
+        refuse_camera(options, "images on disk cannot guide a motion; inspect measures them again");
+    if (!options.camera.starts_with(v4l2_prefix)) refuse_camera(options, "no such camera");
     const std::filesystem::path node = options.camera.substr(v4l2_prefix.size());
     std::error_code error;
-    if (!std::filesystem::is_character_file(node, error)) refuse(options, "no such device");
+    if (!std::filesystem::is_character_file(node, error)) refuse_camera(options, "no such device");
     const v4l2::CaptureSettings settings = settings_of(options, camera);
     try {
         auto opened = std::make_shared<v4l2::V4l2Camera>(node, settings);

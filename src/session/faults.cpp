@@ -15,7 +15,7 @@ namespace {
 
 constexpr double longest_s = 1e9;
 
-[[noreturn]] void refuse(const std::string& text, const std::string& why) {
+[[noreturn]] void refuse_fault(const std::string& text, const std::string& why) {
     throw InputError(fmt::format("--fault {}: {}", text, why));
 }
 
@@ -28,7 +28,7 @@ double seconds_of(const std::string& text, const std::string& value) {
         used = 0;
     }
     if (used == 0 || used != value.size() || !(number >= 0.0 && number <= longest_s))
-        refuse(text, fmt::format("'{}' is not a time; allowed: 0 to {:g} s", value, longest_s));
+        refuse_fault(text, fmt::format("'{}' is not a time; allowed: 0 to {:g} s", value, longest_s));
     return number;
 }
 
@@ -74,7 +74,7 @@ Fault parse_fault(const std::string& text) {
         std::vector<std::string_view> names;
         names.reserve(fault_kinds.size());
         for (const FaultKind one : fault_kinds) names.push_back(name_of(one));
-        refuse(text, fmt::format("no such fault; allowed: {}", fmt::join(names, ", ")));
+        refuse_fault(text, fmt::format("no such fault; allowed: {}", fmt::join(names, ", ")));
     }
     Fault fault{*kind};
     for (std::size_t at = colon; at != std::string::npos;) {
@@ -83,7 +83,7 @@ Fault parse_fault(const std::string& text) {
         const std::size_t equals = setting.find('=');
         const std::string key = setting.substr(0, equals);
         if (equals == std::string::npos || (key != "from_s" && key != "for_s"))
-            refuse(text, fmt::format("'{}': allowed: from_s=SECONDS, for_s=SECONDS", setting));
+            refuse_fault(text, fmt::format("'{}': allowed: from_s=SECONDS, for_s=SECONDS", setting));
         (key == "from_s" ? fault.from_s : fault.for_s) = seconds_of(text, setting.substr(equals + 1));
         at = end;
     }

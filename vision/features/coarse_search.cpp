@@ -11,7 +11,7 @@ namespace {
 
 constexpr double ring_px = 4.0;  ///< paper around the shape that belongs to the template
 constexpr double least_score = 0.5;
-constexpr double most_saturated_part = 0.3;
+constexpr double most_saturated_template = 0.3;
 constexpr double rival_score = 0.9;  ///< of the best score
 
 /// The part of an image that reads white or next to it.
@@ -86,7 +86,7 @@ Result<CoarseMatch> find_shape(const RestImage& image, const Eigen::Vector2d& no
         return failure(Reason::not_identifiable,
                        "the shape with its surroundings does not fit into the image");
 
-    if (saturated_part(image.grey(region)) > most_saturated_part)
+    if (saturated_part(image.grey(region)) > most_saturated_template)
         return failure(Reason::glare, fmt::format("{:.0f} % of the search region are saturated",
                                                   100.0 * saturated_part(image.grey(region))));
     const double sign = options.expected_contrast > 0.0 ? -1.0 : 1.0;

@@ -13,7 +13,7 @@ namespace fidservo::vision {
 
 namespace {
 
-constexpr double corner_px = 5.0;  ///< left out at either end of an edge
+constexpr double edge_end_px = 5.0;  ///< left out at either end of an edge
 constexpr double least_overlap_px = 8.0;
 constexpr double opposed_within_rad = 0.1;
 
@@ -76,8 +76,8 @@ Result<StraightEdge> edge_in_image(const RestImage& image, const NominalEdge& ed
     const double rate = own.dot(along);
     const double px = picture_around(image, to_image(image, 0.5 * (edge.from_mm + edge.to_mm))).mm_per_px;
     const Interval whole = extent_along(edge, along);
-    const double low = std::max(overlap.low, whole.low + corner_px * px);
-    const double high = std::min(overlap.high, whole.high - corner_px * px);
+    const double low = std::max(overlap.low, whole.low + edge_end_px * px);
+    const double high = std::min(overlap.high, whole.high - edge_end_px * px);
     const double start = edge.from_mm.dot(along);
     const Eigen::Vector2d from = to_image(image, edge.from_mm + own * ((low - start) / rate));
     const Eigen::Vector2d to = to_image(image, edge.from_mm + own * ((high - start) / rate));

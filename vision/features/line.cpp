@@ -15,11 +15,11 @@ namespace fidservo::vision {
 
 namespace {
 
-constexpr double section_px = 6.0;
-constexpr double reach_px = 6.0;  ///< of paper beside the line
+constexpr double line_section_px = 6.0;
+constexpr double paper_px = 6.0;  ///< of paper beside the line
 constexpr double least_length_px = 24.0;
 constexpr double most_misfit = 0.04;  ///< residuals beyond noise as a part of the contrast: section set aside
-constexpr double most_saturated_part = 0.3;
+constexpr double most_saturated_line = 0.3;
 constexpr double least_part_used = 0.6;
 constexpr double contrast_std = 0.02;  ///< of the ink, section against section
 constexpr double blur_std_px = 0.05;   ///< of the blur, section against section
@@ -48,8 +48,8 @@ Result<Track> visible_track(const RestImage& image, const Line& nominal, double 
     Track track{to_image(image, nominal.from_mm), to_image(image, nominal.to_mm),
                 nominal.width_mm * picture.px_per_mm_along({-along_mm.y(), along_mm.x()})};
     const Eigen::Vector2d along = track.along();
-    const double beside = 0.5 * track.width_px + reach_px + margin_px;
-    const Eigen::Vector2d inset = track.normal().cwiseAbs() * beside + Eigen::Vector2d::Constant(reach_px);
+    const double beside = 0.5 * track.width_px + paper_px + margin_px;
+    const Eigen::Vector2d inset = track.normal().cwiseAbs() * beside + Eigen::Vector2d::Constant(paper_px);
     const Eigen::Vector2d far = Eigen::Vector2d(image.grey.cols - 1.0, image.grey.rows - 1.0) - inset;
     double first = margin_px + 3.0;
     double last = track.length_px() - margin_px - 3.0;
@@ -82,12 +82,12 @@ struct CoarseStrip {
 /// The offset within the margin at which the mean inside the strip differs most from the means beside it.
 Result<CoarseStrip> coarse_strip(const cv::Mat& grey, const Track& track, double margin_px,
                                  const SearchOptions& options) {
-    const double reach = 0.5 * track.width_px + reach_px + margin_px;
+    const double reach = 0.5 * track.width_px + paper_px + margin_px;
     const auto samples = samples_of_band(grey, track.from_px, track.to_px, track.normal(), {reach, reach}, 1);
     const auto white = std::count_if(samples.front().begin(), samples.front().end(),
                                      [](const EdgeSample& sample) { return sample.grey >= white_grey; });
     const double white_part = static_cast<double>(white) / static_cast<double>(samples.front().size());
-    if (white_part > most_saturated_part)
+    if (white_part > most_saturated_line)
         return failure(Reason::glare,
                        fmt::format("{:.0f} % of the line's surroundings are saturated", 100 * white_part));
     const BinnedProfile profile = binned_profile(samples.front());
@@ -122,9 +122,9 @@ struct Strips {
 
 Strips locate_strips(const RestImage& image, const Track& track, const StripPrior& prior) {
     const GreyNoise noise = grey_noise(image.camera);
-    const double reach = 0.5 * track.width_px + reach_px;
+    const double reach = 0.5 * track.width_px + paper_px;
     Strips strips;
-    strips.looked_at = static_cast<int>(track.length_px() / section_px);
+    strips.looked_at = static_cast<int>(track.length_px() / line_section_px);
     const auto samples = samples_of_band(image.grey, track.from_px, track.to_px, track.normal(),
                                          {reach, reach}, strips.looked_at);
     for (int k = 0; k < strips.looked_at; ++k) {

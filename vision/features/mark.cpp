@@ -14,7 +14,7 @@ namespace fidservo::vision {
 
 namespace {
 
-constexpr double section_px = 4.0;  ///< arc of a sector
+constexpr double sector_px = 4.0;  ///< arc of a sector
 constexpr double least_radius_px = 6.0;
 
 /// Parameters: centre x, centre y, radius, px.
@@ -25,7 +25,7 @@ struct Circle {
 
     std::vector<OutlineSection<parameters>> sections(const cv::Mat& grey, const Reach& reach) const {
         const double round = 2.0 * std::numbers::pi;
-        const int count = std::max(12, static_cast<int>(round * radius_px / section_px));
+        const int count = std::max(12, static_cast<int>(round * radius_px / sector_px));
         const double inwards = std::min(reach.in_px, 0.9 * radius_px);
         auto samples = samples_of_ring(grey, centre_px, radius_px, {inwards, reach.out_px}, count);
         std::vector<OutlineSection<parameters>> found;
@@ -47,8 +47,8 @@ double curvature_shift_px(double radius_px, double sigma_px) {
     return sigma_px * sigma_px / (2.0 * radius_px);
 }
 
-Status check_result(const RestImage& image, const Circle& circle, const Eigen::Vector2d& nominal_px,
-                    const SearchOptions& options) {
+Status check_mark(const RestImage& image, const Circle& circle, const Eigen::Vector2d& nominal_px,
+                  const SearchOptions& options) {
     const Eigen::Vector2d far = image.grey.cols > 0
                                     ? Eigen::Vector2d(image.grey.cols - 1.0, image.grey.rows - 1.0)
                                     : Eigen::Vector2d::Zero();
@@ -86,7 +86,7 @@ Result<DotMeasurement> measure_dot(const RestImage& image, const Dot& nominal, c
         return tl::make_unexpected(found.error());
     auto fit = fit_outline(image, circle, options);
     if (!fit) return tl::make_unexpected(fit.error());
-    if (const auto good = check_result(image, fit->shape, nominal_px, options); !good)
+    if (const auto good = check_mark(image, fit->shape, nominal_px, options); !good)
         return tl::make_unexpected(good.error());
 
     const double seen_px = fit->shape.radius_px;

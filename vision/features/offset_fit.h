@@ -2,6 +2,7 @@
 // Robust weighted linear least squares: how a shape must change so that its outline passes through the edges
 // found.
 #include "core/median.h"
+#include "core/normal_equations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,11 +59,12 @@ OffsetFit<N> fit_offsets(const std::vector<OutlineOffset<N>>& offsets) {
             right += weight * offset * row;
             ++fit.used_count;
         }
-        const Eigen::LDLT<Matrix> solver(information);
-        fit.determined = fit.used_count >= N && solver.info() == Eigen::Success && solver.rcond() > 1e-12;
+        const NormalFactor<N> solver(information);
+        fit.determined =
+            fit.used_count >= N && solver.has_succeeded() && solver.reciprocal_condition() > 1e-12;
         if (!fit.determined) return fit;
         fit.correction = solver.solve(right);
-        fit.covariance = solver.solve(Matrix::Identity());
+        fit.covariance = solver.inverse();
         std::vector<double> sizes(offsets.size());
         for (std::size_t k = 0; k < offsets.size(); ++k) {
             residuals[k] = (offsets[k].offset_px - offsets[k].row.dot(fit.correction)) / offsets[k].std_px;

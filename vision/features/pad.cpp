@@ -14,8 +14,8 @@ namespace fidservo::vision {
 
 namespace {
 
-constexpr double section_px = 6.0;
-constexpr double corner_px =
+constexpr double pad_section_px = 6.0;
+constexpr double corner_reach_px =
     5.0;  ///< of each side, left out at either end: the corner's blur reaches that far
 constexpr double least_side_px = 16.0;
 
@@ -51,8 +51,8 @@ struct Rectangle {
                   std::vector<OutlineSection<parameters>>& found) const {
         const Eigen::Vector2d normal = sign * direction(axis);
         const Eigen::Vector2d along = direction(1 - axis);
-        const double length = std::max(section_px, size_px[1 - axis] - 2.0 * corner_px);
-        const int count = static_cast<int>(std::ceil(length / section_px));
+        const double length = std::max(pad_section_px, size_px[1 - axis] - 2.0 * corner_reach_px);
+        const int count = static_cast<int>(std::ceil(length / pad_section_px));
         const Eigen::Vector2d middle = centre_px + 0.5 * size_px[axis] * normal;
         const Eigen::Vector2d from = middle - 0.5 * length * along;
         const double inwards = std::min(reach.in_px, 0.45 * size_px[axis]);
@@ -83,8 +83,8 @@ bool within_image(const cv::Mat& grey, const Rectangle& pad) {
     return true;
 }
 
-Status check_result(const RestImage& image, const Rectangle& pad, const Eigen::Vector2d& nominal_px,
-                    const SearchOptions& options) {
+Status check_pad(const RestImage& image, const Rectangle& pad, const Eigen::Vector2d& nominal_px,
+                 const SearchOptions& options) {
     if (!within_image(image.grey, pad))
         return failure(Reason::not_identifiable, "the pad is partly outside the image");
     if (pad.size_px.minCoeff() < least_side_px)
@@ -135,7 +135,7 @@ Result<PadMeasurement> measure_pad(const RestImage& image, const Pad& nominal, c
     const auto fit = fit_outline(image, *start, options);
     if (!fit) return tl::make_unexpected(fit.error());
     const Rectangle& pad = fit->shape;
-    if (const auto good = check_result(image, pad, to_image(image, nominal.centre_mm), options); !good)
+    if (const auto good = check_pad(image, pad, to_image(image, nominal.centre_mm), options); !good)
         return tl::make_unexpected(good.error());
 
     const LocalPicture picture = picture_around(image, pad.centre_px);

@@ -1,5 +1,6 @@
 #pragma once
 // Weighted nonlinear least squares for models of a grey profile with a handful of parameters.
+#include "core/normal_equations.h"
 #include "vision/features/normal_law.h"
 #include "vision/features/subpixel_edge.h"
 
@@ -73,11 +74,11 @@ ProfileFit<N> fit_profile(std::span<const EdgeSample> samples, const GreyNoise& 
             slope += gradient * (residual / variance);
             fit.chi2 += residual * residual / variance;
         }
-        const Eigen::LDLT<Matrix> solver(information);
-        if (solver.info() != Eigen::Success || !solver.isPositive()) return fit;
+        const NormalFactor<N> solver(information);
+        if (!solver.has_succeeded() || !solver.is_positive()) return fit;
         const Vector step = solver.solve(slope);
         if (!step.allFinite()) return fit;
-        fit.covariance = solver.solve(Matrix::Identity());
+        fit.covariance = solver.inverse();
         const double scale = std::min(1.0, 1.0 / step.cwiseQuotient(bound).cwiseAbs().maxCoeff());
         fit.parameters = clamp(Vector(fit.parameters + scale * step));
         fit.converged = (step.cwiseQuotient(bound).cwiseAbs().maxCoeff() < 1e-5);

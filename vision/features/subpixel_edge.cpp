@@ -31,7 +31,7 @@ struct Extent {
     double length() const { return high - low; }
 };
 
-Extent extent_of(std::span<const EdgeSample> samples) {
+Extent along_edge(std::span<const EdgeSample> samples) {
     Extent extent;
     for (const EdgeSample& sample : samples) {
         extent.low = std::min(extent.low, sample.t_px);
@@ -66,7 +66,7 @@ Result<EdgeFit> locate_edge(std::span<const EdgeSample> samples, const GreyNoise
                             const BlurPrior& blur) {
     constexpr std::size_t parameters = 4;
     using Vector = Eigen::Vector4d;  // position, low side, high side, sigma
-    const Extent extent = extent_of(samples);
+    const Extent extent = along_edge(samples);
     if (samples.size() < 3 * parameters || extent.length() < 3.0)
         return failure(Reason::not_identifiable,
                        fmt::format("{} pixels across an edge are too few", samples.size()));
@@ -111,7 +111,7 @@ Result<StripFit> locate_strip(std::span<const EdgeSample> samples, const GreyNoi
                               const StripPrior& prior) {
     constexpr std::size_t parameters = 6;
     using Vector = Eigen::Matrix<double, parameters, 1>;  // centre, width, level, slope, contrast, sigma
-    const Extent extent = extent_of(samples);
+    const Extent extent = along_edge(samples);
     if (samples.size() < 3 * parameters || extent.length() < 5.0)
         return failure(Reason::not_identifiable,
                        fmt::format("{} pixels across a line are too few", samples.size()));

@@ -1,0 +1,39 @@
+#include "core/normal_equations.h"
+
+namespace fidservo {
+
+template <int N>
+NormalFactor<N>::NormalFactor(const Matrix& normal) : factor_(normal) {}
+
+template <int N>
+bool NormalFactor<N>::has_succeeded() const {
+    return factor_.info() == Eigen::Success;
+}
+
+template <int N>
+bool NormalFactor<N>::is_positive() const {
+    return factor_.isPositive();
+}
+
+template <int N>
+double NormalFactor<N>::reciprocal_condition() const {
+    return factor_.rcond();
+}
+
+template <int N>
+typename NormalFactor<N>::Vector NormalFactor<N>::solve(const Vector& right) const {
+    return factor_.solve(right);
+}
+
+template <int N>
+typename NormalFactor<N>::Matrix NormalFactor<N>::inverse() const {
+    return factor_.solve(Matrix::Identity());
+}
+
+template class NormalFactor<2>;
+template class NormalFactor<3>;
+template class NormalFactor<4>;
+template class NormalFactor<5>;
+template class NormalFactor<6>;
+
+}  // namespace fidservo
