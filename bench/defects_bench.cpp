@@ -2,7 +2,9 @@
 // on 50 plates, rendered with the camera's noise and seen by the checks of the demo recipe.
 //
 //   defects_bench [FOLDER]     writes defects.csv (a row a defect) and defects.html (found against size)
+#include "core/input_error.h"
 #include "core/random.h"
+#include "core/rig.h"
 #include "core/units.h"
 #include "plant/view/plate_view.h"
 #include "src/config/rig_file.h"

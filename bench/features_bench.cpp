@@ -1,4 +1,5 @@
 // How long measuring takes, and how small a defect the comparison finds.
+#include "core/camera_parameters.h"
 #include "core/random.h"
 #include "plant/view/plate_view.h"
 #include "tests/reference_camera.h"

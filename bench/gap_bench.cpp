@@ -1,4 +1,5 @@
 // How long a hypothesis takes on a whole practice campaign: what a search does some hundred times.
+#include "core/rig.h"
 #include "gap/evidence.h"
 #include "plant/effects/catalogue.h"
 #include "src/config/rig_file.h"

@@ -2,6 +2,7 @@
 // beside that of cyclictest, which does nothing else, at the same priority on the same machine. Both run for
 // FIDSERVO_LOOP_BENCH_S seconds (20).
 #include "control/stage_loop.h"
+#include "core/rig.h"
 #include "plant/view/plate_view.h"
 #include "src/config/plate_file.h"
 #include "src/config/rig_file.h"

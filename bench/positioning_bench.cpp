@@ -11,6 +11,8 @@
 //
 //     positioning_bench [TARGETS [SEED]]
 #include "core/random.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "core/units.h"
 #include "tests/session/watched_rig.h"
 

@@ -5,6 +5,7 @@
 //     of_ideal        = n t1 / (cores wall)         t1: core time per image, decode and detect alone
 //     core_time_ratio = core time of replay / n t1
 // Medians over the rounds, the worst round beside them.
+#include "core/input_error.h"
 #include "plant/view/plate_view.h"
 #include "src/recording/writer.h"
 #include "src/replay/replay.h"

@@ -1,6 +1,7 @@
 // Speed of the stage's physics, without images: how many times faster than the rig one core simulates it,
 // beside the limit of 3,000; and the cost of the wire's hysteresis per sample, beside a direct evaluation of
 // the double integral over relays on the same grid.
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 #include "src/config/rig_file.h"

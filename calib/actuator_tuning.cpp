@@ -1,5 +1,9 @@
 #include "calib/actuator_tuning.h"
 
+#include "core/demand.h"
+#include "core/failure.h"
+#include "core/micro_parameters.h"
+
 #include <algorithm>
 #include <cmath>
 

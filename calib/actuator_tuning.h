@@ -1,8 +1,8 @@
 #pragma once
 // The actuator as it is today: room temperature, stroke and heater, from one sweep of the platform over its
 // travel under known commands, seen by the calibrated Hall sensor.
-#include "core/failure.h"
 #include "core/micro_model.h"
+#include "core/result.h"
 
 #include <span>
 

@@ -2,6 +2,7 @@
 
 #include "calib/bundle.h"
 #include "calib/dense.h"
+#include "core/failure.h"
 
 #include <algorithm>
 #include <cmath>

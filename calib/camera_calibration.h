@@ -4,7 +4,7 @@
 #include "calib/plane_pose.h"
 #include "calib/target_view.h"
 #include "core/camera_geometry.h"
-#include "core/failure.h"
+#include "core/result.h"
 
 #include <array>
 #include <optional>

@@ -3,6 +3,7 @@
 #include "calib/lens_projection.h"
 #include "calib/plane_pose.h"
 #include "core/camera_slopes.h"
+#include "core/failure.h"
 #include "vision/tag_choice.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // How a calibrated camera is mounted over the plate.
 #include "calib/target_view.h"
 #include "core/camera_geometry.h"
-#include "core/failure.h"
+#include "core/result.h"
 
 #include <vector>
 

@@ -1,6 +1,7 @@
 #include "calib/encoder_scale.h"
 
 #include "calib/rounding_likelihood.h"
+#include "core/failure.h"
 
 #include <algorithm>
 #include <cmath>

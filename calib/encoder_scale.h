@@ -8,7 +8,8 @@
 // mean of the posterior under a flat prior, its standard errors are the posterior's standard deviations, both
 // by numerical integration, widened where places pile up at the edges of their counts, as they do where a
 // drive stops as soon as its count is reached.
-#include "core/failure.h"
+
+#include "core/result.h"
 
 #include <span>
 

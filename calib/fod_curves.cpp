@@ -1,5 +1,7 @@
 #include "calib/fod_curves.h"
 
+#include "core/failure.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -8,6 +8,7 @@
 // (calib/preisach_fit.h) that explains all samples of the cycles: it rises with both temperatures, as it
 // must; peaks between those measured are interpolated by the smoothest density that cross-validation allows.
 #include "calib/preisach_fit.h"
+#include "core/result.h"
 
 namespace fidservo::calib {
 

@@ -2,6 +2,8 @@
 
 #include "calib/dense.h"
 #include "calib/preisach_data.h"
+#include "core/demand.h"
+#include "core/failure.h"
 
 #include <algorithm>
 #include <cmath>

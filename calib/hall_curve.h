@@ -8,8 +8,8 @@
 // turned into the four numbers:  V = p0 + p1 x + p2 x^2 + p3 x^3,
 //
 //     centre = -p2 / (3 p3),   a = p1 - p2^2 / (3 p3),   span = a h + p3 h^3,   cubic = -p3 h^3 / span
-#include "core/failure.h"
 #include "core/hall.h"
+#include "core/result.h"
 
 #include <cstddef>
 #include <optional>

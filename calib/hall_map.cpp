@@ -1,6 +1,7 @@
 #include "calib/hall_map.h"
 
 #include "calib/dense.h"
+#include "core/failure.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 // stamped t_i,
 //     s_i = y + k1 d(t_i - delay) + k2 d^2 + k3 d^3,
 // which yields the sensor's true scale and curvature, and by how much the camera's time stamps are late.
-#include "core/failure.h"
 #include "core/micro_model.h"
+#include "core/result.h"
 #include "core/time.h"
 
 #include <span>

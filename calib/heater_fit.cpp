@@ -1,6 +1,8 @@
 #include "calib/heater_fit.h"
 
 #include "calib/preisach_data.h"
+#include "core/failure.h"
+#include "core/micro_parameters.h"
 
 #include <algorithm>
 #include <cmath>

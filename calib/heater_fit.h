@@ -7,7 +7,7 @@
 // Output error: the model is run from each recording's start on its commands alone, through hysteresis and
 // Hall curve where the sensor is the Hall sensor, and its readings are fitted to those recorded.
 #include "calib/heater_data.h"
-#include "core/failure.h"
+#include "core/result.h"
 
 #include <array>
 #include <string>

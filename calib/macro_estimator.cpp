@@ -1,7 +1,7 @@
 #include "calib/macro_estimator.h"
 
 #include "calib/rounding_likelihood.h"
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 #include <cmath>

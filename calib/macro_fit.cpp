@@ -1,5 +1,7 @@
 #include "calib/macro_fit.h"
 
+#include "core/failure.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

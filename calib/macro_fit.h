@@ -4,6 +4,7 @@
 #include "calib/macro_estimator.h"
 #include "calib/macro_identification.h"
 #include "calib/macro_threshold.h"
+#include "core/result.h"
 
 #include <span>
 #include <vector>

@@ -1,5 +1,7 @@
 #include "calib/macro_force.h"
 
+#include "core/failure.h"
+
 #include <algorithm>
 #include <cmath>
 

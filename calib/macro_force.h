@@ -4,7 +4,7 @@
 // parameter identification of robot dynamics, IEEE TCST 21(2), 2013).
 #include "calib/macro_motion.h"
 #include "calib/macro_trace.h"
-#include "core/failure.h"
+#include "core/result.h"
 
 #include <span>
 

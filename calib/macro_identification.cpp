@@ -1,6 +1,9 @@
 #include "calib/macro_identification.h"
 
 #include "calib/macro_fit.h"
+#include "core/demand.h"
+#include "core/failure.h"
+#include "core/macro_parameters.h"
 
 #include <algorithm>
 #include <cmath>

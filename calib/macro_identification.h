@@ -3,8 +3,8 @@
 // with its standard error, or the reason why these data do not determine it.
 #include "calib/macro_motion.h"
 #include "calib/macro_trace.h"
-#include "core/failure.h"
-#include "core/rig.h"
+#include "core/macro_parameters.h"
+#include "core/result.h"
 
 #include <span>
 

@@ -1,6 +1,6 @@
 #include "calib/macro_motion.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <cmath>
 

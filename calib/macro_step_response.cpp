@@ -2,6 +2,7 @@
 
 #include "calib/dense.h"
 #include "calib/macro_threshold.h"
+#include "core/demand.h"
 #include "core/failure.h"
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 // dead zone of eq. (7) from steps of several amplitudes. For recordings of just these experiments;
 // identify_macro (macro_identification.h) takes any, and both agree.
 #include "calib/macro_identification.h"
+#include "core/result.h"
 
 #include <span>
 

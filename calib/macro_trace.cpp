@@ -1,6 +1,6 @@
 #include "calib/macro_trace.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,8 @@
 #include "calib/nonnegative_least_squares.h"
 
+#include "core/demand.h"
+#include "core/failure.h"
+
 #include <algorithm>
 
 #include <Eigen/Cholesky>

@@ -6,7 +6,8 @@
 // Block principal pivoting: L. F. Portugal, J. J. Judice, L. N. Vicente, "A comparison of block pivoting and
 // interior-point algorithms for linear least squares problems with nonnegative variables", Mathematics of
 // Computation 63, 1994. Exact: it ends at the one minimum, in a dozen factorisations as a rule.
-#include "core/failure.h"
+
+#include "core/result.h"
 
 #include <span>
 #include <vector>

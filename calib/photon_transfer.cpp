@@ -1,5 +1,7 @@
 #include "calib/photon_transfer.h"
 
+#include "core/failure.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #pragma once
 // The camera's noise from frames at rest.
-#include "core/failure.h"
+
+#include "core/result.h"
 
 #include <vector>
 

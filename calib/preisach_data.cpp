@@ -1,5 +1,6 @@
 #include "calib/preisach_data.h"
 
+#include "core/failure.h"
 #include "core/median.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #pragma once
 // What identifications of hysteresis are made from, and what can be said of it before any fit.
-#include "core/failure.h"
+
+#include "core/result.h"
 
 #include <cstddef>
 #include <span>

@@ -1,6 +1,8 @@
 #include "calib/preisach_fit.h"
 
 #include "calib/preisach_moments.h"
+#include "core/demand.h"
+#include "core/failure.h"
 
 #include <algorithm>
 #include <array>

@@ -10,7 +10,7 @@
 // the names of FodTable say degC and mm.
 #include "calib/preisach_data.h"
 #include "calib/preisach_grid.h"
-#include "core/failure.h"
+#include "core/result.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "calib/preisach_grid.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 

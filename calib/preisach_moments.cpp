@@ -1,6 +1,7 @@
 #include "calib/preisach_moments.h"
 
 #include "calib/nonnegative_least_squares.h"
+#include "core/demand.h"
 
 #include <cmath>
 #include <numeric>

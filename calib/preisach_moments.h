@@ -1,7 +1,7 @@
 #pragma once
 // The sums that a penalised, non-negative Preisach fit needs, and the fit from them.
 #include "calib/preisach_grid.h"
-#include "core/failure.h"
+#include "core/result.h"
 
 #include <span>
 #include <vector>

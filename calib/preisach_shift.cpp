@@ -1,5 +1,7 @@
 #include "calib/preisach_shift.h"
 
+#include "core/failure.h"
+
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -2,6 +2,7 @@
 // How far load moves a wire's transformation temperatures: the loop of one stress, moved along the
 // temperature, against the loop of another (the effect stress_shift).
 #include "calib/preisach_fit.h"
+#include "core/result.h"
 
 namespace fidservo::calib {
 

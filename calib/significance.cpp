@@ -1,6 +1,6 @@
 #include "calib/significance.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <cmath>
 #include <numbers>

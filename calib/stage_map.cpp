@@ -4,6 +4,8 @@
 #include "calib/pictured_corners.h"
 #include "calib/significance.h"
 #include "calib/target_view.h"
+#include "core/demand.h"
+#include "core/failure.h"
 #include "vision/tag_choice.h"
 
 #include <algorithm>

@@ -13,8 +13,8 @@
 // no encoder enters.
 #include "core/camera_covariance.h"
 #include "core/camera_geometry.h"
-#include "core/failure.h"
 #include "core/plate.h"
+#include "core/result.h"
 #include "vision/tag_refinement.h"
 
 #include <array>

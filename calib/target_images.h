@@ -3,6 +3,7 @@
 #include "calib/camera_calibration.h"
 #include "calib/target_view.h"
 #include "core/detection.h"
+#include "core/result.h"
 #include "vision/grey_noise.h"
 #include "vision/tag_refinement.h"
 

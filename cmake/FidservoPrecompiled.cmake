@@ -44,7 +44,9 @@ fidservo_precompiled(program OPTIONS fidservo_compile_options
   LIBRARIES Eigen3::Eigen fmt::fmt opencv_core nlohmann_json::nlohmann_json spdlog::spdlog
   HEADERS ${fidservo_standard_headers}
     <Eigen/Core> <fmt/format.h> <fmt/ranges.h> <nlohmann/json.hpp> <opencv2/core.hpp> <spdlog/spdlog.h> <tl/expected.hpp>)
-fidservo_precompiled(tests OPTIONS fidservo_test_options LIBRARIES Eigen3::Eigen fmt::fmt opencv_core GTest::gmock
-  HEADERS ${fidservo_standard_headers}
+if(BUILD_TESTING)
+  fidservo_precompiled(tests OPTIONS fidservo_test_options LIBRARIES Eigen3::Eigen fmt::fmt opencv_core GTest::gmock
+    HEADERS ${fidservo_standard_headers}
     <Eigen/Cholesky> <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <fmt/format.h> <gmock/gmock.h> <gtest/gtest.h>
     <opencv2/core.hpp> <tl/expected.hpp>)
+endif()

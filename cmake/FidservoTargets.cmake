@@ -10,7 +10,7 @@ target_include_directories(fidservo_compile_options INTERFACE ${CMAKE_SOURCE_DIR
 target_compile_options(fidservo_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
   -fno-math-errno)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND FIDSERVO_GROUPED)
   # The compiler looks for what it no longer needs at every 128 MB; above a GB is often enough, and a tenth faster.
   target_compile_options(fidservo_compile_options INTERFACE --param=ggc-min-heapsize=1000000)
 endif()

@@ -2,6 +2,8 @@
 
 #include "control/guardian_memory.h"
 #include "control/guardian_process.h"
+#include "core/failure.h"
+#include "core/input_error.h"
 
 #include <array>
 #include <cerrno>

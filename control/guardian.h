@@ -6,6 +6,7 @@
 // The program hands its commands over in shared memory and never touches the board. A guardian that has
 // switched the outputs off stays so until the run ends: the program has to start anew.
 #include "control/output_board.h"
+#include "core/result.h"
 #include "core/wake_signal.h"
 
 #include <atomic>

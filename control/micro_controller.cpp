@@ -1,5 +1,7 @@
 #include "control/micro_controller.h"
 
+#include "core/micro_parameters.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,7 @@
 #include "control/nonlinear_pd.h"
 
+#include "core/macro_parameters.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
 // The macro stage's controllers: e in counts, command in V, saturated to the board's range.
-#include "core/rig.h"
+#include "core/macro_parameters.h"
 
 namespace fidservo::control {
 

@@ -1,5 +1,7 @@
 #include "control/output_board.h"
 
+#include "core/input_error.h"
+
 #include <array>
 #include <atomic>
 #include <cstring>

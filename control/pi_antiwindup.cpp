@@ -1,5 +1,7 @@
 #include "control/pi_antiwindup.h"
 
+#include "core/micro_parameters.h"
+
 #include <algorithm>
 
 namespace fidservo::control {

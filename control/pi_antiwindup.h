@@ -1,6 +1,6 @@
 #pragma once
 // The micro stage's inner loop.
-#include "core/rig.h"
+#include "core/micro_parameters.h"
 
 namespace fidservo::control {
 

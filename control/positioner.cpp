@@ -1,5 +1,7 @@
 #include "control/positioner.h"
 
+#include "core/demand.h"
+
 #include <algorithm>
 #include <cmath>
 

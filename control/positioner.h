@@ -15,6 +15,8 @@
 #include "control/macro_controller.h"
 #include "control/micro_controller.h"
 #include "control/stage.h"
+#include "core/failure.h"
+#include "core/result.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 // The boundary to a stage: real board, simulated rig or anything else that takes two voltages and gives two
 // readings.
-#include "core/failure.h"
+#include "core/result.h"
 #include "core/time.h"
 
 namespace fidservo::control {

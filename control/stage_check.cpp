@@ -2,6 +2,7 @@
 
 #include "control/watchdog.h"
 #include "core/dead_zone.h"
+#include "core/rig.h"
 
 #include <algorithm>
 #include <array>

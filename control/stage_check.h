@@ -3,11 +3,15 @@
 // without a stage. The motor is pushed shortly, first one way and, where that moves nothing, the other way
 // and harder; the wire is heated until the Hall sensor shows it, and cools down again.
 #include "control/stage.h"
-#include "core/rig.h"
+#include "core/macro_parameters.h"
 
 #include <cstdint>
 #include <optional>
 #include <string>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::control {
 

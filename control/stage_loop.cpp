@@ -1,6 +1,7 @@
 #include "control/stage_loop.h"
 
 #include "control/guardian_process.h"
+#include "core/demand.h"
 #include "core/monotonic_clock.h"
 
 #include <array>

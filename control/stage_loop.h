@@ -13,6 +13,8 @@
 #include "control/loop_statistics.h"
 #include "control/stage.h"
 #include "control/watchdog.h"
+#include "core/failure.h"
+#include "core/result.h"
 #include "core/spsc_ring.h"
 #include "core/wake_signal.h"
 

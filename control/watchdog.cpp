@@ -2,6 +2,7 @@
 
 #include "core/dead_zone.h"
 #include "core/micro_model.h"
+#include "core/rig.h"
 
 #include <algorithm>
 #include <cmath>

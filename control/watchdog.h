@@ -3,11 +3,16 @@
 // for. Each of them ends the run with both commands at zero.
 #include "control/positioner.h"
 #include "control/stage.h"
-#include "core/rig.h"
+#include "core/macro_parameters.h"
+#include "core/micro_parameters.h"
 
 #include <cstdint>
 #include <optional>
 #include <string>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::control {
 

@@ -11,7 +11,8 @@
 // so that a driven carriage moves as before, and a coasting one is braked.
 //
 // Branch by branch, for a motion along which w changes.
-#include "core/rig.h"
+
+#include "core/macro_parameters.h"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,5 @@
 #include "core/failure.h"
 
-#include <cstdio>
 #include <cstdlib>
 
 namespace fidservo {
@@ -36,11 +35,6 @@ std::string_view name_of(Reason reason) {
         case Reason::stopped:
             return "stopped";
     }
-    std::abort();
-}
-
-void abort_on_broken_demand(const char* condition, const char* file, int line) {
-    std::fprintf(stderr, "fidservo: broken demand: %s (%s:%d)\n", condition, file, line);
     std::abort();
 }
 

@@ -1,15 +1,9 @@
 #pragma once
-// Failures at run time are values with a reason; mistakes of the user are exceptions; mistakes of the
-// programmer abort.
-#include <stdexcept>
-#include <string>
+// Why something that can go wrong on a healthy program did not yield a value (core/result.h).
 #include <string_view>
-
-#include <tl/expected.hpp>
 
 namespace fidservo {
 
-/// Why something that can go wrong on a healthy program did not yield a value.
 enum class Reason {
     no_tag,             ///< no fiducial in the image
     wrong_tag,          ///< a fiducial, but not the one expected at this place
@@ -35,40 +29,4 @@ constexpr bool ends_the_run(Reason reason) {
     return reason == Reason::device || reason == Reason::stopped;
 }
 
-struct Failure {
-    Reason reason;
-    std::string text;  ///< one line for people, without the reason's name
-};
-
-/// A value or the reason why there is none.
-template <class T>
-class [[nodiscard]] Result : public tl::expected<T, Failure> {
-  public:
-    using tl::expected<T, Failure>::expected;
-};
-
-using Status = Result<void>;
-
-inline tl::unexpected<Failure> failure(Reason reason, std::string text) {
-    return tl::make_unexpected(Failure{reason, std::move(text)});
-}
-
-/// Something that the user gave is wrong: a file, a key, a value, an option. One line; exit code 2.
-class InputError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
-
-/// A device or the run itself failed beyond repair. One line; exit code 3.
-class RunFault : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
-
-[[noreturn]] void abort_on_broken_demand(const char* condition, const char* file, int line);
-
 }  // namespace fidservo
-
-/// A condition that only a mistake in this program can break.
-#define FIDSERVO_DEMAND(condition) \
-    ((condition) ? void() : ::fidservo::abort_on_broken_demand(#condition, __FILE__, __LINE__))

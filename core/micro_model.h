@@ -1,8 +1,8 @@
 #pragma once
 // What the program believes of its micro stage: the rig file's numbers, corrected by what it measured itself.
 #include "core/hall.h"
+#include "core/micro_parameters.h"
 #include "core/preisach.h"
-#include "core/rig.h"
 
 #include <array>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "core/preisach.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 #include <cmath>

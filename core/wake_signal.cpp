@@ -1,6 +1,6 @@
 #include "core/wake_signal.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 
 #include <poll.h>
 #include <sys/eventfd.h>

@@ -1,5 +1,6 @@
 #include "gap/candidate.h"
 
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "gap/carriage_forces.h"
 
 #include "core/dead_zone.h"
+#include "core/rig.h"
 #include "gap/carriage_run.h"
 
 #include <algorithm>

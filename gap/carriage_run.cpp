@@ -1,6 +1,7 @@
 #include "gap/carriage_run.h"
 
 #include "calib/macro_trace.h"
+#include "core/macro_parameters.h"
 
 #include <algorithm>
 #include <cmath>

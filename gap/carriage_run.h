@@ -1,7 +1,7 @@
 #pragma once
 // What a recording says of the carriage, and where it may be compared with a model of it.
+#include "core/macro_parameters.h"
 #include "core/recording.h"
-#include "core/rig.h"
 #include "gap/counted_way.h"
 #include "gap/windows.h"
 

@@ -1,4 +1,5 @@
 #include "core/dead_zone.h"
+#include "core/rig.h"
 #include "gap/carriage_forces.h"
 #include "gap/hat_functions.h"
 #include "gap/surrogate.h"

@@ -1,5 +1,8 @@
 #include "gap/clear_detections.h"
 
+#include "core/camera_parameters.h"
+#include "core/fiducial_parameters.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

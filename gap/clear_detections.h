@@ -1,7 +1,8 @@
 #pragma once
 // Which detections say where a tag was.
+#include "core/camera_parameters.h"
+#include "core/fiducial_parameters.h"
 #include "core/recording.h"
-#include "core/rig.h"
 
 #include <set>
 #include <span>

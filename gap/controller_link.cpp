@@ -3,6 +3,7 @@
 #include "control/nonlinear_pd.h"
 #include "control/pi_antiwindup.h"
 #include "core/hall.h"
+#include "core/rig.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,10 +10,13 @@
 // After rows that are missing a controller is under way: the last error is known a row later, and the
 // integral follows from the first command that is not saturated.
 #include "core/recording.h"
-#include "core/rig.h"
 #include "gap/windows.h"
 
 #include <vector>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::gap {
 

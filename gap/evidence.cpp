@@ -1,6 +1,8 @@
 #include "gap/evidence.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "gap/evidence_parts.h"
 #include "gap/parallel.h"
 #include "gap/wire_path.h"

@@ -19,7 +19,6 @@
 //
 // The floor of a signal is what remains under the truth: floor^2 = noise^2 + quantum^2 / 12.
 #include "core/recording.h"
-#include "core/rig.h"
 #include "plant/effects/effect.h"
 
 #include <array>
@@ -28,6 +27,10 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::gap {
 

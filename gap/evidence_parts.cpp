@@ -1,6 +1,7 @@
 #include "gap/evidence_parts.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "gap/clear_detections.h"
 #include "gap/noise_floor.h"
 

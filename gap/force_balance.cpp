@@ -1,6 +1,7 @@
 #include "gap/force_balance.h"
 
 #include "core/dead_zone.h"
+#include "core/rig.h"
 #include "gap/carriage_run.h"
 #include "plant/effects/catalogue.h"
 #include "plant/transmission.h"

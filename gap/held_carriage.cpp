@@ -1,6 +1,7 @@
 #include "gap/held_carriage.h"
 
 #include "core/dead_zone.h"
+#include "core/rig.h"
 #include "gap/carriage_run.h"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "gap/image_link.h"
 
+#include "core/camera_parameters.h"
 #include "plant/view/view_options.h"
 
 #include <algorithm>

@@ -18,8 +18,8 @@
 //
 // Allowances bound what measurements are off by beyond their noise: under the truth, evenly spread within
 // them, a mean square is (floor^2 - 2/3 allowance^2) / floor^2.
+#include "core/camera_parameters.h"
 #include "core/recording.h"
-#include "core/rig.h"
 #include "gap/evidence.h"
 #include "plant/camera.h"
 #include "plant/stage_plant.h"

@@ -1,6 +1,7 @@
 #include "gap/minor_loops.h"
 
 #include "core/preisach.h"
+#include "core/rig.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "gap/platform_link.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
+#include "core/micro_parameters.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,8 +11,8 @@
 // at most three times std, what the carried temperature is trusted to. Where the wire does not move with its
 // temperature nothing is corrected. The correction slides the end of the branch on which the wire is: no turn
 // is remembered that never was.
+#include "core/micro_parameters.h"
 #include "core/recording.h"
-#include "core/rig.h"
 #include "gap/carriage_path.h"
 #include "gap/hall_range.h"
 #include "gap/windows.h"

@@ -1,4 +1,5 @@
 // An effect and what it comes to at a limit, each fitted from the other.
+#include "core/rig.h"
 #include "gap/contender.h"
 #include "gap/parallel.h"
 #include "gap/search.h"

@@ -1,4 +1,5 @@
 // Two effects at once, where each hides the other.
+#include "core/rig.h"
 #include "gap/contender.h"
 #include "gap/pair_sight.h"
 #include "gap/parallel.h"

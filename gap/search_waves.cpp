@@ -1,4 +1,5 @@
 // Waves along the rail, whose losses have a valley for each way in which a carriage may go.
+#include "core/rig.h"
 #include "gap/contender.h"
 #include "gap/parallel.h"
 #include "gap/scatter.h"

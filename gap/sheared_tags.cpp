@@ -1,5 +1,6 @@
 #include "gap/sheared_tags.h"
 
+#include "core/rig.h"
 #include "gap/tag_link.h"
 
 #include <cstddef>

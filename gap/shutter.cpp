@@ -1,5 +1,6 @@
 #include "gap/shutter.h"
 
+#include "core/camera_parameters.h"
 #include "core/median.h"
 
 #include <algorithm>

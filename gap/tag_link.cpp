@@ -1,6 +1,7 @@
 #include "gap/tag_link.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
+#include "core/rig.h"
 
 #include <algorithm>
 #include <cmath>

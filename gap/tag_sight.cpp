@@ -1,5 +1,7 @@
 #include "gap/tag_sight.h"
 
+#include "core/rig.h"
+
 #include <algorithm>
 #include <cmath>
 #include <span>

@@ -1,3 +1,4 @@
+#include "core/rig.h"
 #include "gap/hat_functions.h"
 #include "gap/surrogate.h"
 #include "gap/tag_sight.h"

@@ -1,5 +1,6 @@
 #include "gap/undecided.h"
 
+#include "core/rig.h"
 #include "gap/carriage_run.h"
 #include "gap/coupling.h"
 #include "gap/gap_size.h"

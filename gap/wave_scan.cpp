@@ -1,5 +1,6 @@
 #include "gap/wave_scan.h"
 
+#include "core/macro_parameters.h"
 #include "gap/parallel.h"
 #include "gap/score.h"
 #include "gap/wave.h"

@@ -1,6 +1,6 @@
 #pragma once
 // A weak wave of force along the rail, looked for among all that there may be.
-#include "core/rig.h"
+#include "core/macro_parameters.h"
 #include "gap/candidate.h"
 #include "gap/fit.h"
 

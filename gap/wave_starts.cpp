@@ -1,5 +1,6 @@
 #include "gap/wave_starts.h"
 
+#include "core/rig.h"
 #include "gap/score.h"
 #include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"

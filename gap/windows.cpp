@@ -1,6 +1,6 @@
 #include "gap/windows.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 #include <cmath>

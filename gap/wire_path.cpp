@@ -1,7 +1,8 @@
 #include "gap/wire_path.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 #include "core/preisach.h"
+#include "core/rig.h"
 
 #include <algorithm>
 #include <cmath>

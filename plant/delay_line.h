@@ -1,7 +1,7 @@
 #pragma once
 // A command that acts late by any time, not only by whole ticks: what was given at t acts from t + delay on,
 // which may be within a tick. Before the first one 0 is in force.
-#include "core/failure.h"
+#include "core/demand.h"
 #include "core/time.h"
 
 #include <cmath>

@@ -1,7 +1,9 @@
 #include "plant/heater.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
+#include "core/input_error.h"
 #include "core/micro_model.h"
+#include "core/micro_parameters.h"
 
 #include <algorithm>
 #include <cmath>

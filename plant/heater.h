@@ -10,7 +10,7 @@
 // This is heater_step_degC of core/micro_model.h with the exponentials taken once. A wire that shares its
 // heat with a second mass follows plant/thermal_pair.h instead, or plant/thermal_rod.h; a heater that acts
 // late, plant/delay_line.h.
-#include "core/rig.h"
+#include "core/micro_parameters.h"
 #include "plant/delay_line.h"
 #include "plant/thermal_rod.h"
 

@@ -1,7 +1,9 @@
 #include "plant/macro_axis.h"
 
 #include "core/dead_zone.h"
-#include "core/failure.h"
+#include "core/demand.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 
 #include <algorithm>
 #include <cmath>

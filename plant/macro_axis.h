@@ -10,12 +10,16 @@
 //
 // Effects add to that a delay of the command (plant/delay_line.h), which keeps the exact solution; and
 // forces by position, friction on the motion, a belt and play (plant/mechanism.h), which are integrated.
-#include "core/rig.h"
+#include "core/macro_parameters.h"
 #include "plant/delay_line.h"
 #include "plant/friction.h"
 #include "plant/mechanism.h"
 #include "plant/standing_force.h"
 #include "plant/transmission.h"
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::plant {
 

@@ -1,6 +1,7 @@
 #include "plant/micro_stage.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
+#include "core/rig.h"
 
 #include <algorithm>
 

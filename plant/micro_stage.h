@@ -16,6 +16,10 @@
 #include <memory>
 #include <optional>
 
+namespace fidservo {
+struct Rig;
+}
+
 namespace fidservo::plant {
 
 /// What comes to the Hall sensor's voltage beside the platform's position.

@@ -1,6 +1,6 @@
 #include "plant/platform_swing.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <cmath>
 #include <numbers>

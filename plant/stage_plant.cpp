@@ -1,6 +1,7 @@
 #include "plant/stage_plant.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 
 namespace fidservo::plant {

@@ -11,7 +11,6 @@
 //     }
 //
 // The state is the truth. It never leaves plant and tests: what runs on the rig sees readings only.
-#include "core/rig.h"
 #include "plant/camera.h"
 #include "plant/encoder.h"
 #include "plant/macro_axis.h"
@@ -19,6 +18,10 @@
 
 #include <cstdint>
 #include <optional>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::plant {
 

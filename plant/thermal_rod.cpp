@@ -1,6 +1,6 @@
 #include "plant/thermal_rod.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "reference/camera_view.h"
 
+#include "core/fiducial_parameters.h"
+
 #include <cmath>
 #include <limits>
 

@@ -1,8 +1,9 @@
 #pragma once
 // The fiducial that the camera sees, without images: a pinhole that may look askew, its corners with noise.
+#include "core/camera_parameters.h"
 #include "core/detection.h"
+#include "core/fiducial_parameters.h"
 #include "core/random.h"
-#include "core/rig.h"
 #include "reference/departures.h"
 
 #include <optional>

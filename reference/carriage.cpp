@@ -1,5 +1,6 @@
 #include "reference/carriage.h"
 
+#include "core/rig.h"
 #include "reference/dry_friction.h"
 #include "reference/runge_kutta.h"
 

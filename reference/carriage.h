@@ -19,8 +19,12 @@
 // is needed and an impact of the carriage passes on:
 //
 //     dq/dt = w - coupling v,     dw/dt = -2 zeta omega dq/dt - omega^2 q
-#include "core/rig.h"
+#include "core/macro_parameters.h"
 #include "reference/departures.h"
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::reference {
 

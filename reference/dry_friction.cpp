@@ -1,5 +1,7 @@
 #include "reference/dry_friction.h"
 
+#include "core/macro_parameters.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include "reference/reference_rig.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
+#include "core/rig.h"
 
 #include <algorithm>
 #include <array>

@@ -11,7 +11,6 @@
 //         advance(model, state, macro_V, micro_V);
 //     }
 #include "core/recording.h"
-#include "core/rig.h"
 #include "reference/camera_view.h"
 #include "reference/carriage.h"
 #include "reference/delay_line.h"
@@ -23,6 +22,10 @@
 #include <cstdint>
 #include <optional>
 #include <vector>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::reference {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What the board reads: the carriage's encoder and the platform's Hall sensor.
+#include "core/hall.h"
 #include "core/random.h"
-#include "core/rig.h"
 #include "reference/departures.h"
 
 #include <cstdint>

@@ -1,6 +1,8 @@
 #include "reference/tag_picture.h"
 
-#include "core/failure.h"
+#include "core/camera_parameters.h"
+#include "core/demand.h"
+#include "core/fiducial_parameters.h"
 
 #include <algorithm>
 #include <cmath>

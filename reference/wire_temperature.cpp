@@ -1,5 +1,6 @@
 #include "reference/wire_temperature.h"
 
+#include "core/micro_parameters.h"
 #include "reference/runge_kutta.h"
 
 #include <algorithm>

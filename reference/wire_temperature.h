@@ -7,7 +7,7 @@
 // mount: a rod in n equal volumes that conducts along and loses heat to the room,
 //
 //     dR_i/dt = (R_{i-1} - 2 R_i + R_{i+1}) n^2 / tau_d - (R_i - Ta) / tau_l  (+ k (T - R_1) n / C for i = 1)
-#include "core/rig.h"
+#include "core/micro_parameters.h"
 #include "reference/departures.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "src/cli.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "src/commands/commands.h"
 #include "src/commit.h"
 #include "src/config/key_names.h"

@@ -1,6 +1,7 @@
 #include "tests/live_rig.h"
 
 #include "core/monotonic_clock.h"
+#include "core/rig.h"
 
 #include <algorithm>
 

@@ -2,7 +2,6 @@
 // A rig in real time: the simulated stage goes on by the wall clock, whoever asks and however late, and a
 // camera's frame can be had of any moment of the last second.
 #include "core/plate.h"
-#include "core/rig.h"
 #include "core/time.h"
 #include "plant/stage_plant.h"
 #include "plant/view/plate_view.h"
@@ -14,6 +13,8 @@
 #include <opencv2/core/mat.hpp>
 
 namespace fidservo {
+
+struct Rig;
 
 class LiveRig {
   public:

@@ -2,6 +2,7 @@
 // Waiting for a camera in a test. The limit, which a test program's CMake file states, is for the case that
 // what is waited for never comes.
 #include "core/monotonic_clock.h"
+#include "core/result.h"
 #include "vision/camera.h"
 
 #include <chrono>

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/rig.h"
+#include "core/camera_parameters.h"
 
 namespace fidservo {
 

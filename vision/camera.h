@@ -1,6 +1,6 @@
 #pragma once
 // The boundary to a camera: V4L2, simulated, or images on disk.
-#include "core/failure.h"
+#include "core/result.h"
 #include "core/time.h"
 
 #include <cstdint>

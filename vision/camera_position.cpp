@@ -1,6 +1,7 @@
 #include "vision/camera_position.h"
 
 #include "core/camera_slopes.h"
+#include "core/failure.h"
 #include "vision/quad.h"
 #include "vision/tag_choice.h"
 #include "vision/tag_pattern.h"

@@ -2,8 +2,8 @@
 // From a frame to where the camera is.
 #include "core/camera_geometry.h"
 #include "core/detection.h"
-#include "core/failure.h"
 #include "core/plate.h"
+#include "core/result.h"
 #include "vision/camera.h"
 #include "vision/tag_refinement.h"
 

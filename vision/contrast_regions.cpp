@@ -1,6 +1,6 @@
 #include "vision/contrast_regions.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "vision/displacement.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 #include "core/units.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #pragma once
 // How much the grey level of one pixel scatters, from the camera's data sheet or its calibration.
-#include "core/rig.h"
+
+#include "core/camera_parameters.h"
 
 #include <cmath>
 

@@ -1,5 +1,7 @@
 #include "vision/image_sequence.h"
 
+#include "core/demand.h"
+#include "core/input_error.h"
 #include "vision/images/image_file.h"
 #include "vision/images/media.h"
 

@@ -1,5 +1,6 @@
 #pragma once
 // Images on disk as a camera: a recording's cam0 folder, a folder of images, one image, a video.
+#include "core/result.h"
 #include "vision/camera.h"
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 #include "vision/tag_alignment.h"
 
+#include "core/demand.h"
+#include "core/failure.h"
 #include "core/normal_equations.h"
 #include "vision/quad.h"
 #include "vision/tag_pattern.h"

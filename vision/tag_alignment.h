@@ -1,7 +1,7 @@
 #pragma once
 // A tag whose place is roughly known, found again without a search of the image.
 #include "core/detection.h"
-#include "core/failure.h"
+#include "core/result.h"
 
 #include <array>
 

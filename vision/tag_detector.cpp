@@ -9,7 +9,7 @@ extern "C" {
 #include <apriltag/tag36h11.h>
 }
 
-#include "core/failure.h"
+#include "core/demand.h"
 #include "vision/quad.h"
 #include "vision/tag_pattern.h"
 

@@ -1,6 +1,6 @@
 #include "vision/tag_pattern.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 #include "core/normal_equations.h"
 #include "vision/quad.h"
 

@@ -1,5 +1,7 @@
 #include "vision/tag_refinement.h"
 
+#include "core/demand.h"
+#include "core/failure.h"
 #include "core/median.h"
 #include "vision/band_model.h"
 #include "vision/band_outliers.h"

@@ -2,7 +2,7 @@
 // Where a tag is, as precisely as its pixels allow, from all edges of its code.
 #include "core/camera_geometry.h"
 #include "core/detection.h"
-#include "core/failure.h"
+#include "core/result.h"
 #include "vision/grey_noise.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "bench/precision/child_detector.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 
 #include <cstdio>
 #include <sstream>

@@ -1,5 +1,7 @@
 #include "control/comedi/comedi_board.h"
 
+#include "core/failure.h"
+#include "core/input_error.h"
 #include "core/monotonic_clock.h"
 
 #include <cmath>

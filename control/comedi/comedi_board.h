@@ -5,6 +5,7 @@
 #include "control/guardian.h"
 #include "control/output_board.h"
 #include "control/stage.h"
+#include "core/result.h"
 
 #include <memory>
 

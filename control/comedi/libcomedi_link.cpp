@@ -1,6 +1,6 @@
 #include "control/comedi/libcomedi_link.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 
 #include <comedilib.h>
 

@@ -1,6 +1,7 @@
 #include "control/comedi/wiring.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 
 #include <algorithm>
 #include <cmath>

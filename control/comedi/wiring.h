@@ -1,7 +1,10 @@
 #pragma once
 // A channel map checked against the board that is there: what is needed to turn volts into its numbers.
 #include "control/comedi/channel_map.h"
-#include "core/rig.h"
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::control::comedi {
 

@@ -1,6 +1,7 @@
 #include "plant/effects/catalogue.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
+#include "core/input_error.h"
 
 #include <algorithm>
 #include <array>

@@ -5,6 +5,10 @@
 #include <span>
 #include <string_view>
 
+namespace fidservo {
+struct StatedEffect;
+}
+
 namespace fidservo::plant {
 
 /// All effects, in the order of the signal's way through the rig.

@@ -1,3 +1,4 @@
+#include "core/macro_parameters.h"
 #include "plant/effects/creeping_friction.h"
 
 namespace fidservo::plant::effects {

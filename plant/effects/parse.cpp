@@ -1,5 +1,6 @@
 // "NAME:PARAMETER=VALUE,..." as the option --effect takes it.
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "plant/view/cell_grid.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 #include <cmath>

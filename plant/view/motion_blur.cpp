@@ -1,6 +1,6 @@
 #include "plant/view/motion_blur.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 #include <array>

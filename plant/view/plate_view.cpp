@@ -1,5 +1,6 @@
 #include "plant/view/plate_view.h"
 
+#include "core/camera_parameters.h"
 #include "core/random.h"
 #include "plant/actual_camera.h"
 #include "plant/view/light_field.h"

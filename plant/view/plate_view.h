@@ -1,7 +1,7 @@
 #pragma once
 // The plate as the camera sees it.
+#include "core/camera_parameters.h"
 #include "core/plate.h"
-#include "core/rig.h"
 #include "plant/camera.h"
 #include "plant/view/view_options.h"
 

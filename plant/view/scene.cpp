@@ -1,6 +1,6 @@
 #include "plant/view/scene.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "plant/view/tag_code.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "plant/view/scratch_path.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 #include "plant/view/gaussian.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "plant/view/sensor.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 #include "plant/view/gaussian.h"
 
 #include <algorithm>

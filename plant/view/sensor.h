@@ -1,7 +1,6 @@
 #pragma once
 // The image sensor: electrons, noise, grey levels.
 #include "core/random.h"
-#include "core/rig.h"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "plant/view/tag_code.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 
 #include <memory>
 #include <string>

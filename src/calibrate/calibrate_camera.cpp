@@ -2,8 +2,10 @@
 
 #include "calib/photon_transfer.h"
 #include "calib/target_images.h"
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "core/plumb_bob.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "src/calibrate/camera_images.h"
 #include "src/calibrate/camera_report.h"
 #include "src/commands/commands.h"

@@ -1,6 +1,6 @@
 #include "src/calibrate/camera_images.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "src/replay/images.h"
 #include "src/replay/ordered_work.h"
 #include "vision/tag_detector.h"

@@ -1,6 +1,7 @@
 #include "src/calibrate/camera_target.h"
 
-#include "core/failure.h"
+#include "core/fiducial_parameters.h"
+#include "core/input_error.h"
 #include "src/config/plate_file.h"
 #include "src/config/yaml_reader.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // What is printed on a camera's calibration target.
+#include "core/fiducial_parameters.h"
 #include "core/plate.h"
-#include "core/rig.h"
 
 #include <filesystem>
 #include <string>

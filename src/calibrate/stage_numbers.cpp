@@ -1,6 +1,8 @@
 #include "src/calibrate/stage_numbers.h"
 
 #include "calib/dense.h"
+#include "core/failure.h"
+#include "core/rig.h"
 #include "core/units.h"
 
 #include <algorithm>

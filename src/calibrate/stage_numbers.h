@@ -4,7 +4,7 @@
 #include "calib/encoder_scale.h"
 #include "calib/hall_curve.h"
 #include "calib/stage_map.h"
-#include "core/rig.h"
+#include "core/result.h"
 #include "src/calibrate/stage_survey.h"
 
 #include <optional>
@@ -12,6 +12,8 @@
 #include <vector>
 
 namespace fidservo {
+
+struct Rig;
 
 /// A stand, as the numbers explain it.
 struct StandResidual {

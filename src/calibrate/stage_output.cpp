@@ -1,4 +1,5 @@
 #include "core/plumb_bob.h"
+#include "core/rig.h"
 #include "src/calibrate/calibrate_stage.h"
 #include "src/calibrate/stage_values.h"
 #include "src/config/rig_edit.h"

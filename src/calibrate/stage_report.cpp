@@ -1,3 +1,4 @@
+#include "core/rig.h"
 #include "core/units.h"
 #include "src/calibrate/calibrate_stage.h"
 #include "src/calibrate/stage_values.h"

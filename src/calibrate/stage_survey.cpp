@@ -1,5 +1,7 @@
 #include "src/calibrate/stage_survey.h"
 
+#include "core/failure.h"
+#include "core/rig.h"
 #include "vision/grey_noise.h"
 #include "vision/tag_choice.h"
 

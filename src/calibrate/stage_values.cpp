@@ -1,5 +1,7 @@
 #include "src/calibrate/stage_values.h"
 
+#include "core/rig.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include "src/calibrate/stage_verdict.h"
 
 #include "calib/significance.h"
+#include "core/rig.h"
 #include "core/units.h"
 
 #include <algorithm>

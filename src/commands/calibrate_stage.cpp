@@ -2,6 +2,9 @@
 // them.
 #include "src/calibrate/calibrate_stage.h"
 
+#include "core/input_error.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/commands/commands.h"
 #include "src/commands/session_options.h"

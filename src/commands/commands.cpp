@@ -1,6 +1,7 @@
 #include "src/commands/commands.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "src/config/rig_file.h"
 
 #include <CLI/Config.hpp>

@@ -1,7 +1,8 @@
 // fidservo diagnose: where recordings of a rig and its simulator disagree, and by which effect.
 #include "gap/diagnose.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/commands/commands.h"
 #include "src/commands/self_check.h"

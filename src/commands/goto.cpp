@@ -1,4 +1,8 @@
 // fidservo goto: one fiducial-relative motion.
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "core/units.h"
 #include "src/commands/commands.h"
 #include "src/commands/session_options.h"

@@ -1,4 +1,5 @@
 // fidservo home: end stop, registration against a tag, tuning sweep.
+#include "core/rig.h"
 #include "src/commands/commands.h"
 #include "src/commands/session_options.h"
 #include "src/config/rig_file.h"

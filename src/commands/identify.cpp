@@ -1,7 +1,8 @@
 // fidservo identify and fidservo calibrate: models' numbers from recordings, into a rig file.
 #include "src/identify/identify.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/commands/commands.h"
 #include "src/config/rig_file.h"

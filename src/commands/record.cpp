@@ -1,5 +1,8 @@
 // fidservo record: what the rig does when nobody moves it.
 #include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "src/commands/commands.h"
 #include "src/commands/session_options.h"
 #include "src/config/rig_file.h"

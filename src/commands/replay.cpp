@@ -1,7 +1,8 @@
 // fidservo replay: the analysis of a run on images that exist already.
 #include "src/replay/replay.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "src/commands/commands.h"
 #include "src/config/rig_file.h"
 

@@ -1,5 +1,8 @@
 #include "src/commands/session_options.h"
 
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "src/commands/commands.h"
 #include "src/config/plate_file.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 // What the commands that drive a rig have in common.
 #include "core/plate.h"
+#include "core/result.h"
 #include "src/session/session.h"
 
 #include <string_view>

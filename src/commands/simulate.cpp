@@ -1,7 +1,8 @@
 // fidservo simulate: recordings of the simulated rig, with or without effects.
 #include "src/simulation/simulate.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/commands/commands.h"
 #include "src/config/rig_file.h"

@@ -1,6 +1,5 @@
 #include "src/config/camera_info.h"
 
-#include "core/failure.h"
 #include "core/plumb_bob.h"
 #include "src/config/rig_camera.h"
 #include "src/config/yaml_reader.h"

@@ -1,6 +1,6 @@
 #include "src/config/fod_file.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "src/recording/csv_text.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "src/config/plate_file.h"
 
-#include "core/failure.h"
+#include "core/fiducial_parameters.h"
 #include "core/units.h"
 #include "src/config/yaml_reader.h"
 

@@ -1,6 +1,6 @@
 #pragma once
+#include "core/fiducial_parameters.h"
 #include "core/plate.h"
-#include "core/rig.h"
 #include "src/config/yaml_reader.h"
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 #include "src/config/rig_camera.h"
 
+#include "core/camera_parameters.h"
 #include "core/camera_slopes.h"
 #include "core/plumb_bob.h"
 #include "src/config/camera_info.h"

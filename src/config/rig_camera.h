@@ -1,6 +1,6 @@
 #pragma once
 // The camera of a rig file: its keys and what they may hold.
-#include "core/rig.h"
+#include "core/camera_parameters.h"
 #include "src/config/yaml_reader.h"
 
 #include <array>

@@ -1,7 +1,8 @@
 #include "src/config/rig_edit.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "core/plumb_bob.h"
+#include "core/rig.h"
 #include "src/config/camera_info.h"
 #include "src/config/fod_file.h"
 #include "src/config/rig_camera.h"

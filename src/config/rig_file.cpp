@@ -1,6 +1,7 @@
 #include "src/config/rig_file.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/config/fod_file.h"
 #include "src/config/rig_camera.h"

@@ -1,9 +1,10 @@
 #pragma once
-#include "core/rig.h"
 
 #include <filesystem>
 
 namespace fidservo {
+
+struct Rig;
 
 /// Reads a rig file (assets/rig.yaml is the reference rig) and the FOD table it names. Parts that the rig
 /// does not have may be left out. Throws InputError.

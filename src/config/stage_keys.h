@@ -3,13 +3,14 @@
 // Only who opens a stage asks.
 #include "control/comedi/channel_map.h"
 #include "control/watchdog.h"
-#include "core/rig.h"
 #include "src/config/yaml_reader.h"
 
 #include <filesystem>
 #include <optional>
 
 namespace fidservo {
+
+struct Rig;
 
 /// `stage.watchdog`; what is not given stays as it is (control/watchdog.h).
 struct WatchdogKeys {

@@ -1,6 +1,6 @@
 #include "src/config/yaml_reader.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "src/config/key_names.h"
 
 #include <algorithm>

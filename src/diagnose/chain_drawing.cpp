@@ -1,5 +1,6 @@
 #include "src/diagnose/chain_drawing.h"
 
+#include "core/rig.h"
 #include "src/diagnose/words.h"
 #include "src/report/html.h"
 

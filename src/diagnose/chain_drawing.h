@@ -1,10 +1,13 @@
 #pragma once
 // The signal chain as a drawing: blocks, the measured boundaries between them with the gap at each, and
 // which blocks are accused.
-#include "core/rig.h"
 #include "gap/diagnosis.h"
 
 #include <string>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::diagnose {
 

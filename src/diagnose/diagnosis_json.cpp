@@ -1,5 +1,6 @@
 #include "src/diagnose/diagnosis_json.h"
 
+#include "core/rig.h"
 #include "src/config/rig_edit.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "src/diagnose/frame_looks.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "gap/parallel.h"
 #include "src/replay/images.h"
 #include "vision/tag_appearance.h"

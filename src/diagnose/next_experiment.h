@@ -1,9 +1,12 @@
 #pragma once
 // The experiment that decides between causes that the recordings do not tell apart.
-#include "core/rig.h"
 #include "gap/diagnosis.h"
 
 #include <optional>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::diagnose {
 

@@ -1,5 +1,6 @@
 #include "src/diagnose/next_steps.h"
 
+#include "core/rig.h"
 #include "src/diagnose/advice.h"
 #include "src/diagnose/words.h"
 #include "src/report/html.h"

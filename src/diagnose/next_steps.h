@@ -1,11 +1,14 @@
 #pragma once
 // What to do after a diagnosis, with the commands to run.
-#include "core/rig.h"
 #include "gap/diagnosis.h"
 
 #include <filesystem>
 #include <string>
 #include <vector>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::diagnose {
 

@@ -1,5 +1,6 @@
 #include "src/diagnose/report.h"
 
+#include "core/rig.h"
 #include "src/commit.h"
 #include "src/diagnose/chain_drawing.h"
 #include "src/diagnose/dependence_charts.h"

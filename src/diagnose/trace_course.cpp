@@ -1,5 +1,6 @@
 #include "src/diagnose/trace_course.h"
 
+#include "core/rig.h"
 #include "core/time.h"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "src/diagnose/verdict_words.h"
 
+#include "core/rig.h"
 #include "src/diagnose/advice.h"
 #include "src/diagnose/words.h"
 

@@ -1,5 +1,6 @@
 #include "src/diagnose/waterfall.h"
 
+#include "core/rig.h"
 #include "src/diagnose/words.h"
 #include "src/report/html.h"
 

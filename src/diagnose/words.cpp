@@ -1,6 +1,7 @@
 #include "src/diagnose/words.h"
 
 #include "core/hall.h"
+#include "core/rig.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,13 @@
 #pragma once
 // What the parts of a diagnosis are called in sentences for people.
-#include "core/rig.h"
 #include "gap/diagnosis.h"
 
 #include <string>
 #include <string_view>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::diagnose {
 

@@ -1,5 +1,6 @@
 #include "calib/hall_curve.h"
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "src/config/plate_file.h"
 #include "src/identify/identify.h"
 #include "vision/camera_position.h"

@@ -1,5 +1,8 @@
 #include "calib/heater_fit.h"
 #include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "src/identify/identify.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "src/identify/identified.h"
 
+#include "core/rig.h"
 #include "src/config/rig_edit.h"
 #include "src/recording/durable_file.h"
 

@@ -1,6 +1,5 @@
 #pragma once
 // What an identification found, as it is printed, written as JSON and into a rig file.
-#include "core/failure.h"
 #include "core/preisach.h"
 #include "core/rig.h"
 

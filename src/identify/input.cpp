@@ -1,6 +1,8 @@
 #include "src/identify/input.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 
 #include <cmath>
 

@@ -1,6 +1,8 @@
 #include "calib/macro_force.h"
 #include "calib/macro_identification.h"
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "src/identify/identify.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "src/identify/text_table.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
+#include "core/input_error.h"
 #include "src/recording/csv_text.h"
 
 #include <algorithm>

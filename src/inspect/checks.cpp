@@ -1,5 +1,7 @@
 #include "src/inspect/checks.h"
 
+#include "core/failure.h"
+#include "core/result.h"
 #include "core/units.h"
 #include "src/inspect/clip.h"
 #include "src/inspect/outline.h"

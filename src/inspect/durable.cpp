@@ -1,6 +1,6 @@
 #include "src/inspect/durable.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 
 #include <cerrno>
 #include <cstring>

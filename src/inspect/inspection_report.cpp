@@ -1,5 +1,6 @@
 #include "src/inspect/inspection_report.h"
 
+#include "core/rig.h"
 #include "src/inspect/report_sections.h"
 #include "src/inspect/report_traces.h"
 #include "src/inspect/saved_images.h"

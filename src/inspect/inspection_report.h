@@ -1,10 +1,13 @@
 #pragma once
 // The report of an inspection: one HTML file that works offline.
-#include "core/rig.h"
 #include "src/inspect/device_figures.h"
 #include "src/inspect/journal.h"
 #include "src/inspect/output.h"
 #include "src/inspect/recipe.h"
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::inspect {
 

@@ -1,5 +1,8 @@
 #include "src/inspect/inspection_run.h"
 
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "src/commands/commands.h"
 #include "src/config/plate_file.h"
 #include "src/config/rig_file.h"

@@ -1,6 +1,6 @@
 #include "src/inspect/journal.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "src/inspect/durable.h"
 #include "src/inspect/visit_json.h"
 

@@ -1,5 +1,6 @@
 #include "src/inspect/nominal_drawing.h"
 
+#include "core/camera_parameters.h"
 #include "plant/view/plate_view.h"
 #include "src/inspect/pattern.h"
 #include "src/inspect/seen_box.h"

@@ -1,6 +1,6 @@
 #pragma once
 // The nominal plate as an ideal camera would see it.
-#include "core/rig.h"
+#include "core/camera_parameters.h"
 #include "src/inspect/checks.h"
 
 namespace fidservo::inspect {

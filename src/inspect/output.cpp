@@ -1,6 +1,6 @@
 #include "src/inspect/output.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 
 #include <fmt/format.h>
 

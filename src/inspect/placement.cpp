@@ -1,6 +1,7 @@
 #include "src/inspect/placement.h"
 
 #include "core/camera_covariance.h"
+#include "core/failure.h"
 #include "core/units.h"
 #include "src/inspect/recipe.h"
 

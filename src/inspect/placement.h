@@ -11,6 +11,7 @@
 //     u^2 = (sum of their variances) / n^2 + (standard deviation of the d_j)^2 / n + J C J^T,
 // where J C J^T is what the camera's calibration leaves of that mean (core/camera_covariance.h),
 // so that a displaced neighbour makes the placement undecidable rather than wrong.
+#include "core/result.h"
 #include "src/inspect/snapshot.h"
 
 #include <string>

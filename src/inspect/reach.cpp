@@ -1,5 +1,6 @@
 #include "src/inspect/reach.h"
 
+#include "core/rig.h"
 #include "core/units.h"
 #include "src/inspect/clip.h"
 #include "src/inspect/seen_box.h"

@@ -2,13 +2,16 @@
 // What an inspection is told: the plate as it should be, the places to go to, and what to check there.
 // docs/inspection.md describes the file.
 #include "core/plate.h"
-#include "core/rig.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::inspect {
 

@@ -1,5 +1,8 @@
 #include "src/inspect/reference_check.h"
 
+#include "core/camera_parameters.h"
+#include "core/failure.h"
+#include "core/input_error.h"
 #include "core/units.h"
 #include "src/inspect/outline.h"
 #include "vision/images/image_file.h"

@@ -1,5 +1,6 @@
 #include "src/inspect/report_sections.h"
 
+#include "core/rig.h"
 #include "src/inspect/seen_box.h"
 #include "src/report/chart.h"
 #include "src/report/html.h"

@@ -1,6 +1,7 @@
 #include "src/inspect/report_traces.h"
 
 #include "core/hall.h"
+#include "core/rig.h"
 #include "core/time.h"
 #include "src/inspect/report_sections.h"
 #include "src/recording/reader.h"

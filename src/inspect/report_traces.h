@@ -1,10 +1,13 @@
 #pragma once
 // Macro and micro stage over the whole run, from the recordings.
-#include "core/rig.h"
 #include "src/inspect/output.h"
 #include "src/inspect/results.h"
 
 #include <string>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::inspect {
 

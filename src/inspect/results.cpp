@@ -1,6 +1,5 @@
 #include "src/inspect/results.h"
 
-#include "core/failure.h"
 #include "src/recording/durable_file.h"
 
 #include <fmt/format.h>

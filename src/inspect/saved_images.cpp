@@ -1,5 +1,8 @@
 #include "src/inspect/saved_images.h"
 
+#include "core/camera_parameters.h"
+#include "core/failure.h"
+#include "core/input_error.h"
 #include "vision/image_sequence.h"
 
 #include <string_view>

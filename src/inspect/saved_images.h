@@ -1,5 +1,6 @@
 #pragma once
 // `--camera images:DIR`: the images of an earlier run measured again, by today's recipe; nothing moves.
+#include "core/result.h"
 #include "src/inspect/site_measurement.h"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "src/inspect/schedule.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "src/inspect/sha256.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 
 #include <array>
 #include <fstream>

@@ -1,5 +1,8 @@
 #include "src/inspect/site_visit.h"
 
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
 #include "core/units.h"
 #include "src/session/rig_check.h"
 

@@ -1,5 +1,6 @@
 #include "src/inspect/snapshot.h"
 
+#include "core/camera_parameters.h"
 #include "src/inspect/recipe.h"
 #include "vision/camera_position.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 // An image taken at rest, and what its fiducials say about where it was taken.
 #include "core/plate.h"
+#include "core/result.h"
 #include "vision/camera.h"
 #include "vision/features/rest_image.h"
 #include "vision/tag_detector.h"

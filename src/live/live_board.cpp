@@ -1,5 +1,6 @@
 #include "src/live/live_board.h"
 
+#include "core/rig.h"
 #include "vision/images/image_file.h"
 
 #include <algorithm>

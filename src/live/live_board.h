@@ -1,7 +1,6 @@
 #pragma once
 // What the live page shows, collected from the feed by one thread and sent to browsers by others.
 #include "core/micro_model.h"
-#include "core/rig.h"
 #include "src/live/live_feed.h"
 
 #include <condition_variable>
@@ -15,6 +14,8 @@
 #include <vector>
 
 namespace fidservo {
+
+struct Rig;
 
 class LiveBoard {
   public:

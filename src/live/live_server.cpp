@@ -1,6 +1,6 @@
 #include "src/live/live_server.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "src/live/live_board.h"
 #include "src/report/embedded.h"
 

@@ -6,7 +6,6 @@
 // picture and serve the page, so that a slow or a dead browser costs the run nothing. Requests that were not
 // made by this page in a browser on this machine, by their Host and Origin, are refused: no other site can
 // stop a run, nor look at it.
-#include "core/rig.h"
 #include "src/live/live_feed.h"
 
 #include <functional>
@@ -14,6 +13,8 @@
 #include <string>
 
 namespace fidservo {
+
+struct Rig;
 
 class LiveServer {
   public:

@@ -1,6 +1,6 @@
 #include "src/recording/csv_text.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 
 #include <charconv>
 #include <cmath>

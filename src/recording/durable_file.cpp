@@ -1,5 +1,8 @@
 #include "src/recording/durable_file.h"
 
+#include "core/failure.h"
+#include "core/input_error.h"
+
 #include <cerrno>
 #include <cstring>
 #include <utility>

@@ -1,6 +1,7 @@
 #pragma once
 // Files that are on the disk, whole, when the caller goes on.
-#include "core/failure.h"
+
+#include "core/result.h"
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
 #include "src/recording/reader.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "src/config/yaml_reader.h"
 #include "src/recording/csv_columns.h"
 #include "src/recording/csv_text.h"

@@ -1,5 +1,6 @@
 #include "src/recording/row_format.h"
 
+#include "core/camera_parameters.h"
 #include "src/recording/layout.h"
 
 #include <array>

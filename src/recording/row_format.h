@@ -1,7 +1,7 @@
 #pragma once
 // Recordings as text, byte for byte.
+#include "core/camera_parameters.h"
 #include "core/recording.h"
-#include "core/rig.h"
 
 #include <string>
 

@@ -1,5 +1,9 @@
 #include "src/recording/writer.h"
 
+#include "core/demand.h"
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "core/spsc_ring.h"
 #include "src/recording/durable_file.h"
 #include "src/recording/row_format.h"

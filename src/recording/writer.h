@@ -1,9 +1,9 @@
 #pragma once
 // Writes a recording folder while it is being made: the control loop hands over rows without waiting, a
 // thread formats and writes them.
-#include "core/failure.h"
+#include "core/camera_parameters.h"
 #include "core/recording.h"
-#include "core/rig.h"
+#include "core/result.h"
 
 #include <filesystem>
 #include <memory>
@@ -13,6 +13,8 @@
 #include <opencv2/core/mat.hpp>
 
 namespace fidservo {
+
+struct Rig;
 
 /// What to do when the disk is slower than the loop and the ring is full.
 enum class WhenFull {

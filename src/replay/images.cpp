@@ -1,6 +1,7 @@
 #include "src/replay/images.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
 #include "src/recording/reader.h"
 #include "vision/images/image_file.h"
 #include "vision/images/media.h"

@@ -1,6 +1,8 @@
 #include "src/replay/replay.h"
 
-#include "core/failure.h"
+#include "core/camera_parameters.h"
+#include "core/input_error.h"
+#include "core/result.h"
 #include "src/progress.h"
 #include "src/recording/durable_file.h"
 #include "src/recording/layout.h"

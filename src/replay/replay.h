@@ -1,5 +1,5 @@
 #pragma once
-#include "core/rig.h"
+#include "core/camera_parameters.h"
 #include "src/replay/images.h"
 
 #include <cstddef>

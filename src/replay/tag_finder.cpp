@@ -1,5 +1,6 @@
 #include "src/replay/tag_finder.h"
 
+#include "core/camera_parameters.h"
 #include "vision/contrast_regions.h"
 
 #include <algorithm>

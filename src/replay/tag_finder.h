@@ -1,7 +1,7 @@
 #pragma once
 // From a frame to its fiducials, as precise as they can be had.
+#include "core/camera_parameters.h"
 #include "core/detection.h"
-#include "core/rig.h"
 #include "src/replay/images.h"
 #include "vision/tag_detector.h"
 #include "vision/tag_refinement.h"

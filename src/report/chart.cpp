@@ -1,6 +1,6 @@
 #include "src/report/chart.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 #include "src/report/html.h"
 #include "src/report/svg_axes.h"
 

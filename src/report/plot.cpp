@@ -1,6 +1,6 @@
 #include "src/report/plot.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 #include "src/report/html.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "src/report/xy_chart.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 #include "src/report/svg_axes.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // The benchmark PID and its stick-slip limit cycle (fig. 17).
 #include "core/random.h"
+#include "core/rig.h"
 #include "src/reproduce/chapters.h"
 #include "src/reproduce/figures.h"
 #include "src/reproduce/step_response.h"

@@ -1,5 +1,6 @@
 // What the publication leaves for later: friction beside the dead zone, the carriage shaking the platform, a
 // second thermal mass. Here as effects of the simulator (plant/effects), against the same run without them.
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/recording/writer.h"
 #include "src/reproduce/chapters.h"

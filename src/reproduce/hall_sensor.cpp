@@ -1,6 +1,7 @@
 // The Hall sensor's calibration: displacement by the camera against the converter's reading.
-#include "core/failure.h"
 #include "core/hall.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "src/identify/identify.h"
 #include "src/report/xy_chart.h"
 #include "src/reproduce/chapters.h"

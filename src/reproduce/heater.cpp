@@ -1,8 +1,9 @@
 // The heater: temperature inferred from position through the inverse hysteresis, then static gain, heating
 // and cooling (fig. 13 to 16).
 #include "calib/heater_fit.h"
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "core/random.h"
+#include "core/rig.h"
 #include "src/reproduce/chapters.h"
 #include "src/reproduce/figures.h"
 

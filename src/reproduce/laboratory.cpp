@@ -1,6 +1,7 @@
 #include "src/reproduce/laboratory.h"
 
 #include "core/hall.h"
+#include "core/rig.h"
 #include "src/recording/writer.h"
 #include "src/simulation/simulate_reference.h"
 

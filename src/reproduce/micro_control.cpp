@@ -1,4 +1,5 @@
 // The PI with anti-windup on the micro stage: sequential steps (fig. 21), and bandwidth over the full travel.
+#include "core/rig.h"
 #include "src/report/xy_chart.h"
 #include "src/reproduce/chapters.h"
 #include "src/reproduce/figures.h"

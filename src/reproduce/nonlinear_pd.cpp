@@ -1,4 +1,5 @@
 // The nonlinear PD on a decaying square wave (fig. 18, 19), and both readings of eq. 9.
+#include "core/rig.h"
 #include "src/reproduce/chapters.h"
 #include "src/reproduce/figures.h"
 #include "src/reproduce/step_response.h"

@@ -1,7 +1,9 @@
 // The macro stage in open loop: identified as published, then predicted with the plain dead zone (eq. 5) and
 // with the modified one (eq. 7, fig. 9).
 #include "calib/macro_step_response.h"
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "src/reproduce/chapters.h"
 #include "src/reproduce/figures.h"
 

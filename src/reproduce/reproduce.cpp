@@ -1,6 +1,7 @@
 #include "src/reproduce/reproduce.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "src/commit.h"
 #include "src/config/rig_file.h"
 #include "src/progress.h"

@@ -1,6 +1,6 @@
 #include "src/reproduce/step_response.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,9 @@
 // The wire's hysteresis: a family of first-order descending curves from a kiln, the Preisach model that it
 // gives, and its validation on another temperature profile, forwards and inverted (fig. 12).
 #include "calib/fod_curves.h"
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "core/random.h"
+#include "core/rig.h"
 #include "reference/hysteresis.h"
 #include "src/report/xy_chart.h"
 #include "src/reproduce/chapters.h"

@@ -1,5 +1,6 @@
 #include "src/selfcheck/campaign.h"
 
+#include "core/rig.h"
 #include "gap/parallel.h"
 #include "src/simulation/simulate_reference.h"
 

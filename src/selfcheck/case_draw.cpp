@@ -1,5 +1,6 @@
 #include "src/selfcheck/case_draw.h"
 
+#include "core/rig.h"
 #include "gap/candidate.h"
 #include "plant/effects/catalogue.h"
 #include "src/selfcheck/listed_effects.h"

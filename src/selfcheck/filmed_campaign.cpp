@@ -1,6 +1,7 @@
 #include "src/selfcheck/filmed_campaign.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "gap/parallel.h"
 #include "reference/tag_picture.h"
 #include "src/simulation/run_experiment.h"

@@ -1,5 +1,6 @@
 #include "src/selfcheck/frames_draw.h"
 
+#include "core/rig.h"
 #include "src/selfcheck/listed_effects.h"
 #include "src/selfcheck/rounds.h"
 

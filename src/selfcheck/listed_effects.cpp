@@ -1,5 +1,6 @@
 #include "src/selfcheck/listed_effects.h"
 
+#include "core/rig.h"
 #include "gap/candidate.h"
 
 #include <algorithm>

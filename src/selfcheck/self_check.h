@@ -1,7 +1,7 @@
 #pragma once
 // The diagnosis judged on rigs whose effects are known: drawn, recorded on the independent model, diagnosed
 // without their labels, scored.
-#include "core/rig.h"
+#include "core/result.h"
 #include "gap/selection.h"
 #include "src/selfcheck/outcome.h"
 
@@ -9,6 +9,10 @@
 #include <functional>
 #include <string>
 #include <vector>
+
+namespace fidservo {
+struct Rig;
+}
 
 namespace fidservo::selfcheck {
 

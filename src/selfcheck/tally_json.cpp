@@ -1,5 +1,6 @@
 #include "src/selfcheck/tally_json.h"
 
+#include "core/result.h"
 #include "src/commit.h"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "src/selfcheck/unlisted_effects.h"
 
+#include "core/rig.h"
 #include "src/selfcheck/listed_effects.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 // Which camera `--camera` stands for.
-#include "core/rig.h"
+#include "core/camera_parameters.h"
 #include "src/session/session.h"
 #include "vision/camera.h"
 

@@ -1,5 +1,7 @@
 #include "src/session/camera_watch.h"
 
+#include "core/failure.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

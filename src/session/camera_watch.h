@@ -1,6 +1,7 @@
 #pragma once
 // Whether what comes from the camera can be an image of the plate, taken now.
 #include "control/stage.h"
+#include "core/result.h"
 #include "vision/camera.h"
 
 #include <optional>

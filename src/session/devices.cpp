@@ -1,5 +1,7 @@
 #include "src/session/devices.h"
 
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "src/config/rig_file.h"
 #include "src/interrupt.h"
 #include "src/session/camera_choice.h"

@@ -1,11 +1,12 @@
 #pragma once
 // Which hardware a session is given.
 #include "core/plate.h"
-#include "core/rig.h"
 #include "src/session/session.h"
 #include "src/session/simulated_rig.h"
 
 namespace fidservo {
+
+struct Rig;
 
 struct RigDevices {
     std::shared_ptr<SimulatedRig> simulated;  ///< where stage and camera are both simulated

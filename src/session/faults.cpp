@@ -1,6 +1,6 @@
 #include "src/session/faults.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 // Devices with faults in them: decorators of the boundaries to stage and camera. What stands behind the
 // boundary does not know of them, nor what stands before it.
 #include "control/stage.h"
+#include "core/result.h"
 #include "src/session/faults.h"
 #include "vision/camera.h"
 

@@ -1,5 +1,7 @@
 #include "src/session/home.h"
 
+#include "core/failure.h"
+#include "core/rig.h"
 #include "src/session/motion_params.h"
 #include "src/session/rig_check.h"
 #include "src/session/tuning_sweep.h"

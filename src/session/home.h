@@ -1,4 +1,5 @@
 #pragma once
+#include "core/result.h"
 #include "src/session/pilot.h"
 
 namespace fidservo {

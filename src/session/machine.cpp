@@ -1,5 +1,6 @@
 #include "src/session/machine.h"
 
+#include "core/failure.h"
 #include "src/interrupt.h"
 #include "src/live/live_feed.h"
 

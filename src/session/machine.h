@@ -8,7 +8,7 @@
 #include "control/stage.h"
 #include "control/stage_loop.h"
 #include "core/recording.h"
-#include "core/rig.h"
+#include "core/result.h"
 #include "src/recording/writer.h"
 #include "src/session/camera_watch.h"
 #include "vision/camera.h"

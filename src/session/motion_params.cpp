@@ -1,5 +1,8 @@
 #include "src/session/motion_params.h"
 
+#include "core/input_error.h"
+#include "core/rig.h"
+
 #include <algorithm>
 
 namespace fidservo {

@@ -1,9 +1,10 @@
 #pragma once
 #include "control/homing.h"
 #include "control/positioner.h"
-#include "core/rig.h"
 
 namespace fidservo {
+
+struct Rig;
 
 /// The positioner of a rig as its file describes it. Throws InputError if the rig lacks what positioning
 /// needs: micro stage, camera, and the gains of both controllers.

@@ -1,5 +1,7 @@
 #include "src/session/pilot.h"
 
+#include "core/rig.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

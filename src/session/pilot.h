@@ -2,7 +2,9 @@
 // The rig under way: machine, sight and positioner together, and the registration that tells where the camera
 // is.
 #include "control/positioner.h"
+#include "core/failure.h"
 #include "core/plate.h"
+#include "core/result.h"
 #include "core/rig.h"
 #include "src/session/machine.h"
 #include "src/session/sight.h"

@@ -1,5 +1,7 @@
 #include "src/session/rig_check.h"
 
+#include "core/rig.h"
+
 #include <cmath>
 #include <optional>
 

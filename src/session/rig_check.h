@@ -1,4 +1,6 @@
 #pragma once
+#include "core/failure.h"
+#include "core/result.h"
 #include "src/session/pilot.h"
 
 namespace fidservo {

@@ -1,6 +1,9 @@
 #include "src/session/session.h"
 
 #include "core/camera_covariance.h"
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "core/units.h"
 #include "src/interrupt.h"
 #include "src/session/camera_choice.h"

@@ -1,9 +1,8 @@
 #pragma once
 // A rig in use: stage, camera, controllers and vision put together, and the recording of all that happens.
 // In simulation one thread runs everything in virtual time; same seed, same bytes.
-#include "core/failure.h"
 #include "core/plate.h"
-#include "core/rig.h"
+#include "core/result.h"
 #include "src/session/faults.h"
 #include "src/session/machine.h"
 #include "vision/camera.h"
@@ -16,6 +15,8 @@
 #include <vector>
 
 namespace fidservo {
+
+struct Rig;
 
 class LiveFeed;
 class Pilot;

@@ -1,6 +1,8 @@
 #include "src/session/sight.h"
 
+#include "core/camera_parameters.h"
 #include "core/camera_slopes.h"
+#include "core/failure.h"
 #include "vision/tag_choice.h"
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 #pragma once
 // What the camera sees of the plate: frame -> tag -> where the camera is.
+#include "core/camera_parameters.h"
 #include "core/plate.h"
-#include "core/rig.h"
+#include "core/result.h"
 #include "vision/camera_position.h"
 #include "vision/servo/servo_law.h"
 #include "vision/tag_tracker.h"

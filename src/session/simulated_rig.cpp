@@ -1,5 +1,8 @@
 #include "src/session/simulated_rig.h"
 
+#include "core/demand.h"
+#include "core/failure.h"
+#include "core/rig.h"
 #include "src/session/state_json.h"
 
 #include <cmath>

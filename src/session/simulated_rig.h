@@ -3,8 +3,9 @@
 // written, a tick at a time; frames are rendered only when somebody asks for them.
 #include "control/guardian.h"
 #include "control/stage.h"
+#include "core/camera_parameters.h"
 #include "core/plate.h"
-#include "core/rig.h"
+#include "core/result.h"
 #include "plant/stage_plant.h"
 #include "plant/view/plate_view.h"
 #include "vision/camera.h"

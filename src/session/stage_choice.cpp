@@ -3,6 +3,7 @@
 #include "control/comedi/comedi_board.h"
 #include "control/comedi/libcomedi_link.h"
 #include "control/watchdog.h"
+#include "core/input_error.h"
 #include "src/config/stage_keys.h"
 
 #include <cmath>

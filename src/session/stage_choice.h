@@ -2,13 +2,14 @@
 // Which stage `--stage` stands for.
 #include "control/guardian.h"
 #include "control/watchdog.h"
-#include "core/rig.h"
 #include "src/session/session.h"
 
 #include <chrono>
 #include <memory>
 
 namespace fidservo {
+
+struct Rig;
 
 /// "sim".
 bool stage_is_simulated(const SessionOptions& options);

@@ -1,6 +1,8 @@
 #include "src/session/stage_start.h"
 
 #include "control/stage_check.h"
+#include "core/failure.h"
+#include "core/input_error.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -1,5 +1,7 @@
 #include "src/session/state_json.h"
 
+#include "core/micro_parameters.h"
+
 #include <nlohmann/json.hpp>
 
 namespace fidservo {

@@ -1,6 +1,7 @@
 #include "src/session/tuning_sweep.h"
 
 #include "calib/actuator_tuning.h"
+#include "core/micro_parameters.h"
 
 #include <spdlog/spdlog.h>
 

@@ -3,6 +3,7 @@
 // the Hall sensor see of it calibrates the sensor, the camera's time stamps and the model of the actuator.
 #include "calib/hall_map.h"
 #include "core/micro_model.h"
+#include "core/result.h"
 
 #include <optional>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "src/simulation/camera_track.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 #include <cmath>

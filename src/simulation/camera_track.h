@@ -1,6 +1,5 @@
 #pragma once
 // When the simulated camera takes its frames, and where it is meanwhile.
-#include "core/rig.h"
 #include "core/time.h"
 #include "plant/stage_plant.h"
 

@@ -1,7 +1,8 @@
 #include "src/simulation/experiments.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "core/random.h"
+#include "core/rig.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,5 @@
 #pragma once
 // The experiments that tell a rig apart from its simulation: what is commanded, over time.
-#include "core/rig.h"
 
 #include <cstdint>
 #include <functional>
@@ -9,6 +8,8 @@
 #include <vector>
 
 namespace fidservo {
+
+struct Rig;
 
 /// A course over time, t in s from the start; an empty one is not in force.
 using Course = std::function<double(double t_s)>;

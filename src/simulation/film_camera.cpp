@@ -1,5 +1,6 @@
 #include "src/simulation/film_camera.h"
 
+#include "core/rig.h"
 #include "src/config/plate_file.h"
 #include "vision/tag_refinement.h"
 

@@ -1,6 +1,8 @@
 #include "src/simulation/filmed_recording.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "src/recording/writer.h"
 #include "src/simulation/simulate.h"
 

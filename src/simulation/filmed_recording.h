@@ -1,5 +1,4 @@
 #pragma once
-#include "core/rig.h"
 #include "plant/effects/effect.h"
 #include "src/simulation/experiments.h"
 
@@ -9,6 +8,8 @@
 #include <string>
 
 namespace fidservo {
+
+struct Rig;
 
 /// Runs an experiment like simulate() and writes its recording with the camera's frames, each as soon as it
 /// is exposed; detections are what the detector finds in them. Throws InputError if the folder exists or the

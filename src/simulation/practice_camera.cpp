@@ -1,5 +1,7 @@
 #include "src/simulation/practice_camera.h"
 
+#include "core/rig.h"
+
 namespace fidservo {
 
 namespace {

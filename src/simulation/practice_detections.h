@@ -1,9 +1,10 @@
 #pragma once
 // Detections that were not made from images: the fiducial nearest to the image centre, its corners with
 // noise.
+#include "core/camera_parameters.h"
 #include "core/detection.h"
+#include "core/fiducial_parameters.h"
 #include "core/random.h"
-#include "core/rig.h"
 #include "plant/actual_camera.h"
 
 #include <cstdint>

@@ -3,6 +3,7 @@
 #include "control/nonlinear_pd.h"
 #include "control/pi_antiwindup.h"
 #include "core/random.h"
+#include "core/rig.h"
 #include "src/recording/writer.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #pragma once
 // One loop for every simulated rig: the published controllers on what the sensors read, tick by tick.
 #include "core/recording.h"
-#include "core/rig.h"
 #include "src/simulation/experiments.h"
 
 #include <cstdint>
@@ -9,6 +8,8 @@
 #include <vector>
 
 namespace fidservo {
+
+struct Rig;
 
 /// The boundary between the loop and the rig that is simulated. In each tick: sample, look, advance.
 class SimulatedHardware {

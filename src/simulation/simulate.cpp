@@ -1,6 +1,7 @@
 #include "src/simulation/simulate.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/simulation/practice_camera.h"
 #include "src/simulation/run_experiment.h"

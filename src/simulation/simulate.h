@@ -1,6 +1,5 @@
 #pragma once
 #include "core/recording.h"
-#include "core/rig.h"
 #include "plant/effects/effect.h"
 #include "src/simulation/experiments.h"
 #include "src/simulation/film_camera.h"
@@ -10,6 +9,8 @@
 #include <string>
 
 namespace fidservo {
+
+struct Rig;
 
 /// Runs an experiment on the simulated rig under the published controllers, and records it as the real one
 /// would be recorded: what the sensors read, what was commanded, the fiducials that the camera saw.

@@ -1,6 +1,5 @@
 #pragma once
 #include "core/recording.h"
-#include "core/rig.h"
 #include "reference/departures.h"
 #include "src/simulation/experiments.h"
 
@@ -9,6 +8,8 @@
 #include <vector>
 
 namespace fidservo {
+
+struct Rig;
 
 /// As `simulate`, but on the independent model of the rig (reference/): for checking, against a rig whose
 /// physics the diagnosis did not write.

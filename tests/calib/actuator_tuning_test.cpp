@@ -1,5 +1,8 @@
 #include "calib/actuator_tuning.h"
 
+#include "core/failure.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "tests/calib/sweep.h"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,8 @@
 
 #include "calib/lens_projection.h"
 #include "calib/plane_pose.h"
+#include "core/failure.h"
+#include "core/result.h"
 #include "tests/calib/synthetic_target.h"
 #include "tests/reference_camera.h"
 

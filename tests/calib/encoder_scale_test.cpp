@@ -1,7 +1,9 @@
 #include "calib/encoder_scale.h"
 
 #include "calib/significance.h"
+#include "core/failure.h"
 #include "core/random.h"
+#include "core/result.h"
 
 #include <cmath>
 #include <vector>

@@ -1,5 +1,7 @@
 #include "calib/fod_curves.h"
 
+#include "core/failure.h"
+#include "core/result.h"
 #include "tests/calib/relay_wire.h"
 
 #include <cmath>

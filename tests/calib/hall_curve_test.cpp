@@ -1,6 +1,8 @@
 #include "calib/hall_curve.h"
 
+#include "core/failure.h"
 #include "core/random.h"
+#include "core/result.h"
 
 #include <array>
 #include <cmath>

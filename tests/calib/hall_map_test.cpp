@@ -1,5 +1,8 @@
 #include "calib/hall_map.h"
 
+#include "core/failure.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "tests/calib/sweep.h"
 
 #include <cmath>

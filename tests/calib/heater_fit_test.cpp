@@ -1,6 +1,9 @@
 #include "calib/heater_fit.h"
 
+#include "core/failure.h"
 #include "core/random.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "reference/reference_rig.h"
 #include "src/recording/reader.h"
 #include "tests/calib/sweep.h"

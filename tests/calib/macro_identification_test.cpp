@@ -1,5 +1,8 @@
 #include "calib/macro_identification.h"
 
+#include "core/failure.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "tests/calib/macro_drive.h"
 
 #include <numbers>

@@ -1,4 +1,6 @@
 // Whether the standard errors that identification claims are those that its estimates show.
+#include "core/result.h"
+#include "core/rig.h"
 #include "tests/calib/macro_drive.h"
 
 #include <gtest/gtest.h>

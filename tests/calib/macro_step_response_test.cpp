@@ -1,5 +1,6 @@
 #include "calib/macro_step_response.h"
 
+#include "core/rig.h"
 #include "tests/calib/macro_drive.h"
 
 #include <gtest/gtest.h>

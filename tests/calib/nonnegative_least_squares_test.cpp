@@ -1,6 +1,8 @@
 #include "calib/nonnegative_least_squares.h"
 
+#include "core/failure.h"
 #include "core/random.h"
+#include "core/result.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,9 @@
 #include "calib/preisach_fit.h"
 
 #include "calib/preisach_shift.h"
+#include "core/failure.h"
 #include "core/random.h"
+#include "core/result.h"
 #include "tests/calib/relay_wire.h"
 #include "tests/shared_table.h"
 

@@ -3,6 +3,8 @@
 #include "calib/camera_calibration.h"
 #include "calib/camera_mount.h"
 #include "calib/target_images.h"
+#include "core/camera_parameters.h"
+#include "core/result.h"
 #include "plant/view/plate_view.h"
 #include "tests/calib/synthetic_target.h"
 #include "tests/reference_camera.h"

@@ -1,6 +1,8 @@
 #include "calib/stage_map.h"
 
 #include "calib/significance.h"
+#include "core/failure.h"
+#include "core/result.h"
 #include "tests/calib/stage_views.h"
 
 #include <gtest/gtest.h>

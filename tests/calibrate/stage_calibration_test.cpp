@@ -1,5 +1,7 @@
 // The whole way: a rig that differs from its file, moved by a session that knows the file only, seen through
 // rendered images.
+#include "core/result.h"
+#include "core/rig.h"
 #include "src/calibrate/stage_verdict.h"
 #include "tests/session/watched_rig.h"
 

@@ -1,3 +1,4 @@
+#include "core/rig.h"
 #include "src/calibrate/stage_verdict.h"
 #include "src/config/rig_file.h"
 #include "tests/calibrate/synthetic_survey.h"

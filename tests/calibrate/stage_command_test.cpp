@@ -1,5 +1,6 @@
 // fidservo calibrate stage as a user meets it, on the real executable.
 #include "core/camera_covariance.h"
+#include "core/rig.h"
 #include "src/config/rig_file.h"
 #include "tests/src/run_program.h"
 

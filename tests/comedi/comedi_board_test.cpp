@@ -1,6 +1,9 @@
 // Volts and counts through a board in memory.
 #include "control/comedi/comedi_board.h"
 
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
 #include "tests/comedi/fake_board.h"
 #include "tests/reference_rig.h"
 

@@ -1,7 +1,7 @@
 // Channel maps against boards.
 #include "control/comedi/wiring.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "tests/comedi/fake_board.h"
 #include "tests/reference_rig.h"
 

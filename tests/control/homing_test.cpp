@@ -1,5 +1,6 @@
 #include "control/homing.h"
 
+#include "core/rig.h"
 #include "plant/stage_plant.h"
 #include "tests/plant/reference_rig.h"
 

@@ -1,7 +1,10 @@
 // The supervisor on the simulated stage, without images: the camera's word is the truth plus its noise, late.
 #include "control/positioner.h"
 
+#include "core/failure.h"
 #include "core/random.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "plant/stage_plant.h"
 #include "tests/plant/reference_rig.h"
 

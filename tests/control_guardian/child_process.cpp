@@ -1,6 +1,6 @@
 #include "tests/control_guardian/child_process.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <array>
 #include <cerrno>

@@ -4,6 +4,9 @@
 
 #include "control/guardian_memory.h"
 #include "control/guardian_process.h"
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
 #include "tests/control_guardian/child_process.h"
 #include "tests/src/temporary_folder.h"
 

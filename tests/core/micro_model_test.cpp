@@ -1,5 +1,7 @@
 #include "core/micro_model.h"
 
+#include "core/micro_parameters.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,9 @@
 // Pixel formats against values worked out by hand and against OpenCV's own conversions.
 #include "vision/v4l2/grey_image.h"
 
+#include "core/failure.h"
+#include "core/result.h"
+
 #include <cmath>
 #include <cstring>
 #include <vector>

@@ -2,6 +2,9 @@
 // is for the case that it never comes.
 #include "vision/v4l2/v4l2_camera.h"
 
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
 #include "tests/devices/fake_models.h"
 #include "tests/next_frame.h"
 

@@ -1,3 +1,4 @@
+#include "core/rig.h"
 #include "src/diagnose/chain_drawing.h"
 #include "src/diagnose/waterfall.h"
 #include "src/diagnose/words.h"

@@ -1,6 +1,7 @@
 // The report of a diagnosis made by hand, over recordings of the simulated rig.
 #include "src/diagnose/report.h"
 
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/diagnose/predictions.h"
 #include "src/simulation/experiments.h"

@@ -1,5 +1,8 @@
 #include "src/session/camera_watch.h"
 
+#include "core/failure.h"
+#include "core/result.h"
+
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 

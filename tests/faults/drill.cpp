@@ -1,7 +1,8 @@
 #include "tests/faults/drill.h"
 
 #include "control/output_board.h"
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 
 #include <fstream>
 #include <memory>

@@ -1,6 +1,7 @@
 #include "src/session/faulty_devices.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,7 @@
 #include "tests/fuzz/targets.h"
 
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "src/config/camera_info.h"
 #include "src/config/fod_file.h"
 #include "src/config/plate_file.h"

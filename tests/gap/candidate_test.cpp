@@ -1,5 +1,6 @@
 #include "gap/candidate.h"
 
+#include "core/rig.h"
 #include "gap/scaled_parameters.h"
 #include "gap/slopes.h"
 #include "tests/gap/effects.h"

@@ -1,6 +1,7 @@
 // The forces that a carriage's prediction lacks, against forces that are known.
 #include "gap/carriage_forces.h"
 
+#include "core/rig.h"
 #include "gap/patch_search.h"
 #include "gap/period_search.h"
 #include "plant/effects/catalogue.h"

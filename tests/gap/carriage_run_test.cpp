@@ -1,5 +1,6 @@
 #include "gap/carriage_run.h"
 
+#include "core/rig.h"
 #include "tests/reference_rig.h"
 
 #include <algorithm>

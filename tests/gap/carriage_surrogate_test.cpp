@@ -1,5 +1,6 @@
 // What the errors of a carriage depend on that is driven or braked by a law that no effect has.
 #include "core/dead_zone.h"
+#include "core/rig.h"
 #include "gap/diagnose.h"
 #include "gap/held_carriage.h"
 #include "tests/gap/simulated_campaign.h"

@@ -1,6 +1,7 @@
 // From recordings of the simulated rig to the effect that it has.
 #include "gap/diagnose.h"
 
+#include "core/rig.h"
 #include "gap/search.h"
 #include "tests/gap/effect_names.h"
 #include "tests/gap/simulated_campaign.h"

@@ -1,5 +1,6 @@
 // What recordings of an independent model of the reference rig, and of a real drive, say about hypotheses
 // whose truth is known.
+#include "core/rig.h"
 #include "gap/diagnose.h"
 #include "gap/evidence.h"
 #include "src/config/rig_file.h"

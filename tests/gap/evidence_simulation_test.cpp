@@ -1,5 +1,7 @@
 // What recordings of the simulated rig say about the effect that it has.
+#include "core/input_error.h"
 #include "core/random.h"
+#include "core/rig.h"
 #include "gap/evidence.h"
 #include "gap/score.h"
 #include "gap/tag_link.h"

@@ -1,6 +1,7 @@
 #include "gap/hall_range.h"
 
 #include "core/random.h"
+#include "core/rig.h"
 #include "tests/reference_rig.h"
 
 #include <algorithm>

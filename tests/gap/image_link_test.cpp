@@ -1,6 +1,7 @@
 // Looks of tags as they follow from a camera, and what a diagnosis makes of frames of the simulated rig.
 #include "gap/image_link.h"
 
+#include "core/rig.h"
 #include "gap/candidate.h"
 #include "gap/diagnose.h"
 #include "src/diagnose/frame_looks.h"

@@ -1,6 +1,7 @@
 // Tags of a camera whose rows are exposed one after the other, and of cameras that are off otherwise.
 #include "gap/sheared_tags.h"
 
+#include "core/rig.h"
 #include "gap/diagnose.h"
 #include "tests/gap/simulated_campaign.h"
 

@@ -1,6 +1,7 @@
 // What frames themselves show of exposure and readout, and which detections are clear: against formulas.
 #include "gap/shutter.h"
 
+#include "core/rig.h"
 #include "gap/clear_detections.h"
 #include "tests/gap/looks.h"
 

@@ -1,6 +1,7 @@
 // What a remainder depends on, and which block that accuses, where the effect is withheld.
 #include "core/hall.h"
 #include "core/random.h"
+#include "core/rig.h"
 #include "gap/diagnose.h"
 #include "tests/gap/simulated_campaign.h"
 

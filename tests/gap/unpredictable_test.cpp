@@ -1,6 +1,7 @@
 // Windows in which where a carriage stands within a count decides which way it goes.
 #include "gap/unpredictable.h"
 
+#include "core/rig.h"
 #include "gap/diagnose.h"
 #include "gap/search.h"
 #include "tests/gap/simulated_campaign.h"

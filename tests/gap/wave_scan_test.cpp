@@ -1,6 +1,7 @@
 // A weak wave of force, which shows in no balance of forces, by which way the carriage goes.
 #include "gap/wave_scan.h"
 
+#include "core/rig.h"
 #include "gap/coupling.h"
 #include "gap/score.h"
 #include "tests/gap/simulated_campaign.h"

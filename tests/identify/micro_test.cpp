@@ -1,3 +1,4 @@
+#include "core/rig.h"
 #include "src/config/rig_file.h"
 #include "src/identify/identify.h"
 #include "tests/src/message_of.h"

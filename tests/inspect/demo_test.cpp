@@ -1,4 +1,5 @@
 // The demo, whole, on the simulated rig: what it finds, and that a killed run ends like one that was not.
+#include "core/rig.h"
 #include "src/config/rig_file.h"
 #include "src/inspect/inspection_run.h"
 #include "src/inspect/journal.h"

@@ -1,6 +1,6 @@
 #include "src/inspect/journal.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "src/inspect/sha256.h"
 
 #include <fstream>

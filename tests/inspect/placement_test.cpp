@@ -1,5 +1,8 @@
 #include "src/inspect/placement.h"
 
+#include "core/failure.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "core/units.h"
 #include "tests/inspect/small_recipe.h"
 #include "vision/features/verdict.h"

@@ -1,6 +1,6 @@
 #include "src/inspect/recipe.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "tests/inspect/small_recipe.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,10 @@
 // Which images an inspection measures again, and what it says of those that cannot serve.
 #include "src/inspect/saved_images.h"
 
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "src/inspect/inspection_run.h"
 #include "tests/inspect/small_recipe.h"
 #include "tests/src/temporary_folder.h"

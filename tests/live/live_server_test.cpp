@@ -1,6 +1,6 @@
 #include "src/live/live_server.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "tests/live/browser.h"
 #include "tests/live/shown_run.h"
 #include "tests/src/temporary_folder.h"

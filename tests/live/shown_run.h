@@ -1,6 +1,5 @@
 #pragma once
 // A feed as a run fills it.
-#include "core/rig.h"
 #include "src/live/live_feed.h"
 #include "tests/reference_rig.h"
 

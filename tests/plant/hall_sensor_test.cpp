@@ -1,5 +1,6 @@
 #include "plant/hall_sensor.h"
 
+#include "core/rig.h"
 #include "tests/plant/reference_rig.h"
 
 #include <cmath>

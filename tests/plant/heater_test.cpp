@@ -1,6 +1,7 @@
 #include "plant/heater.h"
 
 #include "core/random.h"
+#include "core/rig.h"
 #include "tests/plant/reference_rig.h"
 
 #include <algorithm>

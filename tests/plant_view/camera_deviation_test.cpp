@@ -1,5 +1,6 @@
 // A camera that is not as its file says: what is in the pictures is where plant/camera.h says, and looks as
 // the effects' texts say.
+#include "core/camera_parameters.h"
 #include "core/random.h"
 #include "plant/actual_camera.h"
 #include "tests/plant_view/view_fixture.h"

@@ -1,5 +1,6 @@
 // A rig file's camera may itself be turned, tilted and distorting: what it sees is where
 // core/camera_geometry.h says, to a few thousandths of a pixel.
+#include "core/camera_parameters.h"
 #include "core/camera_slopes.h"
 #include "plant/actual_camera.h"
 #include "tests/plant_view/view_fixture.h"

@@ -1,7 +1,7 @@
 #pragma once
 // The reference rig's camera, and numbers from rendered images.
+#include "core/camera_parameters.h"
 #include "core/plate.h"
-#include "core/rig.h"
 #include "plant/view/plate_view.h"
 #include "tests/reference_camera.h"
 

@@ -1,5 +1,6 @@
 #include "reference/camera_view.h"
 
+#include "core/rig.h"
 #include "plant/actual_camera.h"
 #include "tests/reference_rig.h"
 

@@ -2,6 +2,7 @@
 // must follow their readings to the noise floor.
 #include "tests/campaign.h"
 
+#include "core/rig.h"
 #include "src/config/rig_file.h"
 #include "src/recording/reader.h"
 #include "tests/reference/campaign_residual.h"

@@ -1,4 +1,5 @@
 // Each departure against an answer worked out by hand.
+#include "core/rig.h"
 #include "reference/reference_rig.h"
 #include "src/config/rig_file.h"
 

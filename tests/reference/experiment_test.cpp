@@ -1,4 +1,5 @@
 // The program's experiments on the reference model: the loop and the controllers are those of the simulator.
+#include "core/rig.h"
 #include "src/config/rig_file.h"
 #include "src/simulation/simulate.h"
 #include "src/simulation/simulate_reference.h"

@@ -1,6 +1,7 @@
 // Two models of one machine, written apart: in closed form (plant/) and integrated (reference/). Under the
 // same commands they must go the same way. Each checks the other.
 #include "core/random.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 #include "reference/reference_rig.h"

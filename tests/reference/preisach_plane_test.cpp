@@ -4,6 +4,7 @@
 
 #include "core/preisach.h"
 #include "core/random.h"
+#include "core/rig.h"
 #include "src/config/rig_file.h"
 
 #include <cmath>

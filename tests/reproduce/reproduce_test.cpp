@@ -1,5 +1,6 @@
 #include "src/reproduce/reproduce.h"
 
+#include "core/rig.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 

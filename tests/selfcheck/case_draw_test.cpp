@@ -2,6 +2,7 @@
 // the diagnosis is given.
 #include "src/selfcheck/case_draw.h"
 
+#include "core/rig.h"
 #include "gap/candidate.h"
 #include "plant/effects/catalogue.h"
 #include "src/config/rig_file.h"

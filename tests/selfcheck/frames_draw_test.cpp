@@ -1,7 +1,8 @@
 // Cases with frames: the same for the same seed, even over the image's effects, and filmed as they are drawn.
 #include "src/selfcheck/frames_draw.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "reference/tag_picture.h"
 #include "src/config/rig_file.h"
 #include "src/selfcheck/self_check.h"

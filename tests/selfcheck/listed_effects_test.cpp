@@ -2,6 +2,7 @@
 // to the floor by the plant with the effect of that name.
 #include "src/selfcheck/listed_effects.h"
 
+#include "core/rig.h"
 #include "gap/gap_size.h"
 #include "gap/score.h"
 #include "plant/effects/catalogue.h"

@@ -1,6 +1,7 @@
 #include "src/selfcheck/self_check.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "src/config/rig_file.h"
 #include "tests/src/run_program.h"
 

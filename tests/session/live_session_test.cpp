@@ -2,6 +2,8 @@
 // wall clock, vision in between. The truth is a simulated rig that goes on whatever the program does.
 #include "control/stage_check.h"
 #include "core/monotonic_clock.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "core/units.h"
 #include "src/config/plate_file.h"
 #include "src/config/rig_file.h"

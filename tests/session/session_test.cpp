@@ -1,3 +1,7 @@
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/session/faulty_devices.h"
 #include "src/session/pilot.h"

@@ -1,5 +1,6 @@
 #include "src/session/simulated_rig.h"
 
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/session/sight.h"
 #include "tests/session/watched_rig.h"

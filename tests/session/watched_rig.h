@@ -2,6 +2,7 @@
 // A simulated rig whose truth a test writes down, tick by tick, while a session drives it through its
 // devices.
 #include "core/plate.h"
+#include "core/result.h"
 #include "src/config/plate_file.h"
 #include "src/config/rig_file.h"
 #include "src/session/session.h"

@@ -1,5 +1,6 @@
 // What a user gave and is wrong: one clear line, the right exit code, nothing overwritten. On the real
 // executable.
+#include "core/rig.h"
 #include "tests/src/run_program.h"
 #include "tests/src/temporary_folder.h"
 

@@ -1,5 +1,6 @@
 #include "src/calibrate/calibrate_camera.h"
 
+#include "core/rig.h"
 #include "src/calibrate/camera_images.h"
 #include "src/config/rig_file.h"
 #include "tests/src/message_of.h"

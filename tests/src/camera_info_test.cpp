@@ -2,6 +2,7 @@
 #include "src/config/camera_info.h"
 
 #include "core/random.h"
+#include "core/rig.h"
 #include "src/config/rig_edit.h"
 #include "src/config/rig_file.h"
 #include "src/inspect/identity.h"

@@ -1,6 +1,6 @@
 // The simulated camera in recordings: detections that are not made from images and frames with the real
 // detector must tell the same story, whatever the camera is like.
-#include "core/failure.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/recording/reader.h"
 #include "src/simulation/filmed_recording.h"

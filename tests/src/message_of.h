@@ -1,5 +1,6 @@
 #pragma once
-#include "core/failure.h"
+
+#include "core/input_error.h"
 
 #include <string>
 

@@ -1,3 +1,5 @@
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "src/config/rig_file.h"
 #include "src/recording/reader.h"
 #include "src/recording/writer.h"

@@ -1,5 +1,6 @@
 #include "src/config/rig_file.h"
 
+#include "core/rig.h"
 #include "src/config/fod_file.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"

@@ -1,4 +1,5 @@
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/recording/row_format.h"
 #include "src/simulation/simulate.h"

@@ -1,5 +1,7 @@
 #include "src/config/yaml_reader.h"
 
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "tests/src/message_of.h"
 
 #include <string>

@@ -3,6 +3,9 @@
 #include "control/stage_loop.h"
 
 #include "control/positioner.h"
+#include "core/failure.h"
+#include "core/result.h"
+#include "core/rig.h"
 #include "plant/stage_plant.h"
 #include "src/config/rig_file.h"
 #include "src/session/motion_params.h"

@@ -1,6 +1,6 @@
 #include "tests/tag_precision/blurred_region.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <algorithm>
 #include <array>

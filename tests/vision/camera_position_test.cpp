@@ -1,7 +1,10 @@
 // The machine's own frames, rendered by the simulated plate, through the real detector.
 #include "vision/camera_position.h"
 
+#include "core/camera_parameters.h"
+#include "core/failure.h"
 #include "core/random.h"
+#include "core/result.h"
 #include "plant/view/plate_view.h"
 #include "tests/row_of_tags.h"
 #include "vision/tag_choice.h"

@@ -1,5 +1,9 @@
 #include "vision/image_sequence.h"
 
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
+
 #include <filesystem>
 #include <fstream>
 

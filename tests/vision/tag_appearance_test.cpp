@@ -2,6 +2,7 @@
 // what gap/image_link.h allows for.
 #include "vision/tag_appearance.h"
 
+#include "core/camera_parameters.h"
 #include "core/plate.h"
 #include "plant/view/plate_view.h"
 #include "tests/reference_camera.h"

@@ -126,7 +126,7 @@ TEST(TagDetector, Texture_HoldsNoTag) {
     expect_no_tag(fidservo::testing::cases(24, 8));
 }
 TEST(SlowTagDetector, MuchTexture_HoldsNoTag) {
-    expect_no_tag(800);
+    expect_no_tag(240);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "vision/tag_refinement.h"
 
+#include "core/failure.h"
 #include "core/random.h"
+#include "core/result.h"
 #include "tests/vision/rendered_tag.h"
 #include "vision/tag_detector.h"
 

@@ -2,6 +2,7 @@
 // Does a stated uncertainty describe the errors? Over many independent trials the normalised squared errors
 // follow a chi-square law.
 #include "core/failure.h"
+#include "core/result.h"
 #include "vision/features/rest_image.h"
 
 #include <cmath>

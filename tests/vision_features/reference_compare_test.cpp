@@ -1,6 +1,8 @@
 #include "vision/features/reference_compare.h"
 
+#include "core/failure.h"
 #include "core/random.h"
+#include "core/result.h"
 #include "tests/vision_features/consistency.h"
 #include "tests/vision_features/scene.h"
 

@@ -1,6 +1,8 @@
 #include "vision/features/subpixel_edge.h"
 
+#include "core/failure.h"
 #include "core/random.h"
+#include "core/result.h"
 #include "tests/vision_features/consistency.h"
 #include "vision/features/normal_law.h"
 

@@ -1,6 +1,8 @@
 // Videos, by the module that is loaded when one is opened.
 #include "vision/images/media.h"
 
+#include "core/failure.h"
+#include "core/result.h"
 #include "tests/src/temporary_folder.h"
 
 #include <fstream>

@@ -11,6 +11,7 @@
 #include "control/comedi/wiring.h"
 #include "control/guardian_process.h"
 #include "core/monotonic_clock.h"
+#include "core/rig.h"
 #include "src/config/plate_file.h"
 #include "src/config/rig_file.h"
 #include "tests/live_rig.h"

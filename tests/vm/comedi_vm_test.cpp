@@ -4,6 +4,7 @@
 #include "control/comedi/libcomedi_link.h"
 #include "control/stage_check.h"
 #include "control/stage_loop.h"
+#include "core/input_error.h"
 #include "src/session/stage_start.h"
 #include "tests/comedi/fake_board.h"
 #include "tests/reference_rig.h"

@@ -1,5 +1,6 @@
 // `fidservo record` and `fidservo cameras` on a camera behind the kernel (v4l2loopback): what the recording
 // holds is what was shown.
+#include "core/rig.h"
 #include "src/config/plate_file.h"
 #include "src/config/rig_file.h"
 #include "src/recording/reader.h"

@@ -1,4 +1,7 @@
 // The V4L2 camera on the kernel's own test driver, which can also misbehave when told to.
+#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/result.h"
 #include "tests/next_frame.h"
 #include "vision/v4l2/camera_list.h"
 #include "vision/v4l2/v4l2_camera.h"

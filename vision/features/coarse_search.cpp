@@ -1,5 +1,7 @@
 #include "vision/features/coarse_search.h"
 
+#include "core/failure.h"
+
 #include <cmath>
 
 #include <fmt/format.h>

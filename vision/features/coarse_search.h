@@ -1,6 +1,6 @@
 #pragma once
 // Finds a small printed shape near its nominal place by normalised correlation.
-#include "core/failure.h"
+#include "core/result.h"
 #include "vision/features/rest_image.h"
 
 #include <functional>

@@ -1,5 +1,6 @@
 #include "vision/features/edge_distance.h"
 
+#include "core/failure.h"
 #include "core/units.h"
 #include "vision/features/straight_edge.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // The distance between two nearly parallel edges: of two features, or of a feature and a tag.
-#include "core/failure.h"
 #include "core/plate.h"
+#include "core/result.h"
 #include "vision/features/rest_image.h"
 
 #include <optional>

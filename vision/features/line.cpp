@@ -1,5 +1,6 @@
 #include "vision/features/line.h"
 
+#include "core/failure.h"
 #include "core/units.h"
 #include "vision/features/edge_samples.h"
 #include "vision/features/normal_law.h"

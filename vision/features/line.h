@@ -1,7 +1,7 @@
 #pragma once
 // A printed line: its width, where it is thinnest, and where it runs.
-#include "core/failure.h"
 #include "core/plate.h"
+#include "core/result.h"
 #include "vision/features/rest_image.h"
 
 namespace fidservo::vision {

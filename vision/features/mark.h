@@ -1,7 +1,7 @@
 #pragma once
 // A printed dot: where it is and how large.
-#include "core/failure.h"
 #include "core/plate.h"
+#include "core/result.h"
 #include "vision/features/rest_image.h"
 
 namespace fidservo::vision {

@@ -1,6 +1,7 @@
 #pragma once
 // Fits a shape's outline to the edge found along it: what dots, pads and single edges have in common.
 #include "core/failure.h"
+#include "core/result.h"
 #include "vision/features/edge_samples.h"
 #include "vision/features/offset_fit.h"
 #include "vision/features/rest_image.h"

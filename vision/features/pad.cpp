@@ -1,5 +1,6 @@
 #include "vision/features/pad.h"
 
+#include "core/failure.h"
 #include "core/units.h"
 #include "vision/features/coarse_search.h"
 #include "vision/features/normal_law.h"

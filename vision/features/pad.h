@@ -1,7 +1,7 @@
 #pragma once
 // A printed rectangle: where it is, how large, how turned.
-#include "core/failure.h"
 #include "core/plate.h"
+#include "core/result.h"
 #include "vision/features/rest_image.h"
 
 namespace fidservo::vision {

@@ -1,5 +1,7 @@
 #include "vision/features/reference_align.h"
 
+#include "core/failure.h"
+
 #include <array>
 #include <cmath>
 #include <numbers>

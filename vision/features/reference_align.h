@@ -1,6 +1,6 @@
 #pragma once
 // Brings a reference image onto an image: shift, gain, offset and uneven light.
-#include "core/failure.h"
+#include "core/result.h"
 #include "vision/grey_noise.h"
 
 #include <Eigen/Core>

@@ -1,5 +1,6 @@
 #include "vision/features/reference_compare.h"
 
+#include "core/demand.h"
 #include "core/units.h"
 #include "vision/features/defect_regions.h"
 #include "vision/features/reference_align.h"

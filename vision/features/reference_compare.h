@@ -1,6 +1,6 @@
 #pragma once
 // Comparison with a reference image: what is there that should not be, and what is missing.
-#include "core/failure.h"
+#include "core/result.h"
 #include "vision/features/rest_image.h"
 
 #include <vector>

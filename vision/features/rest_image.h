@@ -1,7 +1,8 @@
 #pragma once
 // An image taken at rest with all that is known of how it came about, and how what is measured in it is
 // stated: a value with its standard uncertainty.
-#include "core/rig.h"
+
+#include "core/camera_parameters.h"
 
 #include <array>
 

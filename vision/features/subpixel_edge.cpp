@@ -1,5 +1,6 @@
 #include "vision/features/subpixel_edge.h"
 
+#include "core/failure.h"
 #include "vision/features/profile_fit.h"
 
 #include <algorithm>

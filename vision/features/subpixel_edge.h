@@ -2,7 +2,7 @@
 // Where an edge crosses, from grey values at known distances from its presumed place. No interpolation: the
 // samples are pixels, so their noise is independent and the uncertainty that follows from it is exact to
 // first order.
-#include "core/failure.h"
+#include "core/result.h"
 #include "vision/grey_noise.h"
 
 #include <span>

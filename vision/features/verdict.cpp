@@ -1,6 +1,6 @@
 #include "vision/features/verdict.h"
 
-#include "core/failure.h"
+#include "core/demand.h"
 
 #include <cmath>
 #include <cstdlib>

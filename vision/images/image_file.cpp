@@ -1,5 +1,6 @@
 #include "vision/images/image_file.h"
 
+#include "core/failure.h"
 #include "vision/images/jpeg_decoder.h"
 #include "vision/images/media.h"
 #include "vision/images/png.h"

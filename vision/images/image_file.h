@@ -1,6 +1,7 @@
 #pragma once
 // Images as files: 8-bit grey, in and out.
-#include "core/failure.h"
+
+#include "core/result.h"
 
 #include <filesystem>
 #include <vector>

@@ -1,5 +1,7 @@
 #include "vision/images/jpeg_decoder.h"
 
+#include "core/demand.h"
+#include "core/failure.h"
 #include "vision/images/image_file.h"
 
 #include <algorithm>

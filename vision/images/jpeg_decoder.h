@@ -1,5 +1,6 @@
 #pragma once
-#include "core/failure.h"
+
+#include "core/result.h"
 
 #include <cstddef>
 #include <memory>

@@ -1,3 +1,4 @@
+#include "core/demand.h"
 #include "vision/images/image_file.h"
 
 #include <memory>

@@ -1,5 +1,7 @@
 #include "vision/images/media.h"
 
+#include "core/failure.h"
+
 #include <string>
 
 #include <dlfcn.h>

@@ -1,6 +1,7 @@
 #pragma once
 // OpenCV's codecs for images and videos, behind a module that is loaded at the first call.
-#include "core/failure.h"
+
+#include "core/result.h"
 
 #include <filesystem>
 #include <memory>

@@ -2,6 +2,8 @@
 // with a setjmp here, and what they call, hold no object that has one.
 #include "vision/images/png.h"
 
+#include "core/demand.h"
+#include "core/failure.h"
 #include "vision/images/image_file.h"
 
 #include <algorithm>

@@ -1,5 +1,9 @@
 #include "vision/v4l2/buffer_queue.h"
 
+#include "core/demand.h"
+#include "core/failure.h"
+#include "core/input_error.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>

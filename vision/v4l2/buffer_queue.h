@@ -4,6 +4,7 @@
 // Who owns a buffer: the driver, from the moment it is queued; a Lease, from the moment it was taken, filled,
 // until the lease ends, which queues it again. One thread takes; leases may end on any thread, also after the
 // queue was stopped: the memory stays mapped until the last lease has gone.
+#include "core/result.h"
 #include "core/time.h"
 #include "vision/v4l2/capture_settings.h"
 #include "vision/v4l2/device.h"

@@ -1,5 +1,7 @@
 #include "vision/v4l2/capability.h"
 
+#include "core/failure.h"
+
 #include <linux/videodev2.h>
 
 namespace fidservo::vision::v4l2 {

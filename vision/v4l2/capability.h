@@ -1,4 +1,5 @@
 #pragma once
+#include "core/result.h"
 #include "vision/v4l2/device.h"
 
 #include <string>

@@ -1,6 +1,6 @@
 #include "vision/v4l2/capture_format.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "vision/v4l2/format_list.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "vision/v4l2/control_lock.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
 #include "vision/v4l2/controls.h"
 
 #include <algorithm>

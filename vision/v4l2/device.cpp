@@ -1,5 +1,7 @@
 #include "vision/v4l2/device.h"
 
+#include "core/failure.h"
+
 #include <cerrno>
 #include <system_error>
 #include <utility>

@@ -1,6 +1,7 @@
 #pragma once
 // An open video node.
-#include "core/failure.h"
+
+#include "core/result.h"
 
 #include <filesystem>
 #include <string>

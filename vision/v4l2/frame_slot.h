@@ -1,7 +1,7 @@
 #pragma once
 // Between the thread that reads the camera and whoever wants a frame: one place, in which a newer frame takes
 // the older one's.
-#include "core/failure.h"
+#include "core/result.h"
 #include "core/time.h"
 #include "vision/camera.h"
 #include "vision/v4l2/buffer_queue.h"

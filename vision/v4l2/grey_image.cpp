@@ -1,5 +1,7 @@
 #include "vision/v4l2/grey_image.h"
 
+#include "core/demand.h"
+
 #include <opencv2/core.hpp>
 
 namespace fidservo::vision::v4l2 {

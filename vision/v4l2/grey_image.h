@@ -1,6 +1,6 @@
 #pragma once
 // A frame's bytes as a grey image.
-#include "core/failure.h"
+#include "core/result.h"
 #include "vision/images/jpeg_decoder.h"
 #include "vision/v4l2/capture_format.h"
 

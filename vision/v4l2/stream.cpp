@@ -1,6 +1,7 @@
 #include "vision/v4l2/stream.h"
 
 #include "core/failure.h"
+#include "core/input_error.h"
 #include "vision/v4l2/capability.h"
 
 #include <algorithm>

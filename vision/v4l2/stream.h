@@ -1,5 +1,6 @@
 #pragma once
 // A camera that sends: opened, set, started. One thread uses it.
+#include "core/result.h"
 #include "vision/v4l2/buffer_queue.h"
 #include "vision/v4l2/capture_format.h"
 #include "vision/v4l2/control_lock.h"

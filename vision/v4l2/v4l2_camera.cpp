@@ -1,5 +1,8 @@
 #include "vision/v4l2/v4l2_camera.h"
 
+#include "core/demand.h"
+#include "core/failure.h"
+#include "core/input_error.h"
 #include "core/monotonic_clock.h"
 #include "core/wake_signal.h"
 #include "vision/v4l2/camera_list.h"

@@ -9,6 +9,7 @@
 // last cv::Mat that shares it has gone; while so many are kept that the driver would run out of buffers, they
 // are copied instead, and so are those of a driver that does not leave them alone. All other formats are
 // converted, which is the one time that they are touched.
+#include "core/result.h"
 #include "vision/camera.h"
 #include "vision/v4l2/capture_settings.h"
 

@@ -1,6 +1,7 @@
 #include "plant/effects/catalogue.h"
 
-#include "core/failure.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "plant/view/plate_view.h"
 #include "src/config/plate_file.h"
 #include "src/simulation/practice_camera.h"

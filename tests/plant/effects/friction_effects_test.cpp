@@ -1,3 +1,4 @@
+#include "core/macro_parameters.h"
 #include "tests/plant/effects/effect_rig.h"
 
 #include <algorithm>
