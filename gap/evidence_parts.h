@@ -1,5 +1,6 @@
 #pragma once
 // What Evidence holds: every recording prepared for every stretch of the signal chain.
+#include "core/rig.h"
 #include "gap/carriage_link.h"
 #include "gap/clear_detections.h"
 #include "gap/controller_link.h"

@@ -1,4 +1,5 @@
 // fidservo reproduce: the published experiments, their claims as a table, their figures.
+#include "core/rig.h"
 #include "src/reproduce/reproduce.h"
 
 #include "src/commands/commands.h"

@@ -1,5 +1,6 @@
 #include "src/commands/self_check.h"
 
+#include "core/rig.h"
 #include "src/commands/commands.h"
 #include "src/config/rig_file.h"
 #include "src/interrupt.h"
