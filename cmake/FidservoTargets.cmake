@@ -1,6 +1,7 @@
 # How every room of the house is compiled. Warnings are errors.
 
-# -O3 is for the rooms with loops over pixels, ticks and readings (FAST); elsewhere it only takes longer to compile.
+# -O3 is for what a diagnosis follows by the million (FAST) and for loops over pixels, by source; elsewhere it only takes
+# longer to compile.
 string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 
 set(FIDSERVO_SANITIZE "" CACHE STRING "Sanitizers for everything: address,undefined or thread")

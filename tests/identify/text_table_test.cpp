@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 3> roles{"input", "output", "time"};
 
 TextTable table_of(const std::string& text, std::string_view columns) {
     const TemporaryFolder folder;
-    return read_text_table(folder.write("table.txt", text), parse_columns(columns, roles, 2));
+    return read_text_table(folder.write("table.txt", text), parse_columns(mistake.columns, roles, 2));
 }
 
 TEST(TextTable, EverySeparator_IsSeen) {
@@ -72,13 +72,13 @@ TEST(TextTable, WrongChoices_SayWhatIsAllowed) {
     struct Mistake {
         const char *columns, *message;
     };
-    for (const auto& [columns, message] :
+    for (const Mistake& mistake :
          {Mistake{"", "input is missing"}, Mistake{"input=1", "output is missing"},
           Mistake{"input", "'input' is not ROLE=COLUMN"}, Mistake{"force=1,output=2", "'force' is no role"},
           Mistake{"input=1,input=2", "input is given twice"},
           Mistake{"input=,output=2", "input has no column"}})
-        EXPECT_THAT(message_of([&] { parse_columns(columns, roles, 2); }),
-                    ::testing::AllOf(HasSubstr(message), HasSubstr("roles input, output, time")));
+        EXPECT_THAT(message_of([&] { parse_columns(mistake.columns, roles, 2); }),
+                    ::testing::AllOf(HasSubstr(mistake.message), HasSubstr("roles input, output, time")));
 }
 
 TEST(TextTable, UnitOfAnotherQuantity_IsRefused) {
