@@ -1,5 +1,7 @@
 #include "core/normal_equations.h"
 
+#include <limits>
+
 namespace fidservo {
 
 template <int N>
@@ -17,6 +19,9 @@ bool NormalFactor<N>::is_positive() const {
 
 template <int N>
 double NormalFactor<N>::reciprocal_condition() const {
+    // Eigen passes over a pivot of zero when it solves, and so takes what is exactly singular for regular.
+    const Vector pivots = factor_.vectorD().cwiseAbs();
+    if (!(pivots.minCoeff() > std::numeric_limits<double>::epsilon() * pivots.maxCoeff())) return 0.0;
     return factor_.rcond();
 }
 

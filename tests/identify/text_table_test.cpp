@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 3> roles{"input", "output", "time"};
 
 TextTable table_of(const std::string& text, std::string_view columns) {
     const TemporaryFolder folder;
-    return read_text_table(folder.write("table.txt", text), parse_columns(mistake.columns, roles, 2));
+    return read_text_table(folder.write("table.txt", text), parse_columns(columns, roles, 2));
 }
 
 TEST(TextTable, EverySeparator_IsSeen) {
