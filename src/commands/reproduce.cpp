@@ -1,7 +1,7 @@
 // fidservo reproduce: the published experiments, their claims as a table, their figures.
-#include "core/rig.h"
 #include "src/reproduce/reproduce.h"
 
+#include "core/rig.h"
 #include "src/commands/commands.h"
 #include "src/config/rig_file.h"
 
