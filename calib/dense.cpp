@@ -30,8 +30,10 @@ Eigen::MatrixXd inverse_of_gram(const Eigen::MatrixXd& a) {
 }
 
 Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    // Of the cosine, above -1: their cross product is too short to turn about.
+    constexpr double opposite = 1e-12;
     const double cosine = from.dot(to);
-    if (cosine < -1.0 + Eigen::NumTraits<double>::dummy_precision()) {
+    if (cosine < -1.0 + opposite) {
         const Eigen::Vector3d across = from.unitOrthogonal();
         return {0.0, across.x(), across.y(), across.z()};
     }
