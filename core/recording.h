@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,27 @@ struct StageColumns {
     bool position = false;  ///< the file gave "position [mm]" in place of "encoder [count]"
 };
 
+/// Where the encoder counts from. An incremental one begins at zero wherever the power comes on.
+struct EncoderZero {
+    double count = 0.0;  ///< the reading with the carriage at place 0 of the rig's travel
+    double std_count = 0.0;
+    std::string how;  ///< how that is known, in words
+};
+
+/// Which controller was in charge wherever its stage's setpoint is in force: the rig file's, by the names
+/// nonlinear_pd, benchmark_pid and pi_antiwindup. Under any other name commands are given, not to be
+/// explained.
+struct ControllerNames {
+    std::string macro, micro;
+};
+
+/// Something that happened while a recording was made.
+struct RecordingEvent {
+    TimeNs time_ns = 0;
+    std::string what;  ///< homing, end_stop, frames_lost, ...
+    std::string text;
+};
+
 struct FrameName {
     TimeNs time_ns;
     std::string filename;  ///< relative to the recording's cam0/data
@@ -51,6 +73,10 @@ struct Recording {
     std::string rig;
     std::string experiment;
     double tick_s = 0.0;
+    std::optional<EncoderZero> encoder_zero;     ///< empty: not stated
+    std::optional<ControllerNames> controllers;  ///< likewise
+    std::vector<RecordingEvent> events;          ///< by time
+    bool is_unfinished = false;                  ///< whoever made it was ended in the middle
     StageColumns columns;
     std::vector<StageRow> rows;
     std::vector<TagDetection> detections;
