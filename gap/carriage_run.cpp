@@ -12,19 +12,6 @@ namespace fidservo::gap {
 
 namespace {
 
-/// Whether all readings lie within the travel that the rig file states, in its frame. Where they do not, the
-/// encoder counts from elsewhere, and an end of travel shows only by what happens there. An encoder whose
-/// scale is off reads too much at the far end.
-bool is_homed(const std::vector<double>& reading_count, const MacroParameters& macro) {
-    constexpr double beyond_mm = 1.0, most_off = 0.05;
-    const double lowest_mm = macro.low_mm - beyond_mm;
-    const double highest_mm = macro.high_mm + beyond_mm + most_off * (macro.high_mm - macro.low_mm);
-    return std::ranges::all_of(reading_count, [&](double count) {
-        const double place_mm = count * macro.encoder_resolution_mm;
-        return !(place_mm < lowest_mm || place_mm > highest_mm);
-    });
-}
-
 /// A run of rows with one reading.
 struct Dwell {
     std::size_t first, end;
@@ -99,7 +86,7 @@ std::vector<double> readings_mm(const Recording& recording, const MacroParameter
     return all;
 }
 
-CarriageRun carriage_run(const Recording& recording, const MacroParameters& macro) {
+CarriageRun carriage_run(const Recording& recording, const MacroParameters& macro, bool is_homed) {
     CarriageRun run;
     run.tick_s = recording.tick_s;
     std::vector<bool> usable;
@@ -110,7 +97,7 @@ CarriageRun carriage_run(const Recording& recording, const MacroParameters& macr
     }
     run.way = counted_way(run.reading_count);
     run.stands = standing_rows(run);
-    run.is_homed = is_homed(run.reading_count, macro);
+    run.is_homed = is_homed;
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const calib::Travel travel =
         run.is_homed ? calib::Travel{macro.low_mm, macro.high_mm} : calib::Travel{-infinity, infinity};

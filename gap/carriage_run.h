@@ -33,7 +33,8 @@ double time_constant_s(const MacroParameters& macro, double tick_s);
 /// Recorded places row by row, mm; NaN where missing.
 std::vector<double> readings_mm(const Recording& recording, const MacroParameters& macro);
 
-CarriageRun carriage_run(const Recording& recording, const MacroParameters& macro);
+/// @param is_homed  whether readings are places in the rig file's travel
+CarriageRun carriage_run(const Recording& recording, const MacroParameters& macro, bool is_homed = true);
 
 /// Prediction minus reading in counts. Where the reading stands, a place that rounds to it is as good as any
 /// other: the error is what lies beyond half a count.

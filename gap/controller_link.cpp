@@ -6,9 +6,13 @@
 #include "core/rig.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace fidservo::gap {
 
@@ -17,9 +21,16 @@ namespace {
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double no_limit_V = std::numeric_limits<double>::infinity();
 
-/// Commands of a stretch, from the state in which a controller starts, or that its commands show where it is
-/// under way; NaN where they do not yet.
-using Replay = std::function<std::vector<double>(const Stretch&)>;
+/// The rig file's controllers. A recording that names one claims that one; one that names none but is of an
+/// experiment that is defined by the file's controllers (src/simulation/experiments.h) claims that it was one
+/// of them.
+constexpr std::array<std::string_view, 3> closed_loop_experiments{"macro-square", "micro-servo",
+                                                                  "integrated"};
+
+bool claims(const Recording& recording, std::string ControllerNames::*stage, std::string_view controller) {
+    if (recording.controllers) return (*recording.controllers).*stage == controller;
+    return std::ranges::find(closed_loop_experiments, recording.experiment) != closed_loop_experiments.end();
+}
 
 /// Of the rows that it says something of; infinite where that is none.
 double mean_square_of_finite(const std::vector<double>& errors) {
@@ -37,9 +48,13 @@ bool is_under_way(const Recording& recording, const Stretch& stretch, double Sta
     return stretch.first > 0 && std::isfinite(recording.rows[stretch.first - 1].*setpoint_mm);
 }
 
+/// Errors of a stretch's rows, replayed minus recorded command; NaN where the controller's state is not known
+/// yet.
+using Replay = std::function<std::vector<double>(const Stretch&)>;
+
 /// Fills a run with what the best of several replays leaves in each stretch.
 ControllerRun best_run(const Recording& recording, const std::vector<bool>& usable,
-                       const std::vector<Replay>& candidates, double StageRow::*command_V) {
+                       const std::vector<Replay>& candidates) {
     ControllerRun run;
     run.error_V.assign(recording.rows.size(), no_value);
     if (candidates.empty()) return run;
@@ -48,8 +63,6 @@ ControllerRun best_run(const Recording& recording, const std::vector<bool>& usab
         std::vector<double> best;
         for (const Replay& replay : candidates) {
             std::vector<double> errors = replay(stretch);
-            for (std::size_t i = 0; i < errors.size(); ++i)
-                errors[i] -= recording.rows[stretch.first + i].*command_V;
             if (!best.empty() && mean_square_of_finite(errors) >= mean_square_of_finite(best)) continue;
             best = std::move(errors);
         }
@@ -61,61 +74,142 @@ ControllerRun best_run(const Recording& recording, const std::vector<bool>& usab
     return run;
 }
 
+/// How a firmware may come from a setpoint and a count to an error in counts.
+struct CountReading {
+    bool truncates;          ///< the setpoint to whole counts; else it rounds
+    std::size_t delay_rows;  ///< by which the count is an older one
+};
+
+constexpr std::array<CountReading, 4> count_readings{{{false, 0}, {true, 0}, {false, 1}, {true, 1}}};
+
+/// The counts that a setpoint may have become: two where the file's last digit leaves it open.
+struct SetpointCounts {
+    double low, high;
+};
+
+SetpointCounts setpoint_counts(double setpoint_mm, double resolution_mm, const CountReading& reading) {
+    constexpr double half_digit_mm = 0.5e-4;
+    constexpr double slack_counts = 1e-9;  // of the division
+    const double counts = setpoint_mm / resolution_mm + (reading.truncates ? 0.0 : 0.5);
+    const double open_counts = half_digit_mm / resolution_mm + slack_counts;
+    return {std::floor(counts - open_counts), std::floor(counts + open_counts)};
+}
+
+/// The PD along a stretch.
+struct PdReplay {
+    const MacroParameters* macro;
+    bool restarts;  ///< with each setpoint
+    bool is_known;  ///< whether the last error is
+    control::PdState state{};
+
+    double command_V(double error_count, bool is_new_setpoint, double /*recorded_V*/) {
+        if (restarts && is_new_setpoint) state = {};
+        const double command_V = control::pd_update(*macro->pd, macro->command_limit_V, state, error_count);
+        return std::exchange(is_known, true) ? command_V : no_value;
+    }
+};
+
+/// The benchmark PID along a stretch; under way its integral follows from the first command that is not
+/// saturated.
+struct PidReplay {
+    const MacroParameters* macro;
+    double tick_s;
+    bool is_known;
+    bool has_last_error = false;
+    control::PidState state{};
+
+    double command_V(double error_count, bool /*is_new_setpoint*/, double recorded_V) {
+        if (is_known)
+            return control::pid_update(*macro->pid, macro->command_limit_V, tick_s, state, error_count);
+        if (has_last_error && std::abs(recorded_V) < macro->command_limit_V) {
+            control::PidState without_integral{0.0, state.last_error_count};
+            PidGains gains = *macro->pid;
+            gains.ki_V_per_count_s = 0.0;
+            state.integral_V =
+                recorded_V - control::pid_update(gains, no_limit_V, tick_s, without_integral, error_count);
+            is_known = true;
+        }
+        has_last_error = true;
+        state.last_error_count = error_count;
+        return is_known ? recorded_V : no_value;
+    }
+};
+
+/// Errors of one held setpoint.
+template <class Controller>
+struct Held {
+    Controller controller;  ///< behind it
+    std::vector<double> error_V;
+};
+
+/// A controller along a stretch. Where a setpoint leaves its count open, the one that fits better is taken as
+/// long as it is held.
+template <class Controller>
+std::vector<double> replayed(const Recording& recording, const Stretch& stretch, double resolution_mm,
+                             const CountReading& reading, Controller controller) {
+    const auto held = [&](std::size_t first, std::size_t end, double setpoint_count) {
+        Held<Controller> found{controller, {}};
+        for (std::size_t k = first; k < end; ++k) {
+            const std::size_t sampled = std::max(stretch.first, k - std::min(k, reading.delay_rows));
+            const double error_count = setpoint_count - recording.rows[sampled].encoder_count;
+            const double recorded_V = recording.rows[k].macro_command_V;
+            const bool is_new = k == first && k > stretch.first;
+            found.error_V.push_back(found.controller.command_V(error_count, is_new, recorded_V) - recorded_V);
+        }
+        return found;
+    };
+    std::vector<double> errors;
+    for (std::size_t first = stretch.first; first < stretch.end;) {
+        const double setpoint_mm = recording.rows[first].macro_setpoint_mm;
+        std::size_t end = first + 1;
+        while (end < stretch.end && recording.rows[end].macro_setpoint_mm == setpoint_mm) ++end;
+        const SetpointCounts counts = setpoint_counts(setpoint_mm, resolution_mm, reading);
+        Held<Controller> best = held(first, end, counts.low);
+        if (counts.high != counts.low) {
+            Held<Controller> other = held(first, end, counts.high);
+            if (mean_square_of_finite(other.error_V) < mean_square_of_finite(best.error_V))
+                best = std::move(other);
+        }
+        errors.insert(errors.end(), best.error_V.begin(), best.error_V.end());
+        controller = best.controller;
+        first = end;
+    }
+    return errors;
+}
+
 }  // namespace
 
+bool claims_controller(const Recording& recording) {
+    for (const auto stage : {&ControllerNames::macro, &ControllerNames::micro})
+        for (const std::string_view controller : {"nonlinear_pd", "benchmark_pid", "pi_antiwindup"})
+            if (claims(recording, stage, controller)) return true;
+    return false;
+}
+
 ControllerRun macro_controller_run(const Recording& recording, const Rig& rig) {
+    const MacroParameters& macro = rig.macro;
     std::vector<bool> usable;
-    std::vector<double> error_count;
-    for (const StageRow& row : recording.rows) {
-        const double resolution_mm = rig.macro.encoder_resolution_mm;
-        const double setpoint_count = std::floor(row.macro_setpoint_mm / resolution_mm + 0.5);
-        error_count.push_back(setpoint_count - row.encoder_count);
-        usable.push_back(std::isfinite(error_count.back()) && std::isfinite(row.macro_command_V));
-    }
-    const double limit_V = rig.macro.command_limit_V;
-    const auto pd = [&](bool restarts) {
-        return [&, restarts](const Stretch& stretch) {
-            std::vector<double> commands;
-            control::PdState state;
-            for (std::size_t k = stretch.first; k < stretch.end; ++k) {
-                const bool is_new = k > stretch.first && recording.rows[k].macro_setpoint_mm !=
-                                                             recording.rows[k - 1].macro_setpoint_mm;
-                if (restarts && is_new) state = {};
-                commands.push_back(control::pd_update(*rig.macro.pd, limit_V, state, error_count[k]));
-            }
-            if (is_under_way(recording, stretch, &StageRow::macro_setpoint_mm)) commands.front() = no_value;
-            return commands;
-        };
+    for (const StageRow& row : recording.rows)
+        usable.push_back(std::isfinite(row.macro_setpoint_mm) && std::isfinite(row.encoder_count) &&
+                         std::isfinite(row.macro_command_V));
+    const auto is_known = [&](const Stretch& stretch) {
+        return !is_under_way(recording, stretch, &StageRow::macro_setpoint_mm);
     };
-    const auto pid = [&](const Stretch& stretch) {
-        std::vector<double> commands;
-        control::PidState state;
-        bool is_known = !is_under_way(recording, stretch, &StageRow::macro_setpoint_mm);
-        for (std::size_t k = stretch.first; k < stretch.end; ++k) {
-            const double command_V = recording.rows[k].macro_command_V;
-            if (!is_known && k > stretch.first && std::abs(command_V) < limit_V) {
-                control::PidState without_integral{0.0, state.last_error_count};
-                PidGains gains = *rig.macro.pid;
-                gains.ki_V_per_count_s = 0.0;
-                state.integral_V = command_V - control::pid_update(gains, no_limit_V, recording.tick_s,
-                                                                   without_integral, error_count[k]);
-                state.last_error_count = error_count[k];
-                is_known = true;
-                commands.push_back(command_V);
-            } else if (is_known) {
-                commands.push_back(
-                    control::pid_update(*rig.macro.pid, limit_V, recording.tick_s, state, error_count[k]));
-            } else {
-                state.last_error_count = error_count[k];
-                commands.push_back(no_value);
-            }
-        }
-        return commands;
-    };
+    const bool pd = macro.pd && claims(recording, &ControllerNames::macro, "nonlinear_pd");
+    const bool pid = macro.pid && claims(recording, &ControllerNames::macro, "benchmark_pid");
     std::vector<Replay> candidates;
-    if (rig.macro.pd) candidates = {pd(false), pd(true)};
-    if (rig.macro.pid) candidates.push_back(pid);
-    return best_run(recording, usable, candidates, &StageRow::macro_command_V);
+    for (const CountReading& reading : count_readings) {
+        const auto add = [&](auto controller_at) {
+            candidates.emplace_back([&, reading, controller_at](const Stretch& stretch) {
+                return replayed(recording, stretch, macro.encoder_resolution_mm, reading,
+                                controller_at(is_known(stretch)));
+            });
+        };
+        if (pd) add([&](bool known) { return PdReplay{&macro, false, known}; });
+        if (pd) add([&](bool known) { return PdReplay{&macro, true, known}; });
+        if (pid) add([&](bool known) { return PidReplay{&macro, recording.tick_s, known}; });
+    }
+    return best_run(recording, usable, candidates);
 }
 
 ControllerRun micro_controller_run(const Recording& recording, const Rig& rig) {
@@ -124,27 +218,33 @@ ControllerRun micro_controller_run(const Recording& recording, const Rig& rig) {
         usable.push_back(std::isfinite(row.micro_setpoint_mm) && std::isfinite(row.hall_adc) &&
                          std::isfinite(row.micro_command_V));
     std::vector<Replay> candidates;
-    if (rig.micro && rig.micro->pi) {
-        candidates.push_back([&](const Stretch& stretch) {
-            const PiGains& gains = *rig.micro->pi;
-            std::vector<double> commands;
-            control::PiState state = control::pi_start(gains);
-            bool is_known = !is_under_way(recording, stretch, &StageRow::micro_setpoint_mm);
-            for (std::size_t k = stretch.first; k < stretch.end; ++k) {
-                const StageRow& row = recording.rows[k];
-                const double error_mm =
-                    row.micro_setpoint_mm - hall_position_mm_of_adc(rig.micro->hall, row.hall_adc);
-                if (!is_known && row.micro_command_V > gains.low_V && row.micro_command_V < gains.high_V) {
-                    state.integral_V = row.micro_command_V - gains.kp_V_per_mm * error_mm;
-                    is_known = true;
+    if (rig.micro && rig.micro->pi && claims(recording, &ControllerNames::micro, "pi_antiwindup")) {
+        for (const std::size_t delay_rows : {0, 1}) {
+            candidates.emplace_back([&, delay_rows](const Stretch& stretch) {
+                const PiGains& gains = *rig.micro->pi;
+                std::vector<double> errors;
+                control::PiState state = control::pi_start(gains);
+                bool is_known = !is_under_way(recording, stretch, &StageRow::micro_setpoint_mm);
+                for (std::size_t k = stretch.first; k < stretch.end; ++k) {
+                    const StageRow& row = recording.rows[k];
+                    const std::size_t sampled = std::max(stretch.first, k - std::min(k, delay_rows));
+                    const double error_mm =
+                        row.micro_setpoint_mm -
+                        hall_position_mm_of_adc(rig.micro->hall, recording.rows[sampled].hall_adc);
+                    if (!is_known && row.micro_command_V > gains.low_V &&
+                        row.micro_command_V < gains.high_V) {
+                        state.integral_V = row.micro_command_V - gains.kp_V_per_mm * error_mm;
+                        is_known = true;
+                    }
+                    errors.push_back(is_known ? control::pi_update(gains, recording.tick_s, state, error_mm) -
+                                                    row.micro_command_V
+                                              : no_value);
                 }
-                commands.push_back(is_known ? control::pi_update(gains, recording.tick_s, state, error_mm)
-                                            : no_value);
-            }
-            return commands;
-        });
+                return errors;
+            });
+        }
     }
-    return best_run(recording, usable, candidates, &StageRow::micro_command_V);
+    return best_run(recording, usable, candidates);
 }
 
 double controller_floor_V(const std::vector<double>& command_V) {

@@ -7,6 +7,13 @@
 // so that a rig with another controller says so without drowning what else is wrong with it. Under the truth
 // the errors are near 0, not near 1.
 //
+// Only a recording that claims a controller can show that it is another one: Recording::controllers names it,
+// or the recording is of an experiment that the file's controllers define. All other commands are given.
+//
+// Firmware is free to round a setpoint to whole counts or to cut it off, and to take this tick's reading or
+// the last one's; and a setpoint half way between two counts, within the file's last digit, may have become
+// either. Of all these readings the one that fits best counts.
+//
 // After rows that are missing a controller is under way: the last error is known a row later, and the
 // integral follows from the first command that is not saturated.
 #include "core/recording.h"
@@ -26,11 +33,14 @@ struct ControllerRun {
     std::vector<double> error_V;      ///< replayed minus recorded command, row by row; NaN outside of windows
 };
 
-/// The PD, the PD started anew with each setpoint, or the benchmark PID: in each stretch the one that fits
-/// best. No windows where the rig file states no gains.
+/// Whether a recording claims that a controller of the rig file was in charge of a stage.
+bool claims_controller(const Recording& recording);
+
+/// The PD, the PD started anew with each setpoint, or the benchmark PID, as far as they are claimed: in each
+/// stretch the one that fits best. No windows where none is claimed or the rig file states no gains.
 ControllerRun macro_controller_run(const Recording& recording, const Rig& rig);
 
-/// The PI with anti-windup.
+/// The PI with anti-windup, likewise.
 ControllerRun micro_controller_run(const Recording& recording, const Rig& rig);
 
 /// What the file's digits leave of a command, at least 0.1 mV.

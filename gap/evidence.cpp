@@ -154,13 +154,14 @@ class RunPredictor {
                            links_.tags.tick_s);
             reading = &filtered;
         }
+        const double zero_mm = zero_offset_mm(*models_.tag, links_.tags, path(), reading);
         const std::span<const std::uint8_t> wanted = wanted_of(Signal::tag);
         auto window = std::ranges::find(windows_, Signal::tag, &Window::signal);
         for (std::size_t i = 0; i < wanted.size(); ++i, ++window)
             if (wanted[i] != 0)
                 write_detections(
                     errors, *window, links_.tags,
-                    tag_errors(*models_.tag, links_.tags, links_.tags.windows[i], path(), reading));
+                    tag_errors(*models_.tag, links_.tags, links_.tags.windows[i], path(), reading, zero_mm));
     }
 
     void predict_images(Errors& errors) const {
@@ -233,11 +234,12 @@ std::string_view unit_of(Signal signal) {
 Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings) : parts_(std::make_unique<Parts>()) {
     Parts& parts = *parts_;
     parts.rig = rig;
-    parts.recordings = std::move(recordings);
+    for (const Recording& recording : recordings) check(rig, recording);
+    parts.recordings = joined(std::move(recordings), rig);
     for (Recording& recording : parts.recordings) {
-        check(rig, recording);
         std::ranges::stable_sort(recording.detections, {}, &TagDetection::time_ns);
         std::ranges::stable_sort(recording.appearances, {}, &TagAppearance::time_ns);
+        parts.places.push_back(refer_to_travel(recording, rig));
     }
     find_noise(parts);
     parts.floors[index_of(Signal::macro_command)] =

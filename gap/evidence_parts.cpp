@@ -125,9 +125,9 @@ void note_omissions(Evidence::Parts& parts, std::size_t run) {
         return count_rows(recording, [&](const StageRow& row) { return std::isfinite(row.*setpoint); });
     };
     note_rows(parts, run, "macro_command", controlled(&StageRow::macro_setpoint_mm), links.macro.windows,
-              "the rig file states no gains, or rows lack a command or a count");
+              "the recording claims no controller of the rig file, or rows lack a command or a count");
     note_rows(parts, run, "micro_command", controlled(&StageRow::micro_setpoint_mm), links.micro.windows,
-              "the rig file states no gains, or rows lack a command or a reading");
+              "the recording claims no controller of the rig file, or rows lack a command or a reading");
 }
 
 void drop_unclear_detections(Evidence::Parts& parts, std::size_t run) {
@@ -175,12 +175,12 @@ void find_noise(Evidence::Parts& parts) {
         parts.floors[index_of(Signal::hall)] =
             floor_of(noise_before_rounding(hall).value_or(parts.rig.micro->hall.noise_lsb));
     if (!parts.rig.camera) return;
-    constexpr double least_px = 1e-3;
-    // What the detector is off by in the same way in every frame: optics, print, the pixels' unequal gains.
+    // What the detector is off by in the same way in every frame, optics, print, the pixels' unequal gains:
+    // the noise from frame to frame does not show it.
     constexpr double detector_px = 0.01;
     const CameraParameters& camera = *parts.rig.camera;
     parts.floors[index_of(Signal::tag)] = std::max(
-        least_px,
+        detector_px,
         corner_noise_px(parts.recordings, 1.0 / camera.frame_rate_hz).value_or(camera.corner_noise_px));
     const bool has_frames = std::ranges::any_of(
         parts.recordings, [](const Recording& recording) { return !recording.appearances.empty(); });
@@ -205,7 +205,7 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     const Rig& rig = parts.rig;
     const plant::PlantParameters nominal = plant::plant_parameters(rig);
     RunLinks& links = parts.links.emplace_back();
-    links.carriage = carriage_run(recording, rig.macro);
+    links.carriage = carriage_run(recording, rig.macro, parts.places[run] != PlacesFrom::nowhere);
     predicted_counts(carriage_model(nominal), links.carriage, links.path);
     if (rig.camera && rig.fiducials && !recording.appearances.empty() && !recording.rows.empty())
         drop_unclear_detections(parts, run);
@@ -221,6 +221,7 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
             tag_run(recording, rig, links.path, links.carriage, links.platform ? &*links.platform : nullptr,
                     links.smoothed ? &*links.smoothed : nullptr,
                     {parts.floors[index_of(Signal::tag)], parts.shutter.readout_s});
+    links.tags.zero_is_seen = parts.places[run] == PlacesFrom::tags;
     links.macro = macro_controller_run(recording, rig);
     links.micro = micro_controller_run(recording, rig);
     parts.courses.push_back(course_of(rig, links, platform ? &*platform : nullptr));

@@ -9,6 +9,7 @@
 #include "gap/hall_smoothing.h"
 #include "gap/image_link.h"
 #include "gap/platform_link.h"
+#include "gap/power_on.h"
 #include "gap/shutter.h"
 #include "gap/tag_link.h"
 
@@ -34,6 +35,7 @@ struct RunLinks {
 struct Evidence::Parts {
     Rig rig;
     std::vector<Recording> recordings;
+    std::vector<PlacesFrom> places;  ///< of each recording
     std::vector<RunLinks> links;
     std::vector<ImageRun> images;       ///< of each recording
     std::vector<TagsInFrames> smeared;  ///< of each recording

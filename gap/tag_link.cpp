@@ -1,11 +1,13 @@
 #include "gap/tag_link.h"
 
 #include "core/demand.h"
+#include "core/median.h"
 #include "core/rig.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace fidservo::gap {
 
@@ -182,13 +184,6 @@ double mm_per_lsb(const HallParameters& hall) {
     return hall_lsb_V(hall) / hall_slope_V_per_mm(hall, hall.centre_mm);
 }
 
-std::optional<Eigen::Vector2d> tag_centre_mm(const FiducialParameters& plate, int id) {
-    const int index = id - plate.first_id;
-    if (index < 0 || index >= plate.columns * plate.rows) return std::nullopt;
-    const int column = index % plate.columns, row = index / plate.columns;
-    return Eigen::Vector2d(column * plate.pitch_x_mm, row * plate.pitch_y_mm);
-}
-
 /// Leaves out the rows beside a pause of the Hall readings: lines through the readings of one side only tell
 /// less of where the platform is than those through both (gap/hall_smoothing.h).
 void leave_out_rims(const Recording& recording, const PlatformRun& platform, std::vector<bool>& usable) {
@@ -221,6 +216,13 @@ std::vector<WindowRows> window_rows(const Recording& recording, const CarriageRu
 }
 
 }  // namespace
+
+std::optional<Eigen::Vector2d> tag_centre_mm(const FiducialParameters& plate, int id) {
+    const int index = id - plate.first_id;
+    if (index < 0 || index >= plate.columns * plate.rows) return std::nullopt;
+    const int column = index % plate.columns, row = index / plate.columns;
+    return Eigen::Vector2d(column * plate.pitch_x_mm, row * plate.pitch_y_mm);
+}
 
 TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& path,
                const CarriageRun& carriage, const PlatformRun* platform, const SmoothedReading* reading,
@@ -314,23 +316,51 @@ CornerValues turned(const TagSighting& sighting, const CornerValues& values) {
     return values - 2.0 * sighting.mirror.dot(values) * sighting.mirror;
 }
 
+double zero_offset_mm(const TagModel& model, const TagRun& run, const CarriagePath& path,
+                      const SmoothedReading* reading) {
+    if (!run.zero_is_seen) return 0.0;
+    constexpr std::size_t most = 201;
+    constexpr int rounds = 2;  // the picture of a tag is not quite linear in its place
+    const CameraPlace place(model, run, path, reading);
+    const std::size_t step = 1 + run.sightings.size() / most;
+    double offset_mm = 0.0;
+    for (int round = 0; round < rounds; ++round) {
+        std::vector<double> found_mm;
+        for (std::size_t i = 0; i < run.sightings.size(); i += step) {
+            const TagSighting& sighting = run.sightings[i];
+            if (!sighting.is_known) continue;
+            const CornerValues error =
+                predicted(model, run, place, sighting, offset_mm) - sighting.corners_px;
+            const CornerValues slope = seen_slope(model.camera, sighting.centre_mm, run.side_mm,
+                                                  place.s_mm(sighting.stamp_s) + offset_mm);
+            const double beside_mm = -slope.dot(error) / slope.squaredNorm();
+            if (std::isfinite(beside_mm)) found_mm.push_back(beside_mm);
+        }
+        if (found_mm.empty()) return 0.0;
+        offset_mm += median_of(std::move(found_mm));
+    }
+    return offset_mm;
+}
+
 std::vector<CornerValues> tag_errors(const TagModel& model, const TagRun& run, const TagWindow& window,
-                                     const CarriagePath& path, const SmoothedReading* reading) {
+                                     const CarriagePath& path, const SmoothedReading* reading,
+                                     double zero_mm) {
     const CameraPlace place(model, run, path, reading);
     double pull = 0.0, stiffness = 0.0;
     for (std::size_t i = window.lead; i < window.first; ++i) {
         const TagSighting& sighting = run.sightings[i];
         if (!sighting.is_known) continue;
-        const double into_window_mm = place.entering_mm(sighting.stamp_s);
+        const double into_window_mm = zero_mm + place.entering_mm(sighting.stamp_s);
         const CornerValues error =
             predicted(model, run, place, sighting, into_window_mm) - sighting.corners_px;
         const CornerValues slope =
-            seen_slope(model.camera, sighting.centre_mm, run.side_mm, place.s_mm(sighting.stamp_s));
+            seen_slope(model.camera, sighting.centre_mm, run.side_mm, place.s_mm(sighting.stamp_s) + zero_mm);
         pull += sighting.offset_weight * slope.dot(error);
         stiffness += sighting.offset_weight * slope.squaredNorm();
     }
     const double offset_mm =
-        stiffness > 0.0 ? std::clamp(-pull / stiffness, -model.resolution_mm, model.resolution_mm) : 0.0;
+        zero_mm +
+        (stiffness > 0.0 ? std::clamp(-pull / stiffness, -model.resolution_mm, model.resolution_mm) : 0.0);
     std::vector<CornerValues> errors;
     for (std::size_t i = window.first; i < window.end; ++i) {
         const TagSighting& sighting = run.sightings[i];

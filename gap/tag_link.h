@@ -9,6 +9,9 @@
 // detections of the 100 ms before a window do: they give an offset of y, of at most a count, for the window,
 // against the run that enters it; the later ones more, as how that run begins dies out.
 //
+// Where the encoder's zero is known by the tags alone (gap/power_on.h), each hypothesis finds anew what it is
+// off by: with another camera, or another scale of the counts, the same detections say another zero.
+//
 // A detection has eight values. They are turned (a reflection) so that the first one lies along the motion of
 // the stage in the image, u of all four corners; what is uncertain of s enters this one alone:
 //
@@ -20,6 +23,7 @@
 // Where rows are exposed one after the other, s of one corner is wrong by another amount than s of the next:
 // the other values' floors then hold what the smoothed reading's error changes by from the first of these
 // times to the last one, and that share of the carriage's way between them.
+#include "core/fiducial_parameters.h"
 #include "gap/carriage_link.h"
 #include "gap/evidence.h"
 #include "gap/hall_smoothing.h"
@@ -35,6 +39,9 @@
 namespace fidservo::gap {
 
 using CornerValues = Eigen::Matrix<double, corner_values, 1>;  ///< u and v of the corners in turn
+
+/// On the plate; empty for a tag that it does not have.
+std::optional<Eigen::Vector2d> tag_centre_mm(const FiducialParameters& plate, int id);
 
 /// A detection that is judged.
 struct TagSighting {
@@ -57,6 +64,7 @@ struct TagRun {
     std::vector<TagSighting> sightings;
     std::vector<TagWindow> windows;
     double side_mm = 0.0, tick_s = 0.0;
+    bool zero_is_seen = false;  ///< what the encoder's zero is off by is found anew by each hypothesis
 };
 
 /// What makes detections uncertain: their corners' own noise, and what is seen of the readout.
@@ -86,8 +94,15 @@ TagModel tag_model(const plant::PlantParameters& parameters, const Rig& rig);
 /// Values of a detection turned as its errors are.
 CornerValues turned(const TagSighting& sighting, const CornerValues& values);
 
+/// By how much the carriage is beside where its encoder's zero puts it, mm: the median over detections spread
+/// evenly over the recording; 0 where the zero is known without them.
+double zero_offset_mm(const TagModel& model, const TagRun& run, const CarriagePath& path,
+                      const SmoothedReading* reading);
+
 /// The turned values, prediction minus recording in px, of a window's detections one after the other.
+/// @param zero_mm  zero_offset_mm()
 std::vector<CornerValues> tag_errors(const TagModel& model, const TagRun& run, const TagWindow& window,
-                                     const CarriagePath& path, const SmoothedReading* reading);
+                                     const CarriagePath& path, const SmoothedReading* reading,
+                                     double zero_mm);
 
 }  // namespace fidservo::gap

@@ -1,0 +1,144 @@
+#include "gap/power_on.h"
+
+#include "core/hall.h"
+#include "core/median.h"
+#include "core/rig.h"
+#include "gap/carriage_run.h"
+#include "gap/controller_link.h"
+#include "gap/tag_link.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace fidservo::gap {
+
+namespace {
+
+bool same_controllers(const Recording& a, const Recording& b) {
+    if (a.controllers.has_value() != b.controllers.has_value()) return false;
+    if (!a.controllers)
+        return a.experiment == b.experiment || !(claims_controller(a) || claims_controller(b));
+    return a.controllers->macro == b.controllers->macro && a.controllers->micro == b.controllers->micro;
+}
+
+bool goes_on(const Recording& before, const Recording& after, const Rig& rig) {
+    constexpr double longest_pause_s = 0.1;
+    if (before.rows.empty() || after.rows.empty() || before.rig != after.rig ||
+        before.tick_s != after.tick_s || !same_controllers(before, after))
+        return false;
+    const double pause_s = seconds(after.rows.front().time_ns - before.rows.back().time_ns);
+    if (pause_s <= 0.0 || pause_s > longest_pause_s) return false;
+    const MacroParameters& macro = rig.macro;
+    const double fastest_mm_per_s = macro.velocity_gain_mm_per_s_per_V * macro.command_limit_V;
+    const double most_counts = 1.0 + pause_s * fastest_mm_per_s / macro.encoder_resolution_mm;
+    const double way_counts =
+        reading_count(after.rows.front(), macro) - reading_count(before.rows.back(), macro);
+    return std::abs(way_counts) <= most_counts;
+}
+
+void append(Recording& run, Recording next) {
+    const auto add = [](auto& to, auto&& from) {
+        to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+    };
+    const std::size_t first_part_end = run.name.find(" to ");
+    run.name = fmt::format("{} to {}", run.name.substr(0, first_part_end), next.name);
+    if (run.experiment != next.experiment) run.experiment = "run";
+    if (next.encoder_zero &&
+        (!run.encoder_zero || next.encoder_zero->std_count < run.encoder_zero->std_count))
+        run.encoder_zero = std::move(next.encoder_zero);
+    run.is_unfinished = next.is_unfinished;
+    add(run.events, std::move(next.events));
+    add(run.rows, std::move(next.rows));
+    add(run.detections, std::move(next.detections));
+    add(run.frames, std::move(next.frames));
+    add(run.appearances, std::move(next.appearances));
+}
+
+/// Where the rig file's camera stands when it sees a tag there, mm; empty for a tag that the plate has not.
+std::optional<double> camera_place_mm(const TagDetection& detection, const Rig& rig) {
+    const auto centre_mm = tag_centre_mm(*rig.fiducials, detection.tag_id);
+    if (!centre_mm) return std::nullopt;
+    Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& corner_px : detection.corners_px) middle_px += 0.25 * corner_px;
+    double s_mm = centre_mm->x();
+    constexpr int rounds = 3;  // an oblique axis changes the distance on the way
+    for (int round = 0; round < rounds; ++round)
+        s_mm += centre_mm->x() - back_project(rig.camera->geometry, middle_px, s_mm).x();
+    return s_mm;
+}
+
+/// How far each detection of a tag of the plate says that the camera is from where the readings put it, mm.
+std::vector<double> camera_offsets_mm(const Recording& recording, const Rig& rig) {
+    std::vector<double> offsets_mm;
+    for (const TagDetection& detection : recording.detections) {
+        const auto seen_mm = camera_place_mm(detection, rig);
+        if (!seen_mm) continue;
+        const StageRow& row = recording.rows[row_at(recording.rows, detection.time_ns)];
+        double read_mm = rig.macro.encoder_resolution_mm * reading_count(row, rig.macro);
+        if (rig.micro) read_mm += hall_position_mm_of_adc(rig.micro->hall, row.hall_adc);
+        if (std::isfinite(read_mm)) offsets_mm.push_back(*seen_mm - read_mm);
+    }
+    return offsets_mm;
+}
+
+/// Whether all readings lie within the travel that the rig file states. An encoder whose scale is off reads
+/// too much at the far end.
+bool lies_in_travel(const Recording& recording, const MacroParameters& macro) {
+    constexpr double beyond_mm = 1.0, most_off = 0.05;
+    const double lowest_mm = macro.low_mm - beyond_mm;
+    const double highest_mm = macro.high_mm + beyond_mm + most_off * (macro.high_mm - macro.low_mm);
+    return std::ranges::all_of(readings_mm(recording, macro), [&](double place_mm) {
+        return !(place_mm < lowest_mm || place_mm > highest_mm);
+    });
+}
+
+void shift(Recording& recording, double counts, double resolution_mm) {
+    for (StageRow& row : recording.rows) {
+        row.encoder_count += counts;
+        row.position_mm += counts * resolution_mm;
+    }
+}
+
+}  // namespace
+
+std::vector<Recording> joined(std::vector<Recording> recordings, const Rig& rig) {
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> next(recordings.size(), none);
+    std::vector<bool> is_continued(recordings.size(), false);  // another one leads to it
+    for (std::size_t i = 0; i < recordings.size(); ++i)
+        for (std::size_t k = 0; k < recordings.size() && next[i] == none; ++k)
+            if (!is_continued[k] && goes_on(recordings[i], recordings[k], rig)) {
+                next[i] = k;
+                is_continued[k] = true;
+            }
+    std::vector<Recording> runs;
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+        if (is_continued[i]) continue;
+        runs.push_back(std::move(recordings[i]));
+        for (std::size_t k = next[i]; k != none; k = next[k]) append(runs.back(), std::move(recordings[k]));
+    }
+    return runs;
+}
+
+PlacesFrom refer_to_travel(Recording& recording, const Rig& rig) {
+    constexpr double sure_counts = 0.5, at_most_mm = 1.0;
+    const double resolution_mm = rig.macro.encoder_resolution_mm;
+    if (recording.encoder_zero && recording.encoder_zero->std_count <= sure_counts) {
+        shift(recording, -std::round(recording.encoder_zero->count), resolution_mm);
+        return PlacesFrom::recording;
+    }
+    std::vector<double> offsets_mm;
+    if (rig.camera && rig.fiducials) offsets_mm = camera_offsets_mm(recording, rig);
+    const bool in_travel = lies_in_travel(recording, rig.macro);
+    if (offsets_mm.empty()) return in_travel ? PlacesFrom::recording : PlacesFrom::nowhere;
+    const double offset_mm = median_of(std::move(offsets_mm));
+    if (in_travel && std::abs(offset_mm) <= at_most_mm) return PlacesFrom::recording;
+    shift(recording, std::round(offset_mm / resolution_mm), resolution_mm);
+    return PlacesFrom::tags;
+}
+
+}  // namespace fidservo::gap
