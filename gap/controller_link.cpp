@@ -43,13 +43,19 @@ double mean_square_of_finite(const std::vector<double>& errors) {
     return count > 0.0 ? sum / count : std::numeric_limits<double>::infinity();
 }
 
-/// Whether a stretch begins where control goes on after rows that are missing.
-bool is_under_way(const Recording& recording, const Stretch& stretch, double StageRow::*setpoint_mm) {
-    return stretch.first > 0 && std::isfinite(recording.rows[stretch.first - 1].*setpoint_mm);
+/// In which state a stretch may find a controller.
+enum class Start { fresh, under_way };
+
+/// Both where the recording begins with it: whoever made it may have begun in the middle.
+bool may_start(Start start, const Recording& recording, const Stretch& stretch,
+               double StageRow::*setpoint_mm) {
+    if (stretch.first == 0) return true;
+    const bool goes_on = std::isfinite(recording.rows[stretch.first - 1].*setpoint_mm);
+    return goes_on == (start == Start::under_way);
 }
 
 /// Errors of a stretch's rows, replayed minus recorded command; NaN where the controller's state is not known
-/// yet.
+/// yet, and none where the stretch cannot begin so.
 using Replay = std::function<std::vector<double>(const Stretch&)>;
 
 /// Fills a run with what the best of several replays leaves in each stretch.
@@ -63,6 +69,7 @@ ControllerRun best_run(const Recording& recording, const std::vector<bool>& usab
         std::vector<double> best;
         for (const Replay& replay : candidates) {
             std::vector<double> errors = replay(stretch);
+            if (errors.empty()) continue;
             if (!best.empty() && mean_square_of_finite(errors) >= mean_square_of_finite(best)) continue;
             best = std::move(errors);
         }
@@ -177,6 +184,29 @@ std::vector<double> replayed(const Recording& recording, const Stretch& stretch,
     return errors;
 }
 
+/// The PI along a stretch; under way its integral follows from the first command that is not saturated.
+/// @param delay_rows  by which the reading is an older one
+std::vector<double> replayed_pi(const Recording& recording, const Stretch& stretch,
+                                const MicroParameters& micro, std::size_t delay_rows, bool is_known) {
+    const PiGains& gains = *micro.pi;
+    control::PiState state = control::pi_start(gains);
+    std::vector<double> errors;
+    for (std::size_t k = stretch.first; k < stretch.end; ++k) {
+        const StageRow& row = recording.rows[k];
+        const std::size_t sampled = std::max(stretch.first, k - std::min(k, delay_rows));
+        const double error_mm =
+            row.micro_setpoint_mm - hall_position_mm_of_adc(micro.hall, recording.rows[sampled].hall_adc);
+        if (!is_known && row.micro_command_V > gains.low_V && row.micro_command_V < gains.high_V) {
+            state.integral_V = row.micro_command_V - gains.kp_V_per_mm * error_mm;
+            is_known = true;
+        }
+        errors.push_back(is_known ? control::pi_update(gains, recording.tick_s, state, error_mm) -
+                                        row.micro_command_V
+                                  : no_value);
+    }
+    return errors;
+}
+
 }  // namespace
 
 bool claims_controller(const Recording& recording) {
@@ -192,23 +222,23 @@ ControllerRun macro_controller_run(const Recording& recording, const Rig& rig) {
     for (const StageRow& row : recording.rows)
         usable.push_back(std::isfinite(row.macro_setpoint_mm) && std::isfinite(row.encoder_count) &&
                          std::isfinite(row.macro_command_V));
-    const auto is_known = [&](const Stretch& stretch) {
-        return !is_under_way(recording, stretch, &StageRow::macro_setpoint_mm);
-    };
     const bool pd = macro.pd && claims(recording, &ControllerNames::macro, "nonlinear_pd");
     const bool pid = macro.pid && claims(recording, &ControllerNames::macro, "benchmark_pid");
     std::vector<Replay> candidates;
-    for (const CountReading& reading : count_readings) {
-        const auto add = [&](auto controller_at) {
-            candidates.emplace_back([&, reading, controller_at](const Stretch& stretch) {
-                return replayed(recording, stretch, macro.encoder_resolution_mm, reading,
-                                controller_at(is_known(stretch)));
-            });
-        };
-        if (pd) add([&](bool known) { return PdReplay{&macro, false, known}; });
-        if (pd) add([&](bool known) { return PdReplay{&macro, true, known}; });
-        if (pid) add([&](bool known) { return PidReplay{&macro, recording.tick_s, known}; });
-    }
+    for (const Start start : {Start::fresh, Start::under_way})
+        for (const CountReading& reading : count_readings) {
+            const auto add = [&](auto controller) {
+                candidates.emplace_back([&, start, reading, controller](const Stretch& stretch) {
+                    if (!may_start(start, recording, stretch, &StageRow::macro_setpoint_mm))
+                        return std::vector<double>();
+                    return replayed(recording, stretch, macro.encoder_resolution_mm, reading, controller);
+                });
+            };
+            const bool known = start == Start::fresh;
+            if (pd) add(PdReplay{&macro, false, known});
+            if (pd) add(PdReplay{&macro, true, known});
+            if (pid) add(PidReplay{&macro, recording.tick_s, known});
+        }
     return best_run(recording, usable, candidates);
 }
 
@@ -219,30 +249,15 @@ ControllerRun micro_controller_run(const Recording& recording, const Rig& rig) {
                          std::isfinite(row.micro_command_V));
     std::vector<Replay> candidates;
     if (rig.micro && rig.micro->pi && claims(recording, &ControllerNames::micro, "pi_antiwindup")) {
-        for (const std::size_t delay_rows : {0, 1}) {
-            candidates.emplace_back([&, delay_rows](const Stretch& stretch) {
-                const PiGains& gains = *rig.micro->pi;
-                std::vector<double> errors;
-                control::PiState state = control::pi_start(gains);
-                bool is_known = !is_under_way(recording, stretch, &StageRow::micro_setpoint_mm);
-                for (std::size_t k = stretch.first; k < stretch.end; ++k) {
-                    const StageRow& row = recording.rows[k];
-                    const std::size_t sampled = std::max(stretch.first, k - std::min(k, delay_rows));
-                    const double error_mm =
-                        row.micro_setpoint_mm -
-                        hall_position_mm_of_adc(rig.micro->hall, recording.rows[sampled].hall_adc);
-                    if (!is_known && row.micro_command_V > gains.low_V &&
-                        row.micro_command_V < gains.high_V) {
-                        state.integral_V = row.micro_command_V - gains.kp_V_per_mm * error_mm;
-                        is_known = true;
-                    }
-                    errors.push_back(is_known ? control::pi_update(gains, recording.tick_s, state, error_mm) -
-                                                    row.micro_command_V
-                                              : no_value);
-                }
-                return errors;
+        const auto add = [&](Start start, std::size_t delay_rows) {
+            candidates.emplace_back([&recording, &rig, start, delay_rows](const Stretch& stretch) {
+                if (!may_start(start, recording, stretch, &StageRow::micro_setpoint_mm))
+                    return std::vector<double>();
+                return replayed_pi(recording, stretch, *rig.micro, delay_rows, start == Start::fresh);
             });
-        }
+        };
+        for (const Start start : {Start::fresh, Start::under_way})
+            for (const std::size_t delay_rows : {0U, 1U}) add(start, delay_rows);
     }
     return best_run(recording, usable, candidates);
 }

@@ -4,6 +4,7 @@
 #include "core/rig.h"
 #include "gap/clear_detections.h"
 #include "gap/noise_floor.h"
+#include "gap/wire_memory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -213,7 +214,9 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     if (rig.micro) {
         links.platform =
             platform_run(recording, *rig.micro, parts.hall_range, parts.floors[index_of(Signal::hall)]);
-        platform = predicted_readings(platform_model(nominal), *links.platform, nullptr);
+        const PlatformModel stage = platform_model(nominal);
+        keep_known_memory(*links.platform, stage);
+        platform = predicted_readings(stage, *links.platform, nullptr);
         links.smoothed = smoothed_reading(*links.platform, platform->path_lsb, rig.macro.command_limit_V);
     }
     if (rig.camera && rig.fiducials)

@@ -2,6 +2,7 @@
 
 #include "core/demand.h"
 #include "core/micro_parameters.h"
+#include "gap/wire_start.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,28 +21,6 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr double carried_std_degC = 0.003;
 constexpr double most_stds = 3.0;
 
-/// Moves the end of the branch on which a wire is to another temperature, as far as the branch goes.
-void slide_wire(const FodTable& table, PreisachMemory& wire, double temp_degC) {
-    const bool heating = wire.last_peak_degC == wire.temp_degC;
-    if (heating == (temp_degC > wire.temp_degC)) {
-        preisach_step(table, wire, temp_degC);
-        return;
-    }
-    const double valley_degC = wire.loops.empty() ? table.low_degC() : wire.loops.back().valley_degC;
-    const double outer_mm = wire.loops.empty() ? 0.0 : wire.loops.back().contraction_mm;
-    wire.temp_degC = heating ? std::max(temp_degC, valley_degC) : std::min(temp_degC, wire.last_peak_degC);
-    if (heating) wire.last_peak_degC = wire.temp_degC;
-    wire.contraction_mm = outer_mm + table.contraction_mm(wire.last_peak_degC, wire.temp_degC) -
-                          table.contraction_mm(wire.last_peak_degC, valley_degC);
-}
-
-void slide(const plant::MicroStage& stage, plant::MicroStageState& state, double by_degC) {
-    if (by_degC == 0.0) return;
-    state.heater.temp_degC += by_degC;
-    slide_wire(*stage.fod, state.wire, state.heater.temp_degC - stage.table_shift_degC);
-    state.position_mm = stage.stroke_factor * state.wire.contraction_mm + state.swing.position_mm;
-}
-
 class Pass {
   public:
     Pass(const PlatformModel& model, const PlatformRun& run, const CarriagePath* carriage)
@@ -52,7 +31,7 @@ class Pass {
 
     PlatformPrediction predict() {
         if (run_.command_V.empty()) return found_;
-        plant::MicroStageState state = first_state();
+        plant::MicroStageState state = first_state(model_, run_);
         plant::MicroStageState carried = state;  // where the next window's 100 ms begin
         std::size_t row = 0;
         for (std::size_t i = 0; i < run_.windows.size(); ++i) {
@@ -62,7 +41,8 @@ class Pass {
                 carried = state;
                 walk(state, window.lead, window.first);
             }
-            state = corrected(window, carried);
+            const bool is_beside = !run_.is_beside.empty() && run_.is_beside[i];
+            state = is_beside ? beside(window, carried) : corrected(window, carried);
             const bool follows = i + 1 < run_.windows.size() && run_.windows[i + 1].lead < window.end;
             const std::size_t next = follows ? run_.windows[i + 1].lead : window.end;
             walk(state, window.first, next);
@@ -78,80 +58,59 @@ class Pass {
     }
 
   private:
-    /// A stage whose wire was heated from cold to where the first readings are; cold if they say so, or if
-    /// what follows does: a sensor that reads high at a cold wire goes on to, a warm wire cools.
-    plant::MicroStageState first_state() const {
-        constexpr std::size_t glance = 20;
-        constexpr double clear = 5.0, least_lsb = 1.0, resolution_degC = 1e-3;
-        const plant::MicroStageState cold = plant::start(model_.stage, 0);
-        plant::MicroStageState state = cold;
-        double excess_lsb = 0.0;
-        int count = 0;
-        for (std::size_t k = 0; k < std::min(glance, run_.hall_adc.size()); ++k) {
-            if (std::isfinite(run_.hall_adc[k])) {
-                excess_lsb += run_.hall_adc[k] - mean_reading_lsb(model_.stage, state);
-                ++count;
-            }
-            step(state, k);
-        }
-        if (count == 0) return cold;
-        excess_lsb /= count;
-        if (excess_lsb < least_lsb + clear * run_.floor_lsb / std::sqrt(count)) return cold;
-        const auto heated = [&](double temp_degC) {
-            plant::MicroStageState warm = cold;
-            slide(model_.stage, warm, temp_degC - cold.heater.temp_degC);
-            return warm;
-        };
-        const double goal_lsb = mean_reading_lsb(model_.stage, cold) + excess_lsb;
-        double low = cold.heater.temp_degC;
-        double high = std::max(low, model_.stage.fod->high_degC() + model_.stage.table_shift_degC);
-        while (high - low > resolution_degC) {
-            const double middle = 0.5 * (low + high);
-            (mean_reading_lsb(model_.stage, heated(middle)) < goal_lsb ? low : high) = middle;
-        }
-        const plant::MicroStageState warm = heated(low);
-        return squares_while_cooling(warm) < squares_while_cooling(cold) ? warm : cold;
-    }
-
-    /// Sum of squared errors, LSB^2, from a first state on until a warm wire would have cooled.
-    double squares_while_cooling(plant::MicroStageState state) const {
-        constexpr double taus = 3.0;
-        const double enough_s = taus * model_.stage.heater.parameters.cooling_tau_s;
-        double squares = 0.0, passed_s = 0.0;
-        for (std::size_t k = 0; k < run_.hall_adc.size() && passed_s < enough_s; ++k) {
-            if (std::isfinite(run_.hall_adc[k])) {
-                const double error_lsb = mean_reading_lsb(model_.stage, state) - run_.hall_adc[k];
-                squares += error_lsb * error_lsb;
-            }
-            step(state, k);
-            passed_s += run_.ticks[k] * run_.tick_s;
-        }
-        return squares;
-    }
-
     void step(plant::MicroStageState& state, std::size_t k) const {
-        plant::CarriageInfluence carriage;
-        if (model_.stage.feels_carriage()) {
-            carriage.drive_V = plant::drive_voltage_V(model_.axis, run_.macro_command_V[k]);
-            if (carriage_ != nullptr)
-                carriage.shaking = {carriage_->acceleration_mm_per_s2[k], carriage_->jerk_mm_per_s3[k]};
-        }
-        for (int tick = 0; tick < run_.ticks[k]; ++tick) {
-            plant::advance(model_.stage, state, run_.command_V[k], carriage);
-            carriage.shaking = {};
+        gap::step(model_, run_, carriage_, k, state);
+    }
+
+    /// The reading of a platform that is beside where its wire puts it.
+    double reading_lsb(plant::MicroStageState& state) const {
+        if (beside_mm_ == 0.0) return mean_reading_lsb(model_.stage, state);
+        const double position_mm = state.position_mm;
+        state.position_mm += beside_mm_;
+        const double reading_lsb = mean_reading_lsb(model_.stage, state);
+        state.position_mm = position_mm;
+        return reading_lsb;
+    }
+
+    /// How far the platform is beside its path in the rows before a window, least squares to first order.
+    void find_beside(const WindowRows& window, const plant::MicroStageState& carried) {
+        constexpr double trial_mm = 0.01;
+        constexpr int rounds = 2;
+        for (int round = 0; round < rounds; ++round) {
+            plant::MicroStageState state = carried;
+            double pull = 0.0, stiffness = 0.0;
+            for (std::size_t k = window.lead; k < window.first; ++k) {
+                const double predicted_lsb = reading_lsb(state);
+                beside_mm_ += trial_mm;
+                const double slope = (reading_lsb(state) - predicted_lsb) / trial_mm;
+                beside_mm_ -= trial_mm;
+                pull += slope * (run_.hall_adc[k] - predicted_lsb);
+                stiffness += slope * slope;
+                step(state, k);
+            }
+            if (stiffness > 0.0) beside_mm_ += pull / stiffness;
         }
     }
 
     void walk(plant::MicroStageState& state, std::size_t first, std::size_t end) {
         for (std::size_t k = first; k < end; ++k) {
-            found_.path_lsb[k] = mean_reading_lsb(model_.stage, state);
+            found_.path_lsb[k] = reading_lsb(state);
             found_.temperature_degC[k] = state.heater.temp_degC;
             step(state, k);
         }
     }
 
+    /// The stage at a window's first row as it was carried there, beside its path by what its readings say.
+    plant::MicroStageState beside(const WindowRows& window, const plant::MicroStageState& carried) {
+        find_beside(window, carried);
+        plant::MicroStageState state = carried;
+        fade(window, state);
+        return state;
+    }
+
     /// The stage at a window's first row, and the path before it faded into the one that leads there.
     plant::MicroStageState corrected(const WindowRows& window, const plant::MicroStageState& carried) {
+        beside_mm_ = 0.0;
         constexpr double trial_degC = 0.05;
         const double weight = 1.0 / (run_.floor_lsb * run_.floor_lsb);
         plant::MicroStageState trial = carried;
@@ -166,18 +125,24 @@ class Pass {
         constexpr double most_degC = most_stds * carried_std_degC;
         plant::MicroStageState state = carried;
         slide(model_.stage, state, std::clamp(pull / stiffness, -most_degC, most_degC));
+        fade(window, state);
+        return state;
+    }
+
+    /// Follows a stage through the rows before a window, into whose path it fades.
+    void fade(const WindowRows& window, plant::MicroStageState& state) {
         const auto rows = static_cast<double>(window.first - window.lead);
         for (std::size_t k = window.lead; k < window.first; ++k) {
             const double share = (static_cast<double>(k - window.lead) + 0.5) / rows;
-            found_.path_lsb[k] += share * (mean_reading_lsb(model_.stage, state) - found_.path_lsb[k]);
+            found_.path_lsb[k] += share * (reading_lsb(state) - found_.path_lsb[k]);
             step(state, k);
         }
-        return state;
     }
 
     const PlatformModel& model_;
     const PlatformRun& run_;
     const CarriagePath* carriage_;
+    double beside_mm_ = 0.0;  ///< of the platform, by what the wire remembers from before the recording
     PlatformPrediction found_;
 };
 

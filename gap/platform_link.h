@@ -30,6 +30,9 @@ struct PlatformRun {
     std::vector<double> hall_adc;         ///< NaN where missing, or at an end of the range
     std::vector<int> ticks;               ///< to the next row
     std::vector<WindowRows> windows;      ///< by time
+    /// Of each window, whether the platform is beside its prediction by a constant that the rows before it
+    /// tell (gap/wire_memory.h); empty: none is.
+    std::vector<bool> is_beside;
     double floor_lsb = 0.0;
 };
 

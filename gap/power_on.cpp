@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -71,18 +72,46 @@ std::optional<double> camera_place_mm(const TagDetection& detection, const Rig& 
     return s_mm;
 }
 
-/// How far each detection of a tag of the plate says that the camera is from where the readings put it, mm.
-std::vector<double> camera_offsets_mm(const Recording& recording, const Rig& rig) {
-    std::vector<double> offsets_mm;
+/// What a detection says of the encoder.
+struct SeenPlace {
+    double read_mm;    ///< place of the carriage by its count
+    double offset_mm;  ///< how far the camera is from where the readings put it
+};
+
+std::vector<SeenPlace> seen_places(const Recording& recording, const Rig& rig) {
+    std::vector<SeenPlace> places;
     for (const TagDetection& detection : recording.detections) {
         const auto seen_mm = camera_place_mm(detection, rig);
         if (!seen_mm) continue;
         const StageRow& row = recording.rows[row_at(recording.rows, detection.time_ns)];
-        double read_mm = rig.macro.encoder_resolution_mm * reading_count(row, rig.macro);
-        if (rig.micro) read_mm += hall_position_mm_of_adc(rig.micro->hall, row.hall_adc);
-        if (std::isfinite(read_mm)) offsets_mm.push_back(*seen_mm - read_mm);
+        const double read_mm = rig.macro.encoder_resolution_mm * reading_count(row, rig.macro);
+        const double platform_mm = rig.micro ? hall_position_mm_of_adc(rig.micro->hall, row.hall_adc) : 0.0;
+        const double offset_mm = *seen_mm - read_mm - platform_mm;
+        if (std::isfinite(offset_mm)) places.push_back({read_mm, offset_mm});
     }
-    return offsets_mm;
+    return places;
+}
+
+SeenPlace median_of(std::span<const SeenPlace> places) {
+    std::vector<double> read_mm, offset_mm;
+    for (const SeenPlace& place : places) {
+        read_mm.push_back(place.read_mm);
+        offset_mm.push_back(place.offset_mm);
+    }
+    return {fidservo::median_of(std::move(read_mm)), fidservo::median_of(std::move(offset_mm))};
+}
+
+/// The offset at count 0: of an encoder whose scale is off, offsets grow with the place. By a line through
+/// the medians of the lower and the upper third of the places, where these are far apart.
+double offset_at_zero_mm(std::vector<SeenPlace> places) {
+    constexpr double far_mm = 20.0;
+    std::ranges::sort(places, {}, &SeenPlace::read_mm);
+    const std::size_t third = (places.size() + 2) / 3;
+    const SeenPlace low = median_of(std::span(places).first(third));
+    const SeenPlace high = median_of(std::span(places).last(third));
+    if (high.read_mm - low.read_mm < far_mm) return median_of(places).offset_mm;
+    const double per_mm = (high.offset_mm - low.offset_mm) / (high.read_mm - low.read_mm);
+    return low.offset_mm - per_mm * low.read_mm;
 }
 
 /// Whether all readings lie within the travel that the rig file states. An encoder whose scale is off reads
@@ -131,13 +160,12 @@ PlacesFrom refer_to_travel(Recording& recording, const Rig& rig) {
         shift(recording, -std::round(recording.encoder_zero->count), resolution_mm);
         return PlacesFrom::recording;
     }
-    std::vector<double> offsets_mm;
-    if (rig.camera && rig.fiducials) offsets_mm = camera_offsets_mm(recording, rig);
+    std::vector<SeenPlace> places;
+    if (rig.camera && rig.fiducials) places = seen_places(recording, rig);
     const bool in_travel = lies_in_travel(recording, rig.macro);
-    if (offsets_mm.empty()) return in_travel ? PlacesFrom::recording : PlacesFrom::nowhere;
-    const double offset_mm = median_of(std::move(offsets_mm));
-    if (in_travel && std::abs(offset_mm) <= at_most_mm) return PlacesFrom::recording;
-    shift(recording, std::round(offset_mm / resolution_mm), resolution_mm);
+    if (places.empty()) return in_travel ? PlacesFrom::recording : PlacesFrom::nowhere;
+    if (in_travel && std::abs(offset_at_zero_mm(places)) <= at_most_mm) return PlacesFrom::recording;
+    shift(recording, std::round(median_of(places).offset_mm / resolution_mm), resolution_mm);
     return PlacesFrom::tags;
 }
 

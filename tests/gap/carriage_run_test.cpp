@@ -52,17 +52,6 @@ TEST(CarriageRun, SwingOverThreeCounts_DoesNotStand) {
     EXPECT_FALSE(run.stands[500]);
 }
 
-TEST(CarriageRun, ReadingsBeyondTheFarEnd_AreOfAnEncoderWhoseScaleIsOffOrOfAnotherOrigin) {
-    const auto reaches = [](double highest_count) {
-        return run_of(
-            [=](std::size_t k) { return std::min(2000.0 + 5.0 * static_cast<double>(k), highest_count); });
-    };
-    EXPECT_TRUE(reaches(4000.0).is_homed);
-    EXPECT_TRUE(reaches(4069.0).is_homed);
-    EXPECT_FALSE(reaches(4300.0).is_homed);
-    EXPECT_FALSE(run_of([](std::size_t k) { return -static_cast<double>(k); }).is_homed);
-}
-
 }  // namespace
 
 }  // namespace fidservo

@@ -1,0 +1,69 @@
+#include "gap/wire_memory.h"
+
+#include "core/preisach.h"
+#include "gap/wire_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace fidservo::gap {
+
+namespace {
+
+/// Of what began otherwise, what is left after a tick: exp(-tick / tau) of the heater's present time
+/// constant.
+double forgotten_taus(const HeaterParameters& heater, double command_V, double temp_degC, double time_s) {
+    const double drive_degC = std::max(0.0, heater.gain_degC_per_V * (command_V - heater.onset_V));
+    const bool heats = drive_degC > temp_degC - heater.ambient_degC;
+    return time_s / (heats ? heater.heating_tau_s : heater.cooling_tau_s);
+}
+
+/// Row by row, what the relays are worth of which nothing is known, mm.
+std::vector<double> unknown_mm(const PlatformRun& run, const PlatformModel& nominal) {
+    // Two wires of one contraction differ by less than the hysteresis is wide; a hundredth of a degree is
+    // half a step of the converter where the reference rig's wire is steepest.
+    constexpr double most_off_degC = 30.0, enough_degC = 0.01;
+    const double enough_taus = std::log(most_off_degC / enough_degC);
+    const FodTable& table = *nominal.stage.fod;
+    const HeaterParameters& heater = nominal.stage.heater.parameters;
+    std::vector<double> unknown_mm(run.command_V.size(), table.stroke_mm());
+    plant::MicroStageState state = first_state(nominal, run);
+    double taus = 0.0, highest_degC = table.low_degC(), lowest_degC = table.high_degC();
+    for (std::size_t k = 0; k < run.command_V.size(); ++k) {
+        const double temp_degC = std::clamp(state.heater.temp_degC, table.low_degC(), table.high_degC());
+        if (taus >= enough_taus) {
+            highest_degC = std::max(highest_degC, temp_degC);
+            lowest_degC = std::min(lowest_degC, temp_degC);
+            unknown_mm[k] = table.contraction_mm(table.high_degC(), lowest_degC) -
+                            table.contraction_mm(highest_degC, lowest_degC);
+        }
+        for (int tick = 0; tick < run.ticks[k]; ++tick) {
+            taus += forgotten_taus(heater, run.command_V[k], state.heater.temp_degC, run.tick_s);
+            plant::advance(nominal.stage, state, run.command_V[k]);
+        }
+    }
+    return unknown_mm;
+}
+
+}  // namespace
+
+void keep_known_memory(PlatformRun& run, const PlatformModel& nominal) {
+    if (run.windows.empty() || !starts_warm(nominal, run)) return;
+    const std::vector<double> unknown = unknown_mm(run, nominal);
+    const HallParameters& hall = nominal.stage.hall.parameters;
+    const double floor_mm = run.floor_lsb * hall_lsb_V(hall) / hall_slope_V_per_mm(hall, hall.centre_mm);
+    const double enough_mm = 0.5 * floor_mm;
+    std::vector<WindowRows> known;
+    std::vector<bool> is_beside;
+    for (const WindowRows& window : run.windows) {
+        if (unknown[window.lead] - unknown[window.end - 1] > enough_mm) continue;
+        if (unknown[window.lead] >= nominal.stage.fod->stroke_mm()) continue;
+        known.push_back(window);
+        is_beside.push_back(unknown[window.lead] > enough_mm);
+    }
+    run.windows = std::move(known);
+    run.is_beside = std::move(is_beside);
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,154 @@
+#include "gap/wire_start.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fidservo::gap {
+
+namespace {
+
+/// Moves the end of the branch on which a wire is to another temperature, as far as the branch goes.
+void slide_wire(const FodTable& table, PreisachMemory& wire, double temp_degC) {
+    const bool heating = wire.last_peak_degC == wire.temp_degC;
+    if (heating == (temp_degC > wire.temp_degC)) {
+        preisach_step(table, wire, temp_degC);
+        return;
+    }
+    const double valley_degC = wire.loops.empty() ? table.low_degC() : wire.loops.back().valley_degC;
+    const double outer_mm = wire.loops.empty() ? 0.0 : wire.loops.back().contraction_mm;
+    wire.temp_degC = heating ? std::max(temp_degC, valley_degC) : std::min(temp_degC, wire.last_peak_degC);
+    if (heating) wire.last_peak_degC = wire.temp_degC;
+    wire.contraction_mm = outer_mm + table.contraction_mm(wire.last_peak_degC, wire.temp_degC) -
+                          table.contraction_mm(wire.last_peak_degC, valley_degC);
+}
+
+/// Sum of squared errors, LSB^2, from a first state on until a warm wire would have cooled.
+double squares_while_cooling(const PlatformModel& model, const PlatformRun& run,
+                             plant::MicroStageState state) {
+    constexpr double taus = 3.0;
+    const double enough_s = taus * model.stage.heater.parameters.cooling_tau_s;
+    double squares = 0.0, passed_s = 0.0;
+    for (std::size_t k = 0; k < run.hall_adc.size() && passed_s < enough_s; ++k) {
+        if (std::isfinite(run.hall_adc[k])) {
+            const double error_lsb = mean_reading_lsb(model.stage, state) - run.hall_adc[k];
+            squares += error_lsb * error_lsb;
+        }
+        step(model, run, nullptr, k, state);
+        passed_s += run.ticks[k] * run.tick_s;
+    }
+    return squares;
+}
+
+/// By how much the first readings exceed those of a cold wire, LSB.
+struct Excess {
+    double mean_lsb = 0.0;
+    int readings = 0;
+    bool is_clear = false;  ///< more than noise and rounding
+};
+
+Excess first_excess(const PlatformModel& model, const PlatformRun& run) {
+    constexpr std::size_t glance = 20;
+    constexpr double clear = 5.0, least_lsb = 1.0;
+    plant::MicroStageState state = plant::start(model.stage, 0);
+    Excess excess;
+    for (std::size_t k = 0; k < std::min(glance, run.hall_adc.size()); ++k) {
+        if (std::isfinite(run.hall_adc[k])) {
+            excess.mean_lsb += run.hall_adc[k] - mean_reading_lsb(model.stage, state);
+            ++excess.readings;
+        }
+        step(model, run, nullptr, k, state);
+    }
+    if (excess.readings == 0) return excess;
+    excess.mean_lsb /= excess.readings;
+    excess.is_clear = excess.mean_lsb >= least_lsb + clear * run.floor_lsb / std::sqrt(excess.readings);
+    return excess;
+}
+
+/// A wire heated from cold to where a reading is.
+plant::MicroStageState heated_to(const PlatformModel& model, double excess_lsb) {
+    constexpr double resolution_degC = 1e-3;
+    const plant::MicroStageState cold = plant::start(model.stage, 0);
+    const auto heated = [&](double temp_degC) {
+        plant::MicroStageState warm = cold;
+        slide(model.stage, warm, temp_degC - cold.heater.temp_degC);
+        return warm;
+    };
+    const double goal_lsb = mean_reading_lsb(model.stage, cold) + excess_lsb;
+    double low = cold.heater.temp_degC;
+    double high = std::max(low, model.stage.fod->high_degC() + model.stage.table_shift_degC);
+    while (high - low > resolution_degC) {
+        const double middle = 0.5 * (low + high);
+        (mean_reading_lsb(model.stage, heated(middle)) < goal_lsb ? low : high) = middle;
+    }
+    return heated(low);
+}
+
+/// Whether readings drift while those of a cold wire would stand still: from the start until it is warm
+/// enough to move, or the motor's voltage, of which some may leak into the readings, is another one.
+bool moves_at_once(const PlatformModel& nominal, const PlatformRun& run) {
+    constexpr double longest_s = 1.0, still_lsb = 0.3, same_V = 0.1, clear = 5.0;
+    constexpr double least_readings = 10.0;
+    plant::MicroStageState cold = plant::start(nominal.stage, 0);
+    const double still_at_lsb = mean_reading_lsb(nominal.stage, cold);
+    double n = 0.0, t = 0.0, tt = 0.0, y = 0.0, ty = 0.0, passed_s = 0.0;
+    for (std::size_t k = 0; k < run.hall_adc.size() && passed_s < longest_s; ++k) {
+        if (std::abs(mean_reading_lsb(nominal.stage, cold) - still_at_lsb) > still_lsb ||
+            std::abs(run.macro_command_V[k] - run.macro_command_V[0]) > same_V)
+            break;
+        if (std::isfinite(run.hall_adc[k])) {
+            n += 1.0;
+            t += passed_s;
+            tt += passed_s * passed_s;
+            y += run.hall_adc[k];
+            ty += passed_s * run.hall_adc[k];
+        }
+        step(nominal, run, nullptr, k, cold);
+        passed_s += run.ticks[k] * run.tick_s;
+    }
+    if (n < least_readings) return false;
+    const double spread = tt - t * t / n;
+    return std::abs(ty - t * y / n) > clear * run.floor_lsb * std::sqrt(spread);
+}
+
+}  // namespace
+
+void step(const PlatformModel& model, const PlatformRun& run, const CarriagePath* carriage, std::size_t row,
+          plant::MicroStageState& state) {
+    plant::CarriageInfluence influence;
+    if (model.stage.feels_carriage()) {
+        influence.drive_V = plant::drive_voltage_V(model.axis, run.macro_command_V[row]);
+        if (carriage != nullptr)
+            influence.shaking = {carriage->acceleration_mm_per_s2[row], carriage->jerk_mm_per_s3[row]};
+    }
+    for (int tick = 0; tick < run.ticks[row]; ++tick) {
+        plant::advance(model.stage, state, run.command_V[row], influence);
+        influence.shaking = {};
+    }
+}
+
+void slide(const plant::MicroStage& stage, plant::MicroStageState& state, double by_degC) {
+    if (by_degC == 0.0) return;
+    state.heater.temp_degC += by_degC;
+    slide_wire(*stage.fod, state.wire, state.heater.temp_degC - stage.table_shift_degC);
+    state.position_mm = stage.stroke_factor * state.wire.contraction_mm + state.swing.position_mm;
+}
+
+plant::MicroStageState first_state(const PlatformModel& model, const PlatformRun& run) {
+    const plant::MicroStageState cold = plant::start(model.stage, 0);
+    const Excess excess = first_excess(model, run);
+    if (!excess.is_clear) return cold;
+    const plant::MicroStageState warm = heated_to(model, excess.mean_lsb);
+    return squares_while_cooling(model, run, warm) < squares_while_cooling(model, run, cold) ? warm : cold;
+}
+
+bool starts_warm(const PlatformModel& nominal, const PlatformRun& run) {
+    constexpr double most_zero = 0.05;  // of the stroke's readings: no sensor's zero is off by more
+    const Excess excess = first_excess(nominal, run);
+    if (!excess.is_clear) return false;
+    const HallParameters& hall = nominal.stage.hall.parameters;
+    const double stroke_lsb =
+        nominal.stage.fod->stroke_mm() * hall_slope_V_per_mm(hall, hall.centre_mm) / hall_lsb_V(hall);
+    return excess.mean_lsb > most_zero * stroke_lsb || moves_at_once(nominal, run);
+}
+
+}  // namespace fidservo::gap
