@@ -222,6 +222,7 @@ PredictedCounts simulate(const CarriageModel& model, const CarriageRun& run,
     bool is_carried = false;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const auto& [window, stretch, ends_stretch, follows] = all[k];
+        if (run.budget) run.budget->check();
         if (!needed[k]) {
             is_carried = false;
             continue;

@@ -2,10 +2,12 @@
 // What a recording says of the carriage, and where it may be compared with a model of it.
 #include "core/macro_parameters.h"
 #include "core/recording.h"
+#include "gap/budget.h"
 #include "gap/counted_way.h"
 #include "gap/windows.h"
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace fidservo::gap {
@@ -13,8 +15,9 @@ namespace fidservo::gap {
 /// Row by row.
 struct CarriageRun {
     double tick_s = 0.0;
-    std::vector<double> command_V;      ///< NaN where missing
-    std::vector<double> reading_count;  ///< likewise; position / resolution where that was recorded
+    std::shared_ptr<const Budget> budget;  ///< asked by what runs along the recording; may be empty
+    std::vector<double> command_V;         ///< NaN where missing
+    std::vector<double> reading_count;     ///< likewise; position / resolution where that was recorded
     CountedWay way;
     std::vector<std::vector<WindowRows>> windows;  ///< by stretch; only where the carriage is free
     std::vector<std::size_t> run_on_end;  ///< of each stretch: up to which row commands go on after it

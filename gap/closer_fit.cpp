@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace fidservo::gap {
 namespace {
 
@@ -168,6 +170,7 @@ class Search::CloserFit {
 
 void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatters,
                         double share_of_effort) const {
+    if (options_.tell) options_.tell(fmt::format("{} closer", contender.trial.candidate->effect->name));
     CloserFit(*this, base, contender, scatters, share_of_effort * options_.most_effort).run();
 }
 

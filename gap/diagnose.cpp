@@ -186,12 +186,10 @@ std::ptrdiff_t leave_out_unpredictable(const Evidence& evidence, Selection& sele
     return count;
 }
 
-}  // namespace
-
-Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
+/// What the search has found, with what it is worth.
+Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tried, Selection selection,
+                     double tail) {
     Diagnosis diagnosis;
-    const std::vector<Candidate> tried = candidates(evidence, options.only, options.without);
-    Selection selection = select(evidence, tried, options.selection);
     const std::ptrdiff_t left_out = leave_out_unpredictable(evidence, selection);
     const CrossFit& nothing = selection.steps.front();
     const CrossFit& explained = selection.steps.back();
@@ -199,7 +197,7 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
     diagnosis.hypothesis = fitted.hypothesis;
     diagnosis.signals = signal_gaps(evidence, nothing.mean_squares, explained.mean_squares);
     diagnosis.gap = total_gap(diagnosis.signals);
-    const Trust trust = trust_of(evidence, selection, diagnosis.gap, options.selection.search.tail);
+    const Trust trust = trust_of(evidence, selection, diagnosis.gap, tail);
     diagnosis.unexplained = trust.missing;
     diagnosis.effects = found_effects(evidence, selection, fitted);
     for (FoundEffect& effect : diagnosis.effects) effect.probability *= worth_of_names(trust.in_names);
@@ -222,6 +220,52 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
             fmt::format("encoder: {} of its windows are not judged: where within a count the carriage stood "
                         "decides which way it goes",
                         left_out));
+    return diagnosis;
+}
+
+/// The same without another prediction: values as one half gives them, uncertain by how far the other one is
+/// from it; names trusted by the share of the gap that they remove.
+Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection) {
+    constexpr double at_the_floor = 1.1;
+    Diagnosis diagnosis;
+    const CrossFit& nothing = selection.steps.front();
+    const CrossFit& explained = selection.steps.back();
+    diagnosis.hypothesis = explained.of_half[0];
+    diagnosis.signals = signal_gaps(evidence, nothing.mean_squares, explained.mean_squares);
+    diagnosis.gap = total_gap(diagnosis.signals);
+    Eigen::Index parameters = 0;
+    for (const plant::EffectSetting& setting : diagnosis.hypothesis)
+        parameters += static_cast<Eigen::Index>(setting.values.size());
+    const Fit fitted{.hypothesis = diagnosis.hypothesis,
+                     .loss = 0.0,
+                     .covariance = Eigen::MatrixXd::Zero(parameters, parameters)};
+    diagnosis.effects = found_effects(evidence, selection, fitted);
+    const double trust = diagnosis.gap.removed();
+    for (FoundEffect& effect : diagnosis.effects) effect.probability *= trust;
+    diagnosis.candidates = tried_effects(evidence, selection);
+    diagnosis.where = blocks_of(selection, trust);
+    const bool is_left = diagnosis.gap.after > at_the_floor;
+    if (selection.choices.empty())
+        diagnosis.verdict = is_left ? Verdict::unexplained : Verdict::no_gap;
+    else
+        diagnosis.verdict = is_left ? Verdict::partly_explained : Verdict::explained;
+    return diagnosis;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
+    const std::vector<Candidate> tried = candidates(evidence, options.only, options.without);
+    const Selection selection = select(evidence, tried, options.selection);
+    Diagnosis diagnosis;
+    Ended ended = selection.ended;
+    try {
+        diagnosis = worked_out(evidence, tried, selection, options.selection.search.tail);
+    } catch (const BudgetEnded& end) {
+        ended = end.how();
+        diagnosis = as_it_stands(evidence, selection);
+    }
+    diagnosis.ended = ended;
     return diagnosis;
 }
 

@@ -73,6 +73,7 @@ struct Diagnosis {
     TotalGap gap{1.0, 1.0};
     std::optional<Remainder> unexplained;
     std::optional<ProposedExperiment> next_experiment;
+    Ended ended = Ended::finished;   ///< otherwise this is the best that was found until then
     Hypothesis hypothesis;           ///< all effects with the values fitted to all recordings
     std::vector<std::string> notes;  ///< what could not be decided, and why
 };

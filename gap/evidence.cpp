@@ -231,9 +231,11 @@ std::string_view unit_of(Signal signal) {
     return signal_units[index_of(signal)];
 }
 
-Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings) : parts_(std::make_unique<Parts>()) {
+Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings, std::shared_ptr<const Budget> budget)
+    : parts_(std::make_unique<Parts>()) {
     Parts& parts = *parts_;
     parts.rig = rig;
+    parts.budget = budget ? std::move(budget) : std::make_shared<const Budget>();
     for (const Recording& recording : recordings) check(rig, recording);
     parts.recordings = joined(std::move(recordings), rig);
     for (Recording& recording : parts.recordings) {
@@ -270,6 +272,9 @@ Evidence::Evidence(Evidence&&) noexcept = default;
 
 const Rig& Evidence::rig() const {
     return parts_->rig;
+}
+const Budget& Evidence::budget() const {
+    return *parts_->budget;
 }
 const std::vector<Recording>& Evidence::recordings() const {
     return parts_->recordings;

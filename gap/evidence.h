@@ -19,6 +19,7 @@
 //
 // The floor of a signal is what remains under the truth: floor^2 = noise^2 + quantum^2 / 12.
 #include "core/recording.h"
+#include "gap/budget.h"
 #include "plant/effects/effect.h"
 
 #include <array>
@@ -108,12 +109,15 @@ class Evidence {
     struct Parts;  ///< gap/evidence_parts.h
 
     /// @param rig  as its file describes it; its stated effects belong to it
-    /// Throws InputError where a recording cannot be of this rig (columns that it cannot have, another tick).
-    Evidence(const Rig& rig, std::vector<Recording> recordings);
+    /// @param budget  asked by all that takes long; empty: no end
+    /// Throws InputError where a recording cannot be of this rig (columns that it cannot have, another tick),
+    /// BudgetEnded.
+    Evidence(const Rig& rig, std::vector<Recording> recordings, std::shared_ptr<const Budget> budget = {});
     ~Evidence();
     Evidence(Evidence&&) noexcept;
 
     const Rig& rig() const;
+    const Budget& budget() const;
     const std::vector<Recording>& recordings() const;
     /// By run, then by signal, then by time.
     const std::vector<Window>& windows() const;
@@ -129,7 +133,7 @@ class Evidence {
 
     /// Predictions of a hypothesis; values of windows that are not wanted are NaN.
     /// Deterministic, const and safe to call from several threads at once.
-    /// Empty if the hypothesis is none that a rig can have (the plant refuses it).
+    /// Empty if the hypothesis is none that a rig can have (the plant refuses it). Throws BudgetEnded.
     /// @param start_offset_count  by which the carriage begins each window beside the place that fits best
     Errors errors(const Hypothesis& hypothesis, const Wanted& wanted, double start_offset_count = 0.0) const;
 

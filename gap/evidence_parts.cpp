@@ -207,6 +207,7 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     const plant::PlantParameters nominal = plant::plant_parameters(rig);
     RunLinks& links = parts.links.emplace_back();
     links.carriage = carriage_run(recording, rig.macro, parts.places[run] != PlacesFrom::nowhere);
+    links.carriage.budget = parts.budget;
     predicted_counts(carriage_model(nominal), links.carriage, links.path);
     if (rig.camera && rig.fiducials && !recording.appearances.empty() && !recording.rows.empty())
         drop_unclear_detections(parts, run);
@@ -214,6 +215,7 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     if (rig.micro) {
         links.platform =
             platform_run(recording, *rig.micro, parts.hall_range, parts.floors[index_of(Signal::hall)]);
+        links.platform->budget = parts.budget;
         const PlatformModel stage = platform_model(nominal);
         keep_known_memory(*links.platform, stage);
         platform = predicted_readings(stage, *links.platform, nullptr);

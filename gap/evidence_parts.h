@@ -17,6 +17,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct RunLinks {
 
 struct Evidence::Parts {
     Rig rig;
+    std::shared_ptr<const Budget> budget;
     std::vector<Recording> recordings;
     std::vector<PlacesFrom> places;  ///< of each recording
     std::vector<RunLinks> links;

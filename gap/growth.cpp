@@ -125,6 +125,7 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
         const bool moves_carriage = teachers_of(*trials.front().candidate->effect)[index_of(Signal::encoder)],
                    moves_wire = is_of_wire(*trials.front().candidate);
         chain = grown_whatever(search, before, std::move(trials));
+        search.throw_if_over();
         if (moves_carriage && !is_balanced) {
             is_balanced = true;
             is_paired = look_further(search, chain, before, most_effects);

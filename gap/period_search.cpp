@@ -25,7 +25,31 @@ struct Lacking {
     double weight = 0.0;
 };
 
-std::vector<Lacking> by_window(const Evidence& evidence, const CarriageForces& forces) {
+/// A stretch of the rail.
+struct RailStretch {
+    double low_mm, high_mm;
+    bool hold(const SlidingRow& row) const { return low_mm <= row.position_mm && row.position_mm <= high_mm; }
+};
+
+/// Where most rows lie of all stretches of a length. A motor that turns on and on goes so far that as many
+/// periods would have to be tried as there are rows, and shows its waves on any part of its way.
+RailStretch most_visited(std::span<const SlidingRow> rows, double length_mm) {
+    std::vector<double> places_mm;
+    places_mm.reserve(rows.size());
+    for (const SlidingRow& row : rows) places_mm.push_back(row.position_mm);
+    std::ranges::sort(places_mm);
+    std::size_t best = 0, most = 0, end = 0;
+    for (std::size_t first = 0; first < places_mm.size(); ++first) {
+        while (end < places_mm.size() && places_mm[end] <= places_mm[first] + length_mm) ++end;
+        if (end - first <= most) continue;
+        most = end - first;
+        best = first;
+    }
+    return {places_mm[best], places_mm[best + most - 1]};
+}
+
+std::vector<Lacking> by_window(const Evidence& evidence, const CarriageForces& forces,
+                               const RailStretch& places) {
     std::vector<Lacking> all;
     std::vector<double> values;
     const auto close = [&] {
@@ -38,6 +62,8 @@ std::vector<Lacking> by_window(const Evidence& evidence, const CarriageForces& f
     std::size_t w = 0, of_last = evidence.windows().size();
     for (std::size_t k = 0; k < forces.supports().size(); ++k) {
         const CarriageForces::Support& support = forces.supports()[k];
+        const std::size_t last = support.first + forces.force_weights().size() - 1;
+        if (!places.hold(forces.rows()[support.first]) || !places.hold(forces.rows()[last])) continue;
         while (support.slot >= evidence.windows()[w].end) ++w;
         if (w != of_last) {
             close();
@@ -54,8 +80,9 @@ std::vector<Lacking> by_window(const Evidence& evidence, const CarriageForces& f
 /// Cosine and sine of the rows' places.
 class Waves {
   public:
-    explicit Waves(std::span<const SlidingRow> rows)
+    Waves(std::span<const SlidingRow> rows, const RailStretch& places)
         : rows_(rows),
+          places_(places),
           cosine_(rows.size()),
           sine_(rows.size()),
           passed_cosine_(rows.size()),
@@ -64,6 +91,7 @@ class Waves {
     void set(double per_mm) {
         const auto wave_number = static_cast<float>(2.0 * std::numbers::pi * per_mm);
         for (std::size_t k = 0; k < rows_.size(); ++k) {
+            if (!places_.hold(rows_[k])) continue;
             const float angle = wave_number * static_cast<float>(rows_[k].position_mm);
             const auto passed = static_cast<float>(rows_[k].passed);
             cosine_[k] = std::cos(angle);
@@ -85,6 +113,7 @@ class Waves {
 
   private:
     std::span<const SlidingRow> rows_;
+    RailStretch places_;  ///< rows beside these are in no support
     std::vector<float> cosine_, sine_;
     std::vector<float> passed_cosine_, passed_sine_;  ///< behind the dead zone
 };
@@ -96,16 +125,18 @@ Wave wave_from(const Eigen::Vector2d& cosine_sine) {
 
 class Periodogram {
   public:
-    Periodogram(const Evidence& evidence, const CarriageForces& forces)
-        : windows_(by_window(evidence, forces)),
+    Periodogram(const Evidence& evidence, const CarriageForces& forces, const RailStretch& places)
+        : evidence_(evidence),
+          windows_(by_window(evidence, forces, places)),
           reading_weights_(in_floats(forces.reading_weights())),
           force_weights_(in_floats(forces.force_weights())),
           half_support_(forces.force_weights().size() / 2),
-          waves_(forces.rows()) {
+          waves_(forces.rows(), places) {
         for (const Lacking& window : windows_) squares_ += window.weight * window.of_support.squaredNorm();
     }
 
     PositionPeriod at(double per_mm) {
+        evidence_.budget().check();
         waves_.set(per_mm);
         Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
         Eigen::Vector4d right = Eigen::Vector4d::Zero();
@@ -140,6 +171,7 @@ class Periodogram {
         return Eigen::Map<const Eigen::VectorXd>(weights.data(), std::ssize(weights)).cast<float>();
     }
 
+    const Evidence& evidence_;
     std::vector<Lacking> windows_;
     Eigen::VectorXf reading_weights_, force_weights_;
     std::size_t half_support_;
@@ -169,10 +201,11 @@ std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Er
                                               std::size_t half_support) {
     const CarriageForces forces(evidence, errors, half_support);
     if (forces.supports().empty()) return {};
-    const auto [low, high] = std::ranges::minmax_element(forces.rows(), {}, &SlidingRow::position_mm);
-    const double range_mm = high->position_mm - low->position_mm;
+    constexpr double longest_rail_mm = 400.0;  // eight of the longest periods
+    const RailStretch places = most_visited(forces.rows(), longest_rail_mm);
+    const double range_mm = places.high_mm - places.low_mm;
     if (range_mm < 2.0 * shortest_period_mm) return {};
-    Periodogram periodogram(evidence, forces);
+    Periodogram periodogram(evidence, forces, places);
     const double step_per_mm = 0.5 / range_mm;
     std::vector<PositionPeriod> all;
     for (double per_mm = 1.0 / std::min(longest_period_mm, range_mm); per_mm <= 1.0 / shortest_period_mm;

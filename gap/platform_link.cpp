@@ -36,6 +36,7 @@ class Pass {
         std::size_t row = 0;
         for (std::size_t i = 0; i < run_.windows.size(); ++i) {
             const WindowRows& window = run_.windows[i];
+            if (run_.budget) run_.budget->check();
             if (row <= window.lead) {
                 walk(state, row, window.lead);
                 carried = state;

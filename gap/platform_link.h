@@ -13,11 +13,13 @@
 // is remembered that never was.
 #include "core/micro_parameters.h"
 #include "core/recording.h"
+#include "gap/budget.h"
 #include "gap/carriage_path.h"
 #include "gap/hall_range.h"
 #include "gap/windows.h"
 #include "plant/stage_plant.h"
 
+#include <memory>
 #include <vector>
 
 namespace fidservo::gap {
@@ -25,11 +27,12 @@ namespace fidservo::gap {
 /// What a recording says of the platform, row by row.
 struct PlatformRun {
     double tick_s = 0.0;
-    std::vector<double> command_V;        ///< what was last commanded where a row has none
-    std::vector<double> macro_command_V;  ///< likewise
-    std::vector<double> hall_adc;         ///< NaN where missing, or at an end of the range
-    std::vector<int> ticks;               ///< to the next row
-    std::vector<WindowRows> windows;      ///< by time
+    std::shared_ptr<const Budget> budget;  ///< asked by what runs along the recording; may be empty
+    std::vector<double> command_V;         ///< what was last commanded where a row has none
+    std::vector<double> macro_command_V;   ///< likewise
+    std::vector<double> hall_adc;          ///< NaN where missing, or at an end of the range
+    std::vector<int> ticks;                ///< to the next row
+    std::vector<WindowRows> windows;       ///< by time
     /// Of each window, whether the platform is beside its prediction by a constant that the rows before it
     /// tell (gap/wire_memory.h); empty: none is.
     std::vector<bool> is_beside;

@@ -10,7 +10,11 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <string>
 #include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fidservo::gap {
 namespace {
@@ -55,6 +59,13 @@ bool are_enough(const std::array<std::vector<std::size_t>, 2>& runs, const Enoug
            });
 }
 
+/// What is looked for beside a base.
+std::string base_in_words(const CrossFit& base) {
+    std::vector<std::string_view> names;
+    for (const plant::EffectSetting& setting : base.of_half[0]) names.push_back(setting.effect->name);
+    return names.empty() ? "first effect" : fmt::format("beside {}", fmt::join(names, ", "));
+}
+
 }  // namespace
 
 Search::Search(const Evidence& evidence, const std::vector<Candidate>& candidates,
@@ -62,8 +73,7 @@ Search::Search(const Evidence& evidence, const std::vector<Candidate>& candidate
     : candidates_(candidates),
       options_(options),
       effort_at_start_(evidence.effort()),
-      fitter_(evidence, options.windows,
-              [this] { return (options_.stop && options_.stop()) || is_exhausted(); }),
+      fitter_(evidence, options.windows, [this] { return is_exhausted(); }),
       memory_(candidates.size()),
       first_excess_(fitter_.excess(nothing().mean_squares)) {}
 
@@ -75,6 +85,10 @@ void Search::throw_if_exhausted() const {
     if (is_exhausted()) throw SearchExhausted();
 }
 
+void Search::throw_if_over() const {
+    if (over_) throw SearchExhausted();
+}
+
 CrossFit Search::nothing() const {
     CrossFit cross;
     fitter_.judge(cross);
@@ -84,6 +98,8 @@ CrossFit Search::nothing() const {
 std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candidate* const> added,
                                    const Effort& effort) {
     constexpr double share_of_promise = 0.2;
+    throw_if_over();
+    if (options_.tell) options_.tell(base_in_words(base));
     std::vector<Contender> all = contenders(base, added);
     look_at(base, all);
     std::ranges::sort(all, std::greater{}, &Contender::promised);
@@ -94,21 +110,12 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     std::span leaders = near_best(fitted, share_of_gain, 0.0, effort.leaders, std::mem_fn(&Contender::gain));
     parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k]); });
     throw_if_exhausted();
-    // What follows takes the place of what there is only where it is judged to be better, so none of it is
-    // lost.
-    for (Contender& leader : leaders)
-        if (leader.trial.candidate->step_within_counts > 0.0) fit_closer(base, leader, effort.scatters);
-    std::ranges::sort(leaders, std::greater{}, &Contender::gain);
-    if (!leaders.empty()) {
-        leaders = with_limits(base, all, leaders.size());
-        fit_closer(base, leaders.front(), effort.scatters);
-        const Candidate* const closest = leaders.front().trial.candidate;
-        leaders = with_richer(base, all, leaders.size());
-        if (leaders.front().trial.candidate != closest) fit_closer(base, leaders.front(), effort.scatters);
-        fit_rivals(base, leaders);
-        const auto chosen = leaders.begin() + static_cast<std::ptrdiff_t>(simplest(leaders));
-        if (chosen != leaders.begin()) fit_closer(base, *chosen, effort.scatters);
-        std::rotate(leaders.begin(), chosen, std::next(chosen));
+    try {
+        refine(base, all, leaders, effort);
+    } catch (const BudgetEnded& ended) {
+        over_ = ended.how();
+        fitter_.evidence().budget().end_search();
+        std::ranges::sort(leaders, std::greater{}, &Contender::gain);
     }
 
     std::vector<Trial> trials;
@@ -122,6 +129,23 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
             std::ranges::find(trials, &candidate, &Trial::candidate) == trials.end())
             trials.push_back({.candidate = &candidate});
     return trials;
+}
+
+void Search::refine(const CrossFit& base, std::span<Contender> all, std::span<Contender> leaders,
+                    const Effort& effort) const {
+    for (Contender& leader : leaders)
+        if (leader.trial.candidate->step_within_counts > 0.0) fit_closer(base, leader, effort.scatters);
+    std::ranges::sort(leaders, std::greater{}, &Contender::gain);
+    if (leaders.empty()) return;
+    leaders = with_limits(base, all, leaders.size());
+    fit_closer(base, leaders.front(), effort.scatters);
+    const Candidate* const closest = leaders.front().trial.candidate;
+    leaders = with_richer(base, all, leaders.size());
+    if (leaders.front().trial.candidate != closest) fit_closer(base, leaders.front(), effort.scatters);
+    fit_rivals(base, leaders);
+    const auto chosen = leaders.begin() + static_cast<std::ptrdiff_t>(simplest(leaders));
+    if (chosen != leaders.begin()) fit_closer(base, *chosen, effort.scatters);
+    std::rotate(leaders.begin(), chosen, std::next(chosen));
 }
 
 void Search::fit_rivals(const CrossFit& base, std::span<Contender> leaders) const {

@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace fidservo::gap {
@@ -44,8 +45,8 @@ struct SearchOptions {
     std::size_t windows = 48;  ///< of a signal and a half, that are fitted
     /// After which it is exhausted (Evidence::effort): 12 to 25 s of two cores, for a campaign of 5 minutes.
     double most_effort = 5'000.0;
-    /// Asked at every prediction. Once true fits end at once, and what the search returns is worth nothing.
-    std::function<bool()> stop = {};
+    /// Told what is tried next, in words.
+    std::function<void(std::string_view)> tell = {};
     double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search
 };
 
@@ -62,9 +63,15 @@ class Search {
     Search(const Search&) = delete;
     Search& operator=(const Search&) = delete;
 
+    /// Throws SearchExhausted once the evidence's budget has ended while what was found last was refined.
+    void throw_if_over() const;
+
     /// Whether the effort counts: not for the first effect, and not where what is known is fitted and judged
     /// again. Where it counts and is spent, whatever fits throws SearchExhausted.
     void limit(bool is_limited) { is_limited_ = is_limited; }
+
+    /// How the budget ended while something was refined that was kept.
+    std::optional<Ended> over() const { return over_; }
 
     CrossFit nothing() const;
 
@@ -230,6 +237,11 @@ class Search {
     /// Those that come near the best, closer too where that leaves something: fitted no further than from
     /// afar the cause may be behind what imitates it. Sorted by gain after it.
     void fit_rivals(const CrossFit& base, std::span<Contender> leaders) const;
+    /// Fits the leaders closer, with their limits and richer forms among all; the one to be taken in is the
+    /// first of all then. What takes the place of another one is judged to be better, so that whenever this
+    /// ends nothing is lost.
+    void refine(const CrossFit& base, std::span<Contender> all, std::span<Contender> leaders,
+                const Effort& effort) const;
     /// The pair with an effect's limit in its place, where it does no worse than by chance.
     Pair in_plain_form(const CrossFit& base, Pair pair) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
@@ -275,6 +287,7 @@ class Search {
     SearchOptions options_;
     double effort_at_start_;
     bool is_limited_ = false;
+    std::optional<Ended> over_;  ///< how the budget ended
     CrossFitter fitter_;
     SearchMemory memory_;
     struct {

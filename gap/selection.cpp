@@ -213,14 +213,25 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
             is_paired = pair_up(search, chain, options.most_effects) || is_paired;
         if (exchange(search, chain, is_paired)) grow(search, chain, options.most_effects, nullptr);
     } catch (const SearchExhausted&) {
-        selection.is_cut_short = true;
+        selection.ended = search.over().value_or(Ended::budget);
+    } catch (const BudgetEnded& ended) {
+        selection.ended = ended.how();
     }
+    evidence.budget().end_search();
     search.limit(false);
-    if (search.is_at_floor(chain.fitted)) selection.limits = limits_in(chain);
-    chain = weightiest_first(search, nameable(search, std::move(chain)));
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
-    for (std::size_t k = 1; k < chain.choices.size(); ++k)
-        selection.steps.push_back(first_of(search, chain, k));
+    try {
+        if (search.is_at_floor(chain.fitted)) selection.limits = limits_in(chain);
+        Chain sorted = weightiest_first(search, nameable(search, chain));
+        std::vector<CrossFit> steps;
+        for (std::size_t k = 1; k < sorted.choices.size(); ++k) steps.push_back(first_of(search, sorted, k));
+        selection.steps.insert(selection.steps.end(), steps.begin(), steps.end());
+        chain = std::move(sorted);
+    } catch (const BudgetEnded& ended) {
+        selection.ended = ended.how();
+        // What each effect is worth by itself was not worked out.
+        for (std::size_t k = 1; k < chain.choices.size(); ++k) selection.steps.push_back(chain.fitted);
+    }
     if (!chain.choices.empty()) selection.steps.push_back(chain.fitted);
     selection.choices = std::move(chain.choices);
     return selection;

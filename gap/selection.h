@@ -15,7 +15,7 @@ struct Selection {
     std::vector<Trial> alone;     ///< what was tried first, alone, best first
     /// What was taken in and must not be named, Candidate::is_limit, where it left nothing.
     std::vector<const Candidate*> limits;
-    bool is_cut_short = false;  ///< the effort was spent before all was tried that might do better
+    Ended ended = Ended::finished;  ///< or before all was tried that might do better
 };
 
 struct SelectionOptions {
@@ -26,6 +26,7 @@ struct SelectionOptions {
 /// All effects of a cross fit, fitted to all windows from what one half gave.
 Fit fit_to_all(const Evidence& evidence, const CrossFit& cross);
 
+/// The best that was found when the search ended by itself, or by the evidence's budget.
 Selection select(const Evidence& evidence, const std::vector<Candidate>& candidates,
                  const SelectionOptions& options = {});
 

@@ -166,7 +166,7 @@ std::vector<std::string> undecided(const Evidence& evidence, std::span<const Can
     add_other_rigs(evidence, lines);
     add_useless_predictions(evidence, selection, lines);
     add_missing_signals(evidence, lines);
-    if (selection.is_cut_short)
+    if (selection.ended != Ended::finished)
         lines.emplace_back(
             "the search was ended before all that might do better was tried: what stays off its floor is the "
             "harder to explain the more effects there are; --effects with those suspected searches among "

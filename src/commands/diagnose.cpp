@@ -11,12 +11,15 @@
 #include "src/diagnose/frame_looks.h"
 #include "src/diagnose/next_experiment.h"
 #include "src/diagnose/report.h"
+#include "src/diagnose/search_progress.h"
 #include "src/interrupt.h"
 #include "src/recording/durable_file.h"
 #include "src/recording/reader.h"
 
+#include <chrono>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -78,25 +81,33 @@ void keep_memory() {
 #endif
 }
 
-int run_diagnose(const DiagnoseOptions& options) {
-    demand_effects("--effects", options.only);
-    demand_effects("--without", options.without);
-    demand_new_file("--json", options.json);
-    keep_memory();
-    if (options.self_check.wanted) return check_itself(options);
-    if (options.recordings.empty()) throw InputError("RECORDING: give one recording folder at least");
-    demand_new_file("--report", options.report);
-    demand_new_file("--write-rig", options.write_rig);
-    const Rig rig = load_rig(options.rig_file);
+/// What an answer may take, all together: half a minute, and two for an hour of recordings.
+struct TimeLimit {
+    double search_s, whole_s;
+};
+
+TimeLimit time_limit(const std::vector<Recording>& recordings) {
+    constexpr double shortest_s = 26.0, per_hour_s = 84.0, of_search = 0.8;
+    double recorded_s = 0.0;
+    for (const Recording& recording : recordings)
+        recorded_s += static_cast<double>(recording.rows.size()) * recording.tick_s;
+    const double whole_s = shortest_s + per_hour_s * recorded_s / 3600.0;
+    return {of_search * whole_s, whole_s};
+}
+
+int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig) {
+    const auto start = std::chrono::steady_clock::now();
     Read read = read_recordings(options.recordings);
-    const gap::Evidence evidence(rig, std::move(read.recordings));
+    const double gone_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const TimeLimit limit = time_limit(read.recordings);
+    const auto budget = std::make_shared<const gap::Budget>(limit.search_s - gone_s, limit.whole_s - gone_s,
+                                                            interrupt_requested);
+    const gap::Evidence evidence(rig, std::move(read.recordings), budget);
     gap::DiagnosisOptions how{.only = options.only, .without = options.without, .selection = {}};
-    how.selection.search.stop = interrupt_requested;
+    diagnose::SearchProgress progress(limit.whole_s);
+    how.selection.search.tell = [&](std::string_view what) { progress.tell(what); };
     gap::Diagnosis diagnosis = gap::diagnose(evidence, how);
-    if (interrupt_requested()) {
-        fmt::print("interrupted ({}): no diagnosis, nothing was written\n", interrupt_name());
-        return exit_answer_is_no;
-    }
+    budget->end();
     diagnosis.notes.insert(diagnosis.notes.end(), read.notes.begin(), read.notes.end());
     diagnosis.next_experiment = diagnose::next_experiment(evidence.rig(), diagnosis);
     fmt::print("{}", describe(diagnosis));
@@ -115,6 +126,26 @@ int run_diagnose(const DiagnoseOptions& options) {
         fmt::print("report: {}\n", options.report.string());
     }
     return exit_done;
+}
+
+int run_diagnose(const DiagnoseOptions& options) {
+    demand_effects("--effects", options.only);
+    demand_effects("--without", options.without);
+    demand_new_file("--json", options.json);
+    keep_memory();
+    if (options.self_check.wanted) return check_itself(options);
+    if (options.recordings.empty()) throw InputError("RECORDING: give one recording folder at least");
+    demand_new_file("--report", options.report);
+    demand_new_file("--write-rig", options.write_rig);
+    const Rig rig = load_rig(options.rig_file);
+    try {
+        return diagnose_recordings(options, rig);
+    } catch (const gap::BudgetEnded& end) {
+        const bool by_user = end.how() == gap::Ended::interrupted;
+        fmt::print("{}: nothing was predicted by then, nothing was written\n",
+                   by_user ? fmt::format("interrupted ({})", interrupt_name()) : "the time was over");
+        return exit_answer_is_no;
+    }
 }
 
 }  // namespace

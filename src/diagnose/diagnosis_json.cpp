@@ -2,6 +2,7 @@
 
 #include "core/rig.h"
 #include "src/config/rig_edit.h"
+#include "src/diagnose/verdict_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +82,7 @@ std::string diagnosis_json(const gap::Diagnosis& diagnosis) {
                          {"gap_removed", number(effect.gap_removed)}});
     const Json all{{"format", "fidservo-diagnosis/1"},
                    {"verdict", gap::name_of(diagnosis.verdict)},
+                   {"ended", gap::name_of(diagnosis.ended)},
                    {"signals", signals},
                    {"where", where},
                    {"effects", effects},
@@ -98,6 +100,8 @@ std::string diagnosis_json(const gap::Diagnosis& diagnosis) {
 
 std::string describe(const gap::Diagnosis& diagnosis) {
     std::string text = fmt::format("verdict: {}\n", gap::name_of(diagnosis.verdict));
+    if (diagnosis.ended != gap::Ended::finished)
+        text += fmt::format("ended: {}\n", diagnose::end_words(diagnosis.ended));
     text +=
         fmt::format("gap: {:.3g} floors before, {:.4g} after\n", diagnosis.gap.before, diagnosis.gap.after);
     for (const gap::SignalGap& signal : diagnosis.signals)

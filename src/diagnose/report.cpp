@@ -78,9 +78,11 @@ std::string subline_of(const gap::Evidence& evidence, const gap::Diagnosis& diag
     double duration_s = 0.0;
     for (const Recording& recording : evidence.recordings())
         duration_s += static_cast<double>(recording.rows.size()) * recording.tick_s;
-    return fmt::format("{} Rig {}, {} recording{}, {:.0f} s.", verdict_detail(diagnosis), evidence.rig().name,
-                       evidence.recordings().size(), evidence.recordings().size() == 1 ? "" : "s",
-                       duration_s);
+    const std::string end =
+        diagnosis.ended == gap::Ended::finished ? "" : " " + capitalised(end_words(diagnosis.ended)) + ".";
+    return fmt::format("{}{} Rig {}, {} recording{}, {:.0f} s.", verdict_detail(diagnosis), end,
+                       evidence.rig().name, evidence.recordings().size(),
+                       evidence.recordings().size() == 1 ? "" : "s", duration_s);
 }
 
 std::string method_html(const gap::Evidence& evidence, const gap::Diagnosis& diagnosis) {

@@ -48,6 +48,18 @@ std::string ties(const gap::Diagnosis& diagnosis) {
 
 }  // namespace
 
+std::string end_words(gap::Ended ended) {
+    switch (ended) {
+        case gap::Ended::budget:
+            return "the time was over before all was tried; this is the best until then";
+        case gap::Ended::interrupted:
+            return "interrupted; this is the best until then";
+        case gap::Ended::finished:
+            break;
+    }
+    return "all was tried";
+}
+
 std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
     if (diagnosis.signals.empty()) return "Nothing in these recordings could be judged.";
     switch (diagnosis.verdict) {

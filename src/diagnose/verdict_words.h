@@ -6,6 +6,9 @@
 
 namespace fidservo::diagnose {
 
+/// Whether all was tried, or why not.
+std::string end_words(gap::Ended ended);
+
 /// The headline: what causes the gap, or that there is none, or that no known effect explains it.
 std::string verdict_sentence(const gap::Diagnosis& diagnosis);
 
