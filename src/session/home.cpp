@@ -35,10 +35,8 @@ Status seek_end_stop(Pilot& pilot) {
     if (auto sought = pilot.machine.run(command, ended); !sought) return sought;
     if (seeking.phase == control::HomingPhase::failed)
         return failure(Reason::no_convergence, "homing: the end stop was not found over the whole travel");
-    pilot.count_zero_mm =
-        pilot.rig.macro.low_mm - static_cast<double>(seeking.stop_count) * pilot.params.count_mm;
-    pilot.registered = false;
-    pilot.state.macro.last_count = seeking.stop_count;
+    pilot.register_at_end_stop(seeking.stop_count);
+    pilot.machine.note("end_stop", fmt::format("at count {}", seeking.stop_count));
     return {};
 }
 
@@ -78,7 +76,7 @@ Status register_by_tag(Pilot& pilot) {
         const auto fit = pilot.look_anywhere();
         if (fit) {
             const double astray_mm = fit->position.s_mm - pilot.believed_s_mm();
-            pilot.register_at(fit->position.s_mm);
+            pilot.register_at(fit->position.s_mm, fit->position.tag_id);
             pilot.saw(fit->position);
             return std::abs(astray_mm) < most_astray_mm ? Status() : demand_carriage(pilot, astray_mm);
         }
@@ -175,10 +173,14 @@ Status tune_by_sweep(Pilot& pilot) {
 }  // namespace
 
 Status home(Pilot& pilot) {
+    pilot.machine.note("homing", "begun");
     if (auto done = seek_end_stop(pilot); !done) return done;
     if (auto done = register_by_tag(pilot); !done) return done;
+    pilot.machine.note("registered", pilot.registered_by);
     pilot.machine.set_travel(pilot.carriage_travel());
-    return tune_by_sweep(pilot);
+    if (auto done = tune_by_sweep(pilot); !done) return done;
+    pilot.machine.note("homing", "ended");
+    return {};
 }
 
 }  // namespace fidservo

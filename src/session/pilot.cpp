@@ -16,6 +16,9 @@ namespace {
 constexpr double frame_timeout_s = 0.5;
 constexpr double most_drift_mm = 0.5;  ///< of the registration between two looks
 
+constexpr double rounding_std_count = 0.289;  ///< a count that may be anything up to one half
+constexpr double platform_std_mm = 0.005;     ///< of the platform's place by the Hall sensor
+
 CameraWatchParams watch_params(const Rig& rig, double camera_reconnect_s) {
     CameraWatchParams params{1.0 / rig.camera.value().frame_rate_hz};
     params.reconnect_s = camera_reconnect_s;
@@ -39,7 +42,7 @@ double Pilot::believed_s_mm() const {
     return count_zero_mm + count * params.count_mm + state.micro.average_mm;
 }
 
-void Pilot::register_at(double s_mm) {
+void Pilot::register_at(double s_mm, int tag_id) {
     const double change_mm = s_mm - believed_s_mm();
     count_zero_mm += change_mm;
     if (registered && std::abs(change_mm) > most_drift_mm)
@@ -48,6 +51,21 @@ void Pilot::register_at(double s_mm) {
             "counts, or was the carriage pushed?",
             change_mm);
     registered = true;
+    registered_by = fmt::format("end stop, then tag {}", tag_id);
+}
+
+void Pilot::register_at_end_stop(std::int64_t stop_count) {
+    count_zero_mm = rig.macro.low_mm - static_cast<double>(stop_count) * params.count_mm;
+    registered = false;
+    registered_by = "end stop";
+    state.macro.last_count = stop_count;
+}
+
+std::optional<EncoderZero> Pilot::encoder_zero() const {
+    if (registered_by.empty()) return std::nullopt;
+    const double std_count =
+        registered ? std::hypot(rounding_std_count, platform_std_mm / params.count_mm) : 1.0;
+    return EncoderZero{-count_zero_mm / params.count_mm, std_count, registered_by};
 }
 
 control::StageCommand Pilot::command_for(const control::StageSample& sample,
@@ -152,7 +170,7 @@ Status Pilot::drive_to(double target_s_mm, int tag_id) {
         seen = *watched;
     }
     if (state.phase == control::PositionerPhase::arrived) {
-        register_at(target_s_mm - state.reached.needed_mm);
+        register_at(target_s_mm - state.reached.needed_mm, tag_id);
         return {};
     }
     if (trouble) return forward(*trouble);

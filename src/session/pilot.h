@@ -12,7 +12,9 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace fidservo {
@@ -35,7 +37,13 @@ class Pilot {
     double believed_s_mm() const;
     /// What a frame has just shown moves the registration, not the rig. Much of a move is logged: counts were
     /// lost, or the carriage was pushed.
-    void register_at(double s_mm);
+    /// @param tag_id  of the tag that was seen
+    void register_at(double s_mm, int tag_id);
+    /// The end stop is good to a count.
+    void register_at_end_stop(std::int64_t stop_count);
+
+    /// Where the encoder counts from, by the registration; empty before homing.
+    std::optional<EncoderZero> encoder_zero() const;
 
     /// The carriage's travel in encoder counts, by the registration.
     control::CarriageTravel carriage_travel() const;
@@ -78,6 +86,7 @@ class Pilot {
     control::PositionerState state;
     double count_zero_mm = 0.0;  ///< carriage position at count 0, by the registration
     bool registered = false;     ///< against a tag; before that, by the end stop alone
+    std::string registered_by;   ///< for people; empty: not at all
     double camera_delay_s = 0.0;
     Eigen::Vector2d camera_mm{0.0, 0.0};
     Setpoints setpoints;
