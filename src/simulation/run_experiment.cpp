@@ -24,27 +24,31 @@ struct Loops {
 double macro_command_V(const Rig& rig, const Experiment& experiment, Loops& loops, StageRow& row,
                        double t_s) {
     const double limit_V = rig.macro.command_limit_V;
-    if (experiment.macro_setpoint_mm) {
-        row.macro_setpoint_mm = experiment.macro_setpoint_mm(t_s);
-        const double setpoint_count =
-            std::floor(row.macro_setpoint_mm / rig.macro.encoder_resolution_mm + 0.5);
-        const double error_count = setpoint_count - row.encoder_count;
-        return experiment.macro_loop == MacroLoop::nonlinear_pd
-                   ? control::pd_update(*rig.macro.pd, limit_V, loops.pd, error_count)
-                   : control::pid_update(*rig.macro.pid, limit_V, rig.tick_s, loops.pid, error_count);
+    row.macro_setpoint_mm = value_at(experiment.macro_setpoint_mm, t_s);
+    if (std::isnan(row.macro_setpoint_mm)) {
+        loops.pd = {};
+        loops.pid = {};
+        const double command_V = value_at(experiment.macro_V, t_s);
+        return std::isnan(command_V) ? 0.0 : std::clamp(command_V, -limit_V, limit_V);
     }
-    return experiment.macro_V ? std::clamp(experiment.macro_V(t_s), -limit_V, limit_V) : 0.0;
+    const double setpoint_count = std::floor(row.macro_setpoint_mm / rig.macro.encoder_resolution_mm + 0.5);
+    const double error_count = setpoint_count - row.encoder_count;
+    return experiment.macro_loop == MacroLoop::nonlinear_pd
+               ? control::pd_update(*rig.macro.pd, limit_V, loops.pd, error_count)
+               : control::pid_update(*rig.macro.pid, limit_V, rig.tick_s, loops.pid, error_count);
 }
 
 double micro_command_V(const Rig& rig, const Experiment& experiment, Loops& loops, StageRow& row,
                        double t_s) {
-    if (experiment.micro_setpoint_mm) {
-        row.micro_setpoint_mm = experiment.micro_setpoint_mm(t_s);
-        const double position_mm = hall_position_mm_of_adc(rig.micro->hall, row.hall_adc);
-        if (!loops.pi) loops.pi = control::pi_start(*rig.micro->pi);
-        return control::pi_update(*rig.micro->pi, rig.tick_s, *loops.pi, row.micro_setpoint_mm - position_mm);
+    row.micro_setpoint_mm = value_at(experiment.micro_setpoint_mm, t_s);
+    if (std::isnan(row.micro_setpoint_mm)) {
+        loops.pi.reset();
+        const double command_V = value_at(experiment.micro_V, t_s);
+        return std::isnan(command_V) ? 0.0 : std::clamp(command_V, 0.0, rig.micro->heater.limit_V);
     }
-    return experiment.micro_V ? std::clamp(experiment.micro_V(t_s), 0.0, rig.micro->heater.limit_V) : 0.0;
+    const double position_mm = hall_position_mm_of_adc(rig.micro->hall, row.hall_adc);
+    if (!loops.pi) loops.pi = control::pi_start(*rig.micro->pi);
+    return control::pi_update(*rig.micro->pi, rig.tick_s, *loops.pi, row.micro_setpoint_mm - position_mm);
 }
 
 }  // namespace
