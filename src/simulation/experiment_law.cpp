@@ -10,15 +10,22 @@ namespace fidservo {
 
 namespace {
 
+/// What follows a course of voltages; the motor or the heater is off where it is not in force.
+double voltage_V(const Course& course, double t_s, double low_V, double high_V) {
+    const double command_V = value_at(course, t_s);
+    return std::isnan(command_V) ? 0.0 : std::clamp(command_V, low_V, high_V);
+}
+
 void command_macro(const Rig& rig, const Experiment& experiment, double zero_count, double t_s,
                    ExperimentLoops& loops, StageRow& row) {
     const double limit_V = rig.macro.command_limit_V;
-    if (!experiment.macro_setpoint_mm) {
-        row.macro_command_V =
-            experiment.macro_V ? std::clamp(experiment.macro_V(t_s), -limit_V, limit_V) : 0.0;
+    row.macro_setpoint_mm = value_at(experiment.macro_setpoint_mm, t_s);
+    if (std::isnan(row.macro_setpoint_mm)) {
+        loops.pd = {};
+        loops.pid = {};
+        row.macro_command_V = voltage_V(experiment.macro_V, t_s, -limit_V, limit_V);
         return;
     }
-    row.macro_setpoint_mm = experiment.macro_setpoint_mm(t_s);
     const double setpoint_count =
         std::floor(row.macro_setpoint_mm / rig.macro.encoder_resolution_mm + 0.5) + zero_count;
     const double error_count = setpoint_count - row.encoder_count;
@@ -30,12 +37,13 @@ void command_macro(const Rig& rig, const Experiment& experiment, double zero_cou
 
 void command_micro(const Rig& rig, const Experiment& experiment, double t_s, ExperimentLoops& loops,
                    StageRow& row) {
-    if (!experiment.micro_setpoint_mm) {
-        row.micro_command_V =
-            experiment.micro_V ? std::clamp(experiment.micro_V(t_s), 0.0, rig.micro->heater.limit_V) : 0.0;
+    row.micro_setpoint_mm = value_at(experiment.micro_setpoint_mm, t_s);
+    if (std::isnan(row.micro_setpoint_mm)) {
+        loops.pi.reset();
+        const double limit_V = rig.micro ? rig.micro->heater.limit_V : 0.0;
+        row.micro_command_V = voltage_V(experiment.micro_V, t_s, 0.0, limit_V);
         return;
     }
-    row.micro_setpoint_mm = experiment.micro_setpoint_mm(t_s);
     const double position_mm = hall_position_mm_of_adc(rig.micro->hall, row.hall_adc);
     if (!loops.pi) loops.pi = control::pi_start(*rig.micro->pi);
     row.micro_command_V =

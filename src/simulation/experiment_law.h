@@ -23,7 +23,8 @@ struct ExperimentLoops {
 /// the tick's readings. Setpoints are followed by the published controllers with the rig file's gains; in
 /// counts, the macro stage's is
 ///     floor(setpoint / resolution + 1/2) + zero_count
-/// Commands are clamped to the board's and the heater's range. Does not allocate.
+/// A controller starts anew each time a setpoint comes into force. Commands are clamped to the board's and
+/// the heater's range. Does not allocate.
 /// @param zero_count  the encoder's reading at place 0, rounded
 void command_tick(const Rig& rig, const Experiment& experiment, double zero_count, double t_s,
                   ExperimentLoops& loops, StageRow& row);
