@@ -115,11 +115,19 @@ void Machine::record_to(std::unique_ptr<RecordingWriter> recorder) {
 }
 
 Status Machine::end_recording(const std::optional<EncoderZero>& zero) {
-    if (!recorder_) return {};
+    const auto recorder = take_recorder(zero);
+    return recorder ? recorder->close() : Status();
+}
+
+void Machine::leave_recording(const std::optional<EncoderZero>& zero) {
+    (void)take_recorder(zero);
+}
+
+std::unique_ptr<RecordingWriter> Machine::take_recorder(const std::optional<EncoderZero>& zero) {
+    if (!recorder_) return nullptr;
     note_missing_frames();
-    const auto recorder = std::move(recorder_);
-    if (zero) recorder->set_encoder_zero(*zero);
-    return recorder->close();
+    if (zero) recorder_->set_encoder_zero(*zero);
+    return std::move(recorder_);
 }
 
 void Machine::set_travel(const control::CarriageTravel& travel) {

@@ -107,12 +107,16 @@ class Machine {
     /// Closes the recording; all of it is on the disk then.
     /// @param zero  as far as it is known by now
     Status end_recording(const std::optional<EncoderZero>& zero = {});
+    /// Leaves the recording as it is, unfinished; all of it is on the disk then, if the disk takes it.
+    void leave_recording(const std::optional<EncoderZero>& zero = {});
     /// Something that happened just now, for the recording.
     void note(std::string what, std::string text);
 
     /// All that happens from now on is shown there too.
     void show_to(std::shared_ptr<LiveFeed> feed) { feed_ = std::move(feed); }
 
+    /// Of the last tick.
+    const control::StageSample& last_sample() const { return sample_; }
     TimeNs now_ns() const { return now_ns_; }
     void set_now(TimeNs now_ns) { now_ns_ = now_ns; }
     /// From the first tick to the last.
@@ -176,6 +180,8 @@ class Machine {
         return record(held.sample, held.step.command, setpoints);
     }
 
+    /// The recording's writer, told all that it is to state; none is left.
+    std::unique_ptr<RecordingWriter> take_recorder(const std::optional<EncoderZero>& zero);
     /// Notes what ended the run.
     tl::unexpected<Failure> note_end(Failure why);
     /// Notes how many frames the camera has lost, or damaged, since this was last noted.

@@ -111,25 +111,34 @@ Session::~Session() {
 
 void Session::record_to(const std::filesystem::path& folder, const std::string& experiment,
                         KeepFrames keep_frames) {
-    impl_->keep_frames = keep_frames;
     RecordingOptions recording;
     recording.name = folder.filename().string();
-    recording.rig = impl_->pilot.rig.name;
     recording.experiment = experiment;
-    recording.tick_s = impl_->pilot.rig.tick_s;
-    recording.encoder_zero = impl_->pilot.encoder_zero();
     recording.controllers =
         ControllerNames{std::string(controller_name::positioner), std::string(controller_name::positioner)};
-    recording.origin = impl_->origin;
-    recording.columns = columns_of(impl_->pilot.rig);
-    recording.camera = impl_->pilot.rig.camera;
     recording.frames = keep_frames == KeepFrames::yes;
+    record_to(folder, std::move(recording));
+}
+
+void Session::record_to(const std::filesystem::path& folder, RecordingOptions recording) {
+    const Rig& rig = impl_->pilot.rig;
+    impl_->keep_frames = recording.frames ? KeepFrames::yes : KeepFrames::no;
+    recording.rig = rig.name;
+    recording.tick_s = rig.tick_s;
+    recording.encoder_zero = impl_->pilot.encoder_zero();
+    recording.origin = impl_->origin;
+    recording.columns = columns_of(rig);
+    recording.camera = rig.camera;
     recording.when_full = loop_statistics() || impl_->simulated ? WhenFull::wait : WhenFull::fail;
     impl_->pilot.machine.record_to(std::make_unique<RecordingWriter>(folder, recording));
 }
 
 Status Session::end_recording() {
     return impl_->pilot.machine.end_recording(impl_->pilot.encoder_zero());
+}
+
+void Session::leave_recording() {
+    impl_->pilot.machine.leave_recording(impl_->pilot.encoder_zero());
 }
 
 Status Session::home() {
@@ -189,18 +198,21 @@ Status Session::hold(double duration_s) {
 }
 
 Status Session::observe(double duration_s) {
-    Pilot& pilot = impl_->pilot;
-    for (auto ticks = std::lround(duration_s / pilot.rig.tick_s); ticks > 0; --ticks) {
-        if (auto stepped = pilot.step(); !stepped) return stepped;
-        const auto frame = pilot.machine.poll_camera();
-        if (!frame) return forward(frame.error());
-        if (!*frame) continue;
-        if (const auto fit = pilot.sight.locate_anywhere(**frame)) pilot.saw(fit->position);
-        if (auto kept = pilot.machine.keep(pilot.sight.found()); !kept) return kept;
-        if (impl_->keep_frames == KeepFrames::yes)
-            if (auto kept = pilot.machine.keep(**frame); !kept) return kept;
+    for (auto ticks = std::lround(duration_s / impl_->pilot.rig.tick_s); ticks > 0; --ticks) {
+        if (auto stepped = impl_->pilot.step(); !stepped) return stepped;
+        if (auto looked = look(); !looked) return looked;
     }
     return {};
+}
+
+Status Session::look() {
+    Pilot& pilot = impl_->pilot;
+    const auto frame = pilot.machine.poll_camera();
+    if (!frame) return forward(frame.error());
+    if (!*frame) return {};
+    if (const auto fit = pilot.sight.locate_anywhere(**frame)) pilot.saw(fit->position);
+    if (auto kept = pilot.machine.keep(pilot.sight.found()); !kept) return kept;
+    return impl_->keep_frames == KeepFrames::yes ? pilot.machine.keep(**frame) : Status();
 }
 
 void Session::show_to(std::shared_ptr<LiveFeed> feed) {
