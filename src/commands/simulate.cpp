@@ -8,6 +8,7 @@
 #include "src/config/rig_file.h"
 #include "src/progress.h"
 #include "src/recording/writer.h"
+#include "src/simulation/experiment_file.h"
 #include "src/simulation/filmed_recording.h"
 
 #include <memory>
@@ -37,17 +38,27 @@ struct SimulateOptions {
 
 /// One recording of a run.
 struct Task {
-    std::string kind;
+    Experiment experiment;
     std::string name;
     std::filesystem::path folder;
 };
 
+Task task_of(const SimulateOptions& options, const Rig& rig) {
+    if (is_experiment_file(options.experiment)) {
+        Experiment experiment = load_experiment(options.experiment, rig);
+        std::string name = experiment.kind + "-1";
+        return {std::move(experiment), std::move(name), options.out};
+    }
+    const std::string name = options.experiment + "-1";
+    return {make_experiment(options.experiment, rig, options.seed, name), name, options.out};
+}
+
 std::vector<Task> tasks_of(const SimulateOptions& options, const Rig& rig) {
-    if (options.experiment != whole_campaign)
-        return {{options.experiment, options.experiment + "-1", options.out}};
+    if (options.experiment != whole_campaign) return {task_of(options, rig)};
     std::vector<Task> tasks;
     for (const CampaignRun& run : campaign_runs(rig))
-        tasks.push_back({run.kind, run.name, options.out / run.name});
+        tasks.push_back(
+            {make_experiment(run.kind, rig, options.seed, run.name), run.name, options.out / run.name});
     return tasks;
 }
 
@@ -59,24 +70,21 @@ int run_simulate(const SimulateOptions& options) {
     std::vector<plant::EffectSetting> effects;
     for (const std::string& text : options.effects) effects.push_back(plant::parse_effect(text));
 
-    std::vector<std::pair<Task, Experiment>> runs;
-    for (const Task& task : tasks_of(options, rig))
-        runs.emplace_back(task, make_experiment(task.kind, rig, options.seed, task.name));
+    const std::vector<Task> tasks = tasks_of(options, rig);
     plant::PlantParameters parameters = plant::plant_parameters(rig);
     plant::apply_effects(parameters, effects);
 
     if (options.experiment == whole_campaign) make_output_folder(options.out);
-    Progress progress("recordings", runs.size());
-    for (const auto& [task, experiment] : runs) {
+    Progress progress("recordings", tasks.size());
+    for (const auto& [experiment, name, folder] : tasks) {
         if (options.frames)
-            write_filmed_recording(task.folder, rig, effects, experiment, task.name, options.seed);
+            write_filmed_recording(folder, rig, effects, experiment, name, options.seed);
         else
-            write_recording(task.folder, simulate(rig, effects, experiment, task.name, options.seed),
-                            rig.camera);
+            write_recording(folder, simulate(rig, effects, experiment, name, options.seed), rig.camera);
         progress.advance();
     }
     progress.finish();
-    fmt::print("{} recording{} in {}\n", runs.size(), runs.size() == 1 ? "" : "s", options.out.string());
+    fmt::print("{} recording{} in {}\n", tasks.size(), tasks.size() == 1 ? "" : "s", options.out.string());
     return exit_done;
 }
 
@@ -87,7 +95,8 @@ void add_simulate(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("simulate", "Record experiments on the simulated rig");
     command
         ->add_option("EXPERIMENT", options->experiment,
-                     fmt::format("{}, or campaign: two of each that the rig can do",
+                     fmt::format("{}; campaign: two of each that the rig can do; or FILE.yaml, an experiment "
+                                 "of one's own (docs/formats.md)",
                                  fmt::join(experiment_kinds(), ", ")))
         ->required()
         ->option_text(" ");

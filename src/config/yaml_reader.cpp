@@ -269,6 +269,13 @@ int YamlValue::integer(int low, int high) const {
     return value;
 }
 
+std::int64_t YamlValue::whole_number() const {
+    std::int64_t value = 0;
+    if (!is_plain_scalar(impl_->node) || !parse_all(impl_->node.Scalar(), value))
+        fail("must be a whole number");
+    return value;
+}
+
 bool YamlValue::boolean() const {
     if (is_plain_scalar(impl_->node)) {
         if (impl_->node.Scalar() == "true") return true;

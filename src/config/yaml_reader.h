@@ -1,6 +1,7 @@
 #pragma once
 // Strict reading of YAML: every mistake is an InputError that names file, line, key, value and what is
 // allowed. Keys that nobody asked for are mistakes too.
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <limits>
@@ -43,6 +44,7 @@ class YamlValue {
     std::vector<std::string> keys() const;  ///< of a map
     double number(const NumberRange& range = any_number) const;
     int integer(int low, int high) const;
+    std::int64_t whole_number() const;  ///< any that has 64 bits
     bool boolean() const;
     std::string text() const;
     /// A word out of a list; the result is its index.

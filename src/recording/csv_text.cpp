@@ -45,9 +45,7 @@ bool parse_all(std::string_view text, T& value) {
     return error == std::errc() && end == text.data() + text.size();
 }
 
-}  // namespace
-
-CsvText CsvText::load(const std::filesystem::path& file, Separator separator) {
+std::string read_all(const std::filesystem::path& file) {
     std::error_code ignored;
     std::ifstream stream(file, std::ios::binary);
     if (!stream || std::filesystem::is_directory(file, ignored) ||
@@ -57,7 +55,20 @@ CsvText CsvText::load(const std::filesystem::path& file, Separator separator) {
     if (std::filesystem::is_regular_file(file, ignored))
         text.reserve(static_cast<std::size_t>(std::filesystem::file_size(file, ignored)));
     text.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-    return {std::move(text), file, separator};
+    return text;
+}
+
+}  // namespace
+
+CsvText CsvText::load(const std::filesystem::path& file, Separator separator) {
+    return {read_all(file), file, separator};
+}
+
+std::optional<CsvText> CsvText::load_whole_lines(const std::filesystem::path& file) {
+    std::string text = read_all(file);
+    text.resize(text.rfind('\n') + 1);  // npos + 1 is 0
+    if (text.empty()) return std::nullopt;
+    return CsvText(std::move(text), file);
 }
 
 CsvText::CsvText(std::string text, std::filesystem::path file, Separator separator)

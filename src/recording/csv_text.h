@@ -2,6 +2,7 @@
 // A CSV file in memory, read line by line and field by field without copies. Errors are InputError
 // "FILE:LINE: message".
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,9 @@ class CsvText {
   public:
     /// Reads the whole file. Throws InputError if it cannot be read or is empty.
     static CsvText load(const std::filesystem::path& file, Separator separator = Separator::comma);
+    /// The whole lines of a file with commas whose writer was ended in the middle; empty if there is none.
+    /// Throws InputError if it cannot be read.
+    static std::optional<CsvText> load_whole_lines(const std::filesystem::path& file);
     /// The same from text; `file` only appears in messages.
     CsvText(std::string text, std::filesystem::path file, Separator separator = Separator::comma);
 

@@ -20,6 +20,8 @@ class DurableFile {
     ~DurableFile();
 
     Status append(std::string_view text);
+    /// Writes what is collected: whoever kills the program leaves it in the file; a power cut need not.
+    Status flush() { return write_out(); }
     /// Writes what is still collected, and waits until the disk has it all.
     Status close();
 

@@ -8,6 +8,13 @@
 namespace fidservo {
 
 inline constexpr std::string_view recording_format = "fidservo-recording/1";
+
+/// How recordings name controllers: the rig file's, and the session's motion control.
+namespace controller_name {
+inline constexpr std::string_view nonlinear_pd = "nonlinear_pd", benchmark_pid = "benchmark_pid",
+                                  pi_antiwindup = "pi_antiwindup", positioner = "positioner";
+}
+
 inline constexpr std::string_view time_title = "timestamp [ns]";
 
 /// A column of stage0/data.csv after the time.

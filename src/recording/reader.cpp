@@ -1,14 +1,16 @@
 #include "src/recording/reader.h"
 
 #include "core/input_error.h"
-#include "src/config/yaml_reader.h"
 #include "src/recording/csv_columns.h"
 #include "src/recording/csv_text.h"
+#include "src/recording/description.h"
 #include "src/recording/layout.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -64,8 +66,7 @@ StageHeader read_stage_header(const CsvText& csv, StageColumns& present) {
     return header;
 }
 
-void read_stage(const fs::path& file, Recording& recording) {
-    CsvText csv = CsvText::load(file);
+void read_stage(CsvText csv, Recording& recording) {
     demand_header(csv);
     const StageHeader header = read_stage_header(csv, recording.columns);
     TimeNs last_ns = before_all_time;
@@ -79,45 +80,7 @@ void read_stage(const fs::path& file, Recording& recording) {
     }
 }
 
-void read_description(const fs::path& file, Recording& recording) {
-    const YamlValue root = YamlValue::load(file);
-    root.allow_only({"format", "name", "rig", "tick_s", "experiment"});
-    root.at("format").one_of({recording_format});
-    recording.name = root.at("name").text();
-    recording.rig = root.at("rig").text();
-    recording.tick_s = root.at("tick_s").number({0.0, 1.0, true});
-    recording.experiment = root.at("experiment").text();
-}
-
-}  // namespace
-
-Recording read_recording(const fs::path& folder) {
-    Recording recording;
-    read_description(folder / "recording.yaml", recording);
-    if (const fs::path file = folder / "stage0" / "data.csv"; fs::exists(file)) read_stage(file, recording);
-    if (const fs::path file = folder / "cam0" / "data.csv"; fs::exists(file))
-        recording.frames = read_frame_names(file);
-    if (const fs::path file = folder / "cam0" / "detections.csv"; fs::exists(file))
-        recording.detections = read_detections(file);
-    return recording;
-}
-
-std::vector<fs::path> find_recordings(const fs::path& path) {
-    std::error_code error;
-    if (fs::exists(path / "recording.yaml", error)) return {path};
-    std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(path, error))
-        if (fs::exists(entry.path() / "recording.yaml")) found.push_back(entry.path());
-    if (error) throw InputError(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
-    if (found.empty())
-        throw InputError(fmt::format(
-            "{}: holds no recording: neither it nor a folder in it has a recording.yaml", path.string()));
-    std::sort(found.begin(), found.end());
-    return found;
-}
-
-std::vector<FrameName> read_frame_names(const fs::path& file) {
-    CsvText csv = CsvText::load(file);
+std::vector<FrameName> frame_names_in(CsvText csv) {
     demand_header(csv);
     constexpr std::array known{time_column, ColumnTitle{"filename", true}};
     const auto columns = find_columns(csv, known);
@@ -132,8 +95,7 @@ std::vector<FrameName> read_frame_names(const fs::path& file) {
     return frames;
 }
 
-std::vector<TagDetection> read_detections(const fs::path& file) {
-    CsvText csv = CsvText::load(file);
+std::vector<TagDetection> detections_in(CsvText csv) {
     demand_header(csv);
     std::vector<ColumnTitle> known{time_column, {"tag_id", true}};
     for (const std::string_view title : corner_titles) known.push_back({title, true});
@@ -154,6 +116,44 @@ std::vector<TagDetection> read_detections(const fs::path& file) {
         detections.push_back(detection);
     }
     return detections;
+}
+
+}  // namespace
+
+Recording read_recording(const fs::path& folder) {
+    Recording recording;
+    read_description(folder / "recording.yaml", recording);
+    const auto table = [&](const fs::path& file) -> std::optional<CsvText> {
+        if (!fs::exists(folder / file)) return std::nullopt;
+        if (recording.is_unfinished) return CsvText::load_whole_lines(folder / file);
+        return CsvText::load(folder / file);
+    };
+    if (auto csv = table("stage0/data.csv")) read_stage(*std::move(csv), recording);
+    if (auto csv = table("cam0/data.csv")) recording.frames = frame_names_in(*std::move(csv));
+    if (auto csv = table("cam0/detections.csv")) recording.detections = detections_in(*std::move(csv));
+    return recording;
+}
+
+std::vector<fs::path> find_recordings(const fs::path& path) {
+    std::error_code error;
+    if (fs::exists(path / "recording.yaml", error)) return {path};
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(path, error))
+        if (fs::exists(entry.path() / "recording.yaml")) found.push_back(entry.path());
+    if (error) throw InputError(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
+    if (found.empty())
+        throw InputError(fmt::format(
+            "{}: holds no recording: neither it nor a folder in it has a recording.yaml", path.string()));
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+std::vector<FrameName> read_frame_names(const fs::path& file) {
+    return frame_names_in(CsvText::load(file));
+}
+
+std::vector<TagDetection> read_detections(const fs::path& file) {
+    return detections_in(CsvText::load(file));
 }
 
 }  // namespace fidservo

@@ -11,6 +11,8 @@ namespace fidservo {
 /// cam0/detections.csv. Columns are known by name and unit and may stand in any order. Throws InputError
 /// "FILE:LINE: ..." on anything that is not as it should be: a file cut off in mid-line, numbers that are not
 /// finite, time that does not increase, columns that are missing, unknown or in another unit.
+/// Where recording.yaml says that it is unfinished, a last line that does not end is left out, and a file
+/// without a whole line counts as not there.
 Recording read_recording(const std::filesystem::path& folder);
 
 /// The recordings that a path stands for: itself if it holds recording.yaml, else the folders in it that do,

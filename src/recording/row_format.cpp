@@ -70,12 +70,6 @@ void append_frame(std::string& text, const FrameName& frame) {
     fmt::format_to(std::back_inserter(text), FMT_COMPILE("{},{}\n"), frame.time_ns, frame.filename);
 }
 
-std::string description_yaml(const std::string& name, const std::string& rig, double tick_s,
-                             const std::string& experiment) {
-    return fmt::format("format: {}\nname: {}\nrig: {}\ntick_s: {}\nexperiment: {}\n", recording_format, name,
-                       rig, shortest(tick_s), experiment);
-}
-
 std::string sensor_yaml(const CameraParameters& camera) {
     const CameraGeometry& geometry = camera.geometry;
     const LensDistortion& lens = geometry.distortion;  // EuRoC has four coefficients; a fifth is k3

@@ -18,9 +18,7 @@ void append_detection(std::string& text, const TagDetection& detection);
 void append_corners(std::string& text, const TagDetection& detection);
 void append_frame(std::string& text, const FrameName& frame);
 
-/// recording.yaml and cam0/sensor.yaml.
-std::string description_yaml(const std::string& name, const std::string& rig, double tick_s,
-                             const std::string& experiment);
+/// cam0/sensor.yaml.
 std::string sensor_yaml(const CameraParameters& camera);
 
 }  // namespace fidservo

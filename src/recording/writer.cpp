@@ -9,11 +9,13 @@
 #include "src/recording/row_format.h"
 #include "vision/images/image_file.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -26,6 +28,7 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t most_detections_per_frame = 32;
 constexpr std::size_t image_ring_size = 64;
+constexpr auto flush_period = 500ms;  ///< what a killed program loses at most
 
 void make_new_folder(const fs::path& folder) {
     std::error_code error;
@@ -78,11 +81,18 @@ struct RecordingWriter::Impl {
           options(options_),
           rows(static_cast<std::size_t>(options.ring_s / options.tick_s) + 1),
           detections(detections_capacity(options)),
-          images(image_ring_size) {}
+          images(image_ring_size) {
+        stated.name = options.name;
+        stated.rig = options.rig;
+        stated.experiment = options.experiment;
+        stated.tick_s = options.tick_s;
+        stated.encoder_zero = options.encoder_zero;
+        stated.controllers = options.controllers;
+        stated.is_unfinished = true;
+    }
 
     void open_files() {
-        check(write_durably(folder / "recording.yaml",
-                            description_yaml(options.name, options.rig, options.tick_s, options.experiment)));
+        check(write_durably(folder / "recording.yaml", description_yaml(stated, options.origin)));
         fs::create_directories(folder / "stage0");
         stage_file.emplace(take_or_throw(DurableFile::create(folder / "stage0" / "data.csv")));
         check(stage_file->append(stage_header(options.columns)));
@@ -115,8 +125,14 @@ struct RecordingWriter::Impl {
     /// Drains the rings until it is told to end and they are empty.
     void run() {
         bool last_round = false;
+        auto last_flush = std::chrono::steady_clock::now();
         while (true) {
-            const Status written = drain();
+            Status written = drain();
+            if (const auto now = std::chrono::steady_clock::now();
+                written && now - last_flush > flush_period) {
+                last_flush = now;
+                written = flush();
+            }
             if (!written) {
                 fault = written.error().text;
                 disk_failed.store(true, std::memory_order_release);
@@ -147,6 +163,13 @@ struct RecordingWriter::Impl {
         return {};
     }
 
+    Status flush() {
+        for (auto* file : {&stage_file, &detections_file, &frames_file})
+            if (*file)
+                if (auto status = (*file)->flush(); !status) return status;
+        return {};
+    }
+
     Status keep(const ImageToKeep& frame) {
         constexpr int fast_compression = 1;
         const std::vector<unsigned char> png = vision::encode_png(frame.image, fast_compression);
@@ -162,6 +185,7 @@ struct RecordingWriter::Impl {
         for (auto* file : {&stage_file, &detections_file, &frames_file})
             if (*file)
                 if (auto status = (*file)->close(); !status) return status;
+        if (auto status = write_description(); !status) return status;
         for (const fs::path& inner :
              {folder / "stage0", folder / "cam0", folder / "cam0" / "data", folder, folder.parent_path()})
             if (fs::exists(inner))
@@ -169,8 +193,20 @@ struct RecordingWriter::Impl {
         return {};
     }
 
-    Status close() {
+    /// What is stated now takes the place of what was.
+    Status write_description() {
+        std::ranges::stable_sort(stated.events, {}, &RecordingEvent::time_ns);
+        try {
+            replace_file(folder / "recording.yaml", description_yaml(stated, options.origin));
+            return {};
+        } catch (const RunFault& fault_of_disk) {
+            return failure(Reason::device, fault_of_disk.what());
+        }
+    }
+
+    Status close(bool finished) {
         if (!thread.joinable()) return closed;
+        stated.is_unfinished = !finished;
         {
             const std::lock_guard lock(mutex);
             ending = true;
@@ -187,6 +223,7 @@ struct RecordingWriter::Impl {
     SpscRing<TagDetection> detections;
     SpscRing<ImageToKeep> images;
 
+    Recording stated;  ///< what recording.yaml says
     std::optional<DurableFile> stage_file, detections_file, frames_file;
     std::string line;   ///< of the writing thread
     std::string fault;  ///< written before disk_failed is set
@@ -207,7 +244,7 @@ RecordingWriter::RecordingWriter(const fs::path& folder, const RecordingOptions&
 }
 
 RecordingWriter::~RecordingWriter() {
-    static_cast<void>(impl_->close());
+    static_cast<void>(impl_->close(false));
 }
 
 Status RecordingWriter::add(const StageRow& row) {
@@ -224,8 +261,16 @@ Status RecordingWriter::add_frame(TimeNs time_ns, const cv::Mat& image) {
     return impl_->hand_over(impl_->images, Impl::ImageToKeep{time_ns, image});
 }
 
+void RecordingWriter::add(RecordingEvent event) {
+    impl_->stated.events.push_back(std::move(event));
+}
+
+void RecordingWriter::set_encoder_zero(const EncoderZero& zero) {
+    impl_->stated.encoder_zero = zero;
+}
+
 Status RecordingWriter::close() {
-    return impl_->close();
+    return impl_->close(true);
 }
 
 void write_recording(const fs::path& folder, const Recording& recording,
@@ -234,13 +279,16 @@ void write_recording(const fs::path& folder, const Recording& recording,
                                     .rig = recording.rig,
                                     .experiment = recording.experiment,
                                     .tick_s = recording.tick_s,
+                                    .encoder_zero = recording.encoder_zero,
+                                    .controllers = recording.controllers,
                                     .columns = recording.columns,
                                     .camera = camera,
                                     .detections = !recording.detections.empty(),
                                     .when_full = WhenFull::wait});
     for (const StageRow& row : recording.rows) check(writer.add(row));
     for (const TagDetection& detection : recording.detections) check(writer.add(detection));
-    check(writer.close());
+    for (const RecordingEvent& event : recording.events) writer.add(event);
+    if (!recording.is_unfinished) check(writer.close());
 }
 
 }  // namespace fidservo

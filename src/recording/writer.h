@@ -4,6 +4,7 @@
 #include "core/camera_parameters.h"
 #include "core/recording.h"
 #include "core/result.h"
+#include "src/recording/description.h"
 
 #include <filesystem>
 #include <memory>
@@ -27,6 +28,9 @@ struct RecordingOptions {
     std::string rig;
     std::string experiment;
     double tick_s = 0.001;
+    std::optional<EncoderZero> encoder_zero = {};     ///< as far as it is known at the start
+    std::optional<ControllerNames> controllers = {};  ///< empty: not stated
+    RecordingOrigin origin = {};
     StageColumns columns;                    ///< to be written
     std::optional<CameraParameters> camera;  ///< gives cam0/sensor.yaml and detections.csv
     bool detections = false;                 ///< to be added although no camera is given
@@ -42,7 +46,7 @@ class RecordingWriter {
   public:
     /// Makes the folder, which must not exist, and starts the writing thread. Throws InputError.
     RecordingWriter(const std::filesystem::path& folder, const RecordingOptions& options);
-    /// Closes; a failure of the disk is then lost, so call close() before.
+    /// Leaves a recording that was not closed as unfinished, with all that was handed over.
     ~RecordingWriter();
     RecordingWriter(const RecordingWriter&) = delete;
     RecordingWriter& operator=(const RecordingWriter&) = delete;
@@ -54,7 +58,12 @@ class RecordingWriter {
     /// Keeps a frame as cam0/data/TIME.png. The image is shared, not copied: do not write to it afterwards.
     Status add_frame(TimeNs time_ns, const cv::Mat& image);
 
-    /// Writes all that was handed over and waits until the disk has it. Fails with Reason::device.
+    // What recording.yaml states besides; written at the end. These may allocate.
+    void add(RecordingEvent event);
+    void set_encoder_zero(const EncoderZero& zero);
+
+    /// Writes all that was handed over, waits until the disk has it, and states that the recording is
+    /// finished. Fails with Reason::device.
     Status close();
 
   private:

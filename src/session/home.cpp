@@ -35,10 +35,8 @@ Status seek_end_stop(Pilot& pilot) {
     if (auto sought = pilot.machine.run(command, ended); !sought) return sought;
     if (seeking.phase == control::HomingPhase::failed)
         return failure(Reason::no_convergence, "homing: the end stop was not found over the whole travel");
-    pilot.count_zero_mm =
-        pilot.rig.macro.low_mm - static_cast<double>(seeking.stop_count) * pilot.params.count_mm;
-    pilot.registered = false;
-    pilot.state.macro.last_count = seeking.stop_count;
+    pilot.register_at_end_stop(seeking.stop_count);
+    pilot.machine.note("end_stop", fmt::format("at count {}", seeking.stop_count));
     return {};
 }
 
@@ -56,17 +54,11 @@ Status demand_carriage(Pilot& pilot, double astray_mm) {
 
 /// The end stop is good to a count; a tag's id and place fix the absolute position.
 Status register_by_tag(Pilot& pilot) {
-    const auto tags = vision::reachable_rows(pilot.rig.camera->geometry, pilot.nominal);
-    const double low = pilot.rig.macro.low_mm + registration_lead_mm,
-                 high = pilot.rig.macro.high_mm + registration_lead_mm;
-    const PlateTag* nearest = nullptr;
-    for (const PlateTag& tag : tags) {
-        const bool reachable = tag.centre_mm.x() >= low && tag.centre_mm.x() <= high;
-        const auto way = [&](const PlateTag& t) { return std::abs(t.centre_mm.x() - pilot.believed_s_mm()); };
-        if (reachable && (nearest == nullptr || way(tag) < way(*nearest))) nearest = &tag;
-    }
-    if (nearest == nullptr)
+    const std::vector<PlateTag> tags = registration_tags(pilot.rig, pilot.nominal);
+    if (tags.empty())
         return failure(Reason::out_of_reach, "homing: no fiducial of the plate can be brought into view");
+    const auto nearest = std::ranges::min_element(
+        tags, {}, [&](const PlateTag& tag) { return std::abs(tag.centre_mm.x() - pilot.believed_s_mm()); });
     Failure why{Reason::no_tag, ""};
     for (const double offset_mm : search_offsets_mm) {
         if (auto carried = pilot.carry_to(nearest->centre_mm.x() - registration_lead_mm + offset_mm);
@@ -78,7 +70,7 @@ Status register_by_tag(Pilot& pilot) {
         const auto fit = pilot.look_anywhere();
         if (fit) {
             const double astray_mm = fit->position.s_mm - pilot.believed_s_mm();
-            pilot.register_at(fit->position.s_mm);
+            pilot.register_at(fit->position.s_mm, fit->position.tag_id);
             pilot.saw(fit->position);
             return std::abs(astray_mm) < most_astray_mm ? Status() : demand_carriage(pilot, astray_mm);
         }
@@ -172,13 +164,31 @@ Status tune_by_sweep(Pilot& pilot) {
                             "the micro stage did not reach the middle of its travel");
 }
 
-}  // namespace
-
-Status home(Pilot& pilot) {
+/// Where the carriage is, and how the micro stage answers.
+Status find_out(Pilot& pilot) {
     if (auto done = seek_end_stop(pilot); !done) return done;
     if (auto done = register_by_tag(pilot); !done) return done;
+    pilot.machine.note("registered", pilot.registered_by);
     pilot.machine.set_travel(pilot.carriage_travel());
     return tune_by_sweep(pilot);
+}
+
+}  // namespace
+
+std::vector<PlateTag> registration_tags(const Rig& rig, const Plate& plate) {
+    std::vector<PlateTag> tags = vision::reachable_rows(rig.camera.value().geometry, plate);
+    std::erase_if(tags, [&](const PlateTag& tag) {
+        return tag.centre_mm.x() < rig.macro.low_mm + registration_lead_mm ||
+               tag.centre_mm.x() > rig.macro.high_mm + registration_lead_mm;
+    });
+    return tags;
+}
+
+Status home(Pilot& pilot) {
+    pilot.machine.note("homing", "begun");
+    Status homed = find_out(pilot);
+    pilot.machine.note("homing", homed ? "ended" : homed.error().text);
+    return homed;
 }
 
 }  // namespace fidservo

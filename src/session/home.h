@@ -2,7 +2,12 @@
 #include "core/result.h"
 #include "src/session/pilot.h"
 
+#include <vector>
+
 namespace fidservo {
+
+/// The tags of a plate by which the carriage's place can be registered.
+std::vector<PlateTag> registration_tags(const Rig& rig, const Plate& plate);
 
 /// Slowly to the end stop, registration against a tag, whose id and place fix the absolute position, and the
 /// tuning sweep of the micro stage (tuning_sweep.h). Ends with the platform in the middle of its travel.

@@ -5,6 +5,7 @@
 #include "src/live/live_feed.h"
 
 #include <chrono>
+#include <string>
 #include <utility>
 
 namespace fidservo {
@@ -14,16 +15,16 @@ Machine::~Machine() {
 }
 
 Result<control::StageSample> Machine::begin_tick() {
-    if (interrupt_requested()) return failure(Reason::stopped, "stopped by the user");
+    if (interrupt_requested()) return note_end({Reason::stopped, "stopped by the user"});
     auto sample = devices_.stage->read();
-    if (!sample) return sample;
+    if (!sample) return note_end(std::move(sample.error()));
     now_ns_ = sample->time_ns;
     return sample;
 }
 
 Status Machine::end_tick(const control::StageSample& sample, const control::StageCommand& command,
                          const Setpoints& setpoints) {
-    if (auto written = devices_.stage->write(command); !written) return written;
+    if (auto written = devices_.stage->write(command); !written) return note_end(std::move(written.error()));
     return record(sample, command, setpoints);
 }
 
@@ -69,9 +70,11 @@ Status Machine::skip_held() {
 
 Result<std::optional<vision::Frame>> Machine::poll_camera() {
     auto frame = devices_.camera->poll(now_ns_);
-    if (!frame) return failure(Reason::device, frame.error().text);  // it fails for good
+    if (!frame) return note_end({Reason::device, std::move(frame.error().text)});  // it fails for good
+    if (*frame && now_ns_ - counted_ns_ >= ns_per_s) note_missing_frames();
     auto admitted = camera_watch_.admit(std::move(*frame), sample_);
-    if (feed_ && admitted && *admitted) feed_->saw(**admitted);
+    if (!admitted) return note_end(std::move(admitted.error()));
+    if (feed_ && *admitted) feed_->saw(**admitted);
     return admitted;
 }
 
@@ -87,10 +90,44 @@ Status Machine::keep(const vision::Frame& frame) {
     return recorder_ ? recorder_->add_frame(frame.time_ns, frame.image) : Status();
 }
 
-Status Machine::end_recording() {
-    if (!recorder_) return {};
-    const auto recorder = std::move(recorder_);
-    return recorder->close();
+void Machine::note(std::string what, std::string text) {
+    if (recorder_) recorder_->add(RecordingEvent{now_ns_, std::move(what), std::move(text)});
+}
+
+tl::unexpected<Failure> Machine::note_end(Failure why) {
+    if (!std::exchange(end_noted_, true)) note(why.reason == Reason::stopped ? "stopped" : "fault", why.text);
+    return tl::make_unexpected(std::move(why));
+}
+
+void Machine::note_missing_frames() {
+    const vision::FrameCounts counts = devices_.camera->counts();
+    if (counts.lost > counts_.lost) note("frames_lost", std::to_string(counts.lost - counts_.lost));
+    if (counts.damaged > counts_.damaged)
+        note("frames_damaged", std::to_string(counts.damaged - counts_.damaged));
+    counts_ = counts;
+    counted_ns_ = now_ns_;
+}
+
+void Machine::record_to(std::unique_ptr<RecordingWriter> recorder) {
+    recorder_ = std::move(recorder);
+    end_noted_ = false;
+    counts_ = devices_.camera->counts();
+}
+
+Status Machine::end_recording(const std::optional<EncoderZero>& zero) {
+    const auto recorder = take_recorder(zero);
+    return recorder ? recorder->close() : Status();
+}
+
+void Machine::leave_recording(const std::optional<EncoderZero>& zero) {
+    (void)take_recorder(zero);
+}
+
+std::unique_ptr<RecordingWriter> Machine::take_recorder(const std::optional<EncoderZero>& zero) {
+    if (!recorder_) return nullptr;
+    note_missing_frames();
+    if (zero) recorder_->set_encoder_zero(*zero);
+    return std::move(recorder_);
 }
 
 void Machine::set_travel(const control::CarriageTravel& travel) {

@@ -17,6 +17,7 @@
 #include <concepts>
 #include <memory>
 #include <optional>
+#include <string>
 #include <type_traits>
 
 namespace fidservo {
@@ -102,13 +103,20 @@ class Machine {
     vision::FrameCounts frame_counts() const { return devices_.camera->counts(); }
 
     /// All ticks from now on go to this recording; null: none.
-    void record_to(std::unique_ptr<RecordingWriter> recorder) { recorder_ = std::move(recorder); }
+    void record_to(std::unique_ptr<RecordingWriter> recorder);
     /// Closes the recording; all of it is on the disk then.
-    Status end_recording();
+    /// @param zero  as far as it is known by now
+    Status end_recording(const std::optional<EncoderZero>& zero = {});
+    /// Leaves the recording as it is, unfinished; all of it is on the disk then, if the disk takes it.
+    void leave_recording(const std::optional<EncoderZero>& zero = {});
+    /// Something that happened just now, for the recording.
+    void note(std::string what, std::string text);
 
     /// All that happens from now on is shown there too.
     void show_to(std::shared_ptr<LiveFeed> feed) { feed_ = std::move(feed); }
 
+    /// Of the last tick.
+    const control::StageSample& last_sample() const { return sample_; }
     TimeNs now_ns() const { return now_ns_; }
     void set_now(TimeNs now_ns) { now_ns_ = now_ns; }
     /// From the first tick to the last.
@@ -161,7 +169,7 @@ class Machine {
             }
             if (ended) break;
         }
-        if (const auto why = devices_.loop->ended()) return tl::make_unexpected(*why);
+        if (const auto why = devices_.loop->ended()) return note_end(*why);
         return went;
     }
 
@@ -172,6 +180,12 @@ class Machine {
         return record(held.sample, held.step.command, setpoints);
     }
 
+    /// The recording's writer, told all that it is to state; none is left.
+    std::unique_ptr<RecordingWriter> take_recorder(const std::optional<EncoderZero>& zero);
+    /// Notes what ended the run.
+    tl::unexpected<Failure> note_end(Failure why);
+    /// Notes how many frames the camera has lost, or damaged, since this was last noted.
+    void note_missing_frames();
     void wait_for_ticks();
     /// Records ticks as they were, up to a program's last.
     Status record_ticks(bool& was_last);
@@ -183,6 +197,9 @@ class Machine {
     CameraWatch camera_watch_;
     control::StageSample sample_;  ///< of the last tick
     std::unique_ptr<RecordingWriter> recorder_;
+    bool end_noted_ = false;      ///< in this recording
+    vision::FrameCounts counts_;  ///< when frames were last said to be missing
+    TimeNs counted_ns_ = 0;
     std::shared_ptr<LiveFeed> feed_;
     TimeNs now_ns_ = 0;
     std::optional<TimeNs> first_ns_;

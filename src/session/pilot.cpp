@@ -16,6 +16,9 @@ namespace {
 constexpr double frame_timeout_s = 0.5;
 constexpr double most_drift_mm = 0.5;  ///< of the registration between two looks
 
+constexpr double rounding_std_count = 0.289;  ///< a count that may be anything up to one half
+constexpr double platform_std_mm = 0.005;     ///< of the platform's place by the Hall sensor
+
 CameraWatchParams watch_params(const Rig& rig, double camera_reconnect_s) {
     CameraWatchParams params{1.0 / rig.camera.value().frame_rate_hz};
     params.reconnect_s = camera_reconnect_s;
@@ -35,11 +38,14 @@ Pilot::Pilot(const Rig& of, const Plate& plate, const control::PositionerParams&
       state(control::positioner_start(params)) {}
 
 double Pilot::believed_s_mm() const {
-    const auto count = static_cast<double>(state.macro.last_count.value_or(0));
-    return count_zero_mm + count * params.count_mm + state.micro.average_mm;
+    return carriage_mm() + state.micro.average_mm;
 }
 
-void Pilot::register_at(double s_mm) {
+double Pilot::carriage_mm() const {
+    return count_zero_mm + static_cast<double>(state.macro.last_count.value_or(0)) * params.count_mm;
+}
+
+void Pilot::register_at(double s_mm, int tag_id) {
     const double change_mm = s_mm - believed_s_mm();
     count_zero_mm += change_mm;
     if (registered && std::abs(change_mm) > most_drift_mm)
@@ -48,6 +54,21 @@ void Pilot::register_at(double s_mm) {
             "counts, or was the carriage pushed?",
             change_mm);
     registered = true;
+    registered_by = fmt::format("end stop, then tag {}", tag_id);
+}
+
+void Pilot::register_at_end_stop(std::int64_t stop_count) {
+    count_zero_mm = rig.macro.low_mm - static_cast<double>(stop_count) * params.count_mm;
+    registered = false;
+    registered_by = "end stop";
+    state.macro.last_count = stop_count;
+}
+
+std::optional<EncoderZero> Pilot::encoder_zero() const {
+    if (registered_by.empty()) return std::nullopt;
+    const double std_count =
+        registered ? std::hypot(rounding_std_count, platform_std_mm / params.count_mm) : 1.0;
+    return EncoderZero{-count_zero_mm / params.count_mm, std_count, registered_by};
 }
 
 control::StageCommand Pilot::command_for(const control::StageSample& sample,
@@ -72,6 +93,14 @@ control::CarriageTravel Pilot::carriage_travel() const {
             std::floor((rig.macro.high_mm - count_zero_mm) / params.count_mm)};
 }
 
+void Pilot::begin_anew() {
+    const control::StageSample& last = machine.last_sample();
+    state = control::positioner_start(params);
+    state.macro.last_count = last.encoder_count;
+    state.micro.position_mm = state.micro.average_mm =
+        platform_position_mm(params.micro.model, last.hall_adc);
+}
+
 Result<vision::Frame> Pilot::next_frame(TimeNs after_ns) {
     const TimeNs whole_ns = after_ns + nanoseconds(0.5 * rig.camera->exposure_s);
     const TimeNs end = machine.now_ns() + nanoseconds(frame_timeout_s);
@@ -90,19 +119,22 @@ TimeNs Pilot::exposed_at(const vision::Frame& frame) const {
 
 Status Pilot::carry_to(double s_mm) {
     if (auto caught = catch_up(); !caught) return caught;
-    const double carriage = std::clamp(s_mm - state.micro.average_mm, rig.macro.low_mm, rig.macro.high_mm);
-    control::macro_go_to(state.macro, (carriage - count_zero_mm) / params.count_mm);
-    setpoints.macro_mm = carriage;
-    const auto is_quiet = [&] { return control::macro_is_quiet(params.macro, state.macro); };
-    const auto is_there = [&] {
-        return control::macro_is_near(state.macro, params.macro_near_count) || is_quiet();
-    };
-    const char* const unsettled = "the macro stage did not settle";
-    auto settled = step_until(is_there, params.macro_timeout_s, unsettled);
-    state.macro.setpoint_count.reset();
-    setpoints.macro_mm = not_in_force;
-    if (!settled) return settled;
-    return step_until(is_quiet, params.macro_timeout_s, unsettled);
+    return carry(s_mm - state.micro.average_mm, params.macro_timeout_s, [&] {
+        return control::macro_is_near(state.macro, params.macro_near_count) || carriage_is_quiet();
+    });
+}
+
+Status Pilot::place_carriage(double carriage_mm) {
+    constexpr double nudges_s = 4.0;  // from start to end it takes up to 2 s
+    if (auto caught = catch_up(); !caught) return caught;
+    auto placed = carry(carriage_mm, nudges_s, [&] { return carriage_is_quiet(); });
+    if (placed || placed.error().reason != Reason::timeout) return placed;
+    return step_until([&] { return carriage_is_quiet(); }, params.macro_timeout_s,
+                      "the macro stage did not come to rest");
+}
+
+bool Pilot::carriage_is_quiet() const {
+    return control::macro_is_quiet(params.macro, state.macro);
 }
 
 Result<vision::PositionFit> Pilot::look_anywhere() {
@@ -152,7 +184,7 @@ Status Pilot::drive_to(double target_s_mm, int tag_id) {
         seen = *watched;
     }
     if (state.phase == control::PositionerPhase::arrived) {
-        register_at(target_s_mm - state.reached.needed_mm);
+        register_at(target_s_mm - state.reached.needed_mm, tag_id);
         return {};
     }
     if (trouble) return forward(*trouble);

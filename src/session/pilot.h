@@ -9,10 +9,13 @@
 #include "src/session/machine.h"
 #include "src/session/sight.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace fidservo {
@@ -35,8 +38,16 @@ class Pilot {
     double believed_s_mm() const;
     /// What a frame has just shown moves the registration, not the rig. Much of a move is logged: counts were
     /// lost, or the carriage was pushed.
-    void register_at(double s_mm);
+    /// @param tag_id  of the tag that was seen
+    void register_at(double s_mm, int tag_id);
+    /// The end stop is good to a count.
+    void register_at_end_stop(std::int64_t stop_count);
 
+    /// Where the encoder counts from, by the registration; empty before homing.
+    std::optional<EncoderZero> encoder_zero() const;
+
+    /// Where the registration believes the carriage to be, mm.
+    double carriage_mm() const;
     /// The carriage's travel in encoder counts, by the registration.
     control::CarriageTravel carriage_travel() const;
 
@@ -55,6 +66,9 @@ class Pilot {
         return ended;
     }
 
+    /// The stage was moved by others: from where it is now, the motor off, the wire without heat.
+    void begin_anew();
+
     /// The next frame exposed wholly after a time, in true exposure time. Fails with Reason::timeout.
     Result<vision::Frame> next_frame(TimeNs after_ns);
     /// A frame's true middle of exposure: its stamp without the delay that the tuning found.
@@ -63,6 +77,9 @@ class Pilot {
     /// Brings the macro stage so that the camera stands at s, by the registration alone; nothing is
     /// confirmed.
     Status carry_to(double s_mm);
+    /// Brings the carriage to its place `carriage_mm`, by the registration, and to rest within a count of it.
+    /// Where commands or readings come so late that the controller's nudges go on, a few counts.
+    Status place_carriage(double carriage_mm);
     /// Where the camera is by whatever tag the next frame shows.
     Result<vision::PositionFit> look_anywhere();
     /// A motion under the supervisor to camera position s, measured by a tag, confirmed at rest.
@@ -78,6 +95,7 @@ class Pilot {
     control::PositionerState state;
     double count_zero_mm = 0.0;  ///< carriage position at count 0, by the registration
     bool registered = false;     ///< against a tag; before that, by the end stop alone
+    std::string registered_by;   ///< for people; empty: not at all
     double camera_delay_s = 0.0;
     Eigen::Vector2d camera_mm{0.0, 0.0};
     Setpoints setpoints;
@@ -93,6 +111,19 @@ class Pilot {
                 return command_for(sample, std::exchange(seen, std::nullopt));
             },
             done, setpoints);
+    }
+    bool carriage_is_quiet() const;
+    /// The macro controller's way to a place, until it is there, and to rest with the motor off.
+    Status carry(double carriage_mm, double timeout_s, const std::predicate auto& is_there) {
+        const double place_mm = std::clamp(carriage_mm, rig.macro.low_mm, rig.macro.high_mm);
+        control::macro_go_to(state.macro, (place_mm - count_zero_mm) / params.count_mm);
+        setpoints.macro_mm = place_mm;
+        auto settled = step_until(is_there, timeout_s, "the macro stage did not settle");
+        state.macro.setpoint_count.reset();
+        setpoints.macro_mm = not_in_force;
+        if (!settled) return settled;
+        return step_until([&] { return carriage_is_quiet(); }, params.macro_timeout_s,
+                          "the macro stage did not come to rest");
     }
     Result<std::optional<control::TargetOffset>> watch(double target_s_mm, int tag_id,
                                                        std::optional<Failure>& trouble);

@@ -113,7 +113,7 @@ Status check_rig(Pilot& pilot) {
     if (auto well = check_carriage(pilot); !well) return well;
     if (auto well = check_platform(pilot); !well) return well;
     const auto fit = pilot.look_anywhere();
-    if (fit) pilot.register_at(fit->position.s_mm);
+    if (fit) pilot.register_at(fit->position.s_mm, fit->position.tag_id);
     if (!fit && ends_the_run(fit.error().reason)) return forward(fit.error());
     return {};
 }

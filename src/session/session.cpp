@@ -6,6 +6,7 @@
 #include "core/rig.h"
 #include "core/units.h"
 #include "src/interrupt.h"
+#include "src/recording/layout.h"
 #include "src/session/camera_choice.h"
 #include "src/session/devices.h"
 #include "src/session/home.h"
@@ -49,7 +50,8 @@ double calibration_std_mm(const CameraParameters& camera, double dx_mm) {
 struct Session::Impl {
     Impl(const SessionOptions& options, const Rig& rig, const Plate& nominal,
          const control::PositionerParams& params, Devices devices)
-        : pilot(rig, nominal, params, std::move(devices), options.camera_reconnect_s) {}
+        : pilot(rig, nominal, params, std::move(devices), options.camera_reconnect_s),
+          origin{options.stage, options.camera, this_program()} {}
 
     Status drive_or_search(double target_s_mm, int tag_id);
     void take_up(const nlohmann::json& checkpoint);
@@ -57,6 +59,7 @@ struct Session::Impl {
     Pilot pilot;
     std::shared_ptr<SimulatedRig> simulated;
     std::shared_ptr<control::Guardian> guardian;
+    const RecordingOrigin origin;
     KeepFrames keep_frames = KeepFrames::no;
 };
 
@@ -75,7 +78,7 @@ Status Session::Impl::drive_or_search(double target_s_mm, int tag_id) {
         if (!fit) continue;
         const double wrong_mm = fit->position.s_mm - pilot.believed_s_mm();
         if (driven.error().reason == Reason::wrong_tag && std::abs(wrong_mm) < misplaced_mm) break;
-        pilot.register_at(fit->position.s_mm);
+        pilot.register_at(fit->position.s_mm, fit->position.tag_id);
         driven = pilot.drive_to(target_s_mm, tag_id);
     }
     return driven;
@@ -108,21 +111,34 @@ Session::~Session() {
 
 void Session::record_to(const std::filesystem::path& folder, const std::string& experiment,
                         KeepFrames keep_frames) {
-    impl_->keep_frames = keep_frames;
     RecordingOptions recording;
     recording.name = folder.filename().string();
-    recording.rig = impl_->pilot.rig.name;
     recording.experiment = experiment;
-    recording.tick_s = impl_->pilot.rig.tick_s;
-    recording.columns = columns_of(impl_->pilot.rig);
-    recording.camera = impl_->pilot.rig.camera;
+    recording.controllers =
+        ControllerNames{std::string(controller_name::positioner), std::string(controller_name::positioner)};
     recording.frames = keep_frames == KeepFrames::yes;
+    record_to(folder, std::move(recording));
+}
+
+void Session::record_to(const std::filesystem::path& folder, RecordingOptions recording) {
+    const Rig& rig = impl_->pilot.rig;
+    impl_->keep_frames = recording.frames ? KeepFrames::yes : KeepFrames::no;
+    recording.rig = rig.name;
+    recording.tick_s = rig.tick_s;
+    recording.encoder_zero = impl_->pilot.encoder_zero();
+    recording.origin = impl_->origin;
+    recording.columns = columns_of(rig);
+    recording.camera = rig.camera;
     recording.when_full = loop_statistics() || impl_->simulated ? WhenFull::wait : WhenFull::fail;
     impl_->pilot.machine.record_to(std::make_unique<RecordingWriter>(folder, recording));
 }
 
 Status Session::end_recording() {
-    return impl_->pilot.machine.end_recording();
+    return impl_->pilot.machine.end_recording(impl_->pilot.encoder_zero());
+}
+
+void Session::leave_recording() {
+    impl_->pilot.machine.leave_recording(impl_->pilot.encoder_zero());
 }
 
 Status Session::home() {
@@ -182,18 +198,21 @@ Status Session::hold(double duration_s) {
 }
 
 Status Session::observe(double duration_s) {
-    Pilot& pilot = impl_->pilot;
-    for (auto ticks = std::lround(duration_s / pilot.rig.tick_s); ticks > 0; --ticks) {
-        if (auto stepped = pilot.step(); !stepped) return stepped;
-        const auto frame = pilot.machine.poll_camera();
-        if (!frame) return forward(frame.error());
-        if (!*frame) continue;
-        if (const auto fit = pilot.sight.locate_anywhere(**frame)) pilot.saw(fit->position);
-        if (auto kept = pilot.machine.keep(pilot.sight.found()); !kept) return kept;
-        if (impl_->keep_frames == KeepFrames::yes)
-            if (auto kept = pilot.machine.keep(**frame); !kept) return kept;
+    for (auto ticks = std::lround(duration_s / impl_->pilot.rig.tick_s); ticks > 0; --ticks) {
+        if (auto stepped = impl_->pilot.step(); !stepped) return stepped;
+        if (auto looked = look(); !looked) return looked;
     }
     return {};
+}
+
+Status Session::look() {
+    Pilot& pilot = impl_->pilot;
+    const auto frame = pilot.machine.poll_camera();
+    if (!frame) return forward(frame.error());
+    if (!*frame) return {};
+    if (const auto fit = pilot.sight.locate_anywhere(**frame)) pilot.saw(fit->position);
+    if (auto kept = pilot.machine.keep(pilot.sight.found()); !kept) return kept;
+    return impl_->keep_frames == KeepFrames::yes ? pilot.machine.keep(**frame) : Status();
 }
 
 void Session::show_to(std::shared_ptr<LiveFeed> feed) {
@@ -257,6 +276,7 @@ void Session::Impl::take_up(const nlohmann::json& json) {
     read_json(json.at("positioner"), pilot.state);
     pilot.count_zero_mm = json.at("count_zero_mm");
     pilot.registered = true;
+    pilot.registered_by = "a tag, before the run was taken up again";
     pilot.camera_delay_s = json.at("camera_delay_s");
     pilot.camera_mm =
         Eigen::Vector2d(json.at("camera_mm").at(0).get<double>(), json.at("camera_mm").at(1).get<double>());

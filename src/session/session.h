@@ -16,6 +16,7 @@
 
 namespace fidservo {
 
+struct RecordingOptions;
 struct Rig;
 
 class LiveFeed;
@@ -70,8 +71,12 @@ class Session {
     /// Starts a recording folder (EuRoC layout); all ticks and detections go there until the next call.
     void record_to(const std::filesystem::path& folder, const std::string& experiment,
                    KeepFrames keep_frames = KeepFrames::no);
+    /// The same with a name, an experiment, controllers and frames as the options have them.
+    void record_to(const std::filesystem::path& folder, RecordingOptions recording);
     /// Closes the recording; all of it is on the disk then.
     Status end_recording();
+    /// Leaves the recording as it is, unfinished.
+    void leave_recording();
 
     /// End stop, registration against a tag, and the tuning sweep of the micro stage.
     Status home();
@@ -87,6 +92,8 @@ class Session {
     Status hold(double duration_s);
     /// The same, and keeps what every frame shows in the recording; the frames too, if they are to be kept.
     Status observe(double duration_s);
+    /// Keeps what a frame that has just arrived shows in the recording, and the frame, if frames are kept.
+    Status look();
 
     /// All that happens from now on is shown there too.
     void show_to(std::shared_ptr<LiveFeed> feed);

@@ -189,7 +189,7 @@ const Kind& find_kind(std::string_view name) {
     const auto found =
         std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.name == name; });
     if (found == kinds.end())
-        throw InputError(fmt::format("{}: unknown experiment; allowed: {}, campaign", name,
+        throw InputError(fmt::format("{}: unknown experiment; allowed: {}, campaign, FILE.yaml", name,
                                      fmt::join(experiment_kinds(), ", ")));
     return *found;
 }

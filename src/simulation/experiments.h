@@ -1,5 +1,6 @@
 #pragma once
 // The experiments that tell a rig apart from its simulation: what is commanded, over time.
+#include "core/recording.h"
 
 #include <cstdint>
 #include <functional>
@@ -11,14 +12,20 @@ namespace fidservo {
 
 struct Rig;
 
-/// A course over time, t in s from the start; an empty one is not in force.
+/// A course over time, t in s from the start. It is not in force where it gives NaN; an empty one never is.
 using Course = std::function<double(double t_s)>;
+
+/// NaN where the course is not in force.
+inline double value_at(const Course& course, double t_s) {
+    return course ? course(t_s) : not_in_force;
+}
 
 /// What follows a macro setpoint.
 enum class MacroLoop { nonlinear_pd, benchmark_pid };
 
-/// What one recording commands. A stage follows its setpoint with its controller where there is one,
-/// otherwise its voltage; where there is neither, the command is zero.
+/// What one recording commands. A stage follows its setpoint with its controller wherever one is in force,
+/// otherwise its voltage; where there is neither, the command is zero. A controller starts anew each time a
+/// setpoint comes into force.
 struct Experiment {
     std::string kind;
     double duration_s = 0.0;

@@ -4,6 +4,8 @@
 #include "core/result.h"
 #include "core/rig.h"
 #include "src/recording/writer.h"
+#include "src/simulation/experiment_law.h"
+#include "src/simulation/run_experiment.h"
 #include "src/simulation/simulate.h"
 
 namespace fidservo {
@@ -23,6 +25,8 @@ void write_filmed_recording(const std::filesystem::path& folder, const Rig& rig,
                                     .rig = rig.name,
                                     .experiment = experiment.kind,
                                     .tick_s = rig.tick_s,
+                                    .encoder_zero = simulated_zero(),
+                                    .controllers = controllers_of(experiment),
                                     .columns = columns_of(rig),
                                     .camera = rig.camera,
                                     .frames = true,

@@ -1,56 +1,20 @@
 #include "src/simulation/run_experiment.h"
 
-#include "control/nonlinear_pd.h"
-#include "control/pi_antiwindup.h"
 #include "core/random.h"
 #include "core/rig.h"
 #include "src/recording/writer.h"
+#include "src/simulation/experiment_law.h"
 
-#include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace fidservo {
 
-namespace {
-
-/// The published controllers, as far as the experiment closes their loops.
-struct Loops {
-    control::PdState pd;
-    control::PidState pid;
-    std::optional<control::PiState> pi;
-};
-
-double macro_command_V(const Rig& rig, const Experiment& experiment, Loops& loops, StageRow& row,
-                       double t_s) {
-    const double limit_V = rig.macro.command_limit_V;
-    if (experiment.macro_setpoint_mm) {
-        row.macro_setpoint_mm = experiment.macro_setpoint_mm(t_s);
-        const double setpoint_count =
-            std::floor(row.macro_setpoint_mm / rig.macro.encoder_resolution_mm + 0.5);
-        const double error_count = setpoint_count - row.encoder_count;
-        return experiment.macro_loop == MacroLoop::nonlinear_pd
-                   ? control::pd_update(*rig.macro.pd, limit_V, loops.pd, error_count)
-                   : control::pid_update(*rig.macro.pid, limit_V, rig.tick_s, loops.pid, error_count);
-    }
-    return experiment.macro_V ? std::clamp(experiment.macro_V(t_s), -limit_V, limit_V) : 0.0;
-}
-
-double micro_command_V(const Rig& rig, const Experiment& experiment, Loops& loops, StageRow& row,
-                       double t_s) {
-    if (experiment.micro_setpoint_mm) {
-        row.micro_setpoint_mm = experiment.micro_setpoint_mm(t_s);
-        const double position_mm = hall_position_mm_of_adc(rig.micro->hall, row.hall_adc);
-        if (!loops.pi) loops.pi = control::pi_start(*rig.micro->pi);
-        return control::pi_update(*rig.micro->pi, rig.tick_s, *loops.pi, row.micro_setpoint_mm - position_mm);
-    }
-    return experiment.micro_V ? std::clamp(experiment.micro_V(t_s), 0.0, rig.micro->heater.limit_V) : 0.0;
-}
-
-}  // namespace
-
 std::uint64_t noise_seed(const std::string& name, std::uint64_t seed) {
     return NoiseStream(seed, "noise/" + name).bits();
+}
+
+EncoderZero simulated_zero() {
+    return {0.0, 0.0, "simulated"};
 }
 
 Recording run_experiment(const Rig& rig, const Experiment& experiment, const std::string& name,
@@ -60,19 +24,20 @@ Recording run_experiment(const Rig& rig, const Experiment& experiment, const std
     recording.rig = rig.name;
     recording.experiment = experiment.kind;
     recording.tick_s = rig.tick_s;
+    recording.encoder_zero = simulated_zero();
+    recording.controllers = controllers_of(experiment);
     recording.columns = columns_of(rig);
     const TimeNs tick_ns = nanoseconds(rig.tick_s);
     const auto ticks = static_cast<TimeNs>(std::llround(experiment.duration_s / rig.tick_s));
     recording.rows.reserve(static_cast<std::size_t>(ticks));
-    Loops loops;
+    ExperimentLoops loops;
     for (TimeNs k = 0; k < ticks; ++k) {
         const SimulatedHardware::Reading reading = hardware.sample();
         StageRow row{.time_ns = k * tick_ns};
         row.encoder_count = static_cast<double>(reading.encoder_count);
         row.hall_adc = reading.hall_adc;
         const double t_s = static_cast<double>(k) * rig.tick_s;
-        row.macro_command_V = macro_command_V(rig, experiment, loops, row, t_s);
-        row.micro_command_V = micro_command_V(rig, experiment, loops, row, t_s);
+        command_tick(rig, experiment, 0.0, t_s, loops, row);
         recording.rows.push_back(row);
         hardware.look(row.time_ns, row.macro_command_V, row.micro_command_V, recording.detections);
         hardware.advance(row.macro_command_V, row.micro_command_V);

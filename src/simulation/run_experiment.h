@@ -33,6 +33,9 @@ class SimulatedHardware {
     virtual void advance(double macro_V, double micro_V) = 0;
 };
 
+/// Where a simulated rig's encoder counts from: it was homed.
+EncoderZero simulated_zero();
+
 /// Runs an experiment and records it as the real rig's would be recorded.
 /// @param name  of the recording
 Recording run_experiment(const Rig& rig, const Experiment& experiment, const std::string& name,

@@ -10,6 +10,7 @@
 #include "src/inspect/journal.h"
 #include "src/inspect/recipe.h"
 #include "src/recording/reader.h"
+#include "src/simulation/experiment_file.h"
 #include "tests/inspect/small_recipe.h"
 #include "vision/image_sequence.h"
 
@@ -75,6 +76,11 @@ void read_rig(std::string_view bytes) {
 void read_recipe(std::string_view bytes) {
     static const Rig rig = inspect::small_rig();
     answered([&] { (void)inspect::parse_recipe(std::string(bytes), folder().path() / "recipe.yaml", rig); });
+}
+
+void read_experiment(std::string_view bytes) {
+    static const Rig rig = load_rig(reference_rig_file());
+    answered([&] { (void)parse_experiment(std::string(bytes), folder().path() / "experiment.yaml", rig); });
 }
 
 void read_plate(std::string_view bytes) {

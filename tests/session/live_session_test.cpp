@@ -7,9 +7,13 @@
 #include "core/units.h"
 #include "src/config/plate_file.h"
 #include "src/config/rig_file.h"
+#include "src/record/on_rig.h"
+#include "src/record/start.h"
 #include "src/recording/reader.h"
+#include "src/session/pilot.h"
 #include "src/session/session.h"
 #include "src/session/stage_start.h"
+#include "src/simulation/experiment_law.h"
 #include "tests/live_rig.h"
 #include "tests/src/temporary_folder.h"
 
@@ -112,6 +116,54 @@ TEST(SlowLiveSession, HomeAndGoTo_ReachTheTruthWithinTolerance) {
     EXPECT_GT(recording.rows.size(), statistics.ticks / 2) << "held ticks are rows too";
     for (std::size_t k = 1; k < recording.rows.size(); ++k)
         ASSERT_GT(recording.rows[k].time_ns, recording.rows[k - 1].time_ns) << "row " << k;
+}
+
+/// The loop's thread runs the law: what it commanded is the law's answer to what it read, at every tick.
+TEST(SlowLiveSession, Experiment_EveryCommandAnswersItsReading) {
+    const Rig rig = live_rig_file();
+    const Plate plate = plate_of(rig.fiducials.value());
+    const testing::TemporaryFolder folder;
+    const auto live = std::make_shared<LiveRig>(rig, plate, 30.0, 5);
+    const auto loop =
+        std::make_shared<control::StageLoop>(std::make_shared<LiveStage>(live), control::LoopOptions{});
+    const Experiment experiment{.kind = "both-loops",
+                                .duration_s = 1.0,
+                                .carriage_mm = 12.0,
+                                .macro_setpoint_mm = steps({0.0, 0.2}, {12.0, 16.0}),
+                                .micro_setpoint_mm = steps({0.0}, {1.0})};
+    {
+        Session session({}, rig, plate,
+                        Devices{nullptr, std::make_shared<LiveCamera>(live, *rig.camera), loop});
+        check_stage(session.pilot());
+        const auto homed = session.home();
+        ASSERT_TRUE(homed) << homed.error().text;
+        const auto brought = ExperimentStart(session.pilot()).bring_to(experiment.carriage_mm);
+        ASSERT_TRUE(brought) << brought.error().text;
+        session.record_to(folder / "run", experiment.kind);
+        Progress progress("s", 1);
+        const auto end = run_on_rig(session, experiment, progress);
+        ASSERT_TRUE(end) << end.error().text;
+        EXPECT_EQ(*end, ExperimentEnd::whole);
+        ASSERT_TRUE(session.end_recording());
+    }
+    EXPECT_FALSE(loop->ended());
+    const Recording recording = read_recording(folder / "run");
+    const double zero_count = std::round(recording.encoder_zero.value().count);
+    ExperimentLoops loops;
+    std::optional<TimeNs> start_ns;
+    int in_force = 0;
+    for (const StageRow& row : recording.rows) {
+        if (std::isnan(row.macro_setpoint_mm)) continue;  // held, before and after
+        if (!start_ns) start_ns = row.time_ns;
+        StageRow again = row;
+        command_tick(rig, experiment, zero_count, seconds(row.time_ns - *start_ns), loops, again);
+        ASSERT_NEAR(row.macro_command_V, again.macro_command_V, 1e-7) << in_force;
+        ASSERT_NEAR(row.micro_command_V, again.micro_command_V, 1e-7) << in_force;
+        ++in_force;
+    }
+    EXPECT_LE(in_force, 1000);
+    EXPECT_GT(in_force, 500) << "a busy machine may leave out some";
+    EXPECT_EQ(recording.rows.back().macro_command_V, 0.0);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "core/result.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
+#include "src/recording/reader.h"
 #include "src/session/faulty_devices.h"
 #include "src/session/pilot.h"
 #include "tests/session/watched_rig.h"
@@ -39,6 +40,45 @@ TEST(Session, Home_FindsWhereTheCameraIs) {
     ASSERT_TRUE(arrival) << arrival.error().text;
     EXPECT_NEAR(plant::camera_position_mm(rig.rig->truth()), 6.25, 0.002);
     EXPECT_NEAR(rig.session.camera_mm().x(), plant::camera_position_mm(rig.rig->truth()), 0.0005);
+}
+
+TEST(Session, HomingThatIsRecorded_StatesWhereTheEncoderCountsFrom) {
+    WatchedRig rig(reference_physics(), reference_plate(), 5);
+    const testing::TemporaryFolder folder;
+    rig.session.record_to(folder / "homing", "homing");
+    EXPECT_FALSE(read_recording(folder / "homing").encoder_zero) << "not known yet";
+    ASSERT_TRUE(rig.session.home());
+    ASSERT_TRUE(rig.session.end_recording());
+    const Recording recording = read_recording(folder / "homing");
+    ASSERT_TRUE(recording.encoder_zero && recording.controllers);
+    EXPECT_NEAR(recording.encoder_zero->count, -static_cast<double>(rig.rig->truth().encoder.origin_count),
+                1.0);
+    EXPECT_EQ(recording.encoder_zero->how.find("end stop, then tag "), 0u) << recording.encoder_zero->how;
+    EXPECT_EQ(recording.controllers->macro, "positioner");
+    EXPECT_EQ(recording.controllers->micro, "positioner");
+    std::vector<std::string> what;
+    for (const RecordingEvent& event : recording.events) what.push_back(event.what);
+    EXPECT_EQ(what, (std::vector<std::string>{"homing", "end_stop", "registered", "homing"}));
+    EXPECT_EQ(recording.events.back().text, "ended");
+}
+
+TEST(Session, CameraThatFails_IsAnEventOfARecordingThatIsUnfinished) {
+    const testing::TemporaryFolder folder;
+    {
+        const auto rig = reference_rig_in_simulation();
+        const auto camera = std::make_shared<FaultyCamera>(
+            std::make_shared<SimulatedCamera>(rig), std::vector<Fault>{{FaultKind::camera_silent, 0.2}});
+        Session session({}, load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), reference_plate(),
+                        Devices{std::make_shared<SimulatedStage>(rig, nullptr), camera});
+        session.record_to(folder / "rest", "rest");
+        ASSERT_FALSE(session.observe(3.0));
+    }
+    const Recording recording = read_recording(folder / "rest");
+    EXPECT_TRUE(recording.is_unfinished);
+    EXPECT_GT(recording.rows.size(), 1000u);
+    ASSERT_EQ(recording.events.size(), 1u);
+    EXPECT_EQ(recording.events[0].what, "fault");
+    EXPECT_NE(recording.events[0].text.find("no frame from the camera"), std::string::npos);
 }
 
 /// A carriage that stands looks like one at its end stop.

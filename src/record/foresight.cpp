@@ -1,0 +1,58 @@
+#include "src/record/foresight.h"
+
+#include "core/micro_model.h"
+#include "core/rig.h"
+#include "src/record/travel_watch.h"
+#include "src/simulation/simulate.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace fidservo {
+
+namespace {
+
+Recording foreseen(const Rig& rig, const Experiment& experiment) {
+    Rig blind = rig;
+    blind.camera.reset();
+    return simulate(blind, {}, experiment, experiment.kind, 0);
+}
+
+std::optional<std::string> end_of_travel(const Rig& rig, const Experiment& experiment,
+                                         const Recording& recording) {
+    const TravelWatch watch = travel_watch(rig);
+    TravelWatchState state;
+    for (const StageRow& row : recording.rows) {
+        const double carriage_mm = row.encoder_count * rig.macro.encoder_resolution_mm;
+        if (leaves_travel(watch, state, carriage_mm))
+            return fmt::format(
+                "from {:.1f} mm the carriage would leave its travel, {:.0f} to {:.0f} mm, after {:.1f} s",
+                experiment.carriage_mm, rig.macro.low_mm, rig.macro.high_mm, seconds(row.time_ns));
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> overheating(const Rig& rig, const Recording& recording, double limit_degC) {
+    const HeaterParameters& heater = rig.micro->heater;
+    double wire_degC = heater.ambient_degC, hottest_degC = wire_degC;
+    for (const StageRow& row : recording.rows) {
+        wire_degC = heater_step_degC(heater, wire_degC, row.micro_command_V, rig.tick_s);
+        hottest_degC = std::max(hottest_degC, wire_degC);
+    }
+    if (hottest_degC <= limit_degC) return std::nullopt;
+    return fmt::format("the wire would be at {:.0f} degC; allowed: {:.0f} (stage.watchdog.wire_limit_degC)",
+                       hottest_degC, limit_degC);
+}
+
+}  // namespace
+
+std::optional<std::string> why_not(const Rig& rig, const Experiment& experiment,
+                                   std::optional<double> wire_limit_degC) {
+    const Recording recording = foreseen(rig, experiment);
+    if (auto beyond = end_of_travel(rig, experiment, recording)) return beyond;
+    if (!rig.micro || !wire_limit_degC) return std::nullopt;
+    return overheating(rig, recording, *wire_limit_degC);
+}
+
+}  // namespace fidservo

@@ -1,0 +1,18 @@
+#pragma once
+// What an experiment would do to a rig, told in advance from the rig file.
+#include "src/simulation/experiments.h"
+
+#include <optional>
+#include <string>
+
+namespace fidservo {
+
+struct Rig;
+
+/// Why a rig cannot do an experiment, by a simulation of it on the rig as its file describes it: the carriage
+/// would leave its travel, or the wire become too hot. Empty if it can.
+/// @param wire_limit_degC  empty: the wire cannot be damaged
+std::optional<std::string> why_not(const Rig& rig, const Experiment& experiment,
+                                   std::optional<double> wire_limit_degC);
+
+}  // namespace fidservo

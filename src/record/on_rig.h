@@ -1,0 +1,22 @@
+#pragma once
+// An experiment on the rig at hand: its law at every tick, and the camera's frames beside it.
+#include "core/result.h"
+#include "src/progress.h"
+#include "src/session/session.h"
+#include "src/simulation/experiments.h"
+
+namespace fidservo {
+
+enum class ExperimentEnd {
+    whole,
+    end_of_travel,  ///< broken off: the carriage would have left its travel
+};
+
+/// Runs an experiment from where its start is (start.h): its voltages, or its setpoints under the rig file's
+/// controllers, with counts from the session's encoder zero, rounded. Its last tick, which the experiment
+/// itself does not have, switches motor and heater off. What the frames show is kept in the session's
+/// recording. Fails with Reason::device or Reason::stopped.
+/// @param progress  is told every second of the experiment that has gone by
+Result<ExperimentEnd> run_on_rig(Session& session, const Experiment& experiment, Progress& progress);
+
+}  // namespace fidservo

@@ -1,0 +1,106 @@
+#include "src/record/plan.h"
+
+#include "core/input_error.h"
+#include "core/rig.h"
+#include "src/config/stage_keys.h"
+#include "src/record/foresight.h"
+#include "src/record/start.h"
+#include "src/recording/description.h"
+#include "src/session/home.h"
+#include "src/session/motion_params.h"
+#include "src/session/stage_choice.h"
+#include "src/simulation/experiment_file.h"
+
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fidservo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A wire that is simulated cannot be damaged.
+std::optional<double> wire_limit_degC(const SessionOptions& options, const Rig& rig) {
+    if (stage_is_simulated(options)) return std::nullopt;
+    return watchdog_params(rig, load_stage_keys(options.rig_file).watchdog).wire_limit_degC;
+}
+
+Experiment single_experiment(const ExperimentOptions& options, const Rig& rig) {
+    if (is_experiment_file(options.experiment)) return load_experiment(options.experiment, rig);
+    return make_experiment(options.experiment, rig, options.session.seed, options.experiment + "-1");
+}
+
+/// What each of a campaign's experiments commands, but for those that the rig cannot do.
+RecordPlan campaign(const ExperimentOptions& options, const Rig& rig, std::optional<double> limit_degC) {
+    RecordPlan plan;
+    for (const CampaignRun& run : campaign_runs(rig)) {
+        Experiment experiment = make_experiment(run.kind, rig, options.session.seed, run.name);
+        if (const auto why = why_not(rig, experiment, limit_degC))
+            plan.left_out.push_back(fmt::format("{}: {}", run.name, *why));
+        else
+            plan.runs.push_back({run.name, options.out / run.name, std::move(experiment)});
+    }
+    if (plan.runs.empty())
+        throw InputError(fmt::format("campaign: the rig {} can do none of it: {}", rig.name,
+                                     fmt::join(plan.left_out, "; ")));
+    return plan;
+}
+
+}  // namespace
+
+bool is_campaign(const ExperimentOptions& options) {
+    return options.experiment == "campaign";
+}
+
+bool heats(const Experiment& experiment) {
+    return experiment.micro_V || experiment.micro_setpoint_mm;
+}
+
+RecordPlan plan_recordings(const ExperimentOptions& options, const Rig& rig, const Plate& plate) {
+    (void)positioner_params(rig, 1.0);  // refuses a rig that cannot be homed
+    if (registration_tags(rig, plate).empty())
+        throw InputError(
+            fmt::format("{}: fiducials: none can be brought into view on the travel, {} to {} mm: "
+                        "the carriage's place cannot be registered",
+                        options.session.rig_file.string(), rig.macro.low_mm, rig.macro.high_mm));
+    const auto limit_degC = wire_limit_degC(options.session, rig);
+    if (is_campaign(options)) return campaign(options, rig, limit_degC);
+    Experiment experiment = single_experiment(options, rig);
+    if (const auto why = why_not(rig, experiment, limit_degC))
+        throw InputError(fmt::format("{}: the rig {} cannot do it: {}", options.experiment, rig.name, *why));
+    return {{{experiment.kind + "-1", options.out, std::move(experiment)}}, {}};
+}
+
+std::vector<PlannedRun> missing_runs(const RecordPlan& plan) {
+    std::vector<PlannedRun> missing;
+    for (const PlannedRun& run : plan.runs) {
+        Recording there;
+        there.is_unfinished = true;
+        if (const fs::path file = run.folder / "recording.yaml"; fs::exists(file)) {
+            read_description(file, there);
+            if (there.experiment != run.experiment.kind)
+                throw InputError(fmt::format("{}: experiment: {}: is not what is to be recorded, {}",
+                                             file.string(), there.experiment, run.experiment.kind));
+        }
+        if (there.is_unfinished) missing.push_back(run);
+    }
+    return missing;
+}
+
+double expected_s(const std::vector<PlannedRun>& runs, const Rig& rig) {
+    constexpr double homing_speed_mm_per_s = 30.0, registration_and_sweep_s = 9.0, way_s = 1.5;
+    double sum_s =
+        0.5 * (rig.macro.high_mm - rig.macro.low_mm) / homing_speed_mm_per_s + registration_and_sweep_s;
+    bool heated = true;  // by homing
+    for (const PlannedRun& run : runs) {
+        sum_s += run.experiment.duration_s + way_s + (heated ? cooling_s(rig) : 0.0);
+        heated = heats(run.experiment);
+    }
+    return sum_s;
+}
+
+}  // namespace fidservo

@@ -1,0 +1,40 @@
+#pragma once
+// Where experiments begin: the carriage at a place, the wire cold, everything at rest.
+#include "core/result.h"
+#include "core/time.h"
+#include "src/session/pilot.h"
+
+#include <string>
+
+namespace fidservo {
+
+/// How long the wire is left without heat, s: several of its cooling time constants.
+double cooling_s(const Rig& rig);
+
+/// Brings a homed rig to the starts of experiments, one after the other.
+class ExperimentStart {
+  public:
+    /// Switches the heater off.
+    explicit ExperimentStart(Pilot& pilot) : pilot_(pilot) {
+        pilot_.begin_anew();
+        heater_was_on();
+    }
+
+    /// The carriage goes there while the wire cools; it has cooled when the heater has been off for
+    /// cooling_s() and the Hall reading is steady. A reading that drifts on is waited for for a while, and
+    /// then noted.
+    /// @return what is worth noting; empty: nothing
+    Result<std::string> bring_to(double carriage_mm);
+
+    /// The heater may have been on until now.
+    void heater_was_on();
+
+  private:
+    Result<std::string> cool();
+
+    Pilot& pilot_;
+    TimeNs heater_off_ns_ = 0;
+    bool cold_ = false;  ///< since the heater was on, the wire has been seen to be
+};
+
+}  // namespace fidservo

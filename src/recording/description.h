@@ -1,0 +1,26 @@
+#pragma once
+// recording.yaml: what a recording states about itself (docs/formats.md).
+#include "core/recording.h"
+
+#include <filesystem>
+#include <string>
+
+namespace fidservo {
+
+/// What a recording was made with, in words for people; empty: not stated. Nothing is concluded from it.
+struct RecordingOrigin {
+    std::string stage;    ///< sim | comedi:/dev/comedi0
+    std::string camera;   ///< sim | v4l2:/dev/video0
+    std::string program;  ///< fidservo 0.1.0 (commit)
+};
+
+/// "fidservo 0.1.0 (COMMIT)".
+std::string this_program();
+
+/// The text of recording.yaml; of the recording only what is stated there is looked at.
+std::string description_yaml(const Recording& recording, const RecordingOrigin& origin);
+
+/// Reads recording.yaml into those fields of a recording that it states. Throws InputError.
+void read_description(const std::filesystem::path& file, Recording& recording);
+
+}  // namespace fidservo
