@@ -76,6 +76,17 @@ void check_origin(calib::MacroBuild& build, const std::vector<calib::MacroTrace>
         "only by the carriage stopping dead");
 }
 
+/// A dead zone whose offset is below 0 drives backwards at its threshold, which no friction does, and no rig
+/// file takes: it begins where the effective voltage passes 0.
+void begin_at_zero(calib::MacroIdentification& found) {
+    if (!found.threshold_V || !found.zone_offset_V || !found.zone_slope) return;
+    calib::MacroEstimate& offset_V = *found.zone_offset_V;
+    if (offset_V.value >= 0.0 || found.zone_slope->value <= 0.0) return;
+    found.threshold_V->value -= offset_V.value / found.zone_slope->value;
+    found.threshold_V->std = std::max(found.threshold_V->std, offset_V.std / found.zone_slope->value);
+    offset_V.value = 0.0;
+}
+
 void add_values(Identified& identified, const calib::MacroIdentification& found, const Rig& rig,
                 bool dead_zone) {
     add(identified, "macro.velocity_gain_mm_per_s_per_V", "mm/s/V", found.gain_mm_per_s_per_V);
@@ -118,7 +129,7 @@ Identified identify_macro(const IdentifyInput& input) {
     const std::vector<calib::MacroTrace> traces = traces_of(input, identified);
     calib::MacroBuild build = calib::macro_build(input.rig.macro);
     check_origin(build, traces, identified);
-    const auto found = calib::identify_macro(traces, build);
+    auto found = calib::identify_macro(traces, build);
     if (!found) {
         identified.undetermined.push_back({"macro", found.error().text});
         return identified;
@@ -128,6 +139,7 @@ Identified identify_macro(const IdentifyInput& input) {
             {"macro", "the position falls where the command rises: one of the two has the wrong sign"});
         return identified;
     }
+    begin_at_zero(*found);
     add_values(identified, *found, input.rig, build.dead_zone);
     identified.residuals.push_back({"encoder", "count", found->residual_count, rounding_count});
     add_notes(identified, *found, build, traces);

@@ -1,0 +1,17 @@
+#pragma once
+#include "src/rig/draft.h"
+
+#include <functional>
+#include <istream>
+#include <ostream>
+#include <string_view>
+
+namespace fidservo {
+
+/// Asks for the few numbers that every stage has and no two share. An empty line takes what stands in
+/// brackets, and so does the end of the input; an answer that cannot be one is asked for again.
+/// @param is_given  whether an option, such as "--travel-mm", was given: then it is not asked for
+void ask(RigDraft& draft, const std::function<bool(std::string_view option)>& is_given, std::istream& answers,
+         std::ostream& questions);
+
+}  // namespace fidservo
