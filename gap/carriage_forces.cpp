@@ -86,7 +86,7 @@ bool slides(const MacroParameters& macro, const SlidingRow& row, double edge_V) 
 
 CarriageForces::CarriageForces(const Evidence& evidence, const Errors& errors, std::size_t half_support,
                                double edge_V)
-    : lacking_(errors.size(), std::numeric_limits<float>::quiet_NaN()) {
+    : budget_(evidence.budget()), lacking_(errors.size(), std::numeric_limits<float>::quiet_NaN()) {
     const MacroParameters& macro = evidence.rig().macro;
     const double floor_mm = evidence.floor(Signal::encoder) * macro.encoder_resolution_mm;
     find_weights(evidence.rig(), floor_mm, half_support);
@@ -148,6 +148,7 @@ void CarriageForces::find_weights(const Rig& rig, double floor_mm, std::size_t h
 
 Column CarriageForces::column(int group, const std::vector<double>& weights,
                               const std::function<double(const SlidingRow&)>& quantity) const {
+    budget_.check();
     std::vector<double> values(rows_.size());
     std::ranges::transform(rows_, values.begin(), quantity);
     Column column{group, std::vector<float>(lacking_.size(), 0.0F)};

@@ -87,6 +87,7 @@ class CarriageForces {
 
     static double reading_mm(const SlidingRow& row) { return row.reading_mm; }
 
+    const Budget& budget_;
     std::vector<double> of_force_, of_reading_;          ///< a support's weights, row by row, for V and mm
     std::vector<double> of_velocity_, of_acceleration_;  ///< for mm
     std::vector<SlidingRow> rows_;                       ///< of stretches that slide, one after the other

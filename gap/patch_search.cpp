@@ -1,6 +1,7 @@
 #include "gap/patch_search.h"
 
 #include "gap/carriage_forces.h"
+#include "gap/rail_stretch.h"
 
 #include <algorithm>
 #include <array>
@@ -86,12 +87,14 @@ std::vector<FrictionPatch> strongest_patches(const Evidence& evidence, const Err
     constexpr std::array widths_mm{1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
     const CarriageForces forces(evidence, errors, short_half_support);
     if (forces.supports().size() <= static_cast<std::size_t>(placeless)) return {};
-    const auto [low, high] = std::ranges::minmax_element(forces.rows(), {}, &SlidingRow::position_mm);
+    const RailStretch places = most_visited(forces.rows());
     const PatchFit fit(evidence, forces);
     std::vector<FrictionPatch> all;
     for (const double width_mm : widths_mm)
-        for (double centre_mm = low->position_mm; centre_mm <= high->position_mm; centre_mm += width_mm)
+        for (double centre_mm = places.low_mm; centre_mm <= places.high_mm; centre_mm += width_mm) {
+            evidence.budget().check();
             all.push_back(fit.at(centre_mm, width_mm));
+        }
     return apart(std::move(all));
 }
 

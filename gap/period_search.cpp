@@ -2,6 +2,7 @@
 
 #include "gap/carriage_forces.h"
 #include "gap/parallel.h"
+#include "gap/rail_stretch.h"
 
 #include <algorithm>
 #include <array>
@@ -25,29 +26,6 @@ struct Lacking {
     double weight = 0.0;
 };
 
-/// A stretch of the rail.
-struct RailStretch {
-    double low_mm, high_mm;
-    bool hold(const SlidingRow& row) const { return low_mm <= row.position_mm && row.position_mm <= high_mm; }
-};
-
-/// Where most rows lie of all stretches of a length. A motor that turns on and on goes so far that as many
-/// periods would have to be tried as there are rows, and shows its waves on any part of its way.
-RailStretch most_visited(std::span<const SlidingRow> rows, double length_mm) {
-    std::vector<double> places_mm;
-    places_mm.reserve(rows.size());
-    for (const SlidingRow& row : rows) places_mm.push_back(row.position_mm);
-    std::ranges::sort(places_mm);
-    std::size_t best = 0, most = 0, end = 0;
-    for (std::size_t first = 0; first < places_mm.size(); ++first) {
-        while (end < places_mm.size() && places_mm[end] <= places_mm[first] + length_mm) ++end;
-        if (end - first <= most) continue;
-        most = end - first;
-        best = first;
-    }
-    return {places_mm[best], places_mm[best + most - 1]};
-}
-
 std::vector<Lacking> by_window(const Evidence& evidence, const CarriageForces& forces,
                                const RailStretch& places) {
     std::vector<Lacking> all;
@@ -63,7 +41,7 @@ std::vector<Lacking> by_window(const Evidence& evidence, const CarriageForces& f
     for (std::size_t k = 0; k < forces.supports().size(); ++k) {
         const CarriageForces::Support& support = forces.supports()[k];
         const std::size_t last = support.first + forces.force_weights().size() - 1;
-        if (!places.hold(forces.rows()[support.first]) || !places.hold(forces.rows()[last])) continue;
+        if (!places.holds(forces.rows()[support.first]) || !places.holds(forces.rows()[last])) continue;
         while (support.slot >= evidence.windows()[w].end) ++w;
         if (w != of_last) {
             close();
@@ -91,7 +69,7 @@ class Waves {
     void set(double per_mm) {
         const auto wave_number = static_cast<float>(2.0 * std::numbers::pi * per_mm);
         for (std::size_t k = 0; k < rows_.size(); ++k) {
-            if (!places_.hold(rows_[k])) continue;
+            if (!places_.holds(rows_[k])) continue;
             const float angle = wave_number * static_cast<float>(rows_[k].position_mm);
             const auto passed = static_cast<float>(rows_[k].passed);
             cosine_[k] = std::cos(angle);
@@ -201,9 +179,8 @@ std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Er
                                               std::size_t half_support) {
     const CarriageForces forces(evidence, errors, half_support);
     if (forces.supports().empty()) return {};
-    constexpr double longest_rail_mm = 400.0;  // eight of the longest periods
-    const RailStretch places = most_visited(forces.rows(), longest_rail_mm);
-    const double range_mm = places.high_mm - places.low_mm;
+    const RailStretch places = most_visited(forces.rows());
+    const double range_mm = places.length_mm();
     if (range_mm < 2.0 * shortest_period_mm) return {};
     Periodogram periodogram(evidence, forces, places);
     const double step_per_mm = 0.5 / range_mm;
