@@ -156,12 +156,13 @@ std::vector<Recording> joined(std::vector<Recording> recordings, const Rig& rig)
 PlacesFrom refer_to_travel(Recording& recording, const Rig& rig) {
     constexpr double sure_counts = 0.5, at_most_mm = 1.0;
     const double resolution_mm = rig.macro.encoder_resolution_mm;
-    if (recording.encoder_zero && recording.encoder_zero->std_count <= sure_counts) {
-        shift(recording, -std::round(recording.encoder_zero->count), resolution_mm);
-        return PlacesFrom::recording;
-    }
     std::vector<SeenPlace> places;
     if (rig.camera && rig.fiducials) places = seen_places(recording, rig);
+    if (recording.encoder_zero && recording.encoder_zero->std_count <= sure_counts) {
+        shift(recording, -std::round(recording.encoder_zero->count), resolution_mm);
+        const bool is_measured = recording.encoder_zero->std_count > 0.0;
+        return is_measured && !places.empty() ? PlacesFrom::tags : PlacesFrom::recording;
+    }
     const bool in_travel = lies_in_travel(recording, rig.macro);
     if (places.empty()) return in_travel ? PlacesFrom::recording : PlacesFrom::nowhere;
     if (in_travel && std::abs(offset_at_zero_mm(places)) <= at_most_mm) return PlacesFrom::recording;

@@ -42,6 +42,9 @@ void add_inspect(CLI::App& app, int& exit_code) {
             "the images of an earlier run again");
     command->add_option("--out", options->out, "New folder for results, report, images and recordings")
         ->required();
+    options->diagnosis = true;
+    command->add_flag("!--no-diagnosis", options->diagnosis,
+                      "Leave out what the run's own recordings say of the rig");
     command->add_flag("--resume", options->resume,
                       "Go on with a run that was interrupted, in the same folder");
     command

@@ -26,7 +26,8 @@ std::string headline(std::size_t sites, std::size_t failed, std::size_t unsure) 
 }  // namespace
 
 void write_inspection_report(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
-                             const JournalContent& content, const DeviceFigures& devices) {
+                             const JournalContent& content, const DeviceFigures& devices,
+                             const std::optional<RigFindings>& findings) {
     const std::vector<Visit>& visits = content.visits;
     const Counts counts = count(visits);
     std::size_t failed = 0, unsure = 0;
@@ -62,6 +63,7 @@ void write_inspection_report(const OutputFolder& output, const Recipe& recipe, c
     page.body += report::section("sites", "Sites", sites_html(output, camera, visits));
     page.body += report::section("errors", "Deviations", histogram_html(visits));
     if (!measured_again) page.body += report::section("traces", "Stage", traces_html(output, rig, visits));
+    if (findings) page.body += report::section("rig", "The rig", findings->html);
     if (devices.loop) page.body += report::section("loop", "Control loop", loop_html(*devices.loop));
     if (devices.frames) page.body += report::section("frames", "Camera frames", frames_html(*devices.frames));
     page.body += report::section("checks", "All checks", checks_html(visits));

@@ -19,6 +19,8 @@
 #include "src/session/camera_choice.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -132,10 +134,11 @@ DeviceFigures figures_of(const Session& session) {
 
 /// What scripts and people read, once all sites are done.
 void write_all(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
-               const JournalContent& content, const DeviceFigures& devices) {
+               const JournalContent& content, const DeviceFigures& devices,
+               const std::optional<RigFindings>& findings = std::nullopt) {
     write_results(output.results(), content.visits);
     write_run_json(output.run_json(), recipe, content, devices);
-    write_inspection_report(output, recipe, rig, content, devices);
+    write_inspection_report(output, recipe, rig, content, devices, findings);
 }
 
 void refuse_what_moves(const InspectionOptions& options) {
@@ -167,21 +170,24 @@ Counts measure_again(const InspectionOptions& options, const std::filesystem::pa
     return count(content.visits);
 }
 
-}  // namespace
+/// What a run is about.
+struct Task {
+    const Rig& rig;
+    const Recipe& recipe;
+    const Plate& printed;
+    const RunIdentity& identity;
+};
 
-Counts run_inspection(const InspectionOptions& options) {
-    const Rig rig = load_rig(options.session.rig_file);
-    const Recipe recipe = load_recipe(options.recipe, rig);
-    demand_reference_images(recipe, rig.camera.value());
-    const Plate printed = recipe.simulation.plate ? load_plate(*recipe.simulation.plate) : recipe.nominal;
-    SessionOptions session_options = options.session;
-    session_options.camera_reconnect_s = recipe.camera_reconnect_s;
-    session_options.seed = options.seed.value_or(recipe.simulation.seed);
-    const RunIdentity identity = identity_of(recipe, rig, session_options);
-    if (const auto folder = images_folder(session_options.camera))
-        return measure_again(options, *folder, recipe, rig, identity);
+/// What a run has come to.
+struct Ran {
+    JournalContent content;
+    DeviceFigures devices;
+};
 
-    const OutputFolder output{options.out};
+/// The rig is switched off when it returns.
+Ran run_on_rig(const InspectionOptions& options, const SessionOptions& session_options, const Task& task,
+               const OutputFolder& output) {
+    const auto& [rig, recipe, printed, identity] = task;
     JournalContent content{identity, {}, {}, 0};
     std::optional<Journal> journal;
     const bool begins = !options.resume || killed_before_it_began(output.journal());
@@ -216,9 +222,36 @@ Counts run_inspection(const InspectionOptions& options) {
         progress.is_at("stopped", fault.what());
         throw;
     }
-    write_all(output, recipe, rig, content, figures_of(session));
+    const DeviceFigures devices = figures_of(session);
+    write_all(output, recipe, rig, content, devices);
     progress.is_at("done");
-    return count(content.visits);
+    return {std::move(content), devices};
+}
+
+}  // namespace
+
+Counts run_inspection(const InspectionOptions& options) {
+    const Rig rig = load_rig(options.session.rig_file);
+    const Recipe recipe = load_recipe(options.recipe, rig);
+    demand_reference_images(recipe, rig.camera.value());
+    const Plate printed = recipe.simulation.plate ? load_plate(*recipe.simulation.plate) : recipe.nominal;
+    SessionOptions session_options = options.session;
+    session_options.camera_reconnect_s = recipe.camera_reconnect_s;
+    session_options.seed = options.seed.value_or(recipe.simulation.seed);
+    const RunIdentity identity = identity_of(recipe, rig, session_options);
+    if (const auto folder = images_folder(session_options.camera))
+        return measure_again(options, *folder, recipe, rig, identity);
+
+    const OutputFolder output{options.out};
+    const Ran ran = run_on_rig(options, session_options, {rig, recipe, printed, identity}, output);
+    if (options.diagnosis) {
+        fmt::print("diagnosing what was recorded\n");
+        std::fflush(stdout);
+        const RigFindings findings = find_in_recordings(output, recipe, rig, options.session.rig_file);
+        write_inspection_report(output, recipe, rig, ran.content, ran.devices, findings);
+        fmt::print("{}\n", findings.line);
+    }
+    return count(ran.content.visits);
 }
 
 }  // namespace fidservo::inspect

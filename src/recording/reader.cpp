@@ -140,6 +140,8 @@ std::vector<fs::path> find_recordings(const fs::path& path) {
     std::vector<fs::path> found;
     for (const auto& entry : fs::directory_iterator(path, error))
         if (fs::exists(entry.path() / "recording.yaml")) found.push_back(entry.path());
+    const fs::path of_a_run = path / "recordings";
+    if (found.empty() && !error && fs::is_directory(of_a_run)) return find_recordings(of_a_run);
     if (error) throw InputError(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
     if (found.empty())
         throw InputError(fmt::format(

@@ -126,6 +126,10 @@ TEST(ReferToTravel, StatedZero_IsTaken_IfItIsKnownToHalfACount) {
     const Recording homed = recorded("integrated");
     Recording recording = counted_from(homed, 700.0);
     recording.encoder_zero = EncoderZero{-700.2, 0.3, "end stop"};
+    EXPECT_EQ(refer_to_travel(recording, reference_rig()), PlacesFrom::tags);
+    EXPECT_EQ(recording.rows[7].encoder_count, homed.rows[7].encoder_count);
+    recording = counted_from(homed, 700.0);
+    recording.encoder_zero = EncoderZero{-700.0, 0.0, "by construction"};
     EXPECT_EQ(refer_to_travel(recording, reference_rig()), PlacesFrom::recording);
     EXPECT_EQ(recording.rows[7].encoder_count, homed.rows[7].encoder_count);
     recording = counted_from(homed, 700.0);
