@@ -12,7 +12,7 @@ namespace fidservo {
 
 namespace {
 
-constexpr double time_constants = 6.0;      ///< of cooling: 80 degC become 0.2
+constexpr double time_constants = 10.0;     ///< of cooling: 80 degC become 0.004
 constexpr double most_drift_wait_s = 20.0;  ///< for readings that are not steady
 constexpr double most_astray_mm = 0.5;      ///< of the carriage at the start
 

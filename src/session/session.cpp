@@ -17,6 +17,7 @@
 #include "src/session/stage_start.h"
 #include "src/session/state_json.h"
 #include "vision/tag_choice.h"
+#include "vision/tag_refinement.h"
 
 #include <array>
 #include <chrono>
@@ -211,7 +212,12 @@ Status Session::look() {
     if (!frame) return forward(frame.error());
     if (!*frame) return {};
     if (const auto fit = pilot.sight.locate_anywhere(**frame)) pilot.saw(fit->position);
-    if (auto kept = pilot.machine.keep(pilot.sight.found()); !kept) return kept;
+    std::vector<TagDetection> tags = pilot.sight.found();
+    // As the picture shows them: what the rig file says of tilt and lens may be what is to be found out.
+    const vision::RefinementOptions as_it_is{std::nullopt, vision::grey_noise(*pilot.rig.camera)};
+    for (TagDetection& tag : tags)
+        if (const auto refined = vision::refine_tag((*frame)->image, tag, as_it_is)) tag = refined->detection;
+    if (auto kept = pilot.machine.keep(tags); !kept) return kept;
     return impl_->keep_frames == KeepFrames::yes ? pilot.machine.keep(**frame) : Status();
 }
 

@@ -131,7 +131,7 @@ TEST(RecordPlan, ExpectedTime_IsAtLeastThatOfTheRecordings) {
     const RecordPlan planned = plan(options_for("campaign"), reference());
     double recorded_s = 0.0;
     for (const PlannedRun& run : planned.runs) recorded_s += run.experiment.duration_s;
-    EXPECT_GT(expected_s(planned.runs, reference()), recorded_s + 8 * 6.0)
+    EXPECT_GT(expected_s(planned.runs, reference()), recorded_s + 8 * 10.0)
         << "eight of them begin after heat";
 }
 
