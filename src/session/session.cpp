@@ -212,11 +212,12 @@ Status Session::look() {
     if (!frame) return forward(frame.error());
     if (!*frame) return {};
     if (const auto fit = pilot.sight.locate_anywhere(**frame)) pilot.saw(fit->position);
-    std::vector<TagDetection> tags = pilot.sight.found();
+    std::vector<TagDetection> tags;
     // As the picture shows them: what the rig file says of tilt and lens may be what is to be found out.
     const vision::RefinementOptions as_it_is{std::nullopt, vision::grey_noise(*pilot.rig.camera)};
-    for (TagDetection& tag : tags)
-        if (const auto refined = vision::refine_tag((*frame)->image, tag, as_it_is)) tag = refined->detection;
+    for (const TagDetection& tag : pilot.sight.found())
+        if (const auto refined = vision::refine_tag((*frame)->image, tag, as_it_is))
+            tags.push_back(refined->detection);
     if (auto kept = pilot.machine.keep(tags); !kept) return kept;
     return impl_->keep_frames == KeepFrames::yes ? pilot.machine.keep(**frame) : Status();
 }
