@@ -77,6 +77,7 @@ struct Recording {
     std::optional<ControllerNames> controllers;  ///< likewise
     std::vector<RecordingEvent> events;          ///< by time
     bool is_unfinished = false;                  ///< whoever made it was ended in the middle
+    bool is_seen = false;                        ///< detections are what was found in a camera's images
     StageColumns columns;
     std::vector<StageRow> rows;
     std::vector<TagDetection> detections;

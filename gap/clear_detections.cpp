@@ -84,9 +84,11 @@ void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_
         ++neighbours[k];
         ++neighbours[at];
     }
+    // A program that looks for a tag when it wants to, and keeps no frames, sees it now and then.
+    const int least_neighbours = recording.appearances.empty() ? 0 : 2;
     std::vector<TagDetection> judged;
     for (std::size_t k = 0; k < detections.size(); ++k)
-        if (smear_cells[k] <= most_cells && !is_cut[k] && neighbours[k] == 2 &&
+        if (smear_cells[k] <= most_cells && !is_cut[k] && neighbours[k] >= least_neighbours &&
             !smeared.contains({detections[k].time_ns, detections[k].tag_id}))
             judged.push_back(detections[k]);
     detections = std::move(judged);

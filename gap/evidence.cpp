@@ -239,6 +239,7 @@ Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings, std::share
     for (const Recording& recording : recordings) check(rig, recording);
     parts.recordings = joined(std::move(recordings), rig);
     for (Recording& recording : parts.recordings) {
+        recording.is_seen = recording.is_seen || !recording.appearances.empty();
         std::ranges::stable_sort(recording.detections, {}, &TagDetection::time_ns);
         std::ranges::stable_sort(recording.appearances, {}, &TagAppearance::time_ns);
         parts.places.push_back(refer_to_travel(recording, rig));

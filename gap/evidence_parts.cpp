@@ -126,9 +126,11 @@ void note_omissions(Evidence::Parts& parts, std::size_t run) {
         return count_rows(recording, [&](const StageRow& row) { return std::isfinite(row.*setpoint); });
     };
     note_rows(parts, run, "macro_command", controlled(&StageRow::macro_setpoint_mm), links.macro.windows,
-              "the recording claims no controller of the rig file, or rows lack a command or a count");
+              "the commands are given: the recording does not say that a controller of the rig file made "
+              "them, or rows lack a command or a count");
     note_rows(parts, run, "micro_command", controlled(&StageRow::micro_setpoint_mm), links.micro.windows,
-              "the recording claims no controller of the rig file, or rows lack a command or a reading");
+              "the commands are given: the recording does not say that a controller of the rig file made "
+              "them, or rows lack a command or a reading");
 }
 
 void drop_unclear_detections(Evidence::Parts& parts, std::size_t run) {
@@ -136,7 +138,8 @@ void drop_unclear_detections(Evidence::Parts& parts, std::size_t run) {
     Recording& recording = parts.recordings[run];
     const auto all = static_cast<double>(recording.detections.size());
     drop_unclear(recording, parts.links[run].path.velocity_mm_per_s, *parts.rig.camera, *parts.rig.fiducials,
-                 parts.shutter.exposure_s, parts.smeared[run]);
+                 recording.appearances.empty() ? parts.rig.camera->exposure_s : parts.shutter.exposure_s,
+                 parts.smeared[run]);
     if (all - static_cast<double>(recording.detections.size()) > worth_telling * all)
         parts.omissions.push_back(
             {recording.name, "tag",
@@ -209,7 +212,7 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     links.carriage = carriage_run(recording, rig.macro, parts.places[run] != PlacesFrom::nowhere);
     links.carriage.budget = parts.budget;
     predicted_counts(carriage_model(nominal), links.carriage, links.path);
-    if (rig.camera && rig.fiducials && !recording.appearances.empty() && !recording.rows.empty())
+    if (rig.camera && rig.fiducials && recording.is_seen && !recording.rows.empty())
         drop_unclear_detections(parts, run);
     std::optional<PlatformPrediction> platform;
     if (rig.micro) {

@@ -5,8 +5,9 @@
 // counts on from one to the next. Such recordings are judged as the one that they are.
 //
 // An incremental encoder counts from wherever the power came on. Where a recording states its zero, or all
-// its places lie in the travel and agree with the fiducials seen, its counts are places. Otherwise the
-// fiducials give the zero: a tag's place on the plate less where it is seen from the camera's axis, less the
+// its places lie in the travel and agree with the fiducials seen, its counts are places; a zero that was
+// measured was measured by the rig file, so that a hypothesis may find another one. Otherwise the fiducials
+// give the zero: a tag's place on the plate less where it is seen from the camera's axis, less the
 // platform by the Hall reading, less the counts; the median over all detections. Without fiducials places are
 // relative.
 #include "core/recording.h"

@@ -86,17 +86,22 @@ class CameraPlace {
         return std::isfinite(entering) ? entering - path_.position_mm[row] : 0.0;
     }
 
-    /// With a longer exposure than the rig file's: its mean over the one less that over the other.
+    /// In the middle of a frame's exposure; in images the mean over it. With a longer exposure than the rig
+    /// file's the mean over the one less that over the other is added.
     double seen_s_mm(double at_s) const {
         const double extra_s = model_.deviation.extra_exposure_s;
-        if (extra_s == 0.0) return s_mm(at_s);
+        const double middle_mm = s_mm(at_s);
+        const double half_s = 0.5 * model_.exposure_s;
+        const double seen_mm =
+            run_.is_seen ? (s_mm(at_s - half_s) + 4.0 * middle_mm + s_mm(at_s + half_s)) / 6.0 : middle_mm;
+        if (extra_s == 0.0) return seen_mm;
         const auto mean_over = [&](double exposure_s) {
             constexpr int parts = 8;
             double sum = 0.0;
             for (int k = 0; k < parts; ++k) sum += s_mm(at_s + exposure_s * ((k + 0.5) / parts - 0.5));
             return sum / parts;
         };
-        return s_mm(at_s) + mean_over(model_.exposure_s + extra_s) - mean_over(model_.exposure_s);
+        return seen_mm + mean_over(model_.exposure_s + extra_s) - mean_over(model_.exposure_s);
     }
 
   private:
@@ -233,6 +238,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
     const plant::ActualCamera camera{rig.camera->geometry};
     run.side_mm = plate.side_mm;
     run.tick_s = recording.tick_s;
+    run.is_seen = recording.is_seen;
     const TimeNs start_ns = recording.rows.front().time_ns;
     for (const StageRow& row : recording.rows) run.time_s.push_back(seconds(row.time_ns - start_ns));
     std::vector<double> way_mm{0.0};

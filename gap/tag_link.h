@@ -64,6 +64,7 @@ struct TagRun {
     std::vector<TagSighting> sightings;
     std::vector<TagWindow> windows;
     double side_mm = 0.0, tick_s = 0.0;
+    bool is_seen = false;       ///< in a camera's images, which show the mean over their exposure
     bool zero_is_seen = false;  ///< what the encoder's zero is off by is found anew by each hypothesis
 };
 

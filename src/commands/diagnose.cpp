@@ -12,6 +12,7 @@
 #include "src/diagnose/next_experiment.h"
 #include "src/diagnose/report.h"
 #include "src/diagnose/search_progress.h"
+#include "src/diagnose/thinned.h"
 #include "src/interrupt.h"
 #include "src/recording/durable_file.h"
 #include "src/recording/reader.h"
@@ -102,7 +103,7 @@ int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig) {
     const TimeLimit limit = time_limit(read.recordings);
     const auto budget = std::make_shared<const gap::Budget>(limit.search_s - gone_s, limit.whole_s - gone_s,
                                                             interrupt_requested);
-    const gap::Evidence evidence(rig, std::move(read.recordings), budget);
+    const gap::Evidence evidence(rig, diagnose::thinned(std::move(read.recordings), read.notes), budget);
     gap::DiagnosisOptions how{.only = options.only, .without = options.without, .selection = {}};
     diagnose::SearchProgress progress(limit.whole_s);
     how.selection.search.tell = [&](std::string_view what) { progress.tell(what); };

@@ -63,6 +63,12 @@ std::string recipe_fingerprint(const Recipe& recipe) {
     return sha256(all);
 }
 
+/// Of the plate as it is printed and of the rig as it is, where the simulation's are not the nominal ones.
+std::string simulated_fingerprint(const Recipe& recipe, const SessionOptions& session) {
+    const std::string printed = recipe.simulation.plate ? sha256_of_file(*recipe.simulation.plate) : "";
+    return session.sim_rig_file.empty() ? printed : sha256(printed + sha256_of_file(session.sim_rig_file));
+}
+
 }  // namespace
 
 std::string plate_text(const Plate& plate) {
@@ -95,7 +101,7 @@ RunIdentity identity_of(const Recipe& recipe, const Rig& rig, const SessionOptio
     return {.recipe_sha256 = recipe_fingerprint(recipe),
             .rig_sha256 = sha256_of_file(session.rig_file),
             .plate_sha256 = sha256(plate_text(recipe.nominal)),
-            .printed_sha256 = recipe.simulation.plate ? sha256_of_file(*recipe.simulation.plate) : "",
+            .printed_sha256 = simulated_fingerprint(recipe, session),
             .calibration_sha256 = sha256(calibration_text(rig)),
             .seed = session.seed,
             .stage = session.stage,

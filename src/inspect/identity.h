@@ -7,8 +7,9 @@
 namespace fidservo::inspect {
 
 /// SHA-256 of the recipe file, of the rig file, of the nominal plate as a list of all it holds, of the
-/// simulated printed plate's file, and of the numbers by which images and sensor readings become lengths.
-/// Reference images count with the recipe. Throws InputError if a file cannot be read.
+/// simulated printed plate's and the simulated rig's files, and of the numbers by which images and sensor
+/// readings become lengths. Reference images count with the recipe. Throws InputError if a file cannot be
+/// read.
 RunIdentity identity_of(const Recipe& recipe, const Rig& rig, const SessionOptions& session);
 
 /// The numbers of the camera and of the Hall sensor as text.

@@ -130,6 +130,7 @@ void read_description(const std::filesystem::path& file, Recording& recording) {
     recording.rig = root.at("rig").text();
     recording.tick_s = root.at("tick_s").number({0.0, 1.0, true});
     recording.experiment = root.at("experiment").text();
+    recording.is_seen = root.find("camera").has_value();
     for (const char* for_people : {"stage", "camera", "program"})
         if (const auto text = root.find(for_people)) (void)text->text();
     if (const auto zero = root.find("encoder_zero")) recording.encoder_zero = encoder_zero_of(*zero);
