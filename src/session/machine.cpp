@@ -78,10 +78,10 @@ Result<std::optional<vision::Frame>> Machine::poll_camera() {
     return admitted;
 }
 
-Status Machine::keep(const std::vector<TagDetection>& detections) {
-    if (feed_) feed_->found(detections);
+Status Machine::keep(const std::vector<TagDetection>& found, const std::vector<TagDetection>& measured) {
+    if (feed_) feed_->found(found);
     if (!recorder_) return {};
-    for (const TagDetection& detection : detections)
+    for (const TagDetection& detection : measured)
         if (auto kept = recorder_->add(detection); !kept) return kept;
     return {};
 }

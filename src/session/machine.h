@@ -96,8 +96,8 @@ class Machine {
     Result<std::optional<vision::Frame>> poll_camera();
     /// Whether something was wrong with its last frame; not for long enough to be a fault.
     bool camera_is_in_doubt() const { return camera_watch_.is_in_doubt(); }
-    /// Keeps detections in the recording.
-    Status keep(const std::vector<TagDetection>& detections);
+    /// Keeps in the recording what was measured, and shows what was found.
+    Status keep(const std::vector<TagDetection>& found, const std::vector<TagDetection>& measured);
     /// Keeps a frame in the recording, which must be one that keeps frames.
     Status keep(const vision::Frame& frame);
     vision::FrameCounts frame_counts() const { return devices_.camera->counts(); }

@@ -141,7 +141,7 @@ Result<vision::PositionFit> Pilot::look_anywhere() {
     const auto frame = next_frame(machine.now_ns());
     if (!frame) return forward(frame.error());
     auto fit = sight.locate_anywhere(*frame);
-    if (auto kept = machine.keep(sight.found()); !kept) return forward(kept.error());
+    if (auto kept = machine.keep(sight.found(), sight.measured()); !kept) return forward(kept.error());
     return fit;
 }
 
@@ -152,7 +152,7 @@ Result<std::optional<control::TargetOffset>> Pilot::watch(double target_s_mm, in
     if (!frame) return forward(frame.error());
     if (!*frame || exposed_at(**frame) < state.rest_since_ns) return std::nullopt;
     const auto fit = sight.locate(**frame, believed_s_mm(), tag_id);
-    if (auto kept = machine.keep(sight.found()); !kept) return forward(kept.error());
+    if (auto kept = machine.keep(sight.found(), sight.measured()); !kept) return forward(kept.error());
     if (!fit) {
         trouble = fit.error();
         return std::nullopt;

@@ -188,7 +188,8 @@ Result<vision::Frame> Session::capture() {
         std::abs(pilot.state.micro.average_mm - platform_mm) > still_mm)
         return failure(Reason::not_at_rest, "the stage moved while the picture was taken");
     if (const auto fit = pilot.sight.locate(*frame, pilot.believed_s_mm())) pilot.saw(fit->position);
-    if (auto kept = pilot.machine.keep(pilot.sight.found()); !kept) return forward(kept.error());
+    if (auto kept = pilot.machine.keep(pilot.sight.found(), pilot.sight.measured()); !kept)
+        return forward(kept.error());
     return frame;
 }
 
@@ -218,7 +219,7 @@ Status Session::look() {
     for (const TagDetection& tag : pilot.sight.found())
         if (const auto refined = vision::refine_tag((*frame)->image, tag, as_it_is))
             tags.push_back(refined->detection);
-    if (auto kept = pilot.machine.keep(tags); !kept) return kept;
+    if (auto kept = pilot.machine.keep(pilot.sight.found(), tags); !kept) return kept;
     return impl_->keep_frames == KeepFrames::yes ? pilot.machine.keep(**frame) : Status();
 }
 

@@ -28,12 +28,14 @@ vision::ExpectedTag Sight::expected(const PlateTag& tag, double s_mm) const {
 
 void Sight::look_for(const vision::Frame& frame, const std::vector<vision::ExpectedTag>& expected) {
     found_.clear();
+    measured_.clear();
     for (const vision::FoundTag& tag : tracker_.find(frame.image, frame.time_ns, expected))
         found_.push_back(tag.detection);
 }
 
 void Sight::keep_refined(const Result<vision::PositionFit>& fit) {
     if (!fit) return;
+    if (fit->tag.explained > 0.0) measured_ = {fit->tag.detection};
     for (TagDetection& tag : found_)
         if (tag.tag_id == fit->tag.detection.tag_id) tag = fit->tag.detection;
 }

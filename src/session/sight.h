@@ -33,6 +33,8 @@ class Sight {
 
     /// What was found in the last frame; the tag that it was located by with refined corners.
     const std::vector<TagDetection>& found() const { return found_; }
+    /// Of these the one that it was located by, where its corners could be measured.
+    const std::vector<TagDetection>& measured() const { return measured_; }
 
   private:
     vision::ExpectedTag expected(const PlateTag& tag, double s_mm) const;
@@ -45,7 +47,7 @@ class Sight {
     vision::GreyNoise noise_;
     Plate nominal_;
     vision::TagTracker tracker_;
-    std::vector<TagDetection> found_;
+    std::vector<TagDetection> found_, measured_;
 };
 
 }  // namespace fidservo
