@@ -106,19 +106,22 @@ Status StageSurvey::wait(double duration_s) {
     return {};
 }
 
-calib::StageView StageSurvey::tags_in(const vision::Frame& frame) {
+Result<calib::StageView> StageSurvey::tags_in(const vision::Frame& frame) {
     const std::vector<TagDetection> found = detector_.detect(frame.image, frame.time_ns);
     vision::RefinementOptions options;
     options.noise = vision::grey_noise(*pilot_.rig.camera);
     calib::StageView view;
+    std::vector<TagDetection> measured;
     for (const TagDetection& tag : found) {
         const auto nominal = vision::find_tag(pilot_.nominal, tag.tag_id);
         const bool once = std::ranges::count(found, tag.tag_id, &TagDetection::tag_id) == 1;
         if (!nominal || !once) continue;
         const auto refined = vision::refine_tag(frame.image, tag, options);
-        if (refined && refined->explained >= vision::enough_to_measure)
-            view.push_back(seen_tag(*nominal, *refined));
+        if (!refined || refined->explained < vision::enough_to_measure) continue;
+        view.push_back(seen_tag(*nominal, *refined));
+        measured.push_back(refined->detection);
     }
+    if (auto kept = pilot_.machine.keep(found, measured); !kept) return forward(kept.error());
     return view;
 }
 
@@ -137,7 +140,9 @@ Result<StageShot> StageSurvey::shoot(StageMove move) {
         if (!*frame || pilot_.exposed_at(**frame) < from) continue;
         if (sample_.encoder_count != count)
             return failure(Reason::not_at_rest, "the carriage moved while a picture was taken");
-        StageShot shot{move, seconds((*frame)->time_ns), tags_in(**frame), static_cast<double>(count),
+        auto tags = tags_in(**frame);
+        if (!tags) return forward(tags.error());
+        StageShot shot{move, seconds((*frame)->time_ns), *std::move(tags), static_cast<double>(count),
                        {},   (*frame)->image.clone()};
         for (const auto& [time_ns, adc] : readings)
             if (std::abs(time_ns - pilot_.exposed_at(**frame)) <= nanoseconds(reading_s))

@@ -74,7 +74,7 @@ class StageSurvey {
     Status wait(double duration_s);
     Result<StageShot> shoot(StageMove move);
     Status keep(Result<StageShot> shot);
-    calib::StageView tags_in(const vision::Frame& frame);
+    Result<calib::StageView> tags_in(const vision::Frame& frame);
 
     Status grow();
     Status grow_to(double side, const StageShot& first);
