@@ -1,0 +1,127 @@
+// What a rig records in its work, on the nominal simulated rig: there is no gap.
+#include "src/config/rig_file.h"
+#include "tests/control_guardian/child_process.h"
+#include "tests/src/temporary_folder.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace fidservo {
+namespace {
+
+using testing::ChildProcess;
+using testing::TemporaryFolder;
+
+nlohmann::json json_of(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    return nlohmann::json::parse(stream);
+}
+
+/// What `fidservo diagnose` says of some recordings.
+nlohmann::json diagnosis_of(const std::filesystem::path& recordings, const std::filesystem::path& json,
+                            const std::filesystem::path& rig_file = reference_rig_file()) {
+    ChildProcess program({FIDSERVO_PROGRAM, "diagnose", "--rig", rig_file.string(), recordings.string(),
+                          "--json", json.string()});
+    EXPECT_EQ(program.wait(), 0) << program.output();
+    return json_of(json);
+}
+
+/// Of a signal, in its unit; empty if it was not judged.
+nlohmann::json signal_of(const nlohmann::json& diagnosis, const std::string& name) {
+    for (const auto& signal : diagnosis.at("signals"))
+        if (signal.at("signal") == name) return signal;
+    return {};
+}
+
+void expect_no_gap(const nlohmann::json& diagnosis) {
+    EXPECT_EQ(diagnosis.at("verdict"), "no-gap") << diagnosis.dump(2);
+    EXPECT_EQ(diagnosis.at("ended"), "finished");
+    EXPECT_LT(diagnosis.at("gap").at("before"), 1.1);
+    EXPECT_FALSE(signal_of(diagnosis, "tag").is_null());
+}
+
+TEST(SlowOwnRecordings, Inspection_HasNoGap_AndSaysSoItself) {
+    const TemporaryFolder folder;
+    const std::filesystem::path run = folder / "run";
+    ChildProcess program(
+        {FIDSERVO_PROGRAM, "inspect", FIDSERVO_ASSETS_DIR "/demo/recipe.yaml", "--out", run.string()});
+    EXPECT_TRUE(program.output_ends(std::chrono::minutes(5)));
+    EXPECT_LE(program.wait(), 1) << program.output();  // 1: the demo plate has flaws
+    EXPECT_NE(program.output().find("rig: no-gap"), std::string::npos);
+    expect_no_gap(json_of(run / "diagnosis.json"));
+    EXPECT_TRUE(std::filesystem::exists(run / "diagnosis.html"));
+    expect_no_gap(diagnosis_of(run, folder / "whole.json"));
+    // The second site's recording alone begins in mid-work: encoder and tags are judged.
+    const nlohmann::json site = diagnosis_of(run / "recordings" / "site-017", folder / "site.json");
+    EXPECT_EQ(site.at("verdict"), "no-gap") << site.dump(2);
+    EXPECT_FALSE(signal_of(site, "encoder").is_null());
+}
+
+TEST(SlowOwnRecordings, StageCalibration_HasNoGap) {
+    const TemporaryFolder folder;
+    const std::filesystem::path run = folder / "calibrated";
+    ChildProcess program({FIDSERVO_PROGRAM, "calibrate", "stage", "--out", run.string()});
+    EXPECT_EQ(program.wait(), 0) << program.output();
+    expect_no_gap(diagnosis_of(run, folder / "diagnosis.json"));
+}
+
+/// A folder of shared/cases.
+class SharedCase : public ::testing::Test {
+  protected:
+    void find(const std::string& name) {
+        folder_ = std::filesystem::path(FIDSERVO_DATA_DIR).parent_path() / "cases" / name;
+        if (!std::filesystem::exists(folder_)) GTEST_SKIP() << "no shared data at " << folder_;
+    }
+
+    std::filesystem::path folder_;
+    TemporaryFolder out_;
+};
+
+TEST_F(SharedCase, SetpointOnATieOfTheRounding_IsNoGap) {
+    find("21-setpoint-on-a-tie");
+    if (IsSkipped()) return;
+    const nlohmann::json diagnosis = diagnosis_of(folder_ / "macro-square-1", out_ / "diagnosis.json");
+    EXPECT_EQ(diagnosis.at("verdict"), "no-gap") << diagnosis.dump(2);
+    EXPECT_LT(signal_of(diagnosis, "macro_command").at("before"), 1e-4);
+}
+
+class SlowSharedCase : public SharedCase {};
+
+/// Its data show friction in one direction only, and are off by more than any effect of the catalogue
+/// explains.
+TEST_F(SlowSharedCase, MotorOfOthers_IsAnsweredInTime_WithFrictionAmongWhatItCannotTellApart) {
+    find("19-motor-of-others");
+    if (IsSkipped()) return;
+    const nlohmann::json diagnosis = diagnosis_of(folder_, out_ / "diagnosis.json", folder_ / "rig.yaml");
+    ASSERT_FALSE(diagnosis.at("effects").empty());
+    const auto& first = diagnosis.at("effects").front();
+    EXPECT_GT(first.at("gap_removed"), 0.99);
+    std::vector<std::string> named = first.at("indistinguishable_from");
+    named.push_back(first.at("effect"));
+    EXPECT_NE(std::ranges::find(named, "coulomb_friction"), named.end()) << first.dump(2);
+}
+
+TEST_F(SharedCase, MotorOfOthers_SignalEndsItWithTheBestUntilThen) {
+    find("19-motor-of-others");
+    if (IsSkipped()) return;
+    const std::filesystem::path json = out_ / "diagnosis.json";
+    ChildProcess program({FIDSERVO_PROGRAM, "diagnose", "--rig", (folder_ / "rig.yaml").string(),
+                          folder_.string(), "--json", json.string()});
+    EXPECT_TRUE(program.prints(" closer"));
+    program.send(SIGTERM);
+    EXPECT_TRUE(program.output_ends());
+    EXPECT_EQ(program.wait(), 0) << program.output();
+    EXPECT_EQ(json_of(json).at("ended"), "interrupted");
+    EXPECT_NE(program.output().find("ended: interrupted"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fidservo
