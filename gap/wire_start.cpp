@@ -22,21 +22,30 @@ void slide_wire(const FodTable& table, PreisachMemory& wire, double temp_degC) {
                           table.contraction_mm(wire.last_peak_degC, valley_degC);
 }
 
-/// Sum of squared errors, LSB^2, from a first state on until a warm wire would have cooled.
-double squares_while_cooling(const PlatformModel& model, const PlatformRun& run,
-                             plant::MicroStageState state) {
-    constexpr double taus = 3.0;
-    const double enough_s = taus * model.stage.heater.parameters.cooling_tau_s;
-    double squares = 0.0, passed_s = 0.0;
+/// By then a warm wire has cooled.
+constexpr double cooling_taus = 3.0;
+
+/// Errors from a first state on until a warm wire would have cooled.
+struct Cooling {
+    double square = 0.0;    ///< sum, LSB^2
+    double variance = 0.0;  ///< about their mean, LSB^2
+};
+
+Cooling while_cooling(const PlatformModel& model, const PlatformRun& run, plant::MicroStageState state) {
+    const double enough_s = cooling_taus * model.stage.heater.parameters.cooling_tau_s;
+    double sum = 0.0, squares = 0.0, count = 0.0, passed_s = 0.0;
     for (std::size_t k = 0; k < run.hall_adc.size() && passed_s < enough_s; ++k) {
         if (std::isfinite(run.hall_adc[k])) {
             const double error_lsb = mean_reading_lsb(model.stage, state) - run.hall_adc[k];
+            sum += error_lsb;
             squares += error_lsb * error_lsb;
+            count += 1.0;
         }
         step(model, run, nullptr, k, state);
         passed_s += run.ticks[k] * run.tick_s;
     }
-    return squares;
+    if (count == 0.0) return {};
+    return {squares, squares / count - (sum / count) * (sum / count)};
 }
 
 /// By how much the first readings exceed those of a cold wire, LSB.
@@ -110,6 +119,27 @@ bool moves_at_once(const PlatformModel& nominal, const PlatformRun& run) {
     return std::abs(ty - t * y / n) > clear * run.floor_lsb * std::sqrt(spread);
 }
 
+/// Whether a wire was warmer than the room: of the temperatures at which it reads no more than the first
+/// readings and what a sensor's zero can be off by, one predicts what follows far better than the room's,
+/// whatever that zero is.
+bool was_heated(const PlatformModel& nominal, const PlatformRun& run, double excess_lsb) {
+    constexpr double step_degC = 2.0, far_better = 0.5, floors = 3.0, most_zero_lsb = 10.0;
+    if (run.command_V.empty() || run.command_V.front() <= nominal.stage.heater.parameters.onset_V)
+        return false;
+    const plant::MicroStageState cold = plant::start(nominal.stage, 0);
+    const double cold_variance = while_cooling(nominal, run, cold).variance;
+    if (cold_variance < floors * floors * run.floor_lsb * run.floor_lsb) return false;
+    const double most_lsb = mean_reading_lsb(nominal.stage, cold) + std::max(0.0, excess_lsb) + most_zero_lsb;
+    for (double warmer_degC = step_degC; warmer_degC < nominal.stage.fod->high_degC();
+         warmer_degC += step_degC) {
+        plant::MicroStageState warm = cold;
+        slide(nominal.stage, warm, warmer_degC);
+        if (mean_reading_lsb(nominal.stage, warm) > most_lsb) return false;
+        if (while_cooling(nominal, run, warm).variance < far_better * cold_variance) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 void step(const PlatformModel& model, const PlatformRun& run, const CarriagePath* carriage, std::size_t row,
@@ -138,12 +168,13 @@ plant::MicroStageState first_state(const PlatformModel& model, const PlatformRun
     const Excess excess = first_excess(model, run);
     if (!excess.is_clear) return cold;
     const plant::MicroStageState warm = heated_to(model, excess.mean_lsb);
-    return squares_while_cooling(model, run, warm) < squares_while_cooling(model, run, cold) ? warm : cold;
+    return while_cooling(model, run, warm).square < while_cooling(model, run, cold).square ? warm : cold;
 }
 
 bool starts_warm(const PlatformModel& nominal, const PlatformRun& run) {
     constexpr double most_zero = 0.05;  // of the stroke's readings: no sensor's zero is off by more
     const Excess excess = first_excess(nominal, run);
+    if (was_heated(nominal, run, excess.mean_lsb)) return true;
     if (!excess.is_clear) return false;
     const HallParameters& hall = nominal.stage.hall.parameters;
     const double stroke_lsb =

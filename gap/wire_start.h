@@ -8,8 +8,10 @@ namespace fidservo::gap {
 /// follows does: a sensor that reads high at a cold wire goes on to, a warm wire cools.
 plant::MicroStageState first_state(const PlatformModel& model, const PlatformRun& run);
 
-/// Whether a wire is warm at the start of a recording: by more than a sensor's zero can be off, or because
-/// what follows scatters far less about a wire that cools than about a cold one whose sensor reads high.
+/// Whether a wire is warm at the start of a recording, so that neither its temperature nor its memory is
+/// known: its readings exceed a cold wire's by more than a sensor's zero can be off, or exceed them and move
+/// while a cold wire's would stand still; or the heater is on from the first row, and what follows is
+/// predicted far better from a higher temperature at which the wire is still extended.
 /// @param nominal  the rig file's stage
 bool starts_warm(const PlatformModel& nominal, const PlatformRun& run);
 

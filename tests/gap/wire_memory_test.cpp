@@ -71,6 +71,17 @@ INSTANTIATE_TEST_SUITE_P(Starts, WarmWire,
                                            Beginning{"micro-triangle", 3300}, Beginning{"micro-servo", 4000},
                                            Beginning{"integrated", 5000}));
 
+TEST(WarmWire, NominalRig_IsAtTheFloor_WhereverItsRecordingBegins) {
+    for (const std::string_view kind : {"micro-triangle", "micro-steps", "micro-servo"}) {
+        const Recording whole = recorded(kind, {}, 45);
+        for (std::size_t first = 400; first < 8500; first += 450) {
+            const Evidence evidence(reference_rig(), {from(whole, first)});
+            EXPECT_LT(rms(evidence, evidence.errors({}, everything(evidence)), Signal::hall), 1.4)
+                << kind << " from row " << first;
+        }
+    }
+}
+
 TEST(WarmWire, ColdStart_IsJudgedFromItsFirstWindowOn_WhateverTheSensorsZero) {
     for (const std::string_view kind : {"micro-steps", "micro-servo", "macro-pulses", "rest"}) {
         const Evidence plain(reference_rig(), {recorded(kind, {}, 44)});
