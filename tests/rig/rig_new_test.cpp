@@ -120,7 +120,7 @@ TEST(SlowRigNew, EveryOtherCommand_TakesIt) {
     expect_taken(folder, {"diagnose", "campaign", "--rig", "rig.yaml"});
 }
 
-TEST(RigNew, AxisAlone_IsSimulatedAndIdentified) {
+TEST(SlowRigNew, AxisAlone_IsSimulatedAndIdentified) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_new(folder, {"--kind", "axis", "--travel-mm=-150,150"}).exit_code, 0);
     expect_taken(folder, {"simulate", "campaign", "--rig", "rig.yaml", "--out", "c"});
