@@ -133,8 +133,8 @@ double friction_V_of(const RigDraft& draft) {
 int columns_of(const RigDraft& draft) {
     if (draft.columns > 0) return draft.columns;
     const double needed = std::floor(std::max(0.0, draft.travel_mm[1]) / draft.pitch_mm) + 1.0;
-    const double printed = (family_size - draft.first_id) / std::max(1, draft.rows);
-    return std::max(1, static_cast<int>(std::min(needed, printed)));
+    const int printed = (family_size - draft.first_id) / std::max(1, draft.rows);
+    return std::max(1, static_cast<int>(std::min(needed, static_cast<double>(printed))));
 }
 
 void demand_sound(const RigDraft& draft) {

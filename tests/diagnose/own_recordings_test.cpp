@@ -51,8 +51,8 @@ void expect_no_gap(const nlohmann::json& diagnosis) {
 TEST(SlowOwnRecordings, Inspection_HasNoGap_AndSaysSoItself) {
     const TemporaryFolder folder;
     const std::filesystem::path run = folder / "run";
-    ChildProcess program(
-        {FIDSERVO_PROGRAM, "inspect", FIDSERVO_ASSETS_DIR "/demo/recipe.yaml", "--out", run.string()});
+    const std::string recipe = FIDSERVO_ASSETS_DIR "/demo/recipe.yaml";
+    ChildProcess program({FIDSERVO_PROGRAM, "inspect", recipe, "--out", run.string()});
     EXPECT_TRUE(program.output_ends(std::chrono::minutes(5)));
     EXPECT_LE(program.wait(), 1) << program.output();  // 1: the demo plate has flaws
     EXPECT_NE(program.output().find("rig: no-gap"), std::string::npos);

@@ -1,5 +1,6 @@
 #include "src/diagnose/thinned.h"
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@ Recording lasting(const std::string& name, double duration_s) {
     Recording recording;
     recording.name = name;
     recording.tick_s = 0.1;
-    const auto rows = static_cast<std::size_t>(duration_s / recording.tick_s + 0.5);
+    const auto rows = static_cast<std::size_t>(std::lround(duration_s / recording.tick_s));
     recording.rows.resize(rows);
     for (std::size_t k = 0; k < rows; ++k) {
         recording.rows[k].time_ns = static_cast<TimeNs>(k) * 100'000'000;

@@ -28,7 +28,7 @@ struct Firmware {
 };
 
 Recording controlled_by(const Firmware& firmware) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     PdGains gains = *rig.macro.pd;
     gains.e0_V_per_count *= firmware.gain;
     gains.e1_V_per_count *= firmware.gain;
