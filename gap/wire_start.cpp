@@ -124,8 +124,6 @@ bool moves_at_once(const PlatformModel& nominal, const PlatformRun& run) {
 /// whatever that zero is.
 bool was_heated(const PlatformModel& nominal, const PlatformRun& run, double excess_lsb) {
     constexpr double step_degC = 2.0, far_better = 0.25, floors = 3.0, most_zero_lsb = 10.0;
-    if (run.command_V.empty() || run.command_V.front() <= nominal.stage.heater.parameters.onset_V)
-        return false;
     const plant::MicroStageState cold = plant::start(nominal.stage, 0);
     const double cold_variance = while_cooling(nominal, run, cold).variance;
     if (cold_variance < floors * floors * run.floor_lsb * run.floor_lsb) return false;
