@@ -186,6 +186,11 @@ std::ptrdiff_t leave_out_unpredictable(const Evidence& evidence, Selection& sele
     return count;
 }
 
+Verdict verdict_of(const Selection& selection, bool something_is_left) {
+    if (selection.choices.empty()) return something_is_left ? Verdict::unexplained : Verdict::no_gap;
+    return something_is_left ? Verdict::partly_explained : Verdict::explained;
+}
+
 /// What the search has found, with what it is worth.
 Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tried, Selection selection,
                      double tail) {
@@ -210,10 +215,7 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
         const std::string wanting = what_is_wanting(evidence, selection);
         if (!wanting.empty()) diagnosis.unexplained->text += "; " + wanting;
     }
-    if (selection.choices.empty())
-        diagnosis.verdict = trust.missing ? Verdict::unexplained : Verdict::no_gap;
-    else
-        diagnosis.verdict = trust.missing ? Verdict::partly_explained : Verdict::explained;
+    diagnosis.verdict = verdict_of(selection, trust.missing.has_value());
     diagnosis.notes = undecided(evidence, tried, selection);
     if (left_out > 0)
         diagnosis.notes.push_back(
@@ -244,11 +246,7 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection) {
     for (FoundEffect& effect : diagnosis.effects) effect.probability *= trust;
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, trust);
-    const bool is_left = diagnosis.gap.after > at_the_floor;
-    if (selection.choices.empty())
-        diagnosis.verdict = is_left ? Verdict::unexplained : Verdict::no_gap;
-    else
-        diagnosis.verdict = is_left ? Verdict::partly_explained : Verdict::explained;
+    diagnosis.verdict = verdict_of(selection, diagnosis.gap.after > at_the_floor);
     return diagnosis;
 }
 

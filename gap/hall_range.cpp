@@ -48,6 +48,10 @@ double longest_stay(const std::vector<Recording>& recordings, double hall_adc) {
 
 }  // namespace
 
+double mm_per_lsb(const HallParameters& hall) {
+    return hall_lsb_V(hall) / hall_slope_V_per_mm(hall, hall.centre_mm);
+}
+
 double within(const HallRange& range, double hall_adc) {
     return hall_adc > range.low_adc && hall_adc < range.high_adc ? hall_adc
                                                                  : std::numeric_limits<double>::quiet_NaN();

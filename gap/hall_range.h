@@ -17,6 +17,9 @@ struct HallRange {
     double low_adc = 0.0, high_adc = 4095.0;
 };
 
+/// How far the platform moves per step of the converter, in the middle of its range.
+double mm_per_lsb(const HallParameters& hall);
+
 /// A reading, or NaN where it is missing or at an end of the range.
 double within(const HallRange& range, double hall_adc);
 

@@ -11,9 +11,8 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace fidservo::gap {
 
@@ -45,8 +44,6 @@ void append(Recording& run, Recording next) {
     const auto add = [](auto& to, auto&& from) {
         to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
     };
-    const std::size_t first_part_end = run.name.find(" to ");
-    run.name = fmt::format("{} to {}", run.name.substr(0, first_part_end), next.name);
     if (run.experiment != next.experiment) run.experiment = "run";
     if (next.encoder_zero &&
         (!run.encoder_zero || next.encoder_zero->std_count < run.encoder_zero->std_count))
@@ -147,8 +144,13 @@ std::vector<Recording> joined(std::vector<Recording> recordings, const Rig& rig)
     std::vector<Recording> runs;
     for (std::size_t i = 0; i < recordings.size(); ++i) {
         if (is_continued[i]) continue;
+        std::string last_name;
         runs.push_back(std::move(recordings[i]));
-        for (std::size_t k = next[i]; k != none; k = next[k]) append(runs.back(), std::move(recordings[k]));
+        for (std::size_t k = next[i]; k != none; k = next[k]) {
+            last_name = recordings[k].name;
+            append(runs.back(), std::move(recordings[k]));
+        }
+        if (!last_name.empty()) runs.back().name += " to " + last_name;
     }
     return runs;
 }

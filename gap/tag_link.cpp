@@ -184,11 +184,6 @@ void add_change(TagSighting& sighting, const CornerValues& slope, const Eigen::V
     sighting.floors_px = (sighting.floors_px.cwiseAbs2() + turned(sighting, off_px).cwiseAbs2()).cwiseSqrt();
 }
 
-/// In the middle of the travel.
-double mm_per_lsb(const HallParameters& hall) {
-    return hall_lsb_V(hall) / hall_slope_V_per_mm(hall, hall.centre_mm);
-}
-
 /// Leaves out the rows beside a pause of the Hall readings: lines through the readings of one side only tell
 /// less of where the platform is than those through both (gap/hall_smoothing.h).
 void leave_out_rims(const Recording& recording, const PlatformRun& platform, std::vector<bool>& usable) {

@@ -52,8 +52,7 @@ std::vector<double> unknown_mm(const PlatformRun& run, const PlatformModel& nomi
 void keep_known_memory(PlatformRun& run, const PlatformModel& nominal) {
     if (run.windows.empty() || !starts_warm(nominal, run)) return;
     const std::vector<double> unknown = unknown_mm(run, nominal);
-    const HallParameters& hall = nominal.stage.hall.parameters;
-    const double floor_mm = run.floor_lsb * hall_lsb_V(hall) / hall_slope_V_per_mm(hall, hall.centre_mm);
+    const double floor_mm = run.floor_lsb * mm_per_lsb(nominal.stage.hall.parameters);
     const double enough_mm = 0.5 * floor_mm;
     std::vector<WindowRows> known;
     std::vector<bool> is_beside;

@@ -174,9 +174,7 @@ bool starts_warm(const PlatformModel& nominal, const PlatformRun& run) {
     const Excess excess = first_excess(nominal, run);
     if (was_heated(nominal, run, excess.mean_lsb)) return true;
     if (!excess.is_clear) return false;
-    const HallParameters& hall = nominal.stage.hall.parameters;
-    const double stroke_lsb =
-        nominal.stage.fod->stroke_mm() * hall_slope_V_per_mm(hall, hall.centre_mm) / hall_lsb_V(hall);
+    const double stroke_lsb = nominal.stage.fod->stroke_mm() / mm_per_lsb(nominal.stage.hall.parameters);
     return excess.mean_lsb > most_zero * stroke_lsb || moves_at_once(nominal, run);
 }
 

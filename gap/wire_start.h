@@ -10,8 +10,8 @@ plant::MicroStageState first_state(const PlatformModel& model, const PlatformRun
 
 /// Whether a wire is warm at the start of a recording, so that neither its temperature nor its memory is
 /// known: its readings exceed a cold wire's by more than a sensor's zero can be off, or exceed them and move
-/// while a cold wire's would stand still; or the heater is on from the first row, and what follows is
-/// predicted far better from a higher temperature at which the wire is still extended.
+/// while a cold wire's would stand still; or what follows is predicted far better from a higher temperature,
+/// at which the first readings can be what they are.
 /// @param nominal  the rig file's stage
 bool starts_warm(const PlatformModel& nominal, const PlatformRun& run);
 
