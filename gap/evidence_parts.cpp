@@ -5,6 +5,7 @@
 #include "gap/clear_detections.h"
 #include "gap/noise_floor.h"
 #include "gap/wire_memory.h"
+#include "gap/wire_start.h"
 
 #include <algorithm>
 #include <cmath>
@@ -220,6 +221,7 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
             platform_run(recording, *rig.micro, parts.hall_range, parts.floors[index_of(Signal::hall)]);
         links.platform->budget = parts.budget;
         const PlatformModel stage = platform_model(nominal);
+        links.platform->start = wire_start(stage, *links.platform);
         keep_known_memory(*links.platform, stage);
         platform = predicted_readings(stage, *links.platform, nullptr);
         links.smoothed = smoothed_reading(*links.platform, platform->path_lsb, rig.macro.command_limit_V);

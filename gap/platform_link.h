@@ -24,6 +24,13 @@
 
 namespace fidservo::gap {
 
+/// What is known of a wire when its recording begins.
+enum class WireStart {
+    cold,     ///< at the room's temperature
+    unmoved,  ///< it remembers nothing, but may be warmer than the room
+    warm,     ///< neither its temperature nor its memory is known
+};
+
 /// What a recording says of the platform, row by row.
 struct PlatformRun {
     double tick_s = 0.0;
@@ -36,6 +43,7 @@ struct PlatformRun {
     /// Of each window, whether the platform is beside its prediction by a constant that the rows before it
     /// tell (gap/wire_memory.h); empty: none is.
     std::vector<bool> is_beside;
+    WireStart start = WireStart::cold;  ///< gap/wire_start.h
     double floor_lsb = 0.0;
 };
 

@@ -40,6 +40,21 @@ bool goes_on(const Recording& before, const Recording& after, const Rig& rig) {
     return std::abs(way_counts) <= most_counts;
 }
 
+bool overlap(const Recording& a, const Recording& b) {
+    return !a.rows.empty() && !b.rows.empty() && a.rows.front().time_ns <= b.rows.back().time_ns &&
+           b.rows.front().time_ns <= a.rows.back().time_ns;
+}
+
+/// Of each recording, whether another one covers some of its time: a rig does one thing at a time, so that
+/// their clocks are not one.
+std::vector<bool> on_own_clocks(const std::vector<Recording>& recordings) {
+    std::vector<bool> on_own(recordings.size(), false);
+    for (std::size_t i = 0; i < recordings.size(); ++i)
+        for (std::size_t k = i + 1; k < recordings.size(); ++k)
+            if (overlap(recordings[i], recordings[k])) on_own[i] = on_own[k] = true;
+    return on_own;
+}
+
 void append(Recording& run, Recording next) {
     const auto add = [](auto& to, auto&& from) {
         to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
@@ -135,9 +150,11 @@ std::vector<Recording> joined(std::vector<Recording> recordings, const Rig& rig)
     constexpr std::size_t none = static_cast<std::size_t>(-1);
     std::vector<std::size_t> next(recordings.size(), none);
     std::vector<bool> is_continued(recordings.size(), false);  // another one leads to it
+    const std::vector<bool> is_apart = on_own_clocks(recordings);
     for (std::size_t i = 0; i < recordings.size(); ++i)
         for (std::size_t k = 0; k < recordings.size() && next[i] == none; ++k)
-            if (!is_continued[k] && goes_on(recordings[i], recordings[k], rig)) {
+            if (!is_apart[i] && !is_apart[k] && !is_continued[k] &&
+                goes_on(recordings[i], recordings[k], rig)) {
                 next[i] = k;
                 is_continued[k] = true;
             }

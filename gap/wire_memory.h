@@ -17,7 +17,7 @@ namespace fidservo::gap {
 
 /// Of a run whose wire is warm at its start, keeps the windows in which no relay switches of which nothing is
 /// known, and marks those that are beside their prediction by a constant. The temperature counts from when
-/// what it was at the start is forgotten. A run whose wire is cold at its start stays as it is.
+/// what it was at the start is forgotten. A run whose wire remembers nothing at its start stays as it is.
 /// @param nominal  the rig file's stage
 void keep_known_memory(PlatformRun& run, const PlatformModel& nominal);
 

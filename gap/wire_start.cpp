@@ -92,14 +92,18 @@ plant::MicroStageState heated_to(const PlatformModel& model, double excess_lsb) 
     return heated(low);
 }
 
-/// Whether readings drift while those of a cold wire would stand still: from the start until it is warm
-/// enough to move, or the motor's voltage, of which some may leak into the readings, is another one.
-bool moves_at_once(const PlatformModel& nominal, const PlatformRun& run) {
+/// How readings go while those of a cold wire would stand still; a warm one's can only where it is heated.
+enum class Trend { unknown, still, drifting };
+
+/// From the start until a cold wire is warm enough to move, or the motor's voltage, of which some may leak
+/// into the readings, is another one.
+Trend first_trend(const PlatformModel& nominal, const PlatformRun& run) {
     constexpr double longest_s = 1.0, still_lsb = 0.3, same_V = 0.1, clear = 5.0;
-    constexpr double least_readings = 10.0;
+    constexpr double least_readings = 10.0, least_still_s = 0.3;
     plant::MicroStageState cold = plant::start(nominal.stage, 0);
     const double still_at_lsb = mean_reading_lsb(nominal.stage, cold);
     double n = 0.0, t = 0.0, tt = 0.0, y = 0.0, ty = 0.0, passed_s = 0.0;
+    bool is_heated = false;
     for (std::size_t k = 0; k < run.hall_adc.size() && passed_s < longest_s; ++k) {
         if (std::abs(mean_reading_lsb(nominal.stage, cold) - still_at_lsb) > still_lsb ||
             std::abs(run.macro_command_V[k] - run.macro_command_V[0]) > same_V)
@@ -111,31 +115,73 @@ bool moves_at_once(const PlatformModel& nominal, const PlatformRun& run) {
             y += run.hall_adc[k];
             ty += passed_s * run.hall_adc[k];
         }
+        is_heated = is_heated || run.command_V[k] > nominal.stage.heater.parameters.onset_V;
         step(nominal, run, nullptr, k, cold);
         passed_s += run.ticks[k] * run.tick_s;
     }
-    if (n < least_readings) return false;
+    if (n < least_readings) return Trend::unknown;
     const double spread = tt - t * t / n;
-    return std::abs(ty - t * y / n) > clear * run.floor_lsb * std::sqrt(spread);
+    if (std::abs(ty - t * y / n) > clear * run.floor_lsb * std::sqrt(spread)) return Trend::drifting;
+    return passed_s >= least_still_s && !is_heated ? Trend::still : Trend::unknown;
 }
 
-/// Whether a wire was warmer than the room: of the temperatures at which it reads no more than the first
-/// readings and what a sensor's zero can be off by, one predicts what follows far better than the room's,
-/// whatever that zero is.
-bool was_heated(const PlatformModel& nominal, const PlatformRun& run, double excess_lsb) {
-    constexpr double step_degC = 2.0, far_better = 0.25, floors = 3.0, most_zero_lsb = 10.0;
+/// Errors fall to a quarter: three independent stretches, one for each time constant of the cooling, whose
+/// errors are half as large, are seven times as likely.
+constexpr double far_better = 0.25;
+
+/// How a cold wire and the best of the warmer ones that can read what is read first predict what follows,
+/// whatever the sensor's zero is: variances of the errors, LSB^2.
+struct ColdOrWarm {
+    double cold = 0.0, warm = 0.0;
+    bool is_warm() const { return warm < far_better * cold; }
+};
+
+ColdOrWarm cold_or_warm(const PlatformModel& nominal, const PlatformRun& run, double excess_lsb) {
+    constexpr double step_degC = 2.0, most_zero_lsb = 10.0;
     const plant::MicroStageState cold = plant::start(nominal.stage, 0);
-    const double cold_variance = while_cooling(nominal, run, cold).variance;
-    if (cold_variance < floors * floors * run.floor_lsb * run.floor_lsb) return false;
+    ColdOrWarm found;
+    found.cold = found.warm = while_cooling(nominal, run, cold).variance;
     const double most_lsb = mean_reading_lsb(nominal.stage, cold) + std::max(0.0, excess_lsb) + most_zero_lsb;
-    for (double warmer_degC = step_degC; warmer_degC < nominal.stage.fod->high_degC();
+    for (double warmer_degC = step_degC; warmer_degC < nominal.stage.fod->high_degC() && !found.is_warm();
          warmer_degC += step_degC) {
         plant::MicroStageState warm = cold;
         slide(nominal.stage, warm, warmer_degC);
-        if (mean_reading_lsb(nominal.stage, warm) > most_lsb) return false;
-        if (while_cooling(nominal, run, warm).variance < far_better * cold_variance) return true;
+        if (mean_reading_lsb(nominal.stage, warm) > most_lsb) break;
+        found.warm = std::min(found.warm, while_cooling(nominal, run, warm).variance);
     }
-    return false;
+    return found;
+}
+
+/// A wire that reads as a cold one does, at the temperature from which what follows is predicted best, or
+/// cold if no other one is far better.
+plant::MicroStageState unmoved(const PlatformModel& model, const PlatformRun& run) {
+    constexpr double resolution_degC = 0.5, golden = 0.6180339887498949, not_seen_lsb = 1.0;
+    const plant::MicroStageState cold = plant::start(model.stage, 0);
+    const auto warmer = [&](double by_degC) {
+        plant::MicroStageState warm = cold;
+        slide(model.stage, warm, by_degC);
+        return warm;
+    };
+    const auto square = [&](double by_degC) { return while_cooling(model, run, warmer(by_degC)).square; };
+    double low = 0.0;
+    double high = heated_to(model, not_seen_lsb).heater.temp_degC - cold.heater.temp_degC;
+    double left = high - golden * (high - low), right = low + golden * (high - low);
+    double at_left = square(left), at_right = square(right);
+    while (high - low > resolution_degC) {
+        if (at_left < at_right) {
+            high = right;
+            right = left;
+            at_right = at_left;
+            at_left = square(left = high - golden * (high - low));
+        } else {
+            low = left;
+            left = right;
+            at_left = at_right;
+            at_right = square(right = low + golden * (high - low));
+        }
+    }
+    const double best = 0.5 * (low + high);
+    return square(best) < far_better * square(0.0) ? warmer(best) : cold;
 }
 
 }  // namespace
@@ -162,20 +208,26 @@ void slide(const plant::MicroStage& stage, plant::MicroStageState& state, double
 }
 
 plant::MicroStageState first_state(const PlatformModel& model, const PlatformRun& run) {
-    const plant::MicroStageState cold = plant::start(model.stage, 0);
-    const Excess excess = first_excess(model, run);
-    if (!excess.is_clear) return cold;
-    const plant::MicroStageState warm = heated_to(model, excess.mean_lsb);
-    return while_cooling(model, run, warm).square < while_cooling(model, run, cold).square ? warm : cold;
+    switch (run.start) {
+        case WireStart::cold:
+            return plant::start(model.stage, 0);
+        case WireStart::unmoved:
+            return unmoved(model, run);
+        case WireStart::warm:
+            return heated_to(model, first_excess(model, run).mean_lsb);
+    }
+    return plant::start(model.stage, 0);
 }
 
-bool starts_warm(const PlatformModel& nominal, const PlatformRun& run) {
-    constexpr double most_zero = 0.05;  // of the stroke's readings: no sensor's zero is off by more
+WireStart wire_start(const PlatformModel& nominal, const PlatformRun& run) {
+    constexpr double at_the_floor = 4.0;  // times its variance
     const Excess excess = first_excess(nominal, run);
-    if (was_heated(nominal, run, excess.mean_lsb)) return true;
-    if (!excess.is_clear) return false;
-    const double stroke_lsb = nominal.stage.fod->stroke_mm() / mm_per_lsb(nominal.stage.hall.parameters);
-    return excess.mean_lsb > most_zero * stroke_lsb || moves_at_once(nominal, run);
+    const Trend trend = first_trend(nominal, run);
+    const ColdOrWarm way = cold_or_warm(nominal, run, excess.mean_lsb);
+    if (way.is_warm() || (excess.is_clear && trend == Trend::drifting)) return WireStart::warm;
+    const bool is_cold = way.cold <= at_the_floor * run.floor_lsb * run.floor_lsb;
+    if (is_cold || (excess.is_clear && trend == Trend::still)) return WireStart::cold;
+    return excess.is_clear ? WireStart::warm : WireStart::unmoved;
 }
 
 }  // namespace fidservo::gap

@@ -4,16 +4,17 @@
 
 namespace fidservo::gap {
 
-/// A stage whose wire was heated from cold to where the first readings are; cold if they say so, or if what
-/// follows does: a sensor that reads high at a cold wire goes on to, a warm wire cools.
+/// The stage at a run's first row, as far as a hypothesis can tell: cold; or unmoved, at the temperature from
+/// which it predicts best what follows; or heated from cold to where the first readings are.
 plant::MicroStageState first_state(const PlatformModel& model, const PlatformRun& run);
 
-/// Whether a wire is warm at the start of a recording, so that neither its temperature nor its memory is
-/// known: its readings exceed a cold wire's by more than a sensor's zero can be off, or exceed them and move
-/// while a cold wire's would stand still; or what follows is predicted far better from a higher temperature,
-/// at which the first readings can be what they are.
+/// What the rig file's stage can tell of the wire at the start of a run. A rig that differs from its file is
+/// predicted badly from any temperature, so that a wire is cold only if that shows: what follows is at the
+/// floor, or readings stand still that a warm wire, cooling, would change. It is warm if what follows is
+/// predicted far better from a higher temperature at which the first readings can be what they are, or if
+/// nothing else explains that these exceed a cold wire's.
 /// @param nominal  the rig file's stage
-bool starts_warm(const PlatformModel& nominal, const PlatformRun& run);
+WireStart wire_start(const PlatformModel& nominal, const PlatformRun& run);
 
 /// One row of a run; a platform that feels the carriage needs its path.
 void step(const PlatformModel& model, const PlatformRun& run, const CarriagePath* carriage, std::size_t row,

@@ -82,6 +82,13 @@ TEST(Joined, LongPause_OtherCount_OtherController_StayApart) {
     EXPECT_EQ(runs_with(other), 2U);
 }
 
+TEST(Joined, ARecordingOfTheSameTime_ShowsThatClocksDiffer) {
+    const Recording whole = counted_from(recorded("integrated"), 500.0);
+    const Recording before = part(whole, 0, 9000, "before"), after = part(whole, 9039, 12'000, "after");
+    EXPECT_EQ(joined({before, after, part(whole, 12'500, 20'000, "later")}, reference_rig()).size(), 2U);
+    EXPECT_EQ(joined({before, after, part(whole, 8000, 20'000, "same time")}, reference_rig()).size(), 3U);
+}
+
 TEST(Joined, RecordingsThatAllBeginAtZero_StayApart) {
     EXPECT_EQ(
         joined({recorded("macro-sweep"), recorded("rest"), recorded("micro-steps")}, reference_rig()).size(),
