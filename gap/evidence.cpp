@@ -251,7 +251,7 @@ Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings, std::share
         command_floor_V(parts.recordings, &StageRow::micro_command_V);
     parts.floors[index_of(Signal::image)] = 1.0;
     find_looks(parts);
-    parts.links.reserve(parts.recordings.size());
+    find_wires(parts);
     for (std::size_t run = 0; run < parts.recordings.size(); ++run) add_run(parts, run);
     parts.first_window.push_back(parts.windows.size());
     for (std::size_t signal = 0; signal < signal_count; ++signal)

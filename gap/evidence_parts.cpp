@@ -205,11 +205,29 @@ void find_looks(Evidence::Parts& parts) {
     parts.shutter = seen_shutter(parts.recordings, parts.images, camera);
 }
 
+void find_wires(Evidence::Parts& parts) {
+    parts.links.resize(parts.recordings.size());
+    if (!parts.rig.micro) return;
+    const PlatformModel stage = platform_model(plant::plant_parameters(parts.rig));
+    std::vector<const PlatformRun*> runs;
+    for (std::size_t run = 0; run < parts.recordings.size(); ++run) {
+        PlatformRun& platform = parts.links[run].platform.emplace(platform_run(
+            parts.recordings[run], *parts.rig.micro, parts.hall_range, parts.floors[index_of(Signal::hall)]));
+        platform.budget = parts.budget;
+        runs.push_back(&platform);
+    }
+    const double zero_lsb = zero_of_sensor_lsb(stage, runs);
+    for (RunLinks& links : parts.links) {
+        links.platform->start = wire_start(stage, *links.platform, zero_lsb);
+        keep_known_memory(*links.platform, stage);
+    }
+}
+
 void add_run(Evidence::Parts& parts, std::size_t run) {
     const Recording& recording = parts.recordings[run];
     const Rig& rig = parts.rig;
     const plant::PlantParameters nominal = plant::plant_parameters(rig);
-    RunLinks& links = parts.links.emplace_back();
+    RunLinks& links = parts.links[run];
     links.carriage = carriage_run(recording, rig.macro, parts.places[run] != PlacesFrom::nowhere);
     links.carriage.budget = parts.budget;
     predicted_counts(carriage_model(nominal), links.carriage, links.path);
@@ -217,12 +235,7 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
         drop_unclear_detections(parts, run);
     std::optional<PlatformPrediction> platform;
     if (rig.micro) {
-        links.platform =
-            platform_run(recording, *rig.micro, parts.hall_range, parts.floors[index_of(Signal::hall)]);
-        links.platform->budget = parts.budget;
         const PlatformModel stage = platform_model(nominal);
-        links.platform->start = wire_start(stage, *links.platform);
-        keep_known_memory(*links.platform, stage);
         platform = predicted_readings(stage, *links.platform, nullptr);
         links.smoothed = smoothed_reading(*links.platform, platform->path_lsb, rig.macro.command_limit_V);
     }

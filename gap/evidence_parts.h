@@ -62,7 +62,10 @@ void find_noise(Evidence::Parts& parts);
 /// How tags look in all recordings, and what that says of the shutter.
 void find_looks(Evidence::Parts& parts);
 
-/// Prepares a recording, lists its windows, and notes what is left out.
+/// Prepares what all recordings say of the platform, and finds in which state each finds the wire.
+void find_wires(Evidence::Parts& parts);
+
+/// Prepares the rest of a recording, lists its windows, and notes what is left out.
 void add_run(Evidence::Parts& parts, std::size_t run);
 
 }  // namespace fidservo::gap

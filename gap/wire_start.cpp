@@ -1,7 +1,11 @@
 #include "gap/wire_start.h"
 
+#include "core/median.h"
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace fidservo::gap {
 
@@ -55,7 +59,8 @@ struct Excess {
     bool is_clear = false;  ///< more than noise and rounding
 };
 
-Excess first_excess(const PlatformModel& model, const PlatformRun& run) {
+/// @param zero_lsb  by which the sensor is known to read otherwise
+Excess first_excess(const PlatformModel& model, const PlatformRun& run, double zero_lsb = 0.0) {
     constexpr std::size_t glance = 20;
     constexpr double clear = 5.0, least_lsb = 1.0;
     plant::MicroStageState state = plant::start(model.stage, 0);
@@ -68,7 +73,7 @@ Excess first_excess(const PlatformModel& model, const PlatformRun& run) {
         step(model, run, nullptr, k, state);
     }
     if (excess.readings == 0) return excess;
-    excess.mean_lsb /= excess.readings;
+    excess.mean_lsb = excess.mean_lsb / excess.readings - zero_lsb;
     excess.is_clear = excess.mean_lsb >= least_lsb + clear * run.floor_lsb / std::sqrt(excess.readings);
     return excess;
 }
@@ -219,9 +224,16 @@ plant::MicroStageState first_state(const PlatformModel& model, const PlatformRun
     return plant::start(model.stage, 0);
 }
 
-WireStart wire_start(const PlatformModel& nominal, const PlatformRun& run) {
+double zero_of_sensor_lsb(const PlatformModel& nominal, std::span<const PlatformRun* const> runs) {
+    std::vector<double> zeros;
+    for (const PlatformRun* run : runs)
+        if (first_trend(nominal, *run) == Trend::still) zeros.push_back(first_excess(nominal, *run).mean_lsb);
+    return zeros.empty() ? 0.0 : median_of(std::move(zeros));
+}
+
+WireStart wire_start(const PlatformModel& nominal, const PlatformRun& run, double zero_lsb) {
     constexpr double at_the_floor = 4.0;  // times its variance
-    const Excess excess = first_excess(nominal, run);
+    const Excess excess = first_excess(nominal, run, zero_lsb);
     const Trend trend = first_trend(nominal, run);
     const ColdOrWarm way = cold_or_warm(nominal, run, excess.mean_lsb);
     if (way.is_warm() || (excess.is_clear && trend == Trend::drifting)) return WireStart::warm;

@@ -2,6 +2,8 @@
 // In which state a recording finds the wire.
 #include "gap/platform_link.h"
 
+#include <span>
+
 namespace fidservo::gap {
 
 /// The stage at a run's first row, as far as a hypothesis can tell: cold; or unmoved, at the temperature from
@@ -14,7 +16,13 @@ plant::MicroStageState first_state(const PlatformModel& model, const PlatformRun
 /// predicted far better from a higher temperature at which the first readings can be what they are, or if
 /// nothing else explains that these exceed a cold wire's.
 /// @param nominal  the rig file's stage
-WireStart wire_start(const PlatformModel& nominal, const PlatformRun& run);
+/// @param zero_lsb  what the sensor reads more than by the rig file
+WireStart wire_start(const PlatformModel& nominal, const PlatformRun& run, double zero_lsb);
+
+/// What the readings with which recordings begin exceed a cold wire's by where they stand still though
+/// nothing heats the wire, as only a cold wire's do: their median over the recordings; 0 where none begins
+/// so.
+double zero_of_sensor_lsb(const PlatformModel& nominal, std::span<const PlatformRun* const> runs);
 
 /// One row of a run; a platform that feels the carriage needs its path.
 void step(const PlatformModel& model, const PlatformRun& run, const CarriagePath* carriage, std::size_t row,
