@@ -58,6 +58,12 @@ SignalFlags reached_by(const Hypothesis& part) {
     return reached;
 }
 
+SignalFlags both(const SignalFlags& left, const SignalFlags& right) {
+    SignalFlags both{};
+    for (std::size_t s = 0; s < signal_count; ++s) both[s] = left[s] && right[s];
+    return both;
+}
+
 SignalFlags either(const SignalFlags& left, const SignalFlags& right) {
     SignalFlags both{};
     for (std::size_t s = 0; s < signal_count; ++s) both[s] = left[s] || right[s];

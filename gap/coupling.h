@@ -11,6 +11,8 @@ namespace fidservo::gap {
 
 using SignalFlags = std::array<bool, signal_count>;
 
+inline constexpr SignalFlags all_signals{true, true, true, true, true, true};
+
 SignalFlags only(Signal signal);
 
 /// Signals from which the parameters of an effect are learnt: those whose prediction it changes at first
@@ -24,6 +26,7 @@ SignalFlags taught_by(const Hypothesis& part);
 /// All signals that a part of a hypothesis can change.
 SignalFlags reached_by(const Hypothesis& part);
 
+SignalFlags both(const SignalFlags& left, const SignalFlags& right);
 SignalFlags either(const SignalFlags& left, const SignalFlags& right);
 bool meet(const SignalFlags& left, const SignalFlags& right);
 

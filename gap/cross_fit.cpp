@@ -11,8 +11,6 @@
 namespace fidservo::gap {
 namespace {
 
-constexpr SignalFlags every_signal{true, true, true, true, true, true};
-
 bool moves_carriage(const plant::Effect& effect) {
     return effect.block.starts_with("macro.");
 }
@@ -65,7 +63,7 @@ void CrossFitter::fit_again(CrossFit& cross, const SignalFlags& signals) const {
 void CrossFitter::judge(CrossFit& cross) const {
     CrossFit unknown;
     unknown.mean_squares.assign(evidence_.windows().size(), std::numeric_limits<double>::quiet_NaN());
-    judge_signals(unknown, every_signal, cross);
+    judge_signals(unknown, all_signals, cross);
 }
 
 void CrossFitter::judge_beside(const CrossFit& base, const Hypothesis& different, CrossFit& cross) const {

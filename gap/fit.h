@@ -20,6 +20,9 @@ struct Fit {
     /// errors within a window are not independent. Zero for parameters at a bound, and where it was not asked
     /// for.
     Eigen::MatrixXd covariance;
+    /// Inverse of the loss's second derivatives by the slopes of the errors alone, with the expected sizes in
+    /// it; likewise.
+    Eigen::MatrixXd curvature_covariance = {};
 };
 
 /// Steps of differences, in scales of a parameter: from afar, above what friction's events and float errors
@@ -32,6 +35,12 @@ struct FitOptions {
     double tolerance = 1e-4;          ///< relative, of loss and parameters, at which a fit ends
     bool with_covariance = false;     ///< costs a prediction a parameter
     double step_scales = usual_step;  ///< of differences
+    /// Errors up to this many floors count as noise: the loss is 1/2 a^2 log(1 + S_w / a^2) with this a. A
+    /// fit that starts far off follows all windows with an a of what is left, not just those nearest to it.
+    double scale_floors = 1.0;
+    /// Standard deviation that sizes are expected to have about nothing, in typical ones: what the windows
+    /// cannot tell apart stays small. 0: any size is as good.
+    double expected_sizes = 0.0;
 };
 
 /// Minimises the windows' total loss over all parameters of the hypothesis, from the values given, within

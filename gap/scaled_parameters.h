@@ -25,6 +25,16 @@ class ScaledParameters {
         return all_[k]->is_choice || all_[k]->is_negligible(values[k] * scale(k));
     }
 
+    /// Whether it says how large an effect is.
+    bool is_size(std::size_t k) const {
+        return all_[k]->vanishing != all_[k]->typical && !all_[k]->is_choice;
+    }
+
+    /// By how many typical sizes a value is from where its effect vanishes; 0 of what is no size.
+    double typical_sizes(std::size_t k, double scaled) const {
+        return is_size(k) ? scaled - all_[k]->vanishing / scale(k) : 0.0;
+    }
+
     /// A value beyond a bound counts as at it.
     Hypothesis at(std::span<const double> scaled) const;
 

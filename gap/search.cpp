@@ -78,7 +78,8 @@ Search::Search(const Evidence& evidence, const std::vector<Candidate>& candidate
       first_excess_(fitter_.excess(nothing().mean_squares)) {}
 
 bool Search::is_exhausted() const {
-    return is_limited_ && fitter_.evidence().effort() - effort_at_start_ > options_.most_effort;
+    return is_limited_ &&
+           fitter_.evidence().effort() - effort_at_start_ > share_of_effort_ * options_.most_effort;
 }
 
 void Search::throw_if_exhausted() const {
@@ -203,7 +204,7 @@ Search::Contender Search::contender(const CrossFit& base, const Candidate& candi
 
 std::vector<const Candidate*> Search::in_question(const CrossFit& base,
                                                   std::span<const Candidate* const> added) const {
-    const SignalFlags wrong = off(base);
+    const SignalFlags wrong = both(off(base), focus_);
     std::vector<const Candidate*> all;
     for (const Candidate& candidate : candidates_)
         if (std::ranges::find(added, &candidate) == added.end() &&

@@ -70,6 +70,22 @@ class Search {
     /// again. Where it counts and is spent, whatever fits throws SearchExhausted.
     void limit(bool is_limited) { is_limited_ = is_limited; }
 
+    /// Of which signals causes are looked for from now on, and with what share of all effort, counted from
+    /// the start; of all signals with all of it at first.
+    void look_for_causes_in(const SignalFlags& signals, double share_of_effort) {
+        focus_ = signals;
+        share_of_effort_ = share_of_effort;
+    }
+
+    /// What is needed of all smooth candidates of the Hall reading and the tags beside what a base knows of
+    /// the carriage, fitted at once (gap/everything.h), on both halves; the base's own settings of these
+    /// begin as they are. In the fit they are the last ones, in the order of the candidates.
+    struct Together {
+        std::vector<const Candidate*> candidates;
+        CrossFit fitted;
+    };
+    Together everything_beside(const CrossFit& base) const;
+
     /// How the budget ended while something was refined that was kept.
     std::optional<Ended> over() const { return over_; }
 
@@ -287,6 +303,8 @@ class Search {
     SearchOptions options_;
     double effort_at_start_;
     bool is_limited_ = false;
+    SignalFlags focus_ = all_signals;
+    double share_of_effort_ = 1.0;
     std::optional<Ended> over_;  ///< how the budget ended
     CrossFitter fitter_;
     SearchMemory memory_;

@@ -148,6 +148,76 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     return changed;
 }
 
+/// A chain with what is needed of everything in place of its smooth effects, each of which is real beside the
+/// others.
+Chain begun_with_everything(Search& search, const Chain& chain) {
+    Search::Together together = search.everything_beside(chain.fitted);
+    Chain whole;
+    for (const Choice& choice : chain.choices)
+        if (std::ranges::find(together.fitted.of_half[0], choice.candidate->effect,
+                              &plant::EffectSetting::effect) != together.fitted.of_half[0].end() &&
+            std::ranges::find(together.candidates, choice.candidate) == together.candidates.end())
+            whole.choices.push_back(choice);
+    for (const Candidate* candidate : together.candidates) whole.choices.push_back({candidate, 0.0, {}, {}});
+    whole.fitted = std::move(together.fitted);
+    for (std::size_t k = whole.choices.size(); k-- > 0;) {
+        if (std::ranges::find(together.candidates, whole.choices[k].candidate) == together.candidates.end())
+            continue;
+        Chain rest = without(search, whole, k);
+        if (!search.is_real(rest.fitted, whole.fitted)) {
+            whole = std::move(rest);
+            continue;
+        }
+        Choice& choice = whole.choices[k];
+        choice.loss_without = rest.fitted.loss;
+        choice.alternatives = {{.candidate = choice.candidate,
+                                .gain = rest.fitted.loss - whole.fitted.loss,
+                                .is_leader = true,
+                                .fitted = whole.fitted}};
+    }
+    return whole;
+}
+
+/// What moves the wire has causes that stand in for each other: where the Hall reading is off its floor, all
+/// of them are looked at together, and one by one what that leaves. It is searched apart from the carriage,
+/// with a share of the effort.
+/// @param alone  what was tried first
+/// @return whether a pair took the place of something
+bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
+    constexpr double share_of_effort = 0.4;
+    constexpr int most_one_by_one = 2;
+    const auto is_off = [&](const Chain& explained) {
+        return search.off(explained.fitted)[index_of(Signal::hall)];
+    };
+    if (!is_off(chain)) return false;
+    bool is_paired = false;
+    const Chain whole = begun_with_everything(search, chain);
+    const bool is_whole = whole.choices.size() > most_one_by_one && !is_off(whole);
+    search.look_for_causes_in(only(Signal::hall), share_of_effort);
+    try {
+        if (!is_whole) is_paired = grow(search, chain, most_one_by_one, alone);
+    } catch (const SearchExhausted&) {
+        if (search.over()) throw;
+    }
+    search.limit(false);
+    search.look_for_causes_in(all_signals, 1.0);
+    if (!is_off(chain) && is_off(whole)) return is_paired;
+    if (is_better(search, whole, chain)) chain = whole;
+    return is_paired;
+}
+
+/// Adds what was tried later for signals of which nothing was tried before.
+void add_tried(std::vector<Trial>& alone, std::vector<Trial> later) {
+    for (Trial& trial : later) {
+        const auto known = std::ranges::find(alone, trial.candidate, &Trial::candidate);
+        if (known == alone.end())
+            alone.push_back(std::move(trial));
+        else if (trial.gain > known->gain)
+            *known = std::move(trial);
+    }
+    std::ranges::stable_sort(alone, std::greater{}, &Trial::gain);
+}
+
 std::vector<const Candidate*> limits_in(const Chain& chain) {
     std::vector<const Candidate*> limits;
     for (const Choice& choice : chain.choices)
@@ -207,11 +277,15 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     Chain chain{{}, search.nothing()};
     selection.steps.push_back(chain.fitted);
     try {
-        bool is_paired = grow(search, chain, options.most_effects, &selection.alone);
+        bool is_paired = explain_hall(search, chain, &selection.alone);
+        const int most_effects = static_cast<int>(chain.choices.size()) + options.most_effects;
+        std::vector<Trial> tried;
+        is_paired = grow(search, chain, most_effects, &tried) || is_paired;
+        add_tried(selection.alone, std::move(tried));
         search.limit(true);
         if (!is_paired || !search.leaves_little(chain.fitted))
-            is_paired = pair_up(search, chain, options.most_effects) || is_paired;
-        if (exchange(search, chain, is_paired)) grow(search, chain, options.most_effects, nullptr);
+            is_paired = pair_up(search, chain, most_effects) || is_paired;
+        if (exchange(search, chain, is_paired)) grow(search, chain, most_effects, nullptr);
     } catch (const SearchExhausted&) {
         selection.ended = search.over().value_or(Ended::budget);
     } catch (const BudgetEnded& ended) {

@@ -1,0 +1,249 @@
+#include "gap/everything.h"
+
+#include "gap/fit.h"
+#include "gap/minimum_norm.h"
+#include "gap/score.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <utility>
+
+namespace fidservo::gap {
+namespace {
+
+/// Standard deviation of sizes about nothing, in typical ones.
+constexpr double expected_sizes = 3.0;
+
+/// What a size has to be worth to be kept: twice it is the square of a normal deviate, here of one in 200.
+constexpr double least_worth = 4.0;
+
+/// Predictions of which only what some settings reach is predicted anew.
+class Incremental {
+  public:
+    Incremental(const Evidence& evidence, const Hypothesis& beside, const Wanted& wanted)
+        : evidence_(evidence), beside_(beside), wanted_(wanted) {}
+
+    Errors operator()(const Hypothesis& settings) {
+        Hypothesis changed, whole = beside_;
+        whole.insert(whole.end(), settings.begin(), settings.end());
+        Errors known;
+        {
+            const std::scoped_lock lock(access_);
+            if (known_at_.size() == settings.size()) {
+                for (std::size_t k = 0; k < settings.size(); ++k)
+                    if (!(settings[k] == known_at_[k])) changed.push_back(settings[k]);
+                if (changed.size() <= 1) known = known_;
+            }
+        }
+        if (known.empty()) {
+            Errors errors = evidence_.errors(whole, wanted_);
+            const std::scoped_lock lock(access_);
+            known_at_ = settings;
+            known_ = errors;
+            return errors;
+        }
+        if (changed.empty()) return known;
+        const Wanted reached = only_of(evidence_.windows(), wanted_, reached_by(changed));
+        const Errors errors = evidence_.errors(whole, reached);
+        if (errors.empty()) return errors;
+        const std::vector<Window>& windows = evidence_.windows();
+        for (std::size_t w = 0; w < windows.size(); ++w)
+            if (reached[w] != 0)
+                std::copy(errors.begin() + static_cast<std::ptrdiff_t>(windows[w].begin),
+                          errors.begin() + static_cast<std::ptrdiff_t>(windows[w].end),
+                          known.begin() + static_cast<std::ptrdiff_t>(windows[w].begin));
+        return known;
+    }
+
+  private:
+    const Evidence& evidence_;
+    const Hypothesis& beside_;
+    const Wanted& wanted_;
+    std::mutex access_;
+    Hypothesis known_at_;
+    Errors known_;
+};
+
+/// A share of its typical size in its first shape: where it is nothing, no slope tells of its shape.
+plant::EffectSetting small(const Candidate& candidate) {
+    constexpr double share = 0.03;
+    plant::EffectSetting setting{candidate.effect, candidate.shapes.front()};
+    for (const std::size_t k : candidate.sizes) {
+        const plant::EffectParameter& parameter = candidate.effect->parameters[k];
+        setting.values[k] = parameter.vanishing + share * (setting.values[k] - parameter.vanishing);
+        if (parameter.is_negligible(setting.values[k])) setting.values[k] = parameter.vanishing;
+    }
+    return setting;
+}
+
+/// Whether it has parameters that say neither how large it is nor what it may be without.
+bool has_a_shape(const Candidate& candidate) {
+    const auto& parameters = candidate.effect->parameters;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+        const bool is_size = std::ranges::find(candidate.sizes, k) != candidate.sizes.end();
+        if (!is_size && !parameters[k].is_choice && parameters[k].negligible == 0.0) return true;
+    }
+    return false;
+}
+
+/// Whether no signal is off its floor by more than chance, on the whole.
+bool is_at_floor(const Evidence& evidence, const Errors& errors) {
+    constexpr double floor_square = 1.1;
+    const std::vector<double> squares = mean_squares(evidence.windows(), errors);
+    std::array<double, signal_count> sums{}, counts{};
+    for (std::size_t w = 0; w < squares.size(); ++w) {
+        if (std::isnan(squares[w])) continue;
+        sums[index_of(evidence.windows()[w].signal)] += squares[w];
+        counts[index_of(evidence.windows()[w].signal)] += 1.0;
+    }
+    for (std::size_t s = 0; s < signal_count; ++s)
+        if (sums[s] > floor_square * counts[s]) return false;
+    return true;
+}
+
+double median_square(const Evidence& evidence, const Errors& errors) {
+    std::vector<double> squares = mean_squares(evidence.windows(), errors);
+    std::erase_if(squares, [](double square) { return std::isnan(square); });
+    if (squares.empty()) return 0.0;
+    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+    std::ranges::nth_element(squares, middle);
+    return *middle;
+}
+
+/// From wherever it begins to where nothing gets better, at levels that follow what is left.
+Fit fitted_from_afar(const Evidence& evidence, const Predict& predict, const Wanted& wanted, Hypothesis start,
+                     double sizes) {
+    constexpr int most_levels = 8, iterations_a_level = 3, last_iterations = 6;
+    constexpr double hardly_less = 0.9;
+    double last = std::numeric_limits<double>::infinity();
+    for (int level = 0; level < most_levels; ++level) {
+        const double square = median_square(evidence, predict(start));
+        if (square < 1.0 || square > hardly_less * last) break;
+        last = square;
+        start = fit(predict, evidence.windows(), wanted, start,
+                    {.most_iterations = iterations_a_level,
+                     .scale_floors = std::sqrt(1.0 + square),
+                     .expected_sizes = sizes})
+                    .hypothesis;
+    }
+    return fit(predict, evidence.windows(), wanted, start,
+               {.most_iterations = last_iterations, .with_covariance = true, .expected_sizes = sizes});
+}
+
+/// The places of each setting's sizes among all parameters, and their distances from nothing in scales.
+struct Sizes {
+    std::vector<std::vector<Eigen::Index>> at;
+    Eigen::VectorXd typical;
+
+    Sizes(std::span<const Candidate* const> candidates, const Fit& fitted) : at(candidates.size()) {
+        std::vector<double> all;
+        for (std::size_t c = 0; c < candidates.size(); ++c) {
+            const plant::EffectSetting& setting = fitted.hypothesis[c];
+            for (std::size_t k = 0; k < setting.values.size(); ++k) {
+                const plant::EffectParameter& parameter = setting.effect->parameters[k];
+                if (std::ranges::find(candidates[c]->sizes, k) != candidates[c]->sizes.end())
+                    at[c].push_back(static_cast<Eigen::Index>(all.size()));
+                all.push_back(setting.values[k] - parameter.vanishing);
+            }
+        }
+        typical = Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+    }
+
+    /// What some candidates are worth together beside the others.
+    double worth(const std::vector<std::size_t>& left_out, const Eigen::MatrixXd& covariance) const {
+        std::vector<Eigen::Index> places;
+        for (const std::size_t c : left_out) places.insert(places.end(), at[c].begin(), at[c].end());
+        const Eigen::VectorXd sizes = typical(places);
+        const Eigen::MatrixXd own = covariance(places, places);
+        return 0.5 * sizes.dot(minimum_norm_solution(own, sizes));
+    }
+};
+
+/// Those candidates that remain when what is worth least is taken away, one after the other.
+std::vector<std::size_t> kept(std::span<const Candidate* const> candidates, const Fit& fitted) {
+    const Sizes sizes(candidates, fitted);
+    std::vector<std::size_t> rest(candidates.size()), left_out;
+    for (std::size_t c = 0; c < rest.size(); ++c) rest[c] = c;
+    double lost = 0.0;
+    while (!rest.empty()) {
+        double least = std::numeric_limits<double>::infinity();
+        std::size_t at = 0;
+        for (std::size_t k = 0; k < rest.size(); ++k) {
+            std::vector<std::size_t> without = left_out;
+            without.push_back(rest[k]);
+            const double worth = sizes.worth(without, fitted.curvature_covariance);
+            if (worth < least) {
+                least = worth;
+                at = k;
+            }
+        }
+        if (least - lost >= least_worth) break;
+        lost = std::max(lost, least);
+        left_out.push_back(rest[at]);
+        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(at));
+    }
+    return rest;
+}
+
+}  // namespace
+
+bool is_smooth(const Candidate& candidate) {
+    const SignalFlags teachers = teachers_of(*candidate.effect);
+    SignalFlags others = teachers;
+    others[index_of(Signal::hall)] = others[index_of(Signal::tag)] = false;
+    return others == SignalFlags{} && !candidate.wave && !candidate.patch && !candidate.is_limit;
+}
+
+NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
+                                      const Hypothesis& beside, const Hypothesis& begun,
+                                      const Wanted& wanted) {
+    Incremental incremental(evidence, beside, wanted);
+    const Predict predict = [&](const Hypothesis& settings) { return incremental(settings); };
+    const auto is_begun = [&](const Candidate* candidate) {
+        return std::ranges::find(begun, candidate->effect, &plant::EffectSetting::effect) != begun.end();
+    };
+    NeededCandidates needed;
+    for (const Candidate* candidate : candidates)
+        if (is_begun(candidate)) {
+            needed.candidates.push_back(candidate);
+            needed.settings.push_back(
+                *std::ranges::find(begun, candidate->effect, &plant::EffectSetting::effect));
+        }
+    Fit fitted;
+    // What has no shape first: its slopes say all of it, and without the others predictions are faster.
+    for (const bool has_shape : {false, true}) {
+        for (const Candidate* candidate : candidates)
+            if (has_a_shape(*candidate) == has_shape && !is_begun(candidate)) {
+                needed.candidates.push_back(candidate);
+                needed.settings.push_back(small(*candidate));
+            }
+        fitted = fitted_from_afar(evidence, predict, wanted, needed.settings, expected_sizes);
+        needed.settings = fitted.hypothesis;
+        if (is_at_floor(evidence, predict(needed.settings))) break;
+    }
+    while (true) {
+        needed.settings = fitted.hypothesis;
+        const std::vector<std::size_t> rest = kept(needed.candidates, fitted);
+        if (rest.size() == needed.candidates.size() || rest.empty()) break;
+        NeededCandidates fewer;
+        for (const std::size_t c : rest) {
+            fewer.candidates.push_back(needed.candidates[c]);
+            fewer.settings.push_back(needed.settings[c]);
+        }
+        needed = std::move(fewer);
+        fitted = fitted_from_afar(evidence, predict, wanted, needed.settings, 0.0);
+    }
+    return needed;
+}
+
+Hypothesis fitted_together(const Evidence& evidence, const Hypothesis& beside, const Hypothesis& settings,
+                           const Wanted& wanted) {
+    Incremental incremental(evidence, beside, wanted);
+    const Predict predict = [&](const Hypothesis& changed) { return incremental(changed); };
+    return fitted_from_afar(evidence, predict, wanted, settings, 0.0).hypothesis;
+}
+
+}  // namespace fidservo::gap
