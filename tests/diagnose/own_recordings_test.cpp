@@ -73,6 +73,36 @@ TEST(SlowOwnRecordings, StageCalibration_HasNoGap) {
     expect_no_gap(diagnosis_of(run, folder / "diagnosis.json"));
 }
 
+/// Runs a command that drives the simulated rig and records it.
+void record(std::vector<std::string> arguments, const std::filesystem::path& out) {
+    arguments.insert(arguments.begin(), FIDSERVO_PROGRAM);
+    arguments.insert(arguments.end(), {"--out", out.string()});
+    ChildProcess program(arguments);
+    EXPECT_TRUE(program.output_ends(std::chrono::minutes(2)));
+    EXPECT_EQ(program.wait(), 0) << program.output();
+}
+
+TEST(SlowOwnRecordings, GotoAndHome_HaveNoGap) {
+    const TemporaryFolder folder;
+    record({"goto", "--tag", "12", "--dx-um", "100", "--hold", "5"}, folder / "goto");
+    expect_no_gap(diagnosis_of(folder / "goto", folder / "goto.json"));
+    record({"home"}, folder / "home");
+    EXPECT_EQ(diagnosis_of(folder / "home", folder / "home.json").at("verdict"), "no-gap");
+}
+
+TEST(SlowOwnRecordings, GotoOnARigWhoseHallSensorHasAnotherGain_SaysSo) {
+    const TemporaryFolder folder;
+    const std::filesystem::path assets = FIDSERVO_ASSETS_DIR;
+    std::filesystem::copy_file(assets / "preisach_fod.csv", folder / "preisach_fod.csv");
+    const auto truth = folder.write("truth.yaml", testing::text_of(assets / "rig.yaml") +
+                                                      "\neffects:\n  - { name: hall_gain, factor: 1.1 }\n");
+    record({"goto", "--tag", "12", "--dx-um", "100", "--hold", "5", "--sim-rig", truth.string()},
+           folder / "goto");
+    const nlohmann::json diagnosis = diagnosis_of(folder / "goto", folder / "goto.json");
+    ASSERT_FALSE(diagnosis.at("effects").empty()) << diagnosis.dump(2);
+    EXPECT_EQ(diagnosis.at("effects").front().at("effect"), "hall_gain");
+}
+
 /// A folder of shared/cases.
 class SharedCase : public ::testing::Test {
   protected:
