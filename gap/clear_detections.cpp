@@ -44,6 +44,11 @@ double to_border_px(const TagDetection& tag, const CameraGeometry& image) {
 
 }  // namespace
 
+bool refines_corners(const Recording& recording) {
+    return std::ranges::any_of(recording.detections,
+                               [](const TagDetection& tag) { return tag.is_refined.value_or(false); });
+}
+
 TagsInFrames smeared_tags(const Recording& recording) {
     TagsInFrames smeared;
     for (const TagAppearance& seen : recording.appearances) {
@@ -86,8 +91,7 @@ void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_
     }
     // A program that looks for a tag when it wants to, and keeps no frames, sees it now and then.
     const int least_neighbours = recording.appearances.empty() ? 0 : 2;
-    const bool refines = std::ranges::any_of(
-        detections, [](const TagDetection& tag) { return tag.is_refined.value_or(false); });
+    const bool refines = refines_corners(recording);
     std::vector<TagDetection> judged;
     for (std::size_t k = 0; k < detections.size(); ++k)
         if ((!refines || detections[k].is_refined.value_or(true)) && smear_cells[k] <= most_cells &&

@@ -15,6 +15,9 @@ namespace fidservo::gap {
 /// Frame and tag.
 using TagsInFrames = std::set<std::pair<TimeNs, int>>;
 
+/// Whether some of a recording's corners are known to be refined. Beside these, the others are not judged.
+bool refines_corners(const Recording& recording);
+
 /// Those that look smeared, along their motion or whatever it is, by more than 0.15 cells w: the squares of
 /// their edges' widths differ by w^2 / 12, or some edges are too wide to be measured and others are not.
 TagsInFrames smeared_tags(const Recording& recording);
