@@ -3,6 +3,7 @@
 #include "core/time.h"
 
 #include <array>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -13,6 +14,9 @@ namespace fidservo {
 inline const std::array<Eigen::Vector2d, 4> tag_corners{Eigen::Vector2d(-1, 1), Eigen::Vector2d(1, 1),
                                                         Eigen::Vector2d(1, -1), Eigen::Vector2d(-1, -1)};
 
+/// Of each corner by itself, px^2. Corners that share an edge are off together, which is left out here.
+using CornerCovariances = std::array<Eigen::Matrix2d, 4>;
+
 /// Corners in px, pixel centres at integers, in plate order: (-,+), (+,+), (+,-), (-,-) in plate x, y.
 struct TagDetection {
     TimeNs time_ns = 0;  ///< middle of the frame's exposure
@@ -21,6 +25,10 @@ struct TagDetection {
     double decision_margin = 0.0;  ///< contrast between black and white bits, grey levels
     std::array<Eigen::Vector2d, 4> corners_px;
     int border_cells = 1;  ///< width of the black border; 2 on a kalibr AprilGrid
+    /// Whether the corners were measured along the edges of the tag, or are as the detector found them;
+    /// empty: not known.
+    std::optional<bool> is_refined = {};
+    std::optional<CornerCovariances> covariances_px2 = {};
 };
 
 /// Where the camera is, from one tag whose place on the plate is known.

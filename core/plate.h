@@ -14,6 +14,8 @@ struct PlateTag {
     Eigen::Vector2d centre_mm;
     double side_mm;  ///< of the black border square
     double angle_rad = 0.0;
+
+    bool operator==(const PlateTag&) const = default;
 };
 
 struct Dot {

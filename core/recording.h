@@ -3,6 +3,7 @@
 // tick k and the commands applied from tick k on (the voltages sent, after saturation).
 #include "core/appearance.h"
 #include "core/detection.h"
+#include "core/plate.h"
 #include "core/time.h"
 
 #include <algorithm>
@@ -68,17 +69,23 @@ inline std::size_t row_at(const std::vector<StageRow>& rows, TimeNs time_ns) {
     return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, after - rows.begin() - 1));
 }
 
-struct Recording {
+/// What holds for the whole of a recording, and for every part of it.
+struct RecordingHeader {
     std::string name;
     std::string rig;
     std::string experiment;
     double tick_s = 0.0;
     std::optional<EncoderZero> encoder_zero;     ///< empty: not stated
     std::optional<ControllerNames> controllers;  ///< likewise
-    std::vector<RecordingEvent> events;          ///< by time
+    std::vector<PlateTag> plate;                 ///< that it was made over; empty: the one of the rig file
     bool is_unfinished = false;                  ///< whoever made it was ended in the middle
     bool is_seen = false;                        ///< detections are what was found in a camera's images
     StageColumns columns;
+    double macro_setpoint_step_mm = 1e-4;  ///< of the last digit that its file has
+};
+
+struct Recording : RecordingHeader {
+    std::vector<RecordingEvent> events;  ///< by time
     std::vector<StageRow> rows;
     std::vector<TagDetection> detections;
     std::vector<FrameName> frames;

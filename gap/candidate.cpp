@@ -209,6 +209,12 @@ std::size_t unrefined_parameters(const plant::Effect& effect) {
     return effect.parameters.size() - refinements_of(effect).size() - static_cast<std::size_t>(choices);
 }
 
+bool knows_places(const Evidence& evidence) {
+    return std::ranges::all_of(evidence.windows(), [&](const Window& window) {
+        return window.signal != Signal::encoder || evidence.knows_places(window.run);
+    });
+}
+
 std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std::string> only,
                                   std::span<const std::string> without) {
     std::array<bool, signal_count> recorded{};
@@ -217,7 +223,9 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
         return std::ranges::any_of(
             without, [&](const std::string& other) { return class_of(other) == class_of(name); });
     };
+    const bool places_are_known = knows_places(evidence);
     const auto is_left_out = [&](std::string_view name) {
+        if (plant::find_effect(name)->needs_place && !places_are_known) return true;
         return is_withheld(name) || (!only.empty() && !is_in(only, name));
     };
     const auto is_limit = [&](std::string_view name) {

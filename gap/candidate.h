@@ -42,8 +42,12 @@ std::vector<Refinement> refinements_of(const plant::Effect& effect);
 /// How many parameters an effect has without its refinements and choices.
 std::size_t unrefined_parameters(const plant::Effect& effect);
 
+/// Whether it is known where on the rail the carriage is wherever its reading is judged. If it is not, places
+/// on the rail are not the same ones from recording to recording, and none can be named.
+bool knows_places(const Evidence& evidence);
+
 /// Effects of the catalogue that the rig can have and a recorded signal can show; camera.image effects
-/// where frames were measured only.
+/// where frames were measured only, and those that act at a place only where places are known.
 /// Those left out of which one of the others is a richer form are there as its limits.
 /// @param only  names to keep; empty: all
 /// @param without  names to leave out, with all of their class

@@ -1,7 +1,7 @@
 #include "gap/clear_detections.h"
 
-#include "core/camera_parameters.h"
-#include "core/fiducial_parameters.h"
+#include "core/rig.h"
+#include "gap/plate_tag.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +44,11 @@ double to_border_px(const TagDetection& tag, const CameraGeometry& image) {
 
 }  // namespace
 
+bool refines_corners(const Recording& recording) {
+    return std::ranges::any_of(recording.detections,
+                               [](const TagDetection& tag) { return tag.is_refined.value_or(false); });
+}
+
 TagsInFrames smeared_tags(const Recording& recording) {
     TagsInFrames smeared;
     for (const TagAppearance& seen : recording.appearances) {
@@ -55,11 +60,10 @@ TagsInFrames smeared_tags(const Recording& recording) {
     return smeared;
 }
 
-void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_s,
-                  const CameraParameters& camera, const FiducialParameters& fiducials, double exposure_s,
-                  const TagsInFrames& smeared) {
+void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_s, const Rig& rig,
+                  double exposure_s, const TagsInFrames& smeared) {
     constexpr double least_border_cells = 0.5, cells = 8.0, late = 1.5;
-    const double cell_mm = fiducials.side_mm / cells;
+    const CameraParameters& camera = *rig.camera;
     std::vector<TagDetection>& detections = recording.detections;
     std::vector<double> smear_cells(detections.size());  // while a frame is exposed
     std::vector<bool> is_cut(detections.size());
@@ -71,7 +75,8 @@ void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_
         const auto row =
             std::min<std::ptrdiff_t>(after - recording.rows.begin(), std::ssize(recording.rows) - 1);
         const double speed_mm_per_s = velocity_mm_per_s[static_cast<std::size_t>(row)];
-        smear_cells[k] = exposure_s * std::abs(speed_mm_per_s) / cell_mm;
+        if (const auto tag = plate_tag(recording, rig, now.tag_id))
+            smear_cells[k] = exposure_s * std::abs(speed_mm_per_s) * cells / tag->side_mm;
         is_cut[k] = to_border_px(now, camera.geometry) < least_border_cells * cell_px(now);
         const auto [before, is_first] = last.try_emplace(now.tag_id, k);
         const std::size_t at = std::exchange(before->second, k);
@@ -86,9 +91,11 @@ void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_
     }
     // A program that looks for a tag when it wants to, and keeps no frames, sees it now and then.
     const int least_neighbours = recording.appearances.empty() ? 0 : 2;
+    const bool refines = refines_corners(recording);
     std::vector<TagDetection> judged;
     for (std::size_t k = 0; k < detections.size(); ++k)
-        if (smear_cells[k] <= most_cells && !is_cut[k] && neighbours[k] >= least_neighbours &&
+        if ((!refines || detections[k].is_refined.value_or(true)) && smear_cells[k] <= most_cells &&
+            !is_cut[k] && neighbours[k] >= least_neighbours &&
             !smeared.contains({detections[k].time_ns, detections[k].tag_id}))
             judged.push_back(detections[k]);
     detections = std::move(judged);

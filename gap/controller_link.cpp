@@ -89,17 +89,18 @@ struct CountReading {
 
 constexpr std::array<CountReading, 4> count_readings{{{false, 0}, {true, 0}, {false, 1}, {true, 1}}};
 
-/// The counts that a setpoint may have become: two where the file's last digit leaves it open.
+/// The counts that a setpoint may have become: more than one where the file's last digit leaves it open.
 struct SetpointCounts {
-    double low, high;
+    double low, stated, high;
 };
 
-SetpointCounts setpoint_counts(double setpoint_mm, double resolution_mm, const CountReading& reading) {
-    constexpr double half_digit_mm = 0.5e-4;
+/// @param step_mm  of the file's last digit
+SetpointCounts setpoint_counts(double setpoint_mm, double step_mm, double resolution_mm,
+                               const CountReading& reading) {
     constexpr double slack_counts = 1e-9;  // of the division
     const double counts = setpoint_mm / resolution_mm + (reading.truncates ? 0.0 : 0.5);
-    const double open_counts = half_digit_mm / resolution_mm + slack_counts;
-    return {std::floor(counts - open_counts), std::floor(counts + open_counts)};
+    const double open_counts = 0.5 * step_mm / resolution_mm + slack_counts;
+    return {std::floor(counts - open_counts), std::floor(counts), std::floor(counts + open_counts)};
 }
 
 /// The PD along a stretch.
@@ -149,8 +150,9 @@ struct Held {
     std::vector<double> error_V;
 };
 
-/// A controller along a stretch. Where a setpoint leaves its count open, the one that fits better is taken as
-/// long as it is held.
+/// A controller along a stretch. Where a setpoint leaves its count open, the one that fits best is taken as
+/// long as it is held: the farther a count is from that one, the farther are the commands, so that it is
+/// found by going on as long as they come nearer.
 template <class Controller>
 std::vector<double> replayed(const Recording& recording, const Stretch& stretch, double resolution_mm,
                              const CountReading& reading, Controller controller) {
@@ -170,13 +172,16 @@ std::vector<double> replayed(const Recording& recording, const Stretch& stretch,
         const double setpoint_mm = recording.rows[first].macro_setpoint_mm;
         std::size_t end = first + 1;
         while (end < stretch.end && recording.rows[end].macro_setpoint_mm == setpoint_mm) ++end;
-        const SetpointCounts counts = setpoint_counts(setpoint_mm, resolution_mm, reading);
-        Held<Controller> best = held(first, end, counts.low);
-        if (counts.high != counts.low) {
-            Held<Controller> other = held(first, end, counts.high);
-            if (mean_square_of_finite(other.error_V) < mean_square_of_finite(best.error_V))
+        const SetpointCounts counts =
+            setpoint_counts(setpoint_mm, recording.macro_setpoint_step_mm, resolution_mm, reading);
+        Held<Controller> best = held(first, end, counts.stated);
+        for (const double way : {-1.0, 1.0})
+            for (double count = counts.stated + way; count >= counts.low && count <= counts.high;
+                 count += way) {
+                Held<Controller> other = held(first, end, count);
+                if (mean_square_of_finite(other.error_V) >= mean_square_of_finite(best.error_V)) break;
                 best = std::move(other);
-        }
+            }
         errors.insert(errors.end(), best.error_V.begin(), best.error_V.end());
         controller = best.controller;
         first = end;

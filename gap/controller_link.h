@@ -11,8 +11,8 @@
 // or the recording is of an experiment that the file's controllers define. All other commands are given.
 //
 // Firmware is free to round a setpoint to whole counts or to cut it off, and to take this tick's reading or
-// the last one's; and a setpoint half way between two counts, within the file's last digit, may have become
-// either. Of all these readings the one that fits best counts.
+// the last one's; and a setpoint may have become any count that its last digit in the file leaves open
+// (RecordingHeader::macro_setpoint_step_mm). Of all these readings the one that fits best counts.
 //
 // After rows that are missing a controller is under way: the last error is known a row later, and the
 // integral follows from the first command that is not saturated.

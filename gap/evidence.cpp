@@ -289,6 +289,9 @@ double Evidence::floor(Signal signal) const {
 const std::vector<Omission>& Evidence::omissions() const {
     return parts_->omissions;
 }
+bool Evidence::knows_places(std::size_t run) const {
+    return parts_->places[run] != PlacesFrom::nowhere;
+}
 const Course& Evidence::course(std::size_t run) const {
     return parts_->courses[run];
 }

@@ -124,6 +124,8 @@ class Evidence {
     /// In the signal's unit; 1 for images, whose errors have none. NaN for signals that no window has.
     double floor(Signal signal) const;
     const std::vector<Omission>& omissions() const;
+    /// Whether it is known where on the rail the carriage is in a recording (gap/power_on.h).
+    bool knows_places(std::size_t run) const;
     const Course& course(std::size_t run) const;
     /// One of a recording's detections, in the order of Window::first_detection (gap/tag_link.h).
     const TagSighting& sighting(std::size_t run, std::size_t detection) const;

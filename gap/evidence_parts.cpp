@@ -4,6 +4,7 @@
 #include "core/rig.h"
 #include "gap/clear_detections.h"
 #include "gap/noise_floor.h"
+#include "gap/plate_tag.h"
 #include "gap/wire_memory.h"
 #include "gap/wire_start.h"
 
@@ -115,7 +116,7 @@ void note_omissions(Evidence::Parts& parts, std::size_t run) {
             fmt::format("readings at an end of the range ({:.0f} or {:.0f}), gaps and the wire's unknown "
                         "memory after them, or rows without a command",
                         parts.hall_range.low_adc, parts.hall_range.high_adc));
-    if (!recording.detections.empty() && !(parts.rig.camera && parts.rig.fiducials))
+    if (!recording.detections.empty() && !shows_tags(recording, parts.rig))
         parts.omissions.push_back({recording.name, "tag", "the rig file has no camera or no fiducials"});
     const auto unknown = std::ranges::count_if(
         links.tags.sightings, [](const TagSighting& sighting) { return !sighting.is_known; });
@@ -138,13 +139,13 @@ void drop_unclear_detections(Evidence::Parts& parts, std::size_t run) {
     constexpr double worth_telling = 0.05;  // of all
     Recording& recording = parts.recordings[run];
     const auto all = static_cast<double>(recording.detections.size());
-    drop_unclear(recording, parts.links[run].path.velocity_mm_per_s, *parts.rig.camera, *parts.rig.fiducials,
+    drop_unclear(recording, parts.links[run].path.velocity_mm_per_s, parts.rig,
                  recording.appearances.empty() ? parts.rig.camera->exposure_s : parts.shutter.exposure_s,
                  parts.smeared[run]);
     if (all - static_cast<double>(recording.detections.size()) > worth_telling * all)
         parts.omissions.push_back(
             {recording.name, "tag",
-             "detections that are smeared, alone or at the image's border are not judged"});
+             "detections that are smeared, alone, at the image's border or not refined are not judged"});
 }
 
 }  // namespace
@@ -196,7 +197,9 @@ void find_noise(Evidence::Parts& parts) {
 void find_looks(Evidence::Parts& parts) {
     parts.images.resize(parts.recordings.size());
     parts.smeared.resize(parts.recordings.size());
-    if (!parts.rig.camera || !parts.rig.fiducials) return;
+    if (std::ranges::none_of(parts.recordings,
+                             [&](const Recording& recording) { return shows_tags(recording, parts.rig); }))
+        return;
     const CameraParameters& camera = *parts.rig.camera;
     for (std::size_t run = 0; run < parts.recordings.size(); ++run) {
         parts.smeared[run] = smeared_tags(parts.recordings[run]);
@@ -231,7 +234,7 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     links.carriage = carriage_run(recording, rig.macro, parts.places[run] != PlacesFrom::nowhere);
     links.carriage.budget = parts.budget;
     predicted_counts(carriage_model(nominal), links.carriage, links.path);
-    if (rig.camera && rig.fiducials && recording.is_seen && !recording.rows.empty())
+    if (shows_tags(recording, rig) && recording.is_seen && !recording.rows.empty())
         drop_unclear_detections(parts, run);
     std::optional<PlatformPrediction> platform;
     if (rig.micro) {
@@ -239,7 +242,7 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
         platform = predicted_readings(stage, *links.platform, nullptr);
         links.smoothed = smoothed_reading(*links.platform, platform->path_lsb, rig.macro.command_limit_V);
     }
-    if (rig.camera && rig.fiducials)
+    if (shows_tags(recording, rig))
         links.tags =
             tag_run(recording, rig, links.path, links.carriage, links.platform ? &*links.platform : nullptr,
                     links.smoothed ? &*links.smoothed : nullptr,

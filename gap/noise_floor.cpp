@@ -1,6 +1,7 @@
 #include "gap/noise_floor.h"
 
 #include "core/median.h"
+#include "gap/clear_detections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -102,7 +103,9 @@ std::optional<double> corner_noise_px(const std::vector<Recording>& recordings, 
     std::vector<double> sizes;
     for (const Recording& recording : recordings) {
         std::map<int, const TagDetection*> seen;  // last, by tag
+        const bool refines = refines_corners(recording);
         for (const TagDetection& now : recording.detections) {
+            if (refines && !now.is_refined.value_or(true)) continue;
             const TagDetection* before = std::exchange(seen[now.tag_id], &now);
             if (before == nullptr || now.time_ns <= before->time_ns ||
                 seconds(now.time_ns - before->time_ns) > late * frame_s)

@@ -38,7 +38,8 @@ std::optional<double> noise_before_rounding(std::vector<QuietStretch> stretches)
 double floor_of(double noise);
 
 /// Noise of a corner coordinate in px: from how detections of one tag in neighbouring frames differ across
-/// the stage's axis, where its motion does not show. Empty with fewer than 20 such pairs.
+/// the stage's axis, where its motion does not show. Of a recording that refines corners by these alone.
+/// Empty with fewer than 20 such pairs.
 /// @param frame_s  between two frames
 std::optional<double> corner_noise_px(const std::vector<Recording>& recordings, double frame_s);
 

@@ -5,7 +5,7 @@
 #include "core/rig.h"
 #include "gap/carriage_run.h"
 #include "gap/controller_link.h"
-#include "gap/tag_link.h"
+#include "gap/plate_tag.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ bool same_controllers(const Recording& a, const Recording& b) {
 bool goes_on(const Recording& before, const Recording& after, const Rig& rig) {
     constexpr double longest_pause_s = 0.1;
     if (before.rows.empty() || after.rows.empty() || before.rig != after.rig ||
-        before.tick_s != after.tick_s || !same_controllers(before, after))
+        before.tick_s != after.tick_s || before.plate != after.plate || !same_controllers(before, after))
         return false;
     const double pause_s = seconds(after.rows.front().time_ns - before.rows.back().time_ns);
     if (pause_s <= 0.0 || pause_s > longest_pause_s) return false;
@@ -64,6 +64,7 @@ void append(Recording& run, Recording next) {
         (!run.encoder_zero || next.encoder_zero->std_count < run.encoder_zero->std_count))
         run.encoder_zero = std::move(next.encoder_zero);
     run.is_unfinished = next.is_unfinished;
+    run.macro_setpoint_step_mm = std::max(run.macro_setpoint_step_mm, next.macro_setpoint_step_mm);
     add(run.events, std::move(next.events));
     add(run.rows, std::move(next.rows));
     add(run.detections, std::move(next.detections));
@@ -72,15 +73,16 @@ void append(Recording& run, Recording next) {
 }
 
 /// Where the rig file's camera stands when it sees a tag there, mm; empty for a tag that the plate has not.
-std::optional<double> camera_place_mm(const TagDetection& detection, const Rig& rig) {
-    const auto centre_mm = tag_centre_mm(*rig.fiducials, detection.tag_id);
-    if (!centre_mm) return std::nullopt;
+std::optional<double> camera_place_mm(const Recording& recording, const TagDetection& detection,
+                                      const Rig& rig) {
+    const auto tag = plate_tag(recording, rig, detection.tag_id);
+    if (!tag) return std::nullopt;
     Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
     for (const Eigen::Vector2d& corner_px : detection.corners_px) middle_px += 0.25 * corner_px;
-    double s_mm = centre_mm->x();
+    double s_mm = tag->centre_mm.x();
     constexpr int rounds = 3;  // an oblique axis changes the distance on the way
     for (int round = 0; round < rounds; ++round)
-        s_mm += centre_mm->x() - back_project(rig.camera->geometry, middle_px, s_mm).x();
+        s_mm += tag->centre_mm.x() - back_project(rig.camera->geometry, middle_px, s_mm).x();
     return s_mm;
 }
 
@@ -93,7 +95,7 @@ struct SeenPlace {
 std::vector<SeenPlace> seen_places(const Recording& recording, const Rig& rig) {
     std::vector<SeenPlace> places;
     for (const TagDetection& detection : recording.detections) {
-        const auto seen_mm = camera_place_mm(detection, rig);
+        const auto seen_mm = camera_place_mm(recording, detection, rig);
         if (!seen_mm) continue;
         const StageRow& row = recording.rows[row_at(recording.rows, detection.time_ns)];
         const double read_mm = rig.macro.encoder_resolution_mm * reading_count(row, rig.macro);
@@ -176,7 +178,7 @@ PlacesFrom refer_to_travel(Recording& recording, const Rig& rig) {
     constexpr double sure_counts = 0.5, at_most_mm = 1.0;
     const double resolution_mm = rig.macro.encoder_resolution_mm;
     std::vector<SeenPlace> places;
-    if (rig.camera && rig.fiducials) places = seen_places(recording, rig);
+    if (shows_tags(recording, rig)) places = seen_places(recording, rig);
     if (recording.encoder_zero && recording.encoder_zero->std_count <= sure_counts) {
         shift(recording, -std::round(recording.encoder_zero->count), resolution_mm);
         const bool is_measured = recording.encoder_zero->std_count > 0.0;

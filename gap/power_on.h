@@ -22,8 +22,8 @@ namespace fidservo::gap {
 
 /// Recordings that go on where another one ended, put together with it; the others as they are. One goes on
 /// where another ended if it begins within 0.1 s, the longest pause over which the wire's state is followed,
-/// on the same clock, which no other one contradicts by covering the same time, near the same count, under
-/// the same controllers.
+/// on the same clock, which no other one contradicts by covering the same time, over the same plate, near the
+/// same count, under the same controllers.
 std::vector<Recording> joined(std::vector<Recording> recordings, const Rig& rig);
 
 /// From what the carriage's places in a recording are known.

@@ -3,6 +3,7 @@
 #include "core/demand.h"
 #include "core/median.h"
 #include "core/rig.h"
+#include "gap/plate_tag.h"
 
 #include <algorithm>
 #include <cmath>
@@ -122,40 +123,34 @@ class CameraPlace {
 };
 
 /// Where a camera sees a tag's corners from s.
-CornerValues seen(const plant::ActualCamera& camera, const Eigen::Vector2d& centre_mm, double side_mm,
-                  double s_mm) {
+CornerValues seen(const plant::ActualCamera& camera, const TagSighting& sighting, double s_mm) {
     CornerValues corners;
     for (int c = 0; c < 4; ++c)
-        corners.segment<2>(2 * c) =
-            camera.image_px(centre_mm + 0.5 * side_mm * tag_corners[static_cast<std::size_t>(c)], s_mm);
+        corners.segment<2>(2 * c) = camera.image_px(sighting.corners_mm[static_cast<std::size_t>(c)], s_mm);
     return corners;
 }
 
 /// d corners / ds, px per mm.
-CornerValues seen_slope(const plant::ActualCamera& camera, const Eigen::Vector2d& centre_mm, double side_mm,
-                        double s_mm) {
+CornerValues seen_slope(const plant::ActualCamera& camera, const TagSighting& sighting, double s_mm) {
     constexpr double step_mm = 0.01;
-    return (seen(camera, centre_mm, side_mm, s_mm + step_mm) -
-            seen(camera, centre_mm, side_mm, s_mm - step_mm)) /
+    return (seen(camera, sighting, s_mm + step_mm) - seen(camera, sighting, s_mm - step_mm)) /
            (2.0 * step_mm);
 }
 
 /// Prediction of one sighting, with the carriage off by an offset.
-CornerValues predicted(const TagModel& model, const TagRun& run, const CameraPlace& place,
-                       const TagSighting& sighting, double offset_mm) {
+CornerValues predicted(const TagModel& model, const CameraPlace& place, const TagSighting& sighting,
+                       double offset_mm) {
     const double true_s = (sighting.stamp_s - model.deviation.delay_s) / model.deviation.clock_rate;
-    CornerValues corners =
-        seen(model.camera, sighting.centre_mm, run.side_mm, place.seen_s_mm(true_s) + offset_mm);
+    CornerValues corners = seen(model.camera, sighting, place.seen_s_mm(true_s) + offset_mm);
     if (model.deviation.readout_s == 0.0) return corners;
     constexpr int rounds = 2;
     for (int round = 0; round < rounds; ++round)
         for (int c = 0; c < 4; ++c) {
             const double v_px = std::clamp(corners[2 * c + 1], 0.0, model.camera.geometry.height_px - 1.0);
             const double late_s = plant::row_delay_s(model.camera.geometry, model.deviation, v_px);
-            const Eigen::Vector2d corner_mm =
-                sighting.centre_mm + 0.5 * run.side_mm * tag_corners[static_cast<std::size_t>(c)];
             corners.segment<2>(2 * c) =
-                model.camera.image_px(corner_mm, place.seen_s_mm(true_s + late_s) + offset_mm);
+                model.camera.image_px(sighting.corners_mm[static_cast<std::size_t>(c)],
+                                      place.seen_s_mm(true_s + late_s) + offset_mm);
         }
     return corners;
 }
@@ -217,21 +212,12 @@ std::vector<WindowRows> window_rows(const Recording& recording, const CarriageRu
 
 }  // namespace
 
-std::optional<Eigen::Vector2d> tag_centre_mm(const FiducialParameters& plate, int id) {
-    const int index = id - plate.first_id;
-    if (index < 0 || index >= plate.columns * plate.rows) return std::nullopt;
-    const int column = index % plate.columns, row = index / plate.columns;
-    return Eigen::Vector2d(column * plate.pitch_x_mm, row * plate.pitch_y_mm);
-}
-
 TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& path,
                const CarriageRun& carriage, const PlatformRun* platform, const SmoothedReading* reading,
                const TagNoise& noise) {
     TagRun run;
     if (recording.rows.empty() || recording.detections.empty()) return run;
-    const FiducialParameters& plate = *rig.fiducials;
     const plant::ActualCamera camera{rig.camera->geometry};
-    run.side_mm = plate.side_mm;
     run.tick_s = recording.tick_s;
     run.is_seen = recording.is_seen;
     const TimeNs start_ns = recording.rows.front().time_ns;
@@ -245,9 +231,11 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
     for (const TagDetection& detection : recording.detections) {
         TagSighting sighting;
         sighting.stamp_s = seconds(detection.time_ns - start_ns);
-        const auto centre_mm = tag_centre_mm(plate, detection.tag_id);
-        sighting.is_known = centre_mm.has_value();
-        sighting.centre_mm = centre_mm.value_or(Eigen::Vector2d::Zero());
+        if (const auto tag = plate_tag(recording, rig, detection.tag_id)) {
+            sighting.is_known = true;
+            sighting.centre_mm = tag->centre_mm;
+            sighting.corners_mm = plate_corners_mm(*tag);
+        }
         for (int c = 0; c < 4; ++c)
             sighting.corners_px.segment<2>(2 * c) = detection.corners_px[static_cast<std::size_t>(c)];
         run.sightings.push_back(sighting);
@@ -265,8 +253,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
         for (std::size_t i = window.lead; i < window.end; ++i) {
             TagSighting& sighting = run.sightings[i];
             const Moment at = moment_at(run, sighting.stamp_s);
-            CornerValues slope =
-                seen_slope(camera, sighting.centre_mm, run.side_mm, path.position_mm[at.row]);
+            CornerValues slope = seen_slope(camera, sighting, path.position_mm[at.row]);
             const double platform_mm = reading ? reading->std_lsb[at.row] * mm_per_lsb(rig.micro->hall) : 0.0;
             const double strayed_mm = std::min(hidden_mm, way_share * (way_mm[at.row] - way_mm[rows.lead]));
             const double platform_px = slope.norm() * platform_mm, strayed_px = slope.norm() * strayed_mm;
@@ -330,10 +317,9 @@ double zero_offset_mm(const TagModel& model, const TagRun& run, const CarriagePa
         for (std::size_t i = 0; i < run.sightings.size(); i += step) {
             const TagSighting& sighting = run.sightings[i];
             if (!sighting.is_known) continue;
-            const CornerValues error =
-                predicted(model, run, place, sighting, offset_mm) - sighting.corners_px;
-            const CornerValues slope = seen_slope(model.camera, sighting.centre_mm, run.side_mm,
-                                                  place.s_mm(sighting.stamp_s) + offset_mm);
+            const CornerValues error = predicted(model, place, sighting, offset_mm) - sighting.corners_px;
+            const CornerValues slope =
+                seen_slope(model.camera, sighting, place.s_mm(sighting.stamp_s) + offset_mm);
             const double beside_mm = -slope.dot(error) / slope.squaredNorm();
             if (std::isfinite(beside_mm)) found_mm.push_back(beside_mm);
         }
@@ -352,10 +338,8 @@ std::vector<CornerValues> tag_errors(const TagModel& model, const TagRun& run, c
         const TagSighting& sighting = run.sightings[i];
         if (!sighting.is_known) continue;
         const double into_window_mm = zero_mm + place.entering_mm(sighting.stamp_s);
-        const CornerValues error =
-            predicted(model, run, place, sighting, into_window_mm) - sighting.corners_px;
-        const CornerValues slope =
-            seen_slope(model.camera, sighting.centre_mm, run.side_mm, place.s_mm(sighting.stamp_s) + zero_mm);
+        const CornerValues error = predicted(model, place, sighting, into_window_mm) - sighting.corners_px;
+        const CornerValues slope = seen_slope(model.camera, sighting, place.s_mm(sighting.stamp_s) + zero_mm);
         pull += sighting.offset_weight * slope.dot(error);
         stiffness += sighting.offset_weight * slope.squaredNorm();
     }
@@ -367,7 +351,7 @@ std::vector<CornerValues> tag_errors(const TagModel& model, const TagRun& run, c
         const TagSighting& sighting = run.sightings[i];
         if (sighting.is_known)
             errors.push_back(
-                turned(sighting, predicted(model, run, place, sighting, offset_mm) - sighting.corners_px));
+                turned(sighting, predicted(model, place, sighting, offset_mm) - sighting.corners_px));
         else
             errors.push_back(CornerValues::Constant(std::numeric_limits<double>::quiet_NaN()));
     }

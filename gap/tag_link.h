@@ -23,7 +23,6 @@
 // Where rows are exposed one after the other, s of one corner is wrong by another amount than s of the next:
 // the other values' floors then hold what the smoothed reading's error changes by from the first of these
 // times to the last one, and that share of the carriage's way between them.
-#include "core/fiducial_parameters.h"
 #include "gap/carriage_link.h"
 #include "gap/evidence.h"
 #include "gap/hall_smoothing.h"
@@ -40,13 +39,11 @@ namespace fidservo::gap {
 
 using CornerValues = Eigen::Matrix<double, corner_values, 1>;  ///< u and v of the corners in turn
 
-/// On the plate; empty for a tag that it does not have.
-std::optional<Eigen::Vector2d> tag_centre_mm(const FiducialParameters& plate, int id);
-
 /// A detection that is judged.
 struct TagSighting {
-    double stamp_s = 0.0;  ///< since the recording's first row
-    Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();
+    double stamp_s = 0.0;                                 ///< since the recording's first row
+    Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();  ///< of its tag, on the plate
+    std::array<Eigen::Vector2d, 4> corners_mm{centre_mm, centre_mm, centre_mm, centre_mm};  ///< likewise
     CornerValues corners_px = CornerValues::Zero();
     CornerValues mirror = CornerValues::Zero();     ///< normal of the reflection that turns the values
     CornerValues floors_px = CornerValues::Zero();  ///< of the turned values
@@ -63,7 +60,7 @@ struct TagRun {
     std::vector<double> time_s;  ///< of the rows, since the first
     std::vector<TagSighting> sightings;
     std::vector<TagWindow> windows;
-    double side_mm = 0.0, tick_s = 0.0;
+    double tick_s = 0.0;
     bool is_seen = false;       ///< in a camera's images, which show the mean over their exposure
     bool zero_is_seen = false;  ///< what the encoder's zero is off by is found anew by each hypothesis
 };

@@ -6,6 +6,8 @@
 #include "gap/gap_size.h"
 #include "gap/halves.h"
 #include "gap/parallel.h"
+#include "gap/plate_tag.h"
+#include "plant/effects/catalogue.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +84,27 @@ void add_missing_signals(const Evidence& evidence, Lines& lines) {
     const Rig& rig = evidence.rig();
     say(Signal::encoder, true, "drive, friction, mechanics and encoder of the macro stage");
     say(Signal::hall, rig.micro.has_value(), "heater, wire, platform and Hall sensor");
-    say(Signal::tag, rig.camera && rig.fiducials, "camera and plate, and what only they tell of the sensors");
+    const bool has_tags = std::ranges::any_of(
+        evidence.recordings(), [&](const Recording& recording) { return shows_tags(recording, rig); });
+    say(Signal::tag, has_tags, "camera and plate, and what only they tell of the sensors");
+}
+
+void add_unknown_places(const Evidence& evidence, Lines& lines) {
+    if (knows_places(evidence)) return;
+    Lines effects, recordings;
+    for (const plant::Effect* effect : plant::effect_catalogue())
+        if (effect->needs_place) effects.emplace_back(effect->name);
+    for (std::size_t run = 0; run < evidence.recordings().size(); ++run)
+        if (!evidence.knows_places(run)) recordings.push_back(evidence.recordings()[run].name);
+    lines.push_back(fmt::format(
+        "{}: not determined: they act at a place on the rail, and where the carriage is in {} is not known: "
+        "neither encoder_zero nor a tag of the plate tells, and counts from the end of travel would lie "
+        "beyond "
+        "it",
+        fmt::join(effects, ", "),
+        recordings.size() == 1
+            ? recordings.front()
+            : fmt::format("{} of {} recordings", recordings.size(), evidence.recordings().size())));
 }
 
 /// Windows in which effects are looked for, and what the rig file predicts there.
@@ -166,6 +188,7 @@ std::vector<std::string> undecided(const Evidence& evidence, std::span<const Can
     add_other_rigs(evidence, lines);
     add_useless_predictions(evidence, selection, lines);
     add_missing_signals(evidence, lines);
+    add_unknown_places(evidence, lines);
     if (selection.ended != Ended::finished)
         lines.emplace_back(
             "the search was ended before all that might do better was tried: what stays off its floor is the "

@@ -14,6 +14,7 @@ namespace fidservo::gap {
 ///     worse than a rig that does not move at all (r.m.s. within windows): the rig file may be of another
 ///     rig;
 ///   - signals of the rig that no recording has, or of which nothing could be judged;
+///   - effects that act at a place on the rail, where places are not known;
 ///   - that the search was cut short;
 ///   - by block, effects that would hardly show at their typical size: the loss that they would make,
 ///     sum over windows of 1/2 log(1 + d_w), d_w the mean square change of the predictions in floors, is less

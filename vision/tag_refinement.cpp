@@ -322,6 +322,12 @@ Failure hidden(const char* why) {
     return {Reason::occluded, why};
 }
 
+CornerCovariances of_single_corners(const CornerCovariance& all_px2) {
+    CornerCovariances of_corners;
+    for (int k = 0; k < 4; ++k) of_corners[static_cast<std::size_t>(k)] = all_px2.block<2, 2>(2 * k, 2 * k);
+    return of_corners;
+}
+
 Result<RefinedTag> fit_picture(const cv::Mat& image, const TagDetection& found,
                                const RefinementOptions& options, double shortest_px) {
     thread_local WorkingMemory memory;
@@ -330,6 +336,8 @@ Result<RefinedTag> fit_picture(const cv::Mat& image, const TagDetection& found,
     if (!fit.look_roughly() || !fit.look_closely())
         return tl::make_unexpected(hidden("too little of the tag is to be seen"));
     RefinedTag refined = fit.result(found);
+    refined.detection.is_refined = true;
+    refined.detection.covariances_px2 = of_single_corners(refined.covariance_px2);
     const double cell_px = shortest_px / tag_pattern(found.tag_id, found.border_cells).cells;
     for (std::size_t k = 0; k < 4; ++k)
         if (!((refined.detection.corners_px[k] - found.corners_px[k]).norm() <= std::max(2.0, cell_px)))
@@ -364,7 +372,10 @@ Result<RefinedTag> refine_tag(const cv::Mat& image, const TagDetection& found,
 }
 
 RefinedTag tag_of_corners(const TagDetection& corners, const CornerCovariance& covariance_px2) {
-    return {corners, covariance_px2, centre_px(corners), mean_covariance_px2(covariance_px2)};
+    RefinedTag tag{corners, covariance_px2, centre_px(corners), mean_covariance_px2(covariance_px2)};
+    tag.detection.is_refined = false;
+    tag.detection.covariances_px2 = of_single_corners(covariance_px2);
+    return tag;
 }
 
 RefinedTag unrefined(const TagDetection& found) {

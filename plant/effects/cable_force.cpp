@@ -27,6 +27,7 @@ extern constexpr Effect cable_force{
     .source = "Hooke's law for a flexible cable carrier; Duffing, Erzwungene Schwingungen, 1918: hardening",
     .parameters = parameters,
     .apply = apply,
+    .needs_place = true,
 };
 
 }  // namespace fidservo::plant::effects

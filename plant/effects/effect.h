@@ -49,6 +49,9 @@ struct Effect {
     std::span<const EffectParameter> parameters;
     /// One value per parameter, within bounds; the part that the block names exists.
     void (*apply)(PlantParameters& plant, std::span<const double> values);
+    /// Whether it acts at a place on the rail that its parameters state, so that only who knows where the
+    /// carriage is can find it. What repeats along the rail does not: its phase counts from anywhere.
+    bool needs_place = false;
 };
 
 /// An effect with the values of its parameters, in its order.

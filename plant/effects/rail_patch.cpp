@@ -32,6 +32,7 @@ extern constexpr Effect rail_patch{
     .source = "Armstrong-Helouvry, Control of Machines with Friction, 1991: position-dependent friction",
     .parameters = parameters,
     .apply = apply,
+    .needs_place = true,
 };
 
 }  // namespace fidservo::plant::effects

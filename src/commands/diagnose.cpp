@@ -13,6 +13,7 @@
 #include "src/diagnose/report.h"
 #include "src/diagnose/search_progress.h"
 #include "src/diagnose/thinned.h"
+#include "src/diagnose/time_limit.h"
 #include "src/interrupt.h"
 #include "src/recording/durable_file.h"
 #include "src/recording/reader.h"
@@ -82,25 +83,11 @@ void keep_memory() {
 #endif
 }
 
-/// What an answer may take, all together: half a minute, and two for an hour of recordings.
-struct TimeLimit {
-    double search_s, whole_s;
-};
-
-TimeLimit time_limit(const std::vector<Recording>& recordings) {
-    constexpr double shortest_s = 26.0, per_hour_s = 84.0, of_search = 0.8;
-    double recorded_s = 0.0;
-    for (const Recording& recording : recordings)
-        recorded_s += static_cast<double>(recording.rows.size()) * recording.tick_s;
-    const double whole_s = shortest_s + per_hour_s * recorded_s / 3600.0;
-    return {of_search * whole_s, whole_s};
-}
-
 int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig) {
     const auto start = std::chrono::steady_clock::now();
     Read read = read_recordings(options.recordings);
     const double gone_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const TimeLimit limit = time_limit(read.recordings);
+    const diagnose::TimeLimit limit = diagnose::time_limit(read.recordings);
     const auto budget = std::make_shared<const gap::Budget>(limit.search_s - gone_s, limit.whole_s - gone_s,
                                                             interrupt_requested);
     const gap::Evidence evidence(rig, diagnose::thinned(std::move(read.recordings), read.notes), budget);

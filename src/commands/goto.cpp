@@ -16,6 +16,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <thread>
 
@@ -33,6 +34,7 @@ struct GotoOptions {
     int tag = 0;
     double dx_um = 0.0;
     std::optional<double> hold_s;
+    std::filesystem::path out;  ///< of the recording; empty: none
 };
 
 /// To a tenth of a nanometre or a microsecond: more digits say nothing.
@@ -88,6 +90,17 @@ void demand_reachable(const Rig& rig, const PlateTag& tag, const GotoOptions& op
                         options.dx_um, tag.id, low_um, high_um));
 }
 
+int go_and_hold(Session& session, const GotoOptions& options) {
+    if (const auto homed = session.home(); !homed) return end_of_run("homing", homed.error());
+    const auto arrival = session.go_to(options.tag, mm_from_um(options.dx_um));
+    if (!arrival && puts_rig_in_doubt(arrival.error().reason))
+        if (const auto well = session.check_rig(); !well) return end_of_run("goto", well.error());
+    if (!arrival) return end_of_run("goto", arrival.error());
+    print_arrival(*arrival);
+    hold(session, options.hold_s);
+    return arrival->within_tolerance ? exit_done : exit_answer_is_no;
+}
+
 int run_goto(const GotoOptions& options) {
     demand_finite("--dx-um", options.dx_um);
     demand_finite("--hold", options.hold_s.value_or(0.0));
@@ -100,14 +113,7 @@ int run_goto(const GotoOptions& options) {
                                      plate.tags.back().id));
     demand_reachable(rig, *tag, options);
     Session session(options.session, rig, plate, plate);
-    if (const auto homed = session.home(); !homed) return end_of_run("homing", homed.error());
-    const auto arrival = session.go_to(options.tag, mm_from_um(options.dx_um));
-    if (!arrival && puts_rig_in_doubt(arrival.error().reason))
-        if (const auto well = session.check_rig(); !well) return end_of_run("goto", well.error());
-    if (!arrival) return end_of_run("goto", arrival.error());
-    print_arrival(*arrival);
-    hold(session, options.hold_s);
-    return arrival->within_tolerance ? exit_done : exit_answer_is_no;
+    return recorded(session, options.out, "goto", [&] { return go_and_hold(session, options); });
 }
 
 }  // namespace
@@ -121,6 +127,7 @@ void add_goto(CLI::App& app, int& exit_code) {
     command->add_option("--dx-um", options->dx_um, "Offset from its centre along the stage axis, um");
     command->add_option("--hold", options->hold_s, "Hold for so many seconds, then switch the heater off")
         ->check(CLI::NonNegativeNumber);
+    add_recording_option(*command, options->out);
     add_session_options(*command, options->session);
     add_sim_rig_option(*command, options->session);
     add_example(*command, "fidservo goto --tag 12 --dx-um 150 --hold 5");

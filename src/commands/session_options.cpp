@@ -35,6 +35,27 @@ void add_sim_rig_option(CLI::App& command, SessionOptions& options) {
         ->type_name("RIG.yaml");
 }
 
+void add_recording_option(CLI::App& command, std::filesystem::path& out) {
+    command
+        .add_option("--out", out,
+                    "New folder for a recording of all that happens; fidservo diagnose DIR judges it")
+        ->type_name("DIR");
+}
+
+int recorded(Session& session, const std::filesystem::path& out, const std::string& experiment,
+             const std::function<int()>& work) {
+    if (out.empty()) return work();
+    session.record_to(out, experiment);
+    try {
+        const int exit_code = work();
+        if (const auto closed = session.end_recording(); !closed) throw RunFault(closed.error().text);
+        return exit_code;
+    } catch (const RunFault&) {
+        session.leave_recording();
+        throw;
+    }
+}
+
 Plate rig_plate(const Rig& rig, const std::filesystem::path& rig_file) {
     if (!rig.fiducials)
         throw InputError(

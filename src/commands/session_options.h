@@ -4,6 +4,9 @@
 #include "core/result.h"
 #include "src/session/session.h"
 
+#include <filesystem>
+#include <functional>
+#include <string>
 #include <string_view>
 
 #include <CLI/App.hpp>
@@ -15,6 +18,15 @@ void add_session_options(CLI::App& command, SessionOptions& options);
 
 /// --sim-rig.
 void add_sim_rig_option(CLI::App& command, SessionOptions& options);
+
+/// --out, for a command whose work may be recorded.
+void add_recording_option(CLI::App& command, std::filesystem::path& out);
+
+/// Does a command's work, and records all of it where `out` names a folder. A run that cannot go on leaves
+/// the recording as it is, unfinished. Throws InputError if the folder exists, RunFault.
+/// @return what the work returns
+int recorded(Session& session, const std::filesystem::path& out, const std::string& experiment,
+             const std::function<int()>& work);
 
 /// The plate that the rig file describes. Throws InputError if it describes none.
 Plate rig_plate(const Rig& rig, const std::filesystem::path& rig_file);

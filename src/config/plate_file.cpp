@@ -142,6 +142,15 @@ Plate load_plate(const std::filesystem::path& file) {
     return read_plate(YamlValue::load(file));
 }
 
+std::string plate_yaml(const std::vector<PlateTag>& tags) {
+    std::string text = "family: tag36h11\ntags:\n";
+    for (const PlateTag& tag : tags)
+        text += fmt::format("  - {{ id: {}, centre_mm: [{}, {}], side_mm: {}, angle_deg: {} }}\n", tag.id,
+                            tag.centre_mm.x(), tag.centre_mm.y(), tag.side_mm,
+                            tag.angle_rad * 180.0 / std::numbers::pi);
+    return text;
+}
+
 Plate plate_of(const FiducialParameters& fiducials) {
     Plate plate;
     plate.family = fiducials.family;

@@ -4,6 +4,8 @@
 #include "src/config/yaml_reader.h"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace fidservo {
 
@@ -12,6 +14,9 @@ Plate load_plate(const std::filesystem::path& file);
 
 /// The same from a map inside another file, e.g. a recipe's `plate`.
 Plate read_plate(const YamlValue& map);
+
+/// The text of a plate file with these tags and no features.
+std::string plate_yaml(const std::vector<PlateTag>& tags);
 
 /// One printed feature of a plate file's `features`.
 /// @param ink_reflectance  where the feature does not say

@@ -28,14 +28,8 @@ std::vector<Timed> between(const std::vector<Timed>& all, TimeNs from_ns, TimeNs
 /// Rows [first, end) of a recording and what was seen meanwhile.
 Recording piece(const Recording& whole, std::size_t first, std::size_t end) {
     Recording part;
-    part.name = fmt::format("{} from {:.0f} s", whole.name, static_cast<double>(first) * whole.tick_s);
-    part.rig = whole.rig;
-    part.experiment = whole.experiment;
-    part.tick_s = whole.tick_s;
-    part.encoder_zero = whole.encoder_zero;
-    part.controllers = whole.controllers;
-    part.is_seen = whole.is_seen;
-    part.columns = whole.columns;
+    static_cast<RecordingHeader&>(part) = whole;
+    part.name += fmt::format(" from {:.0f} s", static_cast<double>(first) * whole.tick_s);
     part.rows.assign(whole.rows.begin() + static_cast<std::ptrdiff_t>(first),
                      whole.rows.begin() + static_cast<std::ptrdiff_t>(end));
     const TimeNs from_ns = part.rows.front().time_ns, to_ns = part.rows.back().time_ns + 1;

@@ -15,9 +15,9 @@ namespace fidservo {
 namespace {
 
 /// Where the camera is, by the corners of a tag; NaN if the tag is not on the plate.
-double camera_mm(const Rig& rig, const Plate& plate, const TagDetection& seen) {
-    const auto tag = std::ranges::find(plate.tags, seen.tag_id, &PlateTag::id);
-    if (tag == plate.tags.end()) return not_in_force;
+double camera_mm(const Rig& rig, const std::vector<PlateTag>& plate, const TagDetection& seen) {
+    const auto tag = std::ranges::find(plate, seen.tag_id, &PlateTag::id);
+    if (tag == plate.end()) return not_in_force;
     return vision::fit_position(rig.camera->geometry, *tag, vision::unrefined(seen)).position.s_mm;
 }
 
@@ -34,7 +34,7 @@ double mean_adc(const Recording& recording, TimeNs middle_ns, double exposure_s)
 }
 
 /// The carriage must rest: then the camera moves with the platform. Zero is where it starts, fully extended.
-void append_sights(const Rig& rig, const Plate& plate, const Recording& recording,
+void append_sights(const Rig& rig, const std::vector<PlateTag>& plate, const Recording& recording,
                    std::vector<calib::HallSample>& samples) {
     constexpr double rest_s = 0.05;
     constexpr double rest_mm = 0.02;
@@ -80,15 +80,15 @@ std::vector<calib::HallSample> samples_of(const IdentifyInput& input, Identified
         for (std::size_t k = 0; k < adc.size(); ++k) samples.push_back({reference_mm[k], adc[k]});
         return samples;
     }
-    const bool can_see = input.rig.camera && input.rig.fiducials;
-    const Plate plate = can_see ? plate_of(*input.rig.fiducials) : Plate{};
+    std::vector<PlateTag> of_rig;
+    if (input.rig.fiducials) of_rig = plate_of(*input.rig.fiducials).tags;
     for (const Recording& recording : input.recordings) {
         const std::size_t before = samples.size();
         if (!recording.columns.hall) continue;
         if (recording.columns.position)
             append_positions(recording, samples);
-        else if (can_see)
-            append_sights(input.rig, plate, recording, samples);
+        else if (input.rig.camera)
+            append_sights(input.rig, recording.plate.empty() ? of_rig : recording.plate, recording, samples);
         if (samples.size() > before) identified.recordings.push_back(recording.name);
     }
     if (samples.empty())

@@ -25,9 +25,8 @@ std::string headline(std::size_t sites, std::size_t failed, std::size_t unsure) 
 
 }  // namespace
 
-void write_inspection_report(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
-                             const JournalContent& content, const DeviceFigures& devices,
-                             const std::optional<RigFindings>& findings) {
+InspectionReport inspection_report(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
+                                   const JournalContent& content, const DeviceFigures& devices) {
     const std::vector<Visit>& visits = content.visits;
     const Counts counts = count(visits);
     std::size_t failed = 0, unsure = 0;
@@ -38,7 +37,8 @@ void write_inspection_report(const OutputFolder& output, const Recipe& recipe, c
         unsure += outcome == Outcome::not_decidable || outcome == Outcome::not_measured;
     }
     const CameraGeometry& camera = rig.camera.value().geometry;
-    report::Page page;
+    InspectionReport all;
+    report::Page& page = all.page;
     page.title = recipe.name + " \u2013 inspection";
     page.kind = "Inspection report \u00b7 " + recipe.name;
     page.headline = headline(recipe.sites.size(), failed, unsure);
@@ -63,12 +63,21 @@ void write_inspection_report(const OutputFolder& output, const Recipe& recipe, c
     page.body += report::section("sites", "Sites", sites_html(output, camera, visits));
     page.body += report::section("errors", "Deviations", histogram_html(visits));
     if (!measured_again) page.body += report::section("traces", "Stage", traces_html(output, rig, visits));
-    if (findings) page.body += report::section("rig", "The rig", findings->html);
+    all.findings_at = page.body.size();
     if (devices.loop) page.body += report::section("loop", "Control loop", loop_html(*devices.loop));
     if (devices.frames) page.body += report::section("frames", "Camera frames", frames_html(*devices.frames));
     page.body += report::section("checks", "All checks", checks_html(visits));
     page.footer = footer_html(content);
-    replace_file(output.report(), report::render(page));
+    return all;
+}
+
+InspectionReport with_findings(InspectionReport all, const RigFindings& findings) {
+    all.page.body.insert(all.findings_at, report::section("rig", "The rig", findings.html));
+    return all;
+}
+
+void write_inspection_report(const OutputFolder& output, const InspectionReport& all) {
+    replace_file(output.report(), report::render(all.page));
 }
 
 }  // namespace fidservo::inspect

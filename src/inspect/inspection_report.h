@@ -5,8 +5,9 @@
 #include "src/inspect/output.h"
 #include "src/inspect/recipe.h"
 #include "src/inspect/rig_findings.h"
+#include "src/report/page.h"
 
-#include <optional>
+#include <cstddef>
 
 namespace fidservo {
 struct Rig;
@@ -14,10 +15,20 @@ struct Rig;
 
 namespace fidservo::inspect {
 
-/// Reads images and recordings back from the output folder. Throws RunFault if the disk does not take it.
-/// @param findings  what the recordings say of the rig, if that was asked
-void write_inspection_report(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
-                             const JournalContent& content, const DeviceFigures& devices,
-                             const std::optional<RigFindings>& findings);
+/// All but what is known of the rig only after a run.
+struct InspectionReport {
+    report::Page page;
+    std::size_t findings_at = 0;  ///< where in its body a section about the rig belongs
+};
+
+/// Reads images and recordings back from the output folder.
+InspectionReport inspection_report(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
+                                   const JournalContent& content, const DeviceFigures& devices);
+
+/// The same with a section of what the recordings say of the rig.
+InspectionReport with_findings(InspectionReport all, const RigFindings& findings);
+
+/// Throws RunFault if the disk does not take it.
+void write_inspection_report(const OutputFolder& output, const InspectionReport& all);
 
 }  // namespace fidservo::inspect

@@ -133,12 +133,14 @@ DeviceFigures figures_of(const Session& session) {
 }
 
 /// What scripts and people read, once all sites are done.
-void write_all(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
-               const JournalContent& content, const DeviceFigures& devices,
-               const std::optional<RigFindings>& findings = std::nullopt) {
+/// @return the report as it was written
+InspectionReport write_all(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
+                           const JournalContent& content, const DeviceFigures& devices) {
     write_results(output.results(), content.visits);
     write_run_json(output.run_json(), recipe, content, devices);
-    write_inspection_report(output, recipe, rig, content, devices, findings);
+    InspectionReport all = inspection_report(output, recipe, rig, content, devices);
+    write_inspection_report(output, all);
+    return all;
 }
 
 void refuse_what_moves(const InspectionOptions& options) {
@@ -166,7 +168,7 @@ Counts measure_again(const InspectionOptions& options, const std::filesystem::pa
         content.visits.push_back(measure_saved(measuring, images, site));
         say(content.visits, recipe);
     }
-    write_all(output, recipe, rig, content, {});
+    (void)write_all(output, recipe, rig, content, {});
     return count(content.visits);
 }
 
@@ -180,8 +182,8 @@ struct Task {
 
 /// What a run has come to.
 struct Ran {
-    JournalContent content;
-    DeviceFigures devices;
+    Counts counts;
+    InspectionReport report;
 };
 
 /// The rig is switched off when it returns.
@@ -222,10 +224,9 @@ Ran run_on_rig(const InspectionOptions& options, const SessionOptions& session_o
         progress.is_at("stopped", fault.what());
         throw;
     }
-    const DeviceFigures devices = figures_of(session);
-    write_all(output, recipe, rig, content, devices);
+    InspectionReport all = write_all(output, recipe, rig, content, figures_of(session));
     progress.is_at("done");
-    return {std::move(content), devices};
+    return {count(content.visits), std::move(all)};
 }
 
 }  // namespace
@@ -243,15 +244,15 @@ Counts run_inspection(const InspectionOptions& options) {
         return measure_again(options, *folder, recipe, rig, identity);
 
     const OutputFolder output{options.out};
-    const Ran ran = run_on_rig(options, session_options, {rig, recipe, printed, identity}, output);
+    Ran ran = run_on_rig(options, session_options, {rig, recipe, printed, identity}, output);
     if (options.diagnosis) {
         fmt::print("diagnosing what was recorded\n");
         std::fflush(stdout);
-        const RigFindings findings = find_in_recordings(output, recipe, rig, options.session.rig_file);
-        write_inspection_report(output, recipe, rig, ran.content, ran.devices, findings);
+        const RigFindings findings = find_in_recordings(output, rig, options.session.rig_file);
+        write_inspection_report(output, with_findings(std::move(ran.report), findings));
         fmt::print("{}\n", findings.line);
     }
-    return count(ran.content.visits);
+    return ran.counts;
 }
 
 }  // namespace fidservo::inspect

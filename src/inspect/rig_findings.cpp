@@ -3,9 +3,10 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "gap/diagnose.h"
-#include "gap/tag_link.h"
 #include "src/diagnose/diagnosis_json.h"
 #include "src/diagnose/report.h"
+#include "src/diagnose/thinned.h"
+#include "src/diagnose/time_limit.h"
 #include "src/diagnose/verdict_words.h"
 #include "src/diagnose/words.h"
 #include "src/interrupt.h"
@@ -13,10 +14,8 @@
 #include "src/recording/reader.h"
 #include "src/report/html.h"
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <optional>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -24,23 +23,10 @@
 namespace fidservo::inspect {
 namespace {
 
-/// Whether a recipe's plate has a tag where the rig file has it.
-bool is_where_the_rig_has_it(const Recipe& recipe, const FiducialParameters& fiducials, int id) {
-    constexpr double same_mm = 1e-6, same_rad = 1e-9;
-    const PlateTag* tag = find_tag(recipe.nominal, id);
-    const auto centre_mm = gap::tag_centre_mm(fiducials, id);
-    return tag != nullptr && centre_mm && (tag->centre_mm - *centre_mm).norm() < same_mm &&
-           std::abs(tag->side_mm - fiducials.side_mm) < same_mm && std::abs(tag->angle_rad) < same_rad;
-}
-
-std::vector<Recording> recordings_of(const OutputFolder& output, const Recipe& recipe, const Rig& rig) {
+std::vector<Recording> recordings_in(const OutputFolder& output) {
     std::vector<Recording> recordings;
-    for (const std::filesystem::path& folder : find_recordings(output.root)) {
+    for (const std::filesystem::path& folder : find_recordings(output.root))
         recordings.push_back(read_recording(folder));
-        std::erase_if(recordings.back().detections, [&](const TagDetection& detection) {
-            return !is_where_the_rig_has_it(recipe, *rig.fiducials, detection.tag_id);
-        });
-    }
     return recordings;
 }
 
@@ -67,15 +53,16 @@ RigFindings nothing_found(const std::string& why) {
 
 }  // namespace
 
-RigFindings find_in_recordings(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
+RigFindings find_in_recordings(const OutputFolder& output, const Rig& rig,
                                const std::filesystem::path& rig_file) {
-    if (!rig.fiducials) return nothing_found("the rig file has no fiducials");
-    constexpr double search_s = 20.0, whole_s = 26.0;
-    const auto budget = std::make_shared<const gap::Budget>(search_s, whole_s, interrupt_requested);
+    const auto budget = std::make_shared<const gap::Budget>(
+        diagnose::half_a_minute.search_s, diagnose::half_a_minute.whole_s, interrupt_requested);
     try {
-        const gap::Evidence evidence(rig, recordings_of(output, recipe, rig), budget);
-        const gap::Diagnosis diagnosis = gap::diagnose(evidence);
+        std::vector<std::string> notes;
+        const gap::Evidence evidence(rig, diagnose::thinned(recordings_in(output), notes), budget);
+        gap::Diagnosis diagnosis = gap::diagnose(evidence);
         budget->end();
+        diagnosis.notes.insert(diagnosis.notes.end(), notes.begin(), notes.end());
         replace_file(output.root / "diagnosis.json", diagnosis_json(diagnosis));
         replace_file(output.root / "diagnosis.html", diagnose::diagnosis_report(evidence, diagnosis,
                                                                                 {.rig_file = rig_file,

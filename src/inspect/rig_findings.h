@@ -1,7 +1,6 @@
 #pragma once
 // What an inspection's own recordings say of the rig beside its simulation.
 #include "src/inspect/output.h"
-#include "src/inspect/recipe.h"
 
 #include <filesystem>
 #include <string>
@@ -18,10 +17,9 @@ struct RigFindings {
 };
 
 /// Diagnoses what homing and visits have recorded, for at most half a minute, and writes OUT/diagnosis.html
-/// and OUT/diagnosis.json. Detections count of those tags that the recipe's plate and the rig file have in
-/// the same place. What cannot be diagnosed is said instead. Throws RunFault if the disk does not take the
-/// files.
-RigFindings find_in_recordings(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
+/// and OUT/diagnosis.json. What cannot be diagnosed is said instead. Throws RunFault if the disk does not
+/// take the files.
+RigFindings find_in_recordings(const OutputFolder& output, const Rig& rig,
                                const std::filesystem::path& rig_file);
 
 }  // namespace fidservo::inspect

@@ -39,4 +39,11 @@ inline constexpr std::array<std::string_view, 8> corner_titles{
     "p0_x [px]", "p0_y [px]", "p1_x [px]", "p1_y [px]", "p2_x [px]", "p2_y [px]", "p3_x [px]", "p3_y [px]"};
 inline constexpr int corner_decimals = 4;
 
+/// What a file of detections may have beside the corners: 1 where they were refined, 0 where they are as the
+/// detector found them; and of each corner the covariance of x and y.
+inline constexpr std::string_view refined_title = "refined";
+inline constexpr std::array<std::string_view, 12> covariance_titles{
+    "p0_xx [px^2]", "p0_xy [px^2]", "p0_yy [px^2]", "p1_xx [px^2]", "p1_xy [px^2]", "p1_yy [px^2]",
+    "p2_xx [px^2]", "p2_xy [px^2]", "p2_yy [px^2]", "p3_xx [px^2]", "p3_xy [px^2]", "p3_yy [px^2]"};
+
 }  // namespace fidservo

@@ -7,8 +7,8 @@
 
 namespace fidservo {
 
-/// Reads a recording: recording.yaml, and whichever there are of stage0/data.csv, cam0/data.csv and
-/// cam0/detections.csv. Columns are known by name and unit and may stand in any order. Throws InputError
+/// Reads a recording: recording.yaml, and whichever there are of plate.yaml, stage0/data.csv, cam0/data.csv
+/// and cam0/detections.csv. Columns are known by name and unit and may stand in any order. Throws InputError
 /// "FILE:LINE: ..." on anything that is not as it should be: a file cut off in mid-line, numbers that are not
 /// finite, time that does not increase, columns that are missing, unknown or in another unit.
 /// Where recording.yaml says that it is unfinished, a last line that does not end is left out, and a file

@@ -39,8 +39,15 @@ std::string stage_header(const StageColumns& columns) {
     return text + '\n';
 }
 
-std::string detections_header() {
-    return fmt::format("#{},tag_id,{}\n", time_title, fmt::join(corner_titles, ","));
+std::string detections_header(CornerColumns columns) {
+    return fmt::format("#{},tag_id,{}\n", time_title, corners_header(columns));
+}
+
+std::string corners_header(CornerColumns columns) {
+    std::string titles = fmt::format("{}", fmt::join(corner_titles, ","));
+    if (columns == CornerColumns::places_and_covariances)
+        titles += fmt::format(",{},{}", refined_title, fmt::join(covariance_titles, ","));
+    return titles;
 }
 
 std::string frames_header() {
@@ -54,15 +61,23 @@ void append_row(std::string& text, const StageRow& row, const StageColumns& colu
     text += '\n';
 }
 
-void append_corners(std::string& text, const TagDetection& detection) {
+void append_corners(std::string& text, const TagDetection& detection, CornerColumns columns) {
     for (const Eigen::Vector2d& corner : detection.corners_px)
         for (const double coordinate : {corner.x(), corner.y()})
             append_number(text, coordinate, corner_decimals);
+    if (columns == CornerColumns::places) return;
+    text += detection.is_refined ? (*detection.is_refined ? ",1" : ",0") : ",";
+    if (detection.covariances_px2)
+        for (const Eigen::Matrix2d& corner : *detection.covariances_px2)
+            fmt::format_to(std::back_inserter(text), FMT_COMPILE(",{:.4g},{:.4g},{:.4g}"), corner(0, 0),
+                           corner(0, 1), corner(1, 1));
+    else
+        text.append(covariance_titles.size(), ',');
 }
 
-void append_detection(std::string& text, const TagDetection& detection) {
+void append_detection(std::string& text, const TagDetection& detection, CornerColumns columns) {
     fmt::format_to(std::back_inserter(text), FMT_COMPILE("{},{}"), detection.time_ns, detection.tag_id);
-    append_corners(text, detection);
+    append_corners(text, detection, columns);
     text += '\n';
 }
 

@@ -5,8 +5,8 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "core/spsc_ring.h"
+#include "src/config/plate_file.h"
 #include "src/recording/durable_file.h"
-#include "src/recording/row_format.h"
 #include "vision/images/image_file.h"
 
 #include <algorithm>
@@ -93,6 +93,7 @@ struct RecordingWriter::Impl {
 
     void open_files() {
         check(write_durably(folder / "recording.yaml", description_yaml(stated, options.origin)));
+        if (!options.plate.empty()) check(write_durably(folder / "plate.yaml", plate_yaml(options.plate)));
         fs::create_directories(folder / "stage0");
         stage_file.emplace(take_or_throw(DurableFile::create(folder / "stage0" / "data.csv")));
         check(stage_file->append(stage_header(options.columns)));
@@ -101,7 +102,7 @@ struct RecordingWriter::Impl {
             check(write_durably(folder / "cam0" / "sensor.yaml", sensor_yaml(*options.camera)));
         if (options.camera || options.detections) {
             detections_file.emplace(take_or_throw(DurableFile::create(folder / "cam0" / "detections.csv")));
-            check(detections_file->append(detections_header()));
+            check(detections_file->append(detections_header(options.corners)));
         }
         if (options.frames) {
             fs::create_directories(folder / "cam0" / "data");
@@ -154,7 +155,7 @@ struct RecordingWriter::Impl {
         TagDetection detection;
         while (detections.pop(detection)) {
             line.clear();
-            append_detection(line, detection);
+            append_detection(line, detection, options.corners);
             if (auto status = detections_file->append(line); !status) return status;
         }
         ImageToKeep image;
@@ -275,16 +276,21 @@ Status RecordingWriter::close() {
 
 void write_recording(const fs::path& folder, const Recording& recording,
                      const std::optional<CameraParameters>& camera) {
-    RecordingWriter writer(folder, {.name = recording.name,
-                                    .rig = recording.rig,
-                                    .experiment = recording.experiment,
-                                    .tick_s = recording.tick_s,
-                                    .encoder_zero = recording.encoder_zero,
-                                    .controllers = recording.controllers,
-                                    .columns = recording.columns,
-                                    .camera = camera,
-                                    .detections = !recording.detections.empty(),
-                                    .when_full = WhenFull::wait});
+    const bool has_covariances = std::ranges::any_of(
+        recording.detections, [](const TagDetection& tag) { return tag.is_refined || tag.covariances_px2; });
+    RecordingWriter writer(
+        folder, {.name = recording.name,
+                 .rig = recording.rig,
+                 .experiment = recording.experiment,
+                 .tick_s = recording.tick_s,
+                 .encoder_zero = recording.encoder_zero,
+                 .controllers = recording.controllers,
+                 .plate = recording.plate,
+                 .columns = recording.columns,
+                 .camera = camera,
+                 .detections = !recording.detections.empty(),
+                 .corners = has_covariances ? CornerColumns::places_and_covariances : CornerColumns::places,
+                 .when_full = WhenFull::wait});
     for (const StageRow& row : recording.rows) check(writer.add(row));
     for (const TagDetection& detection : recording.detections) check(writer.add(detection));
     for (const RecordingEvent& event : recording.events) writer.add(event);

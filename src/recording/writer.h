@@ -5,11 +5,13 @@
 #include "core/recording.h"
 #include "core/result.h"
 #include "src/recording/description.h"
+#include "src/recording/row_format.h"
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <opencv2/core/mat.hpp>
 
@@ -31,11 +33,13 @@ struct RecordingOptions {
     std::optional<EncoderZero> encoder_zero = {};     ///< as far as it is known at the start
     std::optional<ControllerNames> controllers = {};  ///< empty: not stated
     RecordingOrigin origin = {};
+    std::vector<PlateTag> plate = {};        ///< gives plate.yaml; empty: the rig file's
     StageColumns columns;                    ///< to be written
     std::optional<CameraParameters> camera;  ///< gives cam0/sensor.yaml and detections.csv
     bool detections = false;                 ///< to be added although no camera is given
-    bool frames = false;                     ///< to be kept as images
-    double ring_s = 12.0;                    ///< how long the disk may stall
+    CornerColumns corners = CornerColumns::places;
+    bool frames = false;   ///< to be kept as images
+    double ring_s = 12.0;  ///< how long the disk may stall
     WhenFull when_full = WhenFull::fail;
 };
 

@@ -14,7 +14,6 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <opencv2/core/utility.hpp>
 
 namespace fidservo {
@@ -59,7 +58,8 @@ class ReplayTables {
           detections_(create(folder / "detections.csv")),
           displacements_(create(folder / "displacements.csv")) {
         const std::string key = fmt::format("#{},tag_id", with_times ? time_title : "image");
-        check(detections_.append(fmt::format("{},{}\n", key, fmt::join(corner_titles, ","))));
+        check(detections_.append(
+            fmt::format("{},{}\n", key, corners_header(CornerColumns::places_and_covariances))));
         check(displacements_.append(key + ",dx [um],dy [um],dx_std [um],dy_std [um]\n"));
     }
 
@@ -69,7 +69,7 @@ class ReplayTables {
         std::string text;
         for (const TagDetection& tag : result.tags) {
             text += fmt::format("{},{}", key, tag.tag_id);
-            append_corners(text, tag);
+            append_corners(text, tag, CornerColumns::places_and_covariances);
             text += '\n';
         }
         check(detections_.append(text));

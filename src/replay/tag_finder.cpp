@@ -41,11 +41,11 @@ FrameResult TagFinder::operator()(ReplayFrame frame) {
     const cv::Mat image = decode(frame);
     FrameResult result{.frame = {}, .tags = find(image, frame), .refined = {}};
     const vision::RefinementOptions options = refinement_for(camera_, image);
-    for (TagDetection& tag : result.tags)
-        if (const auto refined = vision::refine_tag(image, tag, options)) {
-            tag = refined->detection;
-            result.refined.push_back(*refined);
-        }
+    for (TagDetection& tag : result.tags) {
+        const auto refined = vision::refine_tag(image, tag, options);
+        tag = refined ? refined->detection : vision::unrefined(tag).detection;
+        if (refined) result.refined.push_back(*refined);
+    }
     frame.decoded.release();
     result.frame = std::move(frame);
     return result;

@@ -16,6 +16,9 @@ struct Finding {
     std::string usual;  ///< what would be expected instead
 };
 
+/// Of a travel: what a step of the reading may be at most for the place to be known by it.
+inline constexpr double coarsest_step_share = 0.01;
+
 /// All of those below.
 std::vector<Finding> findings_of(const Rig& rig);
 

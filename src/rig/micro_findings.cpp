@@ -21,7 +21,6 @@ constexpr double annealing_degC = 400.0;
 /// (src/session/motion_params.cpp).
 constexpr double least_platform_travel_mm = 2.0;
 constexpr double least_stroke_share = 0.9;
-constexpr double coarsest_reading_share = 0.01;
 
 void look_at_heater(const Rig& rig, std::vector<Finding>& findings) {
     const HeaterParameters& heater = rig.micro->heater;
@@ -81,11 +80,11 @@ void look_at_hall(const MicroParameters& micro, std::vector<Finding>& findings) 
     const double travel_mm = micro.high_mm - micro.low_mm;
     const double lsb_mm = hall_lsb_V(hall) * std::max(1.0, hall.noise_lsb) /
                           hall_slope_V_per_mm(hall, std::clamp(hall.centre_mm, micro.low_mm, micro.high_mm));
-    if (std::abs(lsb_mm) > coarsest_reading_share * travel_mm)
+    if (std::abs(lsb_mm) > coarsest_step_share * travel_mm)
         findings.push_back(
             {"micro.hall.adc_bits", fmt::format("{}", hall.adc_bits),
              fmt::format("a reading tells the platform's place to {:.3g} mm only", std::abs(lsb_mm)),
-             fmt::format("at most 1 % of the travel, {:g} mm", coarsest_reading_share * travel_mm)});
+             fmt::format("at most 1 % of the travel, {:g} mm", coarsest_step_share * travel_mm)});
 }
 
 void look_at_limits(const MicroParameters& micro, std::vector<Finding>& findings) {

@@ -5,6 +5,7 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "core/units.h"
+#include "src/config/plate_file.h"
 #include "src/interrupt.h"
 #include "src/recording/layout.h"
 #include "src/session/camera_choice.h"
@@ -130,6 +131,9 @@ void Session::record_to(const std::filesystem::path& folder, RecordingOptions re
     recording.origin = impl_->origin;
     recording.columns = columns_of(rig);
     recording.camera = rig.camera;
+    recording.corners = CornerColumns::places_and_covariances;
+    if (!rig.fiducials || impl_->pilot.nominal.tags != plate_of(*rig.fiducials).tags)
+        recording.plate = impl_->pilot.nominal.tags;
     recording.when_full = loop_statistics() || impl_->simulated ? WhenFull::wait : WhenFull::fail;
     impl_->pilot.machine.record_to(std::make_unique<RecordingWriter>(folder, recording));
 }

@@ -51,7 +51,7 @@ void FilmCamera::look(const plant::StageState& state, TimeNs time_ns, double mac
             // The picture is measured as it is: what the file says of tilt and lens may be what is wrong.
             const auto refined = vision::refine_tag(
                 image, tag, {std::nullopt, vision::grey_noise(camera_), motion_px(tag, middle_s)});
-            detections.push_back(refined ? refined->detection : tag);
+            detections.push_back(refined ? refined->detection : vision::unrefined(tag).detection);
         }
     }
 }

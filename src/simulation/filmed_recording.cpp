@@ -29,6 +29,7 @@ void write_filmed_recording(const std::filesystem::path& folder, const Rig& rig,
                                     .controllers = controllers_of(experiment),
                                     .columns = columns_of(rig),
                                     .camera = rig.camera,
+                                    .corners = CornerColumns::places_and_covariances,
                                     .frames = true,
                                     .when_full = WhenFull::wait});
     const Recording recording =

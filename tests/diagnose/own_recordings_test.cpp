@@ -65,12 +65,70 @@ TEST(SlowOwnRecordings, Inspection_HasNoGap_AndSaysSoItself) {
     EXPECT_FALSE(signal_of(site, "encoder").is_null());
 }
 
+/// Runs a command that drives the simulated rig and records it.
+void record(std::vector<std::string> arguments, const std::filesystem::path& out) {
+    arguments.insert(arguments.begin(), FIDSERVO_PROGRAM);
+    arguments.insert(arguments.end(), {"--out", out.string()});
+    ChildProcess program(arguments);
+    EXPECT_TRUE(program.output_ends(std::chrono::minutes(2)));
+    EXPECT_EQ(program.wait(), 0) << program.output();
+}
+
+std::size_t count_in(const std::string& text, const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+    return found;
+}
+
+TEST(SlowOwnRecordings, InspectionOfAPlateThatTheRigFileHasNot_IsJudgedByItsTags) {
+    const TemporaryFolder folder;
+    const auto recipe = folder.write("recipe.yaml",
+                                     "name: shifted\n"
+                                     "plate:\n"
+                                     "  grid: { columns: 80, rows: 1, pitch_mm: [2.0, 0.0], first_id: 200, "
+                                     "origin_mm: [0.6, 0.1], side_mm: 1.0 }\n"
+                                     "sites: { tags: { first: 203, step: 8, count: 3 } }\n"
+                                     "views:\n"
+                                     "  - { name: right, offset_um: 1000, checks: [ fiducial_placement: { "
+                                     "tolerance_um: 10 } ] }\n");
+    const std::filesystem::path run = folder / "run";
+    record({"inspect", recipe.string()}, run);
+    expect_no_gap(json_of(run / "diagnosis.json"));
+    EXPECT_EQ(count_in(testing::text_of(run / "report.html"), "<section id=\"rig\">"), 1U);
+    expect_no_gap(diagnosis_of(run, folder / "run.json"));
+    for (const auto& recording : std::filesystem::directory_iterator(run / "recordings"))
+        std::filesystem::remove(recording.path() / "plate.yaml");
+    const nlohmann::json without = diagnosis_of(run, folder / "without.json");
+    EXPECT_TRUE(signal_of(without, "tag").is_null()) << "the rig file has no such tags";
+}
+
 TEST(SlowOwnRecordings, StageCalibration_HasNoGap) {
     const TemporaryFolder folder;
     const std::filesystem::path run = folder / "calibrated";
     ChildProcess program({FIDSERVO_PROGRAM, "calibrate", "stage", "--out", run.string()});
     EXPECT_EQ(program.wait(), 0) << program.output();
     expect_no_gap(diagnosis_of(run, folder / "diagnosis.json"));
+}
+
+TEST(SlowOwnRecordings, GotoAndHome_HaveNoGap) {
+    const TemporaryFolder folder;
+    record({"goto", "--tag", "12", "--dx-um", "100", "--hold", "5"}, folder / "goto");
+    expect_no_gap(diagnosis_of(folder / "goto", folder / "goto.json"));
+    record({"home"}, folder / "home");
+    EXPECT_EQ(diagnosis_of(folder / "home", folder / "home.json").at("verdict"), "no-gap");
+}
+
+TEST(SlowOwnRecordings, GotoOnARigWhoseHallSensorHasAnotherGain_SaysSo) {
+    const TemporaryFolder folder;
+    const std::filesystem::path assets = FIDSERVO_ASSETS_DIR;
+    std::filesystem::copy_file(assets / "preisach_fod.csv", folder / "preisach_fod.csv");
+    const auto truth = folder.write("truth.yaml", testing::text_of(assets / "rig.yaml") +
+                                                      "\neffects:\n  - { name: hall_gain, factor: 1.1 }\n");
+    record({"goto", "--tag", "12", "--dx-um", "100", "--hold", "5", "--sim-rig", truth.string()},
+           folder / "goto");
+    const nlohmann::json diagnosis = diagnosis_of(folder / "goto", folder / "goto.json");
+    ASSERT_FALSE(diagnosis.at("effects").empty()) << diagnosis.dump(2);
+    EXPECT_EQ(diagnosis.at("effects").front().at("effect"), "hall_gain");
 }
 
 /// A folder of shared/cases.

@@ -41,6 +41,23 @@ TEST(Thinned, TenMinutes_StayAsTheyAre) {
     EXPECT_TRUE(notes.empty());
 }
 
+TEST(Thinned, WhatHoldsForTheWhole_HoldsForItsParts) {
+    std::vector<std::string> notes;
+    Recording hour = lasting("hour", 3600.0);
+    hour.rig = "r";
+    hour.encoder_zero = EncoderZero{-3.0, 0.1, "end stop"};
+    hour.plate = {{.id = 3, .centre_mm = {1.0, 0.0}, .side_mm = 1.2}};
+    hour.macro_setpoint_step_mm = 1e-2;
+    for (const Recording& part : thinned({hour}, notes)) {
+        EXPECT_TRUE(part.name.starts_with("hour from "));
+        EXPECT_EQ(part.rig, "r");
+        EXPECT_EQ(part.encoder_zero->count, -3.0);
+        EXPECT_EQ(part.plate, hour.plate);
+        EXPECT_EQ(part.macro_setpoint_step_mm, 1e-2);
+        EXPECT_EQ(part.tick_s, hour.tick_s);
+    }
+}
+
 TEST(Thinned, AnHour_IsTenMinutesSpreadOverIt_AndShortOnesStay) {
     std::vector<std::string> notes;
     const auto kept = thinned({lasting("short", 60.0), lasting("hour", 3600.0)}, notes);

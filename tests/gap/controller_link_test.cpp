@@ -75,6 +75,35 @@ TEST(ControllerLink, EveryReadingOfFirmware_IsTheFilesController) {
     EXPECT_LT(largest_error_V(controlled_by({102.30, 2046.0, 1})).value(), nothing_V);
 }
 
+/// What a file of so many decimals has of it.
+Recording in_a_file_of(int decimals, Recording recording) {
+    recording.macro_setpoint_step_mm = std::pow(10.0, -decimals);
+    for (StageRow& row : recording.rows)
+        row.macro_setpoint_mm = recording.macro_setpoint_step_mm *
+                                std::round(row.macro_setpoint_mm / recording.macro_setpoint_step_mm);
+    return recording;
+}
+
+TEST(ControllerLink, SetpointMayBeWhatItsLastDigitLeavesOpen_AndNoMore) {
+    // 102.2741 mm are 2045.482 counts: no more than 2045.
+    const Recording below = controlled_by({102.2741, 2045.0}), above = controlled_by({102.2741, 2046.0});
+    for (const int decimals : {2, 3, 4, 5})
+        EXPECT_LT(largest_error_V(in_a_file_of(decimals, below)).value(), nothing_V) << decimals;
+    EXPECT_GT(largest_error_V(in_a_file_of(5, above)).value(), something_V);
+    EXPECT_GT(largest_error_V(in_a_file_of(4, above)).value(), something_V);
+    EXPECT_GT(largest_error_V(in_a_file_of(3, above)).value(), something_V);
+    EXPECT_LT(largest_error_V(in_a_file_of(2, above)).value(), nothing_V);
+    // 102.27497 mm are 2045.4994 counts, which four digits round to a tie.
+    const Recording near_tie = controlled_by({102.27497, 2046.0});
+    EXPECT_LT(largest_error_V(in_a_file_of(4, near_tie)).value(), nothing_V);
+    EXPECT_GT(largest_error_V(in_a_file_of(5, near_tie)).value(), something_V);
+    // With one decimal a setpoint leaves three counts open.
+    for (const double count : {2045.0, 2046.0, 2047.0})
+        EXPECT_LT(largest_error_V(in_a_file_of(1, controlled_by({102.3, count}))).value(), nothing_V)
+            << count;
+    EXPECT_GT(largest_error_V(in_a_file_of(1, controlled_by({102.3, 2049.0}))).value(), something_V);
+}
+
 TEST(ControllerLink, OtherGainsOrAnotherCount_AreNot) {
     EXPECT_GT(largest_error_V(controlled_by({102.30, 2046.0, 0, 1.2})).value(), something_V);
     EXPECT_GT(largest_error_V(controlled_by({102.30, 2049.0})).value(), something_V);

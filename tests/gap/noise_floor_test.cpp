@@ -29,6 +29,27 @@ TEST(NoiseFloor, RoundedVarianceSpreadOverAStep_IsNoisePlusATwelfth) {
     EXPECT_NEAR((sum + stray) / parts, 0.4 * 0.4 + 1.0 / 12.0, 1e-6);
 }
 
+/// Frames of one tag at rest, whose refined corners and, of every third frame, the detector's scatter as
+/// told.
+TEST(NoiseFloor, CornersThatCouldNotBeRefined_DoNotCountBesideThoseThatWere) {
+    constexpr double frame_s = 0.02, refined_px = 0.01, found_px = 0.2;
+    NoiseStream noise(17, "corners");
+    Recording recording;
+    for (int frame = 0; frame < 600; ++frame) {
+        TagDetection detection;
+        detection.time_ns = nanoseconds(frame_s * frame);
+        detection.tag_id = 5;
+        detection.is_refined = frame % 3 != 0;
+        const double scatter_px = frame % 3 != 0 ? refined_px : found_px;
+        for (Eigen::Vector2d& corner_px : detection.corners_px)
+            corner_px = Eigen::Vector2d(400.0, 300.0 + scatter_px * noise.normal());
+        recording.detections.push_back(detection);
+    }
+    EXPECT_NEAR(corner_noise_px({recording}, frame_s).value(), refined_px, 0.15 * refined_px);
+    for (TagDetection& detection : recording.detections) detection.is_refined.reset();
+    EXPECT_GT(corner_noise_px({recording}, frame_s).value(), 2.0 * refined_px);
+}
+
 TEST(NoiseFloor, RestAtOnePlace_NoiseIsFoundWhereverInAStepItIs) {
     for (const double mean : {1024.0, 1024.3, 1024.5}) {
         NoiseStream noise(7, "rest");

@@ -2,6 +2,7 @@
 #include "gap/power_on.h"
 
 #include "core/rig.h"
+#include "gap/diagnose.h"
 #include "gap/evidence.h"
 #include "tests/gap/effects.h"
 #include "tests/gap/root_mean_square.h"
@@ -15,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace fidservo {
@@ -80,6 +82,9 @@ TEST(Joined, LongPause_OtherCount_OtherController_StayApart) {
     Recording other = part(whole, 9000, 12'000, "other controller");
     other.controllers->macro = "nonlinear_pd";
     EXPECT_EQ(runs_with(other), 2U);
+    Recording over_other_plate = part(whole, 9000, 12'000, "other plate");
+    over_other_plate.plate = {{.id = 1, .centre_mm = {0.0, 0.0}, .side_mm = 1.2}};
+    EXPECT_EQ(runs_with(over_other_plate), 2U);
 }
 
 TEST(Joined, ARecordingOfTheSameTime_ShowsThatClocksDiffer) {
@@ -142,6 +147,31 @@ TEST(ReferToTravel, StatedZero_IsTaken_IfItIsKnownToHalfACount) {
     recording = counted_from(homed, 700.0);
     recording.encoder_zero = EncoderZero{-690.0, 6.0, "end stop"};
     EXPECT_EQ(refer_to_travel(recording, reference_rig()), PlacesFrom::tags);
+}
+
+/// Counted from the right end without a tag, places are relative: no effect that acts at one is tried.
+TEST(UnknownPlaces, EffectsThatActAtAPlace_AreNotDetermined_AndItIsSaid) {
+    const auto names_tried = [](const Recording& recording) {
+        const Diagnosis diagnosis = diagnose(Evidence(reference_rig(), {recording}));
+        std::vector<std::string> names;
+        for (const TriedEffect& tried : diagnosis.candidates) names.push_back(tried.effect);
+        for (const FoundEffect& found : diagnosis.effects) names.push_back(found.effect);
+        return std::pair(names, diagnosis.notes);
+    };
+    const auto is_said = ::testing::Contains(::testing::HasSubstr("rail_patch, cable_force: not determined"));
+    Recording recording = recorded("macro-sweep", effects({"cable_force:stiffness_V_per_mm=0.004"}));
+    const auto [known, known_notes] = names_tried(recording);
+    EXPECT_THAT(known, ::testing::IsSupersetOf({"rail_patch", "cable_force"}));
+    EXPECT_THAT(known_notes, ::testing::Not(is_said));
+    recording = counted_from(std::move(recording), 4000.0);
+    recording.detections.clear();
+    const auto [relative, notes] = names_tried(recording);
+    EXPECT_THAT(relative, ::testing::Not(::testing::Contains("rail_patch")));
+    EXPECT_THAT(relative, ::testing::Not(::testing::Contains("cable_force")));
+    EXPECT_THAT(relative, ::testing::IsSupersetOf({"coulomb_friction", "drive_offset", "cogging"}));
+    EXPECT_THAT(notes, is_said);
+    EXPECT_THAT(notes, ::testing::Contains(
+                           ::testing::HasSubstr("where the carriage is in macro-sweep is not known")));
 }
 
 TEST(ReferToTravel, WithoutTags_PlacesBeyondTheTravelAreRelative) {

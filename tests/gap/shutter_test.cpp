@@ -44,11 +44,19 @@ TEST(Shutter, ReadoutOfEitherSign_IsSeenInWhatMoves) {
 /// Times of the detections that are clear of a carriage that has one velocity.
 std::vector<TimeNs> clear_of(Recording recording, double velocity_mm_per_s, double exposure_s) {
     const std::vector<double> velocities(recording.rows.size(), velocity_mm_per_s);
-    drop_unclear(recording, velocities, camera(), *reference_rig().fiducials, exposure_s,
-                 smeared_tags(recording));
+    drop_unclear(recording, velocities, reference_rig(), exposure_s, smeared_tags(recording));
     std::vector<TimeNs> times;
     for (const TagDetection& tag : recording.detections) times.push_back(tag.time_ns);
     return times;
+}
+
+TEST(ClearDetections, NotRefined_AreLeftOutWhereOthersAre) {
+    Recording recording = looks_in_even_motion({}, 0.0);
+    const std::size_t all = clear_of(recording, 0.0, 2e-3).size();
+    recording.detections[20].is_refined = false;
+    EXPECT_EQ(clear_of(recording, 0.0, 2e-3).size(), all) << "nothing is known of the others";
+    recording.detections[21].is_refined = true;
+    EXPECT_EQ(clear_of(recording, 0.0, 2e-3).size(), all - 1);
 }
 
 TEST(ClearDetections, AllButTheFirstAndTheLastOfATag_AreKept) {

@@ -62,6 +62,26 @@ TEST(Session, HomingThatIsRecorded_StatesWhereTheEncoderCountsFrom) {
     EXPECT_EQ(recording.events.back().text, "ended");
 }
 
+TEST(Session, DetectionsThatAreRecorded_AreRefined_AndSayHowWellTheyAreKnown) {
+    WatchedRig rig(reference_physics(), reference_plate(), 5);
+    const testing::TemporaryFolder folder;
+    ASSERT_TRUE(rig.session.home());
+    rig.session.record_to(folder / "a", "goto");
+    ASSERT_TRUE(rig.session.go_to(3, 0.25));
+    ASSERT_TRUE(rig.session.end_recording());
+    const Recording recording = read_recording(folder / "a");
+    ASSERT_FALSE(recording.detections.empty());
+    EXPECT_TRUE(recording.plate.empty()) << "the plate is the rig file's";
+    for (const TagDetection& detection : recording.detections) {
+        EXPECT_EQ(detection.is_refined, true);
+        ASSERT_TRUE(detection.covariances_px2);
+        for (const Eigen::Matrix2d& corner_px2 : *detection.covariances_px2) {
+            EXPECT_GT(corner_px2.determinant(), 0.0);
+            EXPECT_LT(std::sqrt(corner_px2.trace()), 0.1);
+        }
+    }
+}
+
 TEST(Session, CameraThatFails_IsAnEventOfARecordingThatIsUnfinished) {
     const testing::TemporaryFolder folder;
     {

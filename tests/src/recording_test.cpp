@@ -7,7 +7,9 @@
 #include "tests/src/temporary_folder.h"
 
 #include <string>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -99,6 +101,44 @@ TEST(Recording, Rows_AreWrittenAsTheSharedCampaignsAre) {
                                  "micro_setpoint [mm],micro_command [V],hall [adc]\n"
                                  "0,,-3.3364688,-7,2.2946699,1.9000000,1024\n"));
     EXPECT_EQ(text_of(folder / "a" / "stage0/data.csv").find("-0.0000000"), std::string::npos);
+}
+
+TEST(Recording, PlateThatItWasMadeOver_IsReadBack) {
+    const TemporaryFolder folder;
+    Recording written = example();
+    written.plate = {{.id = 40, .centre_mm = {7.05, -0.1}, .side_mm = 1.2, .angle_rad = 0.25},
+                     {.id = 3, .centre_mm = {1.0 / 3.0, 0.0}, .side_mm = 0.8}};
+    write_recording(folder / "a", written, std::nullopt);
+    const std::vector<PlateTag> read = read_recording(folder / "a").plate;
+    ASSERT_EQ(read.size(), 2U);
+    EXPECT_EQ(read[0].id, 40);
+    EXPECT_EQ(read[0].centre_mm, written.plate[0].centre_mm);
+    EXPECT_NEAR(read[0].angle_rad, 0.25, 1e-15);
+    EXPECT_EQ(read[1], written.plate[1]);
+    write_recording(folder / "b", example(), std::nullopt);
+    EXPECT_FALSE(std::filesystem::exists(folder / "b/plate.yaml"));
+    EXPECT_TRUE(read_recording(folder / "b").plate.empty());
+}
+
+/// The step that is read from a file whose setpoints are these; the default where they do not tell.
+double setpoint_step_mm(const std::vector<std::string>& setpoints) {
+    const TemporaryFolder folder;
+    folder.write("recording.yaml", description);
+    std::string stage = stage_titles;
+    for (std::size_t k = 0; k < setpoints.size(); ++k) stage += fmt::format("{},{},1,5\n", k, setpoints[k]);
+    folder.write("stage0/data.csv", stage);
+    return read_recording(folder.path()).macro_setpoint_step_mm;
+}
+
+TEST(Recording, StepOfASetpoint_IsThatOfItsLastDigit) {
+    const double usual_mm = Recording().macro_setpoint_step_mm;
+    EXPECT_DOUBLE_EQ(setpoint_step_mm({"102.28", "", "50.00"}), 1e-2);
+    EXPECT_DOUBLE_EQ(setpoint_step_mm({"102.275", "0.000"}), 1e-3);
+    EXPECT_DOUBLE_EQ(setpoint_step_mm({"102.27500", "-1.25000"}), 1e-5);
+    EXPECT_DOUBLE_EQ(setpoint_step_mm({"1.02275e+02", "1.50000e+02"}), 1e-3);
+    EXPECT_EQ(setpoint_step_mm({"102.275", "102.3"}), usual_mm) << "zeros are left away";
+    EXPECT_EQ(setpoint_step_mm({"100", "50"}), usual_mm) << "whole numbers";
+    EXPECT_EQ(setpoint_step_mm({"", ""}), usual_mm);
 }
 
 TEST(Recording, SharedCampaigns_ReadAndWriteByteForByte) {

@@ -1,0 +1,20 @@
+#pragma once
+// What an answer may take.
+#include "core/recording.h"
+
+#include <vector>
+
+namespace fidservo::diagnose {
+
+struct TimeLimit {
+    double search_s;  ///< until what is tried must have ended
+    double whole_s;   ///< all together
+};
+
+/// Half a minute, of which four fifths are the search's.
+inline constexpr TimeLimit half_a_minute{0.8 * 26.0, 26.0};
+
+/// Half a minute, and 84 s more for an hour of recordings.
+TimeLimit time_limit(const std::vector<Recording>& recordings);
+
+}  // namespace fidservo::diagnose
