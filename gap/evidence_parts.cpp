@@ -230,8 +230,8 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
                     links.smoothed ? &*links.smoothed : nullptr,
                     {parts.floors[index_of(Signal::tag)], parts.shutter.readout_s});
     links.tags.zero_is_seen = parts.places[run] == PlacesFrom::tags;
-    links.macro = macro_controller_run(recording, rig);
-    links.micro = micro_controller_run(recording, rig);
+    links.macro = macro_controller_run(recording, rig, parts.is_filled[run]);
+    links.micro = micro_controller_run(recording, rig, parts.is_filled[run]);
     parts.courses.push_back(course_of(rig, links, platform ? &*platform : nullptr));
 
     parts.first_window.push_back(parts.windows.size());

@@ -37,7 +37,8 @@ struct Evidence::Parts {
     Rig rig;
     std::shared_ptr<const Budget> budget;
     std::vector<Recording> recordings;
-    std::vector<PlacesFrom> places;  ///< of each recording
+    std::vector<std::vector<bool>> is_filled;  ///< of each recording's rows (gap/late_ticks.h)
+    std::vector<PlacesFrom> places;            ///< of each recording
     std::vector<RunLinks> links;
     std::vector<ImageRun> images;       ///< of each recording
     std::vector<TagsInFrames> smeared;  ///< of each recording
