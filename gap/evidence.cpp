@@ -4,7 +4,6 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "gap/evidence_parts.h"
-#include "gap/late_ticks.h"
 #include "gap/parallel.h"
 #include "gap/wire_path.h"
 #include "plant/effects/catalogue.h"
@@ -251,7 +250,7 @@ Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings, std::share
     parts.floors[index_of(Signal::micro_command)] =
         command_floor_V(parts.recordings, &StageRow::micro_command_V);
     parts.floors[index_of(Signal::image)] = 1.0;
-    for (Recording& recording : parts.recordings) parts.is_filled.push_back(fill_late_ticks(recording));
+    for (Recording& recording : parts.recordings) parts.late.push_back(fill_late_ticks(recording));
     find_looks(parts);
     parts.links.reserve(parts.recordings.size());
     for (std::size_t run = 0; run < parts.recordings.size(); ++run) add_run(parts, run);

@@ -8,6 +8,7 @@
 #include "gap/hall_range.h"
 #include "gap/hall_smoothing.h"
 #include "gap/image_link.h"
+#include "gap/late_ticks.h"
 #include "gap/platform_link.h"
 #include "gap/power_on.h"
 #include "gap/shutter.h"
@@ -37,8 +38,8 @@ struct Evidence::Parts {
     Rig rig;
     std::shared_ptr<const Budget> budget;
     std::vector<Recording> recordings;
-    std::vector<std::vector<bool>> is_filled;  ///< of each recording's rows (gap/late_ticks.h)
-    std::vector<PlacesFrom> places;            ///< of each recording
+    std::vector<LateTicks> late;     ///< of each recording
+    std::vector<PlacesFrom> places;  ///< of each recording
     std::vector<RunLinks> links;
     std::vector<ImageRun> images;       ///< of each recording
     std::vector<TagsInFrames> smeared;  ///< of each recording

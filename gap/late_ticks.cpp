@@ -7,13 +7,14 @@ namespace fidservo::gap {
 
 namespace {
 
-/// Whole ticks from a row to the next; 1 where that is more than can be filled, or not a number of ticks.
-int ticks_to(const StageRow& row, const StageRow& next, double tick_s) {
-    constexpr int most = 3;
+/// Whole ticks left out between a row and the next; 0 where the time between is not a number of ticks.
+std::size_t ticks_between(const StageRow& row, const StageRow& next, double tick_s) {
     constexpr double off_time = 0.1;  // ticks
-    const double ticks = seconds(next.time_ns - row.time_ns) / tick_s;
-    const double whole = std::round(ticks);
-    return whole <= most && std::abs(ticks - whole) < off_time ? static_cast<int>(whole) : 1;
+    constexpr double longest_s = 0.1;
+    const double pause_s = seconds(next.time_ns - row.time_ns);
+    const double ticks = pause_s / tick_s, whole = std::round(ticks);
+    if (whole < 2.0 || pause_s > longest_s || std::abs(ticks - whole) > off_time) return 0;
+    return static_cast<std::size_t>(whole) - 1;
 }
 
 StageRow between(const StageRow& row, const StageRow& next, double share) {
@@ -30,25 +31,28 @@ StageRow between(const StageRow& row, const StageRow& next, double share) {
 
 }  // namespace
 
-std::vector<bool> fill_late_ticks(Recording& recording) {
+LateTicks fill_late_ticks(Recording& recording) {
+    constexpr std::size_t most = 2;
     std::vector<StageRow> rows;
-    std::vector<bool> is_filled;
+    LateTicks late;
     rows.reserve(recording.rows.size());
-    is_filled.reserve(recording.rows.size());
+    late.is_filled.reserve(recording.rows.size());
     for (std::size_t k = 0; k < recording.rows.size(); ++k) {
         const StageRow& row = recording.rows[k];
         rows.push_back(row);
-        is_filled.push_back(false);
+        late.is_filled.push_back(false);
         if (k + 1 == recording.rows.size()) break;
         const StageRow& next = recording.rows[k + 1];
-        const int ticks = ticks_to(row, next, recording.tick_s);
-        for (int tick = 1; tick < ticks; ++tick) {
-            rows.push_back(between(row, next, static_cast<double>(tick) / ticks));
-            is_filled.push_back(true);
+        const std::size_t left_out = ticks_between(row, next, recording.tick_s);
+        late.left_out += left_out;
+        if (left_out > most) continue;
+        for (std::size_t tick = 1; tick <= left_out; ++tick) {
+            rows.push_back(between(row, next, static_cast<double>(tick) / static_cast<double>(left_out + 1)));
+            late.is_filled.push_back(true);
         }
     }
     recording.rows = std::move(rows);
-    return is_filled;
+    return late;
 }
 
 }  // namespace fidservo::gap

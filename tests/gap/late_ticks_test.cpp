@@ -75,7 +75,9 @@ Recording of_rows(std::vector<StageRow> rows) {
 
 TEST(LateTicks, TwoLeftOut_CommandGoesOn_ReadingsOnTheLineInWholeNumbers) {
     Recording recording = of_rows({row_at(0, 3.5, 10.0, 2000.0), row_at(3, -4.0, 16.0, 2001.0)});
-    EXPECT_EQ(fill_late_ticks(recording), (std::vector<bool>{false, true, true, false}));
+    const LateTicks late = fill_late_ticks(recording);
+    EXPECT_EQ(late.is_filled, (std::vector<bool>{false, true, true, false}));
+    EXPECT_EQ(late.left_out, 2U);
     ASSERT_EQ(recording.rows.size(), 4U);
     for (const std::size_t k : {1U, 2U}) {
         const StageRow& row = recording.rows[k];
@@ -92,7 +94,9 @@ TEST(LateTicks, LongerPause_OrNoNumberOfTicks_StaysAsItIs) {
     Recording recording = of_rows({row_at(0, 3.5, 10.0, 2000.0), row_at(4, 3.5, 18.0, 2000.0)});
     recording.rows.push_back(recording.rows.back());
     recording.rows.back().time_ns += 1'500'000;
-    EXPECT_EQ(fill_late_ticks(recording), std::vector<bool>(3, false));
+    const LateTicks late = fill_late_ticks(recording);
+    EXPECT_EQ(late.is_filled, std::vector<bool>(3, false));
+    EXPECT_EQ(late.left_out, 3U) << "all the same";
     EXPECT_EQ(recording.rows.size(), 3U);
 }
 
@@ -118,6 +122,13 @@ TEST_P(Late, NothingHidden_NoGap_AndTheControllerIsTheFiles) {
     const Diagnosis found = diagnose(evidence);
     EXPECT_EQ(found.verdict, Verdict::no_gap);
     EXPECT_LT(found.gap.before, 1.1);
+}
+
+TEST(LateTicks, LoopThatIsNotInRealTime_IsSaid) {
+    const Evidence evidence(reference_rig(), {late_recording({}, "macro-pulses", 0.4, 31)});
+    const auto said = std::ranges::find(evidence.omissions(), "rows", &Omission::signal);
+    ASSERT_NE(said, evidence.omissions().end());
+    EXPECT_TRUE(said->why.starts_with("the loop left out 40 % of its ticks")) << said->why;
 }
 
 INSTANTIATE_TEST_SUITE_P(Shares, Late, ::testing::Values(0.002, 0.05));
