@@ -13,7 +13,10 @@ kept=""
 while [[ $1 == --* ]]; do
     case $1 in
         # Without what is emulated number by number: fused multiplications and wide vectors of them.
-        --own-time) machine=(-accel tcg,thread=single -icount shift=0,sleep=off -rtc clock=vm -cpu max,avx=off,avx2=off,fma=off -smp 1) ;;
+        --own-time)
+            machine=(-accel tcg,thread=single -icount shift=0,sleep=off -rtc clock=vm
+                -cpu max,avx=off,avx2=off,fma=off -smp 1)
+            ;;
         --keep) kept=$2 && shift ;;
         *) echo "boot.sh: unknown option $1" >&2 && exit 2 ;;
     esac

@@ -30,14 +30,16 @@ diagnose() {
     "$build/fidservo" diagnose --rig "$1" "$2" --json "$3" "${@:4}"
 }
 
-# named_and_gone NAME VALUE BEFORE.json AFTER.json: what the two diagnoses have to say.
+# named_and_gone NAME PARAMETER=VALUE BEFORE.json AFTER.json: what the two diagnoses have to say.
 named_and_gone() {
     python3 - "$@" <<'PYTHON'
 import json, sys
-name, value, before, after = sys.argv[1], float(sys.argv[2].split("=")[1]), *map(lambda p: json.load(open(p)), sys.argv[3:])
+name, setting, *files = sys.argv[1:]
+value = float(setting.split("=")[1])
+before, after = (json.load(open(file)) for file in files)
 first = before["effects"][0] if before["effects"] else None
 assert first and first["effect"] == name and first["probability"] > 0.5, "not named: %s" % before["effects"]
-assert before["gap"]["before"] >= 10.0, "hidden too well to be missed: %s" % before["gap"]
+assert before["gap"]["before"] >= 10.0, "hardly hidden: %s" % before["gap"]
 found = first["parameters"][0]["value"]
 assert abs(found - value) < 0.1 * abs(value - 1.0), "%g instead of %g" % (found, value)
 assert after["verdict"] == "no-gap", "with the new file: %s" % after

@@ -7,7 +7,10 @@ vm=$1 build=$2
 shift 2
 
 for part in "$vm/vmlinux" "$vm/initrd.gz" "$(command -v qemu-system-x86_64 || echo qemu-system-x86_64)"; do
-    [[ -s $part ]] || { echo "device tests: skipped: no virtual machine: $part is missing (./run test-devices makes it)" && exit 0; }
+    if [[ ! -s $part ]]; then
+        echo "device tests: skipped: no virtual machine: $part is missing (./run test-devices makes it)"
+        exit 0
+    fi
 done
 
 # The board with which the stage was published, at its usual place; there is none in the machine.
