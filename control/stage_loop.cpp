@@ -123,17 +123,34 @@ void StageLoop::run(const std::stop_token& stop) {
     const TimeNs period_ns = nanoseconds(options_.tick_s);
     deadline_ns_ = monotonic_now_ns() + period_ns;
     while (!stop.stop_requested()) {
-        sleep_until(deadline_ns_);
-        const TimeNs late_ns = monotonic_now_ns() - deadline_ns_;
-        const int ticks_late = static_cast<int>(std::min<TimeNs>(late_ns / period_ns, 1'000'000));
-        deadline_ns_ += ticks_late * period_ns;
-        count(late_ns, ticks_late);
+        const int ticks_late = wait_for_deadline(period_ns);
         if (!ended_.load(std::memory_order_relaxed) && !tick(ticks_late)) last_ = {};
         // A stage that has failed is still told to be off, at every tick.
         if (ended_.load(std::memory_order_relaxed)) [[maybe_unused]]
             const Status off = stage_->write({});
         deadline_ns_ += period_ns;
     }
+}
+
+/// The deadlines that have passed, to be skipped.
+int StageLoop::skip_missed(TimeNs period_ns, TimeNs late_ns) {
+    const int missed = static_cast<int>(std::min<TimeNs>(late_ns / period_ns, 1'000'000));
+    deadline_ns_ += missed * period_ns;
+    return missed;
+}
+
+int StageLoop::wait_for_deadline(TimeNs period_ns) {
+    sleep_until(deadline_ns_);
+    const TimeNs late_ns = monotonic_now_ns() - deadline_ns_;
+    int left_out = skip_missed(period_ns, late_ns);
+    if (left_out > 0) {
+        ++left_out;
+        deadline_ns_ += period_ns;
+        sleep_until(deadline_ns_);
+        left_out += skip_missed(period_ns, monotonic_now_ns() - deadline_ns_);
+    }
+    count(late_ns, left_out);
+    return left_out;
 }
 
 void StageLoop::count(TimeNs late_ns, int ticks_late) {

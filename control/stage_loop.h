@@ -57,7 +57,8 @@ struct LoopOptions {
 
 class StageLoop {
   public:
-    /// Starts ticking, with both commands at zero. Samples are of the time of their deadline. SCHED_FIFO and
+    /// Starts ticking, with both commands at zero. Samples are of the time of their deadline;
+    /// ticks that are missed by a whole period are left out. SCHED_FIFO and
     /// locked memory are taken where that is permitted (statistics() says). Throws RunFault where the system
     /// has no thread left.
     StageLoop(std::shared_ptr<Stage> stage, const LoopOptions& options);
@@ -91,6 +92,11 @@ class StageLoop {
   private:
     struct Shared;
     void run(const std::stop_token& stop);
+    /// Waits for the next tick's time. Where a whole tick has passed by then, for the one after, so that what
+    /// is sampled and commanded is of the time that is recorded; once, however late that one is.
+    /// @return how many ticks were left out
+    int wait_for_deadline(TimeNs period_ns);
+    int skip_missed(TimeNs period_ns, TimeNs late_ns);
     bool tick(int ticks_late);
     LoopStep decide(const StageSample& sample, bool& held);
     void end(Failure why);

@@ -143,6 +143,20 @@ struct PidReplay {
     }
 };
 
+/// The rows of a recording in which a controller was asked.
+struct Asked {
+    const Recording& recording;
+    const std::vector<bool>& left_out;  ///< the others; empty: none
+
+    bool at(std::size_t row) const { return left_out.empty() || !left_out[row]; }
+    /// The row whose reading it had at a row of a stretch.
+    std::size_t sampled(const Stretch& stretch, std::size_t row, std::size_t delay_rows) const {
+        std::size_t read = std::max(stretch.first, row - std::min(row, delay_rows));
+        while (read > stretch.first && !at(read)) --read;
+        return read;
+    }
+};
+
 /// Errors of one held setpoint.
 template <class Controller>
 struct Held {
@@ -154,12 +168,17 @@ struct Held {
 /// long as it is held: the farther a count is from that one, the farther are the commands, so that it is
 /// found by going on as long as they come nearer.
 template <class Controller>
-std::vector<double> replayed(const Recording& recording, const Stretch& stretch, double resolution_mm,
+std::vector<double> replayed(const Asked& asked, const Stretch& stretch, double resolution_mm,
                              const CountReading& reading, Controller controller) {
+    const Recording& recording = asked.recording;
     const auto held = [&](std::size_t first, std::size_t end, double setpoint_count) {
         Held<Controller> found{controller, {}};
         for (std::size_t k = first; k < end; ++k) {
-            const std::size_t sampled = std::max(stretch.first, k - std::min(k, reading.delay_rows));
+            if (!asked.at(k)) {
+                found.error_V.push_back(no_value);
+                continue;
+            }
+            const std::size_t sampled = asked.sampled(stretch, k, reading.delay_rows);
             const double error_count = setpoint_count - recording.rows[sampled].encoder_count;
             const double recorded_V = recording.rows[k].macro_command_V;
             const bool is_new = k == first && k > stretch.first;
@@ -191,14 +210,19 @@ std::vector<double> replayed(const Recording& recording, const Stretch& stretch,
 
 /// The PI along a stretch; under way its integral follows from the first command that is not saturated.
 /// @param delay_rows  by which the reading is an older one
-std::vector<double> replayed_pi(const Recording& recording, const Stretch& stretch,
-                                const MicroParameters& micro, std::size_t delay_rows, bool is_known) {
+std::vector<double> replayed_pi(const Asked& asked, const Stretch& stretch, const MicroParameters& micro,
+                                std::size_t delay_rows, bool is_known) {
+    const Recording& recording = asked.recording;
     const PiGains& gains = *micro.pi;
     control::PiState state = control::pi_start(gains);
     std::vector<double> errors;
     for (std::size_t k = stretch.first; k < stretch.end; ++k) {
+        if (!asked.at(k)) {
+            errors.push_back(no_value);
+            continue;
+        }
         const StageRow& row = recording.rows[k];
-        const std::size_t sampled = std::max(stretch.first, k - std::min(k, delay_rows));
+        const std::size_t sampled = asked.sampled(stretch, k, delay_rows);
         const double error_mm =
             row.micro_setpoint_mm - hall_position_mm_of_adc(micro.hall, recording.rows[sampled].hall_adc);
         if (!is_known && row.micro_command_V > gains.low_V && row.micro_command_V < gains.high_V) {
@@ -221,7 +245,9 @@ bool claims_controller(const Recording& recording) {
     return false;
 }
 
-ControllerRun macro_controller_run(const Recording& recording, const Rig& rig) {
+ControllerRun macro_controller_run(const Recording& recording, const Rig& rig,
+                                   const std::vector<bool>& left_out) {
+    const Asked asked{recording, left_out};
     const MacroParameters& macro = rig.macro;
     std::vector<bool> usable;
     for (const StageRow& row : recording.rows)
@@ -236,7 +262,7 @@ ControllerRun macro_controller_run(const Recording& recording, const Rig& rig) {
                 candidates.emplace_back([&, start, reading, controller](const Stretch& stretch) {
                     if (!may_start(start, recording, stretch, &StageRow::macro_setpoint_mm))
                         return std::vector<double>();
-                    return replayed(recording, stretch, macro.encoder_resolution_mm, reading, controller);
+                    return replayed(asked, stretch, macro.encoder_resolution_mm, reading, controller);
                 });
             };
             const bool known = start == Start::fresh;
@@ -247,7 +273,9 @@ ControllerRun macro_controller_run(const Recording& recording, const Rig& rig) {
     return best_run(recording, usable, candidates);
 }
 
-ControllerRun micro_controller_run(const Recording& recording, const Rig& rig) {
+ControllerRun micro_controller_run(const Recording& recording, const Rig& rig,
+                                   const std::vector<bool>& left_out) {
+    const Asked asked{recording, left_out};
     std::vector<bool> usable;
     for (const StageRow& row : recording.rows)
         usable.push_back(std::isfinite(row.micro_setpoint_mm) && std::isfinite(row.hall_adc) &&
@@ -255,10 +283,10 @@ ControllerRun micro_controller_run(const Recording& recording, const Rig& rig) {
     std::vector<Replay> candidates;
     if (rig.micro && rig.micro->pi && claims(recording, &ControllerNames::micro, "pi_antiwindup")) {
         const auto add = [&](Start start, std::size_t delay_rows) {
-            candidates.emplace_back([&recording, &rig, start, delay_rows](const Stretch& stretch) {
+            candidates.emplace_back([&recording, &rig, &asked, start, delay_rows](const Stretch& stretch) {
                 if (!may_start(start, recording, stretch, &StageRow::micro_setpoint_mm))
                     return std::vector<double>();
-                return replayed_pi(recording, stretch, *rig.micro, delay_rows, start == Start::fresh);
+                return replayed_pi(asked, stretch, *rig.micro, delay_rows, start == Start::fresh);
             });
         };
         for (const Start start : {Start::fresh, Start::under_way})

@@ -38,10 +38,13 @@ bool claims_controller(const Recording& recording);
 
 /// The PD, the PD started anew with each setpoint, or the benchmark PID, as far as they are claimed: in each
 /// stretch the one that fits best. No windows where none is claimed or the rig file states no gains.
-ControllerRun macro_controller_run(const Recording& recording, const Rig& rig);
+/// @param left_out  rows in which the controller was not asked; empty: none. It goes on behind them.
+ControllerRun macro_controller_run(const Recording& recording, const Rig& rig,
+                                   const std::vector<bool>& left_out = {});
 
 /// The PI with anti-windup, likewise.
-ControllerRun micro_controller_run(const Recording& recording, const Rig& rig);
+ControllerRun micro_controller_run(const Recording& recording, const Rig& rig,
+                                   const std::vector<bool>& left_out = {});
 
 /// What the file's digits leave of a command, at least 0.1 mV.
 double controller_floor_V(const std::vector<double>& command_V);

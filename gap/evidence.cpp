@@ -250,6 +250,7 @@ Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings, std::share
     parts.floors[index_of(Signal::micro_command)] =
         command_floor_V(parts.recordings, &StageRow::micro_command_V);
     parts.floors[index_of(Signal::image)] = 1.0;
+    for (Recording& recording : parts.recordings) parts.late.push_back(fill_late_ticks(recording));
     find_looks(parts);
     find_wires(parts);
     for (std::size_t run = 0; run < parts.recordings.size(); ++run) add_run(parts, run);

@@ -98,7 +98,22 @@ std::size_t count_rows(const Recording& recording, Has has) {
     return static_cast<std::size_t>(std::ranges::count_if(recording.rows, has));
 }
 
+void note_late_ticks(Evidence::Parts& parts, std::size_t run) {
+    constexpr double worth_telling = 0.01;
+    const LateTicks& late = parts.late[run];
+    const auto recorded = static_cast<double>(std::ranges::count(late.is_filled, false));
+    const double share = static_cast<double>(late.left_out) / (recorded + static_cast<double>(late.left_out));
+    if (!(share > worth_telling)) return;
+    parts.omissions.push_back(
+        {parts.recordings[run].name, "rows",
+         fmt::format(
+             "the loop left out {:.0f} % of its ticks; where that was more than two at a time, nothing "
+             "is judged",
+             100.0 * share)});
+}
+
 void note_omissions(Evidence::Parts& parts, std::size_t run) {
+    note_late_ticks(parts, run);
     const Recording& recording = parts.recordings[run];
     const RunLinks& links = parts.links[run];
     std::vector<WindowRows> carriage;
@@ -248,8 +263,8 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
                     links.smoothed ? &*links.smoothed : nullptr,
                     {parts.floors[index_of(Signal::tag)], parts.shutter.readout_s});
     links.tags.zero_is_seen = parts.places[run] == PlacesFrom::tags;
-    links.macro = macro_controller_run(recording, rig);
-    links.micro = micro_controller_run(recording, rig);
+    links.macro = macro_controller_run(recording, rig, parts.late[run].is_filled);
+    links.micro = micro_controller_run(recording, rig, parts.late[run].is_filled);
     parts.courses.push_back(course_of(rig, links, platform ? &*platform : nullptr));
 
     parts.first_window.push_back(parts.windows.size());

@@ -8,6 +8,7 @@
 #include "gap/hall_range.h"
 #include "gap/hall_smoothing.h"
 #include "gap/image_link.h"
+#include "gap/late_ticks.h"
 #include "gap/platform_link.h"
 #include "gap/power_on.h"
 #include "gap/shutter.h"
@@ -37,6 +38,7 @@ struct Evidence::Parts {
     Rig rig;
     std::shared_ptr<const Budget> budget;
     std::vector<Recording> recordings;
+    std::vector<LateTicks> late;     ///< of each recording
     std::vector<PlacesFrom> places;  ///< of each recording
     std::vector<RunLinks> links;
     std::vector<ImageRun> images;       ///< of each recording

@@ -7,9 +7,10 @@
 
 namespace fidservo {
 
-LiveRig::LiveRig(const Rig& rig, const Plate& printed, double carriage_mm, std::uint64_t seed)
-    : plant_(plant::make_stage_plant(rig)),
-      view_(rig.camera.value(), printed, {}),
+LiveRig::LiveRig(const Rig& rig, const Plate& printed, double carriage_mm, std::uint64_t seed,
+                 std::span<const plant::EffectSetting> effects)
+    : plant_(plant::make_stage_plant(rig, effects)),
+      view_(rig.camera.value(), printed, {}, plant_.camera.value_or(plant::CameraDeviation{})),
       state_(plant::start(plant_, carriage_mm, seed)),
       tick_ns_(nanoseconds(rig.tick_s)),
       start_ns_(monotonic_now_ns()) {
@@ -36,6 +37,15 @@ plant::StageReading LiveRig::read(TimeNs now_ns) {
     return plant::sample(plant_, state_);
 }
 
+plant::StageReading LiveRig::follow(double macro_V, double micro_V, TimeNs now_ns) {
+    const std::lock_guard lock(mutex_);
+    macro_V_ = macro_V;
+    micro_V_ = micro_V;
+    is_followed_ = true;
+    go_on_to(now_ns);
+    return plant::sample(plant_, state_);
+}
+
 double LiveRig::camera_at(TimeNs time_ns) const {
     const double tick = std::clamp(static_cast<double>(time_ns - start_ns_) / static_cast<double>(tick_ns_),
                                    0.0, static_cast<double>(tick_));
@@ -47,7 +57,7 @@ double LiveRig::camera_at(TimeNs time_ns) const {
 
 double LiveRig::camera_mm(TimeNs time_ns) {
     const std::lock_guard lock(mutex_);
-    go_on_to(monotonic_now_ns());
+    if (!is_followed_) go_on_to(monotonic_now_ns());
     return camera_at(time_ns);
 }
 

@@ -3,12 +3,14 @@
 // camera's frame can be had of any moment of the last second.
 #include "core/plate.h"
 #include "core/time.h"
+#include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 #include "plant/view/plate_view.h"
 
 #include <array>
 #include <cstdint>
 #include <mutex>
+#include <span>
 
 #include <opencv2/core/mat.hpp>
 
@@ -19,12 +21,20 @@ struct Rig;
 class LiveRig {
   public:
     /// Begins now, on CLOCK_MONOTONIC.
-    LiveRig(const Rig& rig, const Plate& printed, double carriage_mm, std::uint64_t seed);
+    /// @param effects  what the rig has that its file does not state; stamps and arrivals of frames, and a
+    ///                 camera's own clock, are not its business
+    LiveRig(const Rig& rig, const Plate& printed, double carriage_mm, std::uint64_t seed,
+            std::span<const plant::EffectSetting> effects = {});
 
     /// The commands in force from the present tick on.
     void command(double macro_V, double micro_V);
     /// What the sensors show at a time.
     plant::StageReading read(TimeNs now_ns);
+    /// What the sensors show at a time up to which these commands have been in force since the last look: for
+    /// one who looks at the commands now and then. A command then acts earlier than it was given by as much
+    /// as the reading that comes next is old, so that who gives it and reads at regular times sees no delay.
+    /// From the first look on, looks alone let time go by.
+    plant::StageReading follow(double macro_V, double micro_V, TimeNs now_ns);
     /// Where the camera's axis was at a time of the last second, mm.
     double camera_mm(TimeNs time_ns);
     double carriage_mm();
@@ -42,6 +52,7 @@ class LiveRig {
     TimeNs tick_ns_, start_ns_;
     std::int64_t tick_ = 0;
     double macro_V_ = 0.0, micro_V_ = 0.0;
+    bool is_followed_ = false;
     std::array<double, 1024> past_mm_{};  ///< by tick modulo its size
 };
 

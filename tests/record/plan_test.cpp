@@ -97,6 +97,13 @@ TEST(RecordPlan, WireThatWouldBeTooHot_IsForeseen) {
     EXPECT_EQ(why->find("the wire would be at 104 degC; allowed: 103"), 0u) << *why;
 }
 
+TEST(RecordPlan, RigFileThatStatesAnEffectOfTheCamera_IsForeseen) {
+    Rig rig = reference();
+    rig.effects.push_back({"pixel_scale", {{"factor", 1.03}}});
+    EXPECT_EQ(why_not(rig, make_experiment("macro-square", rig, 3, "macro-square-1"), std::nullopt),
+              std::nullopt);
+}
+
 TEST(RecordPlan, RigThatCannotBeHomed_IsRefused) {
     Rig rig = reference();
     rig.fiducials->columns = 1;  // at 0 mm, below all that the camera reaches while it homes

@@ -4,6 +4,7 @@
 
 #include "control/positioner.h"
 #include "core/failure.h"
+#include "core/monotonic_clock.h"
 #include "core/result.h"
 #include "core/rig.h"
 #include "plant/stage_plant.h"
@@ -106,6 +107,46 @@ TEST(StageLoop, SamplesTimes_AreWholePeriodsApart) {
         if (!first_ns) first_ns = record->sample.time_ns;
         EXPECT_EQ((record->sample.time_ns - *first_ns) % ns_per_ms, 0);
     }
+}
+
+/// A stage that keeps its reader waiting for two and a half periods, now and then.
+class StallingStage final : public Stage {
+  public:
+    explicit StallingStage(TimeNs period_ns) : period_ns_(period_ns) {}
+
+    Result<StageSample> read() override {
+        ++reads_;
+        read_ns.push_back(monotonic_now_ns());
+        if (reads_ % 3 == 0) {
+            const TimeNs until_ns = read_ns.back() + 5 * period_ns_ / 2;
+            std::this_thread::sleep_for(std::chrono::nanoseconds(until_ns - monotonic_now_ns()));
+        }
+        return StageSample{0, reads_, 2048};
+    }
+    Status write(const StageCommand&) override { return {}; }
+
+    std::vector<TimeNs> read_ns;  ///< the loop's until it is stopped
+
+  private:
+    TimeNs period_ns_;
+    std::int64_t reads_ = 0;
+};
+
+TEST(StageLoop, LateByTicks_GoesOnAtAWholeOne) {
+    constexpr TimeNs period_ns = 20 * ns_per_ms;
+    const auto stage = std::make_shared<StallingStage>(period_ns);
+    LoopOptions options;
+    options.tick_s = seconds(period_ns);
+    StageLoop loop(stage, options);
+    Ramp ramp{10, 1.0};
+    run(loop, ramp.program());
+    ASSERT_TRUE(loop.stop());
+    std::vector<TimeNs> row_ns;
+    while (const auto record = loop.next()) row_ns.push_back(record->sample.time_ns);
+    ASSERT_GE(row_ns.size(), 10U);
+    for (std::size_t k = 3; k < row_ns.size(); k += 3)
+        EXPECT_GE(row_ns[k], stage->read_ns[k - 1] + 5 * period_ns / 2) << "of a time before it was read";
+    EXPECT_GE(loop.statistics().overruns, 2 * (row_ns.size() / 3 - 1));
 }
 
 TEST(StageLoop, StageFails_ProgramEndsWithTheReasonAndZero) {
