@@ -147,6 +147,20 @@ void accuse(std::vector<BlockProbability>& where, const std::string& block, doub
     });
 }
 
+/// How far one of the names is trusted: what leaves nothing of the signals that it is learnt from is none the
+/// worse for what others leave elsewhere.
+double trust_in_name(const Evidence& evidence, const Choice& choice, const CrossFit& explained,
+                     const Trust& trust) {
+    if (!trust.missing) return trust.in_names;
+    const SignalFlags own = teachers_of(*choice.candidate->effect);
+    std::vector<double> squares = explained.mean_squares;
+    for (std::size_t w = 0; w < squares.size(); ++w)
+        if (!own[index_of(evidence.windows()[w].signal)])
+            squares[w] = std::numeric_limits<double>::quiet_NaN();
+    const double own_trust = trust_in(typical_floors(evidence.windows(), squares));
+    return own_trust == 1.0 ? own_trust : trust.in_names;
+}
+
 /// Of each block that one of its effects, as far as the choices tell, is part of the explanation.
 std::vector<BlockProbability> blocks_of(const Selection& selection, double trust) {
     std::vector<BlockProbability> where;
@@ -205,7 +219,9 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     const Trust trust = trust_of(evidence, selection, diagnosis.gap, tail);
     diagnosis.unexplained = trust.missing;
     diagnosis.effects = found_effects(evidence, selection, fitted);
-    for (FoundEffect& effect : diagnosis.effects) effect.probability *= worth_of_names(trust.in_names);
+    for (std::size_t k = 0; k < diagnosis.effects.size(); ++k)
+        diagnosis.effects[k].probability *=
+            worth_of_names(trust_in_name(evidence, selection.choices[k], explained, trust));
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, trust.in_names);
     if (trust.missing)

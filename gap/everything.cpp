@@ -67,7 +67,7 @@ class Incremental {
     Errors known_;
 };
 
-/// A share of its typical size in its first shape: where it is nothing, no slope tells of its shape.
+/// A share of its typical size: where it is nothing, no slope tells of its shape.
 plant::EffectSetting small(const Candidate& candidate) {
     constexpr double share = 0.03;
     plant::EffectSetting setting{candidate.effect, candidate.shapes.front()};
@@ -89,24 +89,25 @@ bool has_a_shape(const Candidate& candidate) {
     return false;
 }
 
-/// Whether no signal is off its floor by more than chance, on the whole.
-bool is_at_floor(const Evidence& evidence, const Errors& errors) {
-    constexpr double floor_square = 1.1;
-    const std::vector<double> squares = mean_squares(evidence.windows(), errors);
-    std::array<double, signal_count> sums{}, counts{};
-    for (std::size_t w = 0; w < squares.size(); ++w) {
-        if (std::isnan(squares[w])) continue;
-        sums[index_of(evidence.windows()[w].signal)] += squares[w];
-        counts[index_of(evidence.windows()[w].signal)] += 1.0;
-    }
-    for (std::size_t s = 0; s < signal_count; ++s)
-        if (sums[s] > floor_square * counts[s]) return false;
-    return true;
+std::vector<double> squares_of(const Evidence& evidence, const Errors& errors, Signal signal) {
+    const std::vector<Window>& windows = evidence.windows();
+    const std::vector<double> all = mean_squares(windows, errors);
+    std::vector<double> squares;
+    for (std::size_t w = 0; w < all.size(); ++w)
+        if (windows[w].signal == signal && !std::isnan(all[w])) squares.push_back(all[w]);
+    return squares;
 }
 
-double median_square(const Evidence& evidence, const Errors& errors) {
-    std::vector<double> squares = mean_squares(evidence.windows(), errors);
-    std::erase_if(squares, [](double square) { return std::isnan(square); });
+/// The signal by which it is told how far off a fit still is: the Hall reading, or the tags where none is
+/// fitted. Where a carriage is not yet known, tags are off for another reason.
+Signal leading_signal(const Evidence& evidence, const Wanted& wanted) {
+    for (std::size_t w = 0; w < wanted.size(); ++w)
+        if (wanted[w] != 0 && evidence.windows()[w].signal == Signal::hall) return Signal::hall;
+    return Signal::tag;
+}
+
+double median_square(const Evidence& evidence, const Errors& errors, Signal signal) {
+    std::vector<double> squares = squares_of(evidence, errors, signal);
     if (squares.empty()) return 0.0;
     const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
     std::ranges::nth_element(squares, middle);
@@ -116,12 +117,13 @@ double median_square(const Evidence& evidence, const Errors& errors) {
 /// From wherever it begins to where nothing gets better, at levels that follow what is left.
 Fit fitted_from_afar(const Evidence& evidence, const Predict& predict, const Wanted& wanted, Hypothesis start,
                      double sizes) {
-    constexpr int most_levels = 8, iterations_a_level = 3, last_iterations = 6;
-    constexpr double hardly_less = 0.9;
+    constexpr int most_levels = 6, iterations_a_level = 3, last_iterations = 15;
+    constexpr double near = 2.0, hardly_less = 0.8;
+    const Signal leading = leading_signal(evidence, wanted);
     double last = std::numeric_limits<double>::infinity();
     for (int level = 0; level < most_levels; ++level) {
-        const double square = median_square(evidence, predict(start));
-        if (square < 1.0 || square > hardly_less * last) break;
+        const double square = median_square(evidence, predict(start), leading);
+        if (square < near || square > hardly_less * last) break;
         last = square;
         start = fit(predict, evidence.windows(), wanted, start,
                     {.most_iterations = iterations_a_level,
@@ -130,7 +132,10 @@ Fit fitted_from_afar(const Evidence& evidence, const Predict& predict, const Wan
                     .hypothesis;
     }
     return fit(predict, evidence.windows(), wanted, start,
-               {.most_iterations = last_iterations, .with_covariance = true, .expected_sizes = sizes});
+               {.most_iterations = last_iterations,
+                .tolerance = 1e-6,
+                .with_covariance = true,
+                .expected_sizes = sizes});
 }
 
 /// The places of each setting's sizes among all parameters, and their distances from nothing in scales.
@@ -188,6 +193,30 @@ std::vector<std::size_t> kept(std::span<const Candidate* const> candidates, cons
     return rest;
 }
 
+/// What every candidate is worth beside the others.
+std::vector<double> worth_of_each(std::span<const Candidate* const> candidates, const Fit& fitted) {
+    const Sizes sizes(candidates, fitted);
+    std::vector<double> worth;
+    for (std::size_t c = 0; c < candidates.size(); ++c)
+        worth.push_back(sizes.worth({c}, fitted.curvature_covariance));
+    return worth;
+}
+
+/// Some of the candidates, with their settings.
+struct Chosen {
+    std::vector<const Candidate*> candidates;
+    Hypothesis settings;
+
+    void keep(const std::vector<std::size_t>& places) {
+        Chosen rest;
+        for (const std::size_t c : places) {
+            rest.candidates.push_back(candidates[c]);
+            rest.settings.push_back(settings[c]);
+        }
+        *this = std::move(rest);
+    }
+};
+
 }  // namespace
 
 bool is_smooth(const Candidate& candidate) {
@@ -198,52 +227,52 @@ bool is_smooth(const Candidate& candidate) {
 }
 
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
-                                      const Hypothesis& beside, const Hypothesis& begun,
-                                      const Wanted& wanted) {
-    Incremental incremental(evidence, beside, wanted);
-    const Predict predict = [&](const Hypothesis& settings) { return incremental(settings); };
-    const auto is_begun = [&](const Candidate* candidate) {
-        return std::ranges::find(begun, candidate->effect, &plant::EffectSetting::effect) != begun.end();
-    };
-    NeededCandidates needed;
-    for (const Candidate* candidate : candidates)
-        if (is_begun(candidate)) {
-            needed.candidates.push_back(candidate);
-            needed.settings.push_back(
-                *std::ranges::find(begun, candidate->effect, &plant::EffectSetting::effect));
-        }
-    Fit fitted;
-    // What has no shape first: its slopes say all of it, and without the others predictions are faster.
-    for (const bool has_shape : {false, true}) {
-        for (const Candidate* candidate : candidates)
-            if (has_a_shape(*candidate) == has_shape && !is_begun(candidate)) {
-                needed.candidates.push_back(candidate);
-                needed.settings.push_back(small(*candidate));
-            }
-        fitted = fitted_from_afar(evidence, predict, wanted, needed.settings, expected_sizes);
-        needed.settings = fitted.hypothesis;
-        if (is_at_floor(evidence, predict(needed.settings))) break;
+                                      const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
+                                      const std::array<Wanted, 2>& wanted) {
+    std::array<Incremental, 2> incremental{Incremental(evidence, beside[0], wanted[0]),
+                                           Incremental(evidence, beside[1], wanted[1])};
+    const Predict predict = [&](const Hypothesis& settings) { return incremental[0](settings); };
+    Chosen chosen;
+    for (const Candidate* candidate : candidates) {
+        const auto known = std::ranges::find(begun, candidate->effect, &plant::EffectSetting::effect);
+        if (known == begun.end() && has_a_shape(*candidate)) continue;
+        chosen.candidates.push_back(candidate);
+        chosen.settings.push_back(known != begun.end() ? *known : small(*candidate));
     }
-    while (true) {
-        needed.settings = fitted.hypothesis;
-        const std::vector<std::size_t> rest = kept(needed.candidates, fitted);
-        if (rest.size() == needed.candidates.size() || rest.empty()) break;
-        NeededCandidates fewer;
-        for (const std::size_t c : rest) {
-            fewer.candidates.push_back(needed.candidates[c]);
-            fewer.settings.push_back(needed.settings[c]);
+    Fit fitted = fitted_from_afar(evidence, predict, wanted[0], chosen.settings, expected_sizes);
+    chosen.settings = fitted.hypothesis;
+    const auto prune = [&] {
+        while (!chosen.candidates.empty()) {
+            const std::vector<std::size_t> rest = kept(chosen.candidates, fitted);
+            const bool is_all = rest.size() == chosen.candidates.size();
+            chosen.keep(rest);
+            if (is_all || rest.empty()) break;
+            fitted = fitted_from_afar(evidence, predict, wanted[0], chosen.settings, 0.0);
+            chosen.settings = fitted.hypothesis;
         }
-        needed = std::move(fewer);
-        fitted = fitted_from_afar(evidence, predict, wanted, needed.settings, 0.0);
+    };
+    prune();
+    NeededCandidates needed;
+    while (!chosen.candidates.empty()) {
+        const Predict predict_other = [&](const Hypothesis& settings) { return incremental[1](settings); };
+        const Fit other = fitted_from_afar(evidence, predict_other, wanted[1], chosen.settings, 0.0);
+        const std::vector<double> here = worth_of_each(chosen.candidates, fitted),
+                                  there = worth_of_each(chosen.candidates, other);
+        std::vector<std::size_t> rest;
+        for (std::size_t c = 0; c < here.size(); ++c)
+            if (std::min(here[c], there[c]) >= least_worth) rest.push_back(c);
+        if (rest.size() == here.size()) {
+            needed = {chosen.candidates, {chosen.settings, other.hypothesis}, {}};
+            for (std::size_t c = 0; c < here.size(); ++c) needed.worth.push_back(here[c] + there[c]);
+            break;
+        }
+        chosen.keep(rest);
+        if (rest.empty()) break;
+        fitted = fitted_from_afar(evidence, predict, wanted[0], chosen.settings, 0.0);
+        chosen.settings = fitted.hypothesis;
+        prune();
     }
     return needed;
-}
-
-Hypothesis fitted_together(const Evidence& evidence, const Hypothesis& beside, const Hypothesis& settings,
-                           const Wanted& wanted) {
-    Incremental incremental(evidence, beside, wanted);
-    const Predict predict = [&](const Hypothesis& changed) { return incremental(changed); };
-    return fitted_from_afar(evidence, predict, wanted, settings, 0.0).hypothesis;
 }
 
 }  // namespace fidservo::gap

@@ -15,30 +15,31 @@
 #include "gap/coupling.h"
 #include "gap/evidence.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
 namespace fidservo::gap {
 
-/// What was needed of everything, as fitted to the windows wanted.
+/// What was needed of everything.
 struct NeededCandidates {
     std::vector<const Candidate*> candidates;
-    Hypothesis settings;  ///< one a candidate
+    std::array<Hypothesis, 2> of_half;  ///< as fitted on each half, one setting a candidate
+    std::vector<double> worth;          ///< of each, on both halves: loss that it saves beside the others
 };
 
 /// Whether a candidate's predictions change smoothly with its sizes: of the wire, the Hall sensor and the
-/// view, of one shape or a few; one of a class.
+/// view, without place or period; and nothing that shows in the carriage.
 bool is_smooth(const Candidate& candidate);
 
-/// @param beside   what is known of what moves the carriage; stays as it is
-/// @param begun    of the candidates, what was found to be there already, with its values; begins so
-/// @param wanted   windows of the Hall reading and tags that are fitted
+/// Of all candidates without a shape of their own, and those begun: fits the first half, keeps what is worth
+/// it there, fits that on the other half too, and keeps what is worth it on both.
+/// @param candidates  one of a class
+/// @param beside      what each half knows of what moves the carriage; stays as it is
+/// @param begun       of the candidates, what was found to be there already, with its values
+/// @param wanted      windows of the Hall reading and tags in each half
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
-                                      const Hypothesis& beside, const Hypothesis& begun,
-                                      const Wanted& wanted);
-
-/// Settings fitted together from where they are.
-Hypothesis fitted_together(const Evidence& evidence, const Hypothesis& beside, const Hypothesis& settings,
-                           const Wanted& wanted);
+                                      const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
+                                      const std::array<Wanted, 2>& wanted);
 
 }  // namespace fidservo::gap

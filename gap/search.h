@@ -82,6 +82,7 @@ class Search {
     /// begin as they are. In the fit they are the last ones, in the order of the candidates.
     struct Together {
         std::vector<const Candidate*> candidates;
+        std::vector<double> worth;  ///< loss that each saves beside the others
         CrossFit fitted;
     };
     Together everything_beside(const CrossFit& base) const;
@@ -139,6 +140,9 @@ class Search {
 
     /// Fits those parameters of a cross fit again, from where they are, that meet some signals.
     void fit_again(CrossFit& cross, const SignalFlags& signals) const;
+
+    /// Judges a cross fit as it is.
+    void judge(CrossFit& cross) const { fitter_.judge(cross); }
 
     /// A whole, whose last effect is a candidate, with that and what it meets fitted closer.
     /// @param base  that it is told from: without the last effect at least

@@ -38,17 +38,16 @@ Search::Together Search::everything_beside(const CrossFit& base) const {
     for (Hypothesis& hypothesis : beside) std::erase_if(hypothesis, is_among);
     Hypothesis begun = base.of_half[0];
     std::erase_if(begun, [&](const plant::EffectSetting& setting) { return !is_among(setting); });
-    const auto wanted = [&](std::size_t side) {
-        return only_of(evidence.windows(), fitter_.half(side), smooth);
-    };
-
-    NeededCandidates needed = needed_of_everything(evidence, all, beside[0], begun, wanted(0));
-    const std::array settings{needed.settings,
-                              fitted_together(evidence, beside[1], needed.settings, wanted(1))};
-    Together together{std::move(needed.candidates), {.of_half = std::move(beside), .mean_squares = {}}};
+    std::array<Wanted, 2> wanted;
     for (std::size_t side = 0; side < 2; ++side)
-        together.fitted.of_half[side].insert(together.fitted.of_half[side].end(), settings[side].begin(),
-                                             settings[side].end());
+        wanted[side] = only_of(evidence.windows(), fitter_.half(side), smooth);
+    NeededCandidates needed = needed_of_everything(evidence, all, beside, begun, wanted);
+    Together together{std::move(needed.candidates),
+                      std::move(needed.worth),
+                      {.of_half = std::move(beside), .mean_squares = {}}};
+    for (std::size_t side = 0; side < 2; ++side)
+        together.fitted.of_half[side].insert(together.fitted.of_half[side].end(),
+                                             needed.of_half[side].begin(), needed.of_half[side].end());
     fitter_.judge(together.fitted);
     return together;
 }

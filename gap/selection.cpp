@@ -1,5 +1,6 @@
 #include "gap/selection.h"
 
+#include "gap/everything.h"
 #include "gap/growth.h"
 
 #include <algorithm>
@@ -148,61 +149,52 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     return changed;
 }
 
-/// A chain with what is needed of everything in place of its smooth effects, each of which is real beside the
-/// others.
-Chain begun_with_everything(Search& search, const Chain& chain) {
+/// A chain with what is needed of everything in place of its smooth effects.
+Chain begun_with_everything(const Search& search, const Chain& chain) {
     Search::Together together = search.everything_beside(chain.fitted);
     Chain whole;
     for (const Choice& choice : chain.choices)
-        if (std::ranges::find(together.fitted.of_half[0], choice.candidate->effect,
-                              &plant::EffectSetting::effect) != together.fitted.of_half[0].end() &&
-            std::ranges::find(together.candidates, choice.candidate) == together.candidates.end())
-            whole.choices.push_back(choice);
-    for (const Candidate* candidate : together.candidates) whole.choices.push_back({candidate, 0.0, {}, {}});
+        if (!is_smooth(*choice.candidate)) whole.choices.push_back(choice);
     whole.fitted = std::move(together.fitted);
-    for (std::size_t k = whole.choices.size(); k-- > 0;) {
-        if (std::ranges::find(together.candidates, whole.choices[k].candidate) == together.candidates.end())
-            continue;
-        Chain rest = without(search, whole, k);
-        if (!search.is_real(rest.fitted, whole.fitted)) {
-            whole = std::move(rest);
-            continue;
-        }
-        Choice& choice = whole.choices[k];
-        choice.loss_without = rest.fitted.loss;
-        choice.alternatives = {{.candidate = choice.candidate,
-                                .gain = rest.fitted.loss - whole.fitted.loss,
-                                .is_leader = true,
-                                .fitted = whole.fitted}};
+    for (std::size_t k = 0; k < together.candidates.size(); ++k) {
+        const Candidate* const candidate = together.candidates[k];
+        Trial itself{
+            .candidate = candidate, .gain = together.worth[k], .is_leader = true, .fitted = whole.fitted};
+        whole.choices.push_back({candidate, whole.fitted.loss + together.worth[k], {std::move(itself)}, {}});
     }
     return whole;
 }
 
 /// What moves the wire has causes that stand in for each other: where the Hall reading is off its floor, all
-/// of them are looked at together, and one by one what that leaves. It is searched apart from the carriage,
-/// with a share of the effort.
+/// of them are looked at together. Where many do not explain it so, they are looked for one by one, and once
+/// more together with what that has found. The wire is searched apart from the carriage, with a share of the
+/// effort.
 /// @param alone  what was tried first
 /// @return whether a pair took the place of something
 bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
-    constexpr double share_of_effort = 0.4;
+    constexpr double share_of_effort = 0.25;
     constexpr int most_one_by_one = 2;
     const auto is_off = [&](const Chain& explained) {
         return search.off(explained.fitted)[index_of(Signal::hall)];
     };
     if (!is_off(chain)) return false;
+    Chain whole = begun_with_everything(search, chain);
+    if (whole.choices.size() > most_one_by_one && !is_off(whole)) {
+        chain = std::move(whole);
+        return false;
+    }
     bool is_paired = false;
-    const Chain whole = begun_with_everything(search, chain);
-    const bool is_whole = whole.choices.size() > most_one_by_one && !is_off(whole);
     search.look_for_causes_in(only(Signal::hall), share_of_effort);
     try {
-        if (!is_whole) is_paired = grow(search, chain, most_one_by_one, alone);
+        is_paired = grow(search, chain, most_one_by_one, alone);
     } catch (const SearchExhausted&) {
         if (search.over()) throw;
     }
     search.limit(false);
     search.look_for_causes_in(all_signals, 1.0);
-    if (!is_off(chain) && is_off(whole)) return is_paired;
-    if (is_better(search, whole, chain)) chain = whole;
+    if (!is_off(chain)) return is_paired;
+    whole = begun_with_everything(search, chain);
+    if (is_better(search, whole, chain)) chain = std::move(whole);
     return is_paired;
 }
 
@@ -232,12 +224,20 @@ Chain nameable(const Search& search, Chain chain) {
     return chain;
 }
 
+/// Whether fits without each of a chain's effects take too long.
+bool is_long(const Chain& chain) {
+    constexpr std::size_t most_short = 4;
+    return chain.choices.size() > most_short;
+}
+
 /// The chain with that first which the rest can least do without.
 Chain weightiest_first(const Search& search, Chain chain) {
     const std::size_t count = chain.choices.size();
     if (count < 2) return chain;
     std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t k = 0; k < count; ++k) order.emplace_back(without(search, chain, k).fitted.loss, k);
+    for (std::size_t k = 0; k < count; ++k)
+        order.emplace_back(
+            is_long(chain) ? chain.choices[k].loss_without : without(search, chain, k).fitted.loss, k);
     std::ranges::stable_sort(order, std::greater{}, &std::pair<double, std::size_t>::first);
     const auto in_order = [&](auto& values) {
         auto sorted = values;
@@ -256,7 +256,10 @@ CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
     for (std::size_t k = count; k < chain.choices.size(); ++k)
         concerned = either(concerned, search.concerned_by(*chain.choices[k].candidate, chain.fitted));
     for (Hypothesis& hypothesis : fitted.of_half) hypothesis.resize(count);
-    search.fit_again(fitted, concerned);
+    if (is_long(chain))
+        search.judge(fitted);
+    else
+        search.fit_again(fitted, concerned);
     return fitted;
 }
 
