@@ -37,6 +37,11 @@ double sign_of(double x) {
     return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : 0.0);
 }
 
+bool acts(const Discrepancy& discrepancy, ActsOn acts_on, DependsOn depends_on) {
+    return discrepancy.function.size != 0.0 && discrepancy.acts_on == acts_on &&
+           discrepancy.depends_on == depends_on;
+}
+
 double dead_zone_V(const DeadZone& zone, double u_V) {
     const double beyond_V = std::abs(u_V) - zone.threshold_V;
     return beyond_V < 0.0 ? 0.0 : sign_of(u_V) * (zone.offset_V + zone.slope * beyond_V);
@@ -54,7 +59,8 @@ class Forces {
         const FrictionDepartures& friction = model_.friction;
         return model_.damping_V_s_per_mm * speed_mm_per_s *
                    (direction < 0.0 ? friction.viscous_backward : friction.viscous_forward) +
-               friction.drag_V_s2_per_mm2 * speed_mm_per_s * std::abs(speed_mm_per_s);
+               friction.drag_V_s2_per_mm2 * speed_mm_per_s * std::abs(speed_mm_per_s) +
+               smooth_force_V(speed_mm_per_s);
     }
 
     /// What pulls at the carriage: the motor, or the belt between them.
@@ -110,6 +116,14 @@ class Forces {
     }
 
   private:
+    /// It fades towards rest, where friction alone holds.
+    double smooth_force_V(double speed_mm_per_s) const {
+        if (!acts(model_.discrepancy, ActsOn::carriage_force, DependsOn::carriage_speed)) return 0.0;
+        constexpr double fading_mm_per_s = 10.0;
+        const double share = -std::expm1(-std::pow(speed_mm_per_s / fading_mm_per_s, 2));
+        return share * model_.discrepancy.function(speed_mm_per_s);
+    }
+
     const CarriageModel& model_;
     double command_V_;
 };
@@ -159,6 +173,7 @@ CarriageModel make_carriage(const Rig& rig, const Departures& departures) {
     model.friction = departures.friction;
     model.mechanics = departures.mechanics;
     model.flexure = departures.flexure;
+    model.discrepancy = departures.discrepancy;
     return model;
 }
 
@@ -174,6 +189,8 @@ double driving_force_V(const CarriageModel& model, double command_V, double posi
     }
     const double off_mm = position_mm - place.cable_centre_mm;
     u_V -= place.cable_V_per_mm * (off_mm + place.cable_cubic_per_mm2 * std::pow(off_mm, 3));
+    if (acts(model.discrepancy, ActsOn::carriage_force, DependsOn::carriage_place))
+        u_V += model.discrepancy.function(position_mm);
     const double on_motion = model.friction.dead_zone_on_motion;
     return (1.0 - on_motion) * dead_zone_V(model.dead_zone, u_V) + on_motion * model.dead_zone.slope * u_V;
 }

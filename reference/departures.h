@@ -1,6 +1,8 @@
 #pragma once
 // What a rig may have and its file does not state. Every field's default is neutral: the rig as its file
 // describes it. Forces on the carriage are in volts at the motor, as the rig file's gain is.
+#include "reference/smooth_function.h"
+
 #include <optional>
 
 namespace fidservo::reference {
@@ -124,6 +126,7 @@ struct CameraDepartures {
     double tilt_axis_rad = 0.0;  ///< that axis's direction, from u towards v
     double tilt_height = 0.0;    ///< of that axis over the plate, as a share of the camera's
     double distortion = 0.0;     ///< radial, k1 of x (1 + k1 r^2) in normalised coordinates
+    double division = 0.0;       ///< radial by another model, k of x / (1 - k r^2)
     double latency_s = 0.0;      ///< by which frames are stamped late
     double clock_skew = 0.0;     ///< the camera's clock gains this share
 };
@@ -141,6 +144,28 @@ struct ImageDepartures {
     double gain_spread = 0.0;    ///< standard deviation of the pixels' fixed gains
 };
 
+/// What a smooth function that no effect has adds to.
+enum class ActsOn {
+    carriage_force,  ///< V at the motor
+    hall_reading,    ///< V
+    camera_place,    ///< mm along the stage
+};
+
+enum class DependsOn {
+    carriage_speed,    ///< mm/s; of a force that fades where the carriage comes to rest
+    carriage_place,    ///< mm; a force by place acts on a carriage at rest too
+    contraction,       ///< mm, of the platform
+    wire_temperature,  ///< degC above the nominal room
+    time,              ///< s since the start
+};
+
+/// What remains wrong with a rig once all that has a name is known.
+struct Discrepancy {
+    ActsOn acts_on = ActsOn::hall_reading;
+    DependsOn depends_on = DependsOn::time;
+    SmoothFunction function = {};
+};
+
 struct Departures {
     DriveDepartures drive = {};
     FrictionDepartures friction = {};
@@ -152,6 +177,7 @@ struct Departures {
     HallDepartures hall = {};
     CameraDepartures camera = {};
     ImageDepartures image = {};
+    Discrepancy discrepancy = {};
 };
 
 }  // namespace fidservo::reference

@@ -24,7 +24,11 @@ bool is_right(const Label& label, const Score& score) {
         case CaseKind::frames:
             return score.right_effect_first && score.right_block_first;
         case CaseKind::two:
+        case CaseKind::three:
             return score.all_right;
+        case CaseKind::messy:
+        case CaseKind::messy_none:
+            return !score.is_confident_wrong;
         case CaseKind::withheld:
         case CaseKind::frames_withheld:
         case CaseKind::unlisted:

@@ -20,7 +20,9 @@ Classes set_of(const gap::FoundEffect& found) {
 /// What a right answer may name.
 Classes nameable(const Label& label) {
     Classes classes;
-    if (label.kind == CaseKind::one || label.kind == CaseKind::two || label.kind == CaseKind::frames)
+    const bool lacks_it = label.kind == CaseKind::withheld || label.kind == CaseKind::unlisted ||
+                          label.kind == CaseKind::frames_withheld;
+    if (!lacks_it)
         for (const TrueEffect& effect : label.effects) classes.insert(effect.class_name);
     return classes;
 }
