@@ -37,6 +37,10 @@ double sign_of(double x) {
     return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : 0.0);
 }
 
+double skewed_sine(double angle_rad, double skew) {
+    return std::sin(angle_rad + skew * std::sin(angle_rad));
+}
+
 bool acts(const Discrepancy& discrepancy, ActsOn acts_on, DependsOn depends_on) {
     return discrepancy.function.size != 0.0 && discrepancy.acts_on == acts_on &&
            discrepancy.depends_on == depends_on;
@@ -59,6 +63,7 @@ class Forces {
         const FrictionDepartures& friction = model_.friction;
         return model_.damping_V_s_per_mm * speed_mm_per_s *
                    (direction < 0.0 ? friction.viscous_backward : friction.viscous_forward) +
+               power_V(speed_mm_per_s) +
                friction.drag_V_s2_per_mm2 * speed_mm_per_s * std::abs(speed_mm_per_s) +
                smooth_force_V(speed_mm_per_s);
     }
@@ -116,6 +121,15 @@ class Forces {
     }
 
   private:
+    double power_V(double speed_mm_per_s) const {
+        const FrictionDepartures& friction = model_.friction;
+        if (friction.viscous_power == 0.0) return 0.0;
+        constexpr double equal_mm_per_s = 100.0;
+        const double share = std::pow(std::abs(speed_mm_per_s) / equal_mm_per_s, friction.viscous_exponent);
+        return friction.viscous_power * model_.damping_V_s_per_mm *
+               std::copysign(equal_mm_per_s * share, speed_mm_per_s);
+    }
+
     /// It fades towards rest, where friction alone holds.
     double smooth_force_V(double speed_mm_per_s) const {
         if (!acts(model_.discrepancy, ActsOn::carriage_force, DependsOn::carriage_speed)) return 0.0;
@@ -184,15 +198,18 @@ double driving_force_V(const CarriageModel& model, double command_V, double posi
     if (place.cogging_V != 0.0) {
         const double angle = 2.0 * std::numbers::pi * position_mm / place.cogging_period_mm;
         u_V +=
-            place.cogging_V * (std::sin(angle + place.cogging_phase_rad) +
+            place.cogging_V * (skewed_sine(angle + place.cogging_phase_rad, place.cogging_skew) +
                                place.cogging_second * std::sin(2.0 * angle + place.cogging_second_phase_rad));
     }
-    const double off_mm = position_mm - place.cable_centre_mm;
+    const double from_centre_mm = position_mm - place.cable_centre_mm;
+    const double off_mm =
+        from_centre_mm - std::clamp(from_centre_mm, -place.cable_slack_mm, place.cable_slack_mm);
     u_V -= place.cable_V_per_mm * (off_mm + place.cable_cubic_per_mm2 * std::pow(off_mm, 3));
     if (acts(model.discrepancy, ActsOn::carriage_force, DependsOn::carriage_place))
         u_V += model.discrepancy.function(position_mm);
     const double on_motion = model.friction.dead_zone_on_motion;
-    return (1.0 - on_motion) * dead_zone_V(model.dead_zone, u_V) + on_motion * model.dead_zone.slope * u_V;
+    return model.drive.motor *
+           ((1.0 - on_motion) * dead_zone_V(model.dead_zone, u_V) + on_motion * model.dead_zone.slope * u_V);
 }
 
 void advance(const CarriageModel& model, CarriageState& state, double command_V, double h_s) {

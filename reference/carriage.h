@@ -6,7 +6,8 @@
 // m = tau / K and b = 1 / K make the unit of force the volt; V is the dead zone of the rig file on the sum of
 // the driving voltage u and the forces by place g; F is dry friction. The carriage sticks when its speed
 // comes to zero and the forces do not exceed the friction at rest; the time of that is located within the
-// step. At either end of travel it stops dead. Drag k v |v| adds to the friction.
+// step. At either end of travel it stops dead. Drag k v |v| and damping that goes with a power of speed add
+// to the friction.
 //
 // A belt divides the mass: share s is the motor's, with the driving voltage and its damping b; the rest is
 // the carriage's, with its friction. They pull at each other with z / C + d dz/dt, z = motor - carriage,

@@ -10,7 +10,12 @@
 namespace fidservo::selfcheck {
 
 double gap_alone(const Rig& nominal, const TrueRig& rig, std::uint64_t campaign_seed) {
-    const gap::Evidence evidence(nominal, record_campaign(nominal, rig, campaign_seed));
+    // Enough for a hundredth of a floor, but not for bristles that are stiff.
+    constexpr int few_substeps = 5;
+    const bool is_stiff = rig.departures.friction.bristles.has_value();
+    const gap::Evidence evidence(
+        nominal, record_campaign(nominal, rig, campaign_seed,
+                                 is_stiff ? std::optional<int>{} : std::optional<int>{few_substeps}));
     const std::vector<double> squares =
         gap::mean_squares(evidence.windows(), evidence.errors({}, gap::everything(evidence)));
     const double gap = gap::total_gap(gap::signal_gaps(evidence, squares, squares)).before;
@@ -20,7 +25,7 @@ double gap_alone(const Rig& nominal, const TrueRig& rig, std::uint64_t campaign_
 std::optional<SizedGap> size_for_gap(const std::function<double(double)>& gap_of, const SizeRange& sizes,
                                      const GapAim& aim) {
     constexpr int trials = 8;
-    constexpr double near = 1.25, longest_step = 30.0;
+    constexpr double near = 1.5, longest_step = 30.0;
     std::optional<double> too_small, too_large;
     std::optional<SizedGap> allowed;
     const auto miss = [&](double gap) { return std::abs(std::log(gap / aim.target)); };

@@ -28,7 +28,7 @@ struct SizedGap {
     double size, gap_floors;
 };
 
-/// A size whose gap is allowed and, unless the gap jumps there, within a quarter of the target: in proportion
+/// A size whose gap is allowed and, unless the gap jumps there, within a half of the target: in proportion
 /// at first, by bisection in the logarithm once the target lies between two sizes. Empty where the largest
 /// size is too small, or where none was found in eight trials.
 /// @param gap_of  gap of a size, in floors

@@ -51,8 +51,9 @@ gap::Diagnosis diagnose_blindly(const Rig& nominal, std::vector<Recording> recor
 
 Outcome run_case(const Rig& nominal, const Case& drawn, const std::vector<std::string>& only) {
     const Clock::time_point start = Clock::now();
-    const auto record = has_frames(drawn.label.kind) ? film_campaign : record_campaign;
-    std::vector<Recording> recordings = record(nominal, drawn.true_rig, drawn.campaign_seed);
+    std::vector<Recording> recordings = has_frames(drawn.label.kind)
+                                            ? film_campaign(nominal, drawn.true_rig, drawn.campaign_seed)
+                                            : record_campaign(nominal, drawn.true_rig, drawn.campaign_seed);
     const double recording_s = seconds_since(start);
     const Clock::time_point recorded = Clock::now();
     const gap::Diagnosis diagnosis = diagnose_blindly(nominal, std::move(recordings), only, drawn.without);
