@@ -35,7 +35,7 @@ SmoothFunction smooth_function(double size, double low, double high,
     constexpr int points = 401;
     double mean = 0.0, moment = 0.0, square = 0.0, square_of_u = 0.0;
     for (int k = 0; k < points; ++k) {
-        const double u = 2.0 * k / (points - 1) - 1.0, sum = cosines(function, u);
+        const double u = (2.0 * k + 1.0) / points - 1.0, sum = cosines(function, u);
         mean += sum / points;
         moment += u * sum / points;
         square += sum * sum / points;

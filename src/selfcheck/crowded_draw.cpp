@@ -65,7 +65,8 @@ class MessyRig {
     void add_effect(const Names& order, const GapAim& aim) {
         for (const std::string_view name : order) {
             if (!fits(name, classes_)) continue;
-            const EffectDraw& way = draw_way(name);
+            const auto [drawn_way, is_other] = draw_way(name);
+            const EffectDraw& way = *drawn_way;
             NoiseStream shape(draw_.bits(), "self-check/shape");
             const auto put = [&](reference::Departures& rig, double size) {
                 NoiseStream same = shape;
@@ -78,7 +79,7 @@ class MessyRig {
             effect.gap_floors = found->gap_floors;
             drawn_.label.effects.push_back(std::move(effect));
             classes_.push_back(name);
-            other_is_next_ = !other_is_next_;
+            other_is_next_ = !is_other;
             return;
         }
         throw std::runtime_error(fmt::format("no effect makes a gap of {:.3g} floors alone", aim.target));
@@ -103,10 +104,16 @@ class MessyRig {
     /// Most effects show in one of the five signals, whose floors count by a fifth in squares.
     static constexpr double signals = 2.2;
 
-    const EffectDraw& draw_way(std::string_view name) {
+    struct Drawn {
+        const EffectDraw* way;
+        bool is_other;  ///< by another formula than the catalogue's
+    };
+
+    Drawn draw_way(std::string_view name) {
         std::vector<const EffectDraw*> ways = other_formulas_of(name);
-        if (!other_is_next_ || ways.empty()) ways = draws_of(name);
-        return *ways[index_below(draw_, ways.size())];
+        const bool is_other = other_is_next_ && !ways.empty();
+        if (!is_other) ways = draws_of(name);
+        return {ways[index_below(draw_, ways.size())], is_other};
     }
 
     template <class Put>

@@ -24,9 +24,10 @@ bool is_crowded(CaseKind kind);
 CaseKind kind_of_crowded_case(std::uint64_t seed, std::size_t number);
 
 /// A pure function of seed and number, as draw_case() is. Of three effects the sizes are drawn as those of
-/// two are; a messy case takes some thirty simulated campaigns. Of a messy rig's effects every second one is
-/// made by another formula than the catalogue's, where there is one (src/selfcheck/other_formulas.h). Throws
-/// std::runtime_error where no size makes a gap that was drawn.
+/// two are; a messy case takes some twenty simulated campaigns. Of a messy rig's effects every second one, or
+/// the next after it that can be, is made by another formula than the catalogue's
+/// (src/selfcheck/other_formulas.h).
+/// Throws std::runtime_error where no size makes a gap that was drawn.
 /// @param nominal  with a micro stage, a camera and controllers
 Case draw_crowded_case(const Rig& nominal, std::uint64_t seed, std::size_t number);
 

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fidservo::selfcheck {
 namespace {
@@ -70,20 +71,20 @@ struct Family {
 };
 
 constexpr std::array families{
-    Family{"none, one, two, withheld and unlisted",
+    Family{"none, one, two, withheld, unlisted",
            [](CaseKind kind) { return !has_frames(kind) && !is_crowded(kind); }, kind_of_case, draw_case},
-    Family{"frames, frames-none and frames-withheld", has_frames, kind_of_frames_case, draw_frames_case},
-    Family{"three, messy and messy-none", is_crowded, kind_of_crowded_case, draw_crowded_case}};
+    Family{"frames, frames-none, frames-withheld", has_frames, kind_of_frames_case, draw_frames_case},
+    Family{"three, messy, messy-none", is_crowded, kind_of_crowded_case, draw_crowded_case}};
 
 /// The first one where no kinds are given. Throws InputError where they are of several.
 const Family& family_of(const std::vector<CaseKind>& kinds) {
+    std::vector<std::string_view> together;
     for (const Family& family : families) {
-        const auto of_it = std::ranges::count_if(kinds, family.has);
-        if (of_it == std::ssize(kinds)) return family;
-        if (of_it != 0)
-            throw InputError(fmt::format("--kinds: {} do not go with kinds of other rows", family.kinds));
+        if (std::ranges::all_of(kinds, family.has)) return family;
+        together.push_back(family.kinds);
     }
-    return families.front();
+    throw InputError(
+        fmt::format("--kinds: of these only such as are drawn together: {}", fmt::join(together, "; or ")));
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ TEST(SelfCheckCommand, OptionsThatDoNotGoTogether_AreRefused) {
     refused({"--self-check", "somewhere"}, "--self-check: it makes its own recordings");
     refused({"--self-check", "--without", "cogging"}, "--self-check: it withholds effects itself");
     refused({"--self-check", "--kinds", "four"}, "four");
-    refused({"--self-check", "--kinds", "two,messy"}, "three, messy and messy-none");
-    refused({"--self-check", "--kinds", "frames,none"}, "frames, frames-none and frames-withheld");
+    refused({"--self-check", "--kinds", "two,messy"}, "three, messy, messy-none");
+    refused({"--self-check", "--kinds", "frames,none"}, "frames, frames-none, frames-withheld");
     refused({"--cases", "3"}, "--self-check");
 }
 
