@@ -41,11 +41,6 @@ double skewed_sine(double angle_rad, double skew) {
     return std::sin(angle_rad + skew * std::sin(angle_rad));
 }
 
-bool acts(const Discrepancy& discrepancy, ActsOn acts_on, DependsOn depends_on) {
-    return discrepancy.function.size != 0.0 && discrepancy.acts_on == acts_on &&
-           discrepancy.depends_on == depends_on;
-}
-
 double dead_zone_V(const DeadZone& zone, double u_V) {
     const double beyond_V = std::abs(u_V) - zone.threshold_V;
     return beyond_V < 0.0 ? 0.0 : sign_of(u_V) * (zone.offset_V + zone.slope * beyond_V);
@@ -64,8 +59,7 @@ class Forces {
         return model_.damping_V_s_per_mm * speed_mm_per_s *
                    (direction < 0.0 ? friction.viscous_backward : friction.viscous_forward) +
                power_V(speed_mm_per_s) +
-               friction.drag_V_s2_per_mm2 * speed_mm_per_s * std::abs(speed_mm_per_s) +
-               smooth_force_V(speed_mm_per_s);
+               friction.drag_V_s2_per_mm2 * speed_mm_per_s * std::abs(speed_mm_per_s);
     }
 
     /// What pulls at the carriage: the motor, or the belt between them.
@@ -101,7 +95,8 @@ class Forces {
         add_motor(x, rate);
         if (direction == 0.0) return rate;
         const DryFriction dry = dry_friction(model_, x[0], x[1], x[2], direction, contact);
-        double net_V = pull_V(x) - dry.force_V - viscous_V(x[1], x[1] == 0.0 ? direction : x[1]);
+        double net_V =
+            pull_V(x) - dry.force_V - viscous_V(x[1], x[1] == 0.0 ? direction : x[1]) - smooth_friction_V(x);
         if (model_.mechanics.stretch) net_V += model_.damping_V_s_per_mm * x[1];  // that is the motor's
         rate[0] = x[1];
         rate[1] = net_V / carriage_inertia();
@@ -130,12 +125,14 @@ class Forces {
                std::copysign(equal_mm_per_s * share, speed_mm_per_s);
     }
 
-    /// It fades towards rest, where friction alone holds.
-    double smooth_force_V(double speed_mm_per_s) const {
-        if (!acts(model_.discrepancy, ActsOn::carriage_force, DependsOn::carriage_speed)) return 0.0;
+    /// It fades towards rest, where other friction alone holds.
+    double smooth_friction_V(const Motion& x) const {
+        const Discrepancy& discrepancy = model_.discrepancy;
+        if (discrepancy.function.size == 0.0 || discrepancy.acts_on != ActsOn::carriage_friction) return 0.0;
         constexpr double fading_mm_per_s = 10.0;
-        const double share = -std::expm1(-std::pow(speed_mm_per_s / fading_mm_per_s, 2));
-        return share * model_.discrepancy.function(speed_mm_per_s);
+        const double share = -std::expm1(-std::pow(x[1] / fading_mm_per_s, 2));
+        if (discrepancy.depends_on == DependsOn::carriage_speed) return share * discrepancy.function(x[1]);
+        return share * sign_of(x[1]) * discrepancy.function(x[0]);
     }
 
     const CarriageModel& model_;
@@ -205,8 +202,7 @@ double driving_force_V(const CarriageModel& model, double command_V, double posi
     const double off_mm =
         from_centre_mm - std::clamp(from_centre_mm, -place.cable_slack_mm, place.cable_slack_mm);
     u_V -= place.cable_V_per_mm * (off_mm + place.cable_cubic_per_mm2 * std::pow(off_mm, 3));
-    if (acts(model.discrepancy, ActsOn::carriage_force, DependsOn::carriage_place))
-        u_V += model.discrepancy.function(position_mm);
+    if (model.discrepancy.acts_on == ActsOn::carriage_force) u_V += model.discrepancy.function(position_mm);
     const double on_motion = model.friction.dead_zone_on_motion;
     return model.drive.motor *
            ((1.0 - on_motion) * dead_zone_V(model.dead_zone, u_V) + on_motion * model.dead_zone.slope * u_V);

@@ -16,8 +16,7 @@
 // Play: what is integrated is what drives the carriage; the carriage rests until it is pushed on from either
 // side of the play.
 //
-// A smooth discrepancy is a force of either kind: f(y) adds to g, f(v) (1 - exp(-(v / v_0)^2)) to the
-// friction.
+// A smooth discrepancy adds f(y) to g, or to the friction f(v) s or sgn(v) f(y) s, s = 1 - exp(-(v / v_0)^2).
 //
 // The flexure: q = platform's swing against the wire's end, w = dq/dt + coupling v, so that no acceleration
 // is needed and an impact of the carriage passes on:

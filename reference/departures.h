@@ -167,14 +167,15 @@ struct ImageDepartures {
 
 /// What a smooth function that no effect has adds to.
 enum class ActsOn {
-    carriage_force,  ///< V at the motor
-    hall_reading,    ///< V
-    camera_place,    ///< mm along the stage
+    carriage_force,     ///< V at the motor, on a carriage at rest too
+    carriage_friction,  ///< V at the motor, on a moving carriage; it fades where that comes to rest
+    hall_reading,       ///< V
+    camera_place,       ///< mm along the stage
 };
 
 enum class DependsOn {
-    carriage_speed,    ///< mm/s; of a force that fades where the carriage comes to rest
-    carriage_place,    ///< mm; a force by place acts on a carriage at rest too
+    carriage_speed,    ///< mm/s
+    carriage_place,    ///< mm; friction by place opposes the motion
     contraction,       ///< mm, of the platform
     wire_temperature,  ///< degC above the nominal room
     time,              ///< s since the start

@@ -85,19 +85,22 @@ class MessyRig {
         throw std::runtime_error(fmt::format("no effect makes a gap of {:.3g} floors alone", aim.target));
     }
 
-    void add_discrepancy(const DiscrepancyKind& kind, const GapAim& aim) {
-        const NoiseStream shape(draw_.bits(), "self-check/discrepancy");
-        const auto put = [&](reference::Departures& rig, double size) {
-            NoiseStream same = shape;
-            rig.discrepancy = draw_discrepancy(kind, nominal_, size, same);
-        };
-        const auto found = size_of(put, {kind.start_size, kind.largest}, aim);
-        if (!found)
-            throw std::runtime_error(fmt::format("no discrepancy of {} by {} makes a gap of {:.3g} floors",
-                                                 kind.block, kind.depends_on, aim.target));
-        put(drawn_.true_rig.departures, found->size);
-        drawn_.label.discrepancy = TrueDiscrepancy{std::string(kind.block), std::string(kind.depends_on),
-                                                   found->size, found->gap_floors};
+    /// Of the kinds in their order, the first one that comes to the aim.
+    void add_discrepancy(const std::vector<DiscrepancyKind>& order, const GapAim& aim) {
+        for (const DiscrepancyKind& kind : order) {
+            const NoiseStream shape(draw_.bits(), "self-check/discrepancy");
+            const auto put = [&](reference::Departures& rig, double size) {
+                NoiseStream same = shape;
+                rig.discrepancy = draw_discrepancy(kind, nominal_, size, same);
+            };
+            const auto found = size_of(put, {kind.start_size, kind.largest}, aim);
+            if (!found) continue;
+            put(drawn_.true_rig.departures, found->size);
+            drawn_.label.discrepancy = TrueDiscrepancy{std::string(kind.block), std::string(kind.depends_on),
+                                                       found->size, found->gap_floors};
+            return;
+        }
+        throw std::runtime_error(fmt::format("no discrepancy makes a gap of {:.3g} floors", aim.target));
     }
 
   private:
@@ -138,25 +141,28 @@ GapAim aim_between(double low, double high, NoiseStream& draw) {
     return {low, high, log_uniform(draw, low, high)};
 }
 
-Names shuffled_classes(NoiseStream& draw) {
-    Names names = listed_classes();
-    shuffle(names, NoiseStream(draw.bits(), "self-check/classes"));
-    return names;
+template <class Item>
+std::vector<Item> shuffled(std::span<const Item> items, NoiseStream& draw) {
+    std::vector<Item> order(items.begin(), items.end());
+    shuffle(order, NoiseStream(draw.bits(), "self-check/order"));
+    return order;
 }
 
 void put_messy(const Rig& nominal, Case& drawn, std::uint64_t seed, std::size_t k, NoiseStream& draw) {
     MessyRig rig(nominal, drawn, draw);
     double largest_small = small_floors[1];
     if (drawn.label.kind == messy) {
-        Names order = shuffled_classes(draw);
+        Names order = shuffled(std::span(listed_classes()), draw);
         order.insert(order.begin(), met(std::span(listed_classes()), seed, messy, k));
         rig.add_effect(order, aim_between(dominant_floors[0], dominant_floors[1], draw));
         largest_small = std::min(largest_small, drawn.label.effects.front().gap_floors / dominance);
     }
     for (std::size_t i = 0; i < small_effects; ++i)
-        rig.add_effect(shuffled_classes(draw), aim_between(small_floors[0], largest_small, draw));
-    rig.add_discrepancy(met(discrepancy_kinds(), seed, drawn.label.kind, k),
-                        aim_between(discrepancy_floors[0], discrepancy_floors[1], draw));
+        rig.add_effect(shuffled(std::span(listed_classes()), draw),
+                       aim_between(small_floors[0], largest_small, draw));
+    std::vector<DiscrepancyKind> order = shuffled(discrepancy_kinds(), draw);
+    order.insert(order.begin(), met(discrepancy_kinds(), seed, drawn.label.kind, k));
+    rig.add_discrepancy(order, aim_between(discrepancy_floors[0], discrepancy_floors[1], draw));
 }
 
 }  // namespace

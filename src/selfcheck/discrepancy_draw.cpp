@@ -14,7 +14,8 @@ using enum reference::ActsOn;
 using enum reference::DependsOn;
 
 constexpr std::array discrepancies{
-    DiscrepancyKind{"macro.friction", "speed", carriage_force, carriage_speed, 3e-3, 0.3},
+    DiscrepancyKind{"macro.friction", "speed", carriage_friction, carriage_speed, 3e-3, 0.3},
+    DiscrepancyKind{"macro.friction", "place", carriage_friction, carriage_place, 3e-3, 0.3},
     DiscrepancyKind{"macro.mechanics", "place", carriage_force, carriage_place, 3e-3, 0.3},
     DiscrepancyKind{"micro.hall", "contraction", hall_reading, contraction, 3e-3, 0.3},
     DiscrepancyKind{"micro.hall", "temperature", hall_reading, wire_temperature, 3e-3, 0.3},

@@ -83,10 +83,16 @@ TEST(SmoothForce, ByPlaceAndBySpeed_AddsToTheBalance) {
                               smooth_function(0.1, 0.0, 200.0, wave_numbers, phases_rad)};
     EXPECT_NEAR(driving_force_V(make_carriage(rig(), departures), 4.0, 70.0) - (0.364 + 0.636),
                 0.636 * departures.discrepancy.function(70.0), 1e-12);
+    departures.discrepancy.acts_on = ActsOn::carriage_friction;
     departures.discrepancy.depends_on = DependsOn::carriage_speed;
     const double v = from_rest(departures, 500, 4.0).carriage.speed_mm_per_s;
     EXPECT_NEAR(v / gain() + departures.discrepancy.function(v), 0.364 + 0.636, 1e-6);
     EXPECT_EQ(from_rest(departures, 500, 0.0).carriage.position_mm, 30.0);
+    departures.discrepancy.depends_on = DependsOn::carriage_place;
+    departures.discrepancy.function = smooth_function(0.1, 0.0, 4e4, wave_numbers, phases_rad);
+    const CarriageState there = from_rest(departures, 500, 4.0).carriage;
+    EXPECT_NEAR(there.speed_mm_per_s / gain() + departures.discrepancy.function(there.position_mm),
+                0.364 + 0.636, 1e-3);
 }
 
 TEST(WireByOtherFormulas, Rates_AreThoseOfTheirEquations) {
@@ -128,7 +134,8 @@ TEST(HallByOtherFormulas, Volts_AreThoseOfTheirEquations) {
 }
 
 TEST(WireLoadedByASpring, Shift_GrowsWithContraction) {
-    const FodTable& table = *rig().micro->fod;
+    const Rig plain_rig = rig();
+    const FodTable& table = *plain_rig.micro->fod;
     HysteresisDepartures spring, fading;
     spring.stress_shift_degC_per_mm = 2.0;
     const HysteresisModel nominal = make_hysteresis(table, {}), loaded = make_hysteresis(table, spring);
