@@ -33,10 +33,12 @@ Eigen::Vector2d direction_of(const CameraModel& model, const Eigen::Vector2d& pl
     return (along.dot(from_s_mm) * along + (c * b_mm - s * h_mm) * across) / depth_mm;
 }
 
-/// Whether r (1 + k1 r^2) still grows there. Beyond, the formula of a barrel folds what is far outside back
-/// into the image; no lens does.
+/// Whether r (1 + k1 r^2) / (1 - k r^2) still grows there. Beyond, the formula of a barrel folds what is far
+/// outside back into the image; no lens does.
 bool lens_reaches(const CameraModel& model, const Eigen::Vector2d& direction) {
-    return 1.0 + 3.0 * model.departures.distortion * direction.squaredNorm() > 0.0;
+    const double square = direction.squaredNorm();
+    return 1.0 + 3.0 * model.departures.distortion * square > 0.0 &&
+           1.0 - std::abs(model.departures.division) * square > 0.0;
 }
 
 }  // namespace
@@ -47,7 +49,8 @@ Eigen::Vector2d image_of(const CameraModel& model, const Eigen::Vector2d& plate_
     const Eigen::Vector2d straight = direction_of(model, plate_mm, s_mm);
     const double c = std::cos(askew.rotation_rad), s = std::sin(askew.rotation_rad);
     const Eigen::Vector2d turned(c * straight.x() - s * straight.y(), s * straight.x() + c * straight.y());
-    const double bulge = 1.0 + askew.distortion * straight.squaredNorm();
+    const double bulge =
+        (1.0 + askew.distortion * straight.squaredNorm()) / (1.0 - askew.division * straight.squaredNorm());
     const Eigen::Vector2d pixels(turned.x(), askew.aspect * turned.y());
     return geometry.principal_point_px + askew.scale * geometry.focal_px * bulge * pixels;
 }

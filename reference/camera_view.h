@@ -21,7 +21,8 @@ struct CameraModel {
 /// along the tilt's axis and b across it from there, h the axis's height over the plate, theta the tilt:
 ///
 ///     depth = Z + b sin theta - h (1 - cos theta),   (a, b)' = (a, b cos theta - h sin theta) / depth
-///     (u, v) = (u0, v0) + scale f diag(1, aspect) R(rho) (x, y) (1 + k1 (x^2 + y^2))
+///     (u, v) = (u0, v0) + scale f diag(1, aspect) R(rho) (x, y) (1 + k1 r^2) / (1 - k r^2),   r^2 = x^2 +
+///     y^2
 ///
 /// (x, y) is (a, b)' along u and v; the image is turned by rho.
 Eigen::Vector2d image_of(const CameraModel& model, const Eigen::Vector2d& plate_mm, double s_mm);

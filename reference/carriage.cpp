@@ -37,6 +37,10 @@ double sign_of(double x) {
     return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : 0.0);
 }
 
+double skewed_sine(double angle_rad, double skew) {
+    return std::sin(angle_rad + skew * std::sin(angle_rad));
+}
+
 double dead_zone_V(const DeadZone& zone, double u_V) {
     const double beyond_V = std::abs(u_V) - zone.threshold_V;
     return beyond_V < 0.0 ? 0.0 : sign_of(u_V) * (zone.offset_V + zone.slope * beyond_V);
@@ -54,6 +58,7 @@ class Forces {
         const FrictionDepartures& friction = model_.friction;
         return model_.damping_V_s_per_mm * speed_mm_per_s *
                    (direction < 0.0 ? friction.viscous_backward : friction.viscous_forward) +
+               power_V(speed_mm_per_s) +
                friction.drag_V_s2_per_mm2 * speed_mm_per_s * std::abs(speed_mm_per_s);
     }
 
@@ -90,7 +95,8 @@ class Forces {
         add_motor(x, rate);
         if (direction == 0.0) return rate;
         const DryFriction dry = dry_friction(model_, x[0], x[1], x[2], direction, contact);
-        double net_V = pull_V(x) - dry.force_V - viscous_V(x[1], x[1] == 0.0 ? direction : x[1]);
+        double net_V =
+            pull_V(x) - dry.force_V - viscous_V(x[1], x[1] == 0.0 ? direction : x[1]) - smooth_friction_V(x);
         if (model_.mechanics.stretch) net_V += model_.damping_V_s_per_mm * x[1];  // that is the motor's
         rate[0] = x[1];
         rate[1] = net_V / carriage_inertia();
@@ -110,6 +116,25 @@ class Forces {
     }
 
   private:
+    double power_V(double speed_mm_per_s) const {
+        const FrictionDepartures& friction = model_.friction;
+        if (friction.viscous_power == 0.0) return 0.0;
+        constexpr double equal_mm_per_s = 100.0;
+        const double share = std::pow(std::abs(speed_mm_per_s) / equal_mm_per_s, friction.viscous_exponent);
+        return friction.viscous_power * model_.damping_V_s_per_mm *
+               std::copysign(equal_mm_per_s * share, speed_mm_per_s);
+    }
+
+    /// It fades towards rest, where other friction alone holds.
+    double smooth_friction_V(const Motion& x) const {
+        const Discrepancy& discrepancy = model_.discrepancy;
+        if (discrepancy.function.size == 0.0 || discrepancy.acts_on != ActsOn::carriage_friction) return 0.0;
+        constexpr double fading_mm_per_s = 10.0;
+        const double share = -std::expm1(-std::pow(x[1] / fading_mm_per_s, 2));
+        if (discrepancy.depends_on == DependsOn::carriage_speed) return share * discrepancy.function(x[1]);
+        return share * sign_of(x[1]) * discrepancy.function(x[0]);
+    }
+
     const CarriageModel& model_;
     double command_V_;
 };
@@ -159,6 +184,7 @@ CarriageModel make_carriage(const Rig& rig, const Departures& departures) {
     model.friction = departures.friction;
     model.mechanics = departures.mechanics;
     model.flexure = departures.flexure;
+    model.discrepancy = departures.discrepancy;
     return model;
 }
 
@@ -169,13 +195,17 @@ double driving_force_V(const CarriageModel& model, double command_V, double posi
     if (place.cogging_V != 0.0) {
         const double angle = 2.0 * std::numbers::pi * position_mm / place.cogging_period_mm;
         u_V +=
-            place.cogging_V * (std::sin(angle + place.cogging_phase_rad) +
+            place.cogging_V * (skewed_sine(angle + place.cogging_phase_rad, place.cogging_skew) +
                                place.cogging_second * std::sin(2.0 * angle + place.cogging_second_phase_rad));
     }
-    const double off_mm = position_mm - place.cable_centre_mm;
+    const double from_centre_mm = position_mm - place.cable_centre_mm;
+    const double off_mm =
+        from_centre_mm - std::clamp(from_centre_mm, -place.cable_slack_mm, place.cable_slack_mm);
     u_V -= place.cable_V_per_mm * (off_mm + place.cable_cubic_per_mm2 * std::pow(off_mm, 3));
+    if (model.discrepancy.acts_on == ActsOn::carriage_force) u_V += model.discrepancy.function(position_mm);
     const double on_motion = model.friction.dead_zone_on_motion;
-    return (1.0 - on_motion) * dead_zone_V(model.dead_zone, u_V) + on_motion * model.dead_zone.slope * u_V;
+    return model.drive.motor *
+           ((1.0 - on_motion) * dead_zone_V(model.dead_zone, u_V) + on_motion * model.dead_zone.slope * u_V);
 }
 
 void advance(const CarriageModel& model, CarriageState& state, double command_V, double h_s) {

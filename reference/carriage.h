@@ -6,7 +6,8 @@
 // m = tau / K and b = 1 / K make the unit of force the volt; V is the dead zone of the rig file on the sum of
 // the driving voltage u and the forces by place g; F is dry friction. The carriage sticks when its speed
 // comes to zero and the forces do not exceed the friction at rest; the time of that is located within the
-// step. At either end of travel it stops dead. Drag k v |v| adds to the friction.
+// step. At either end of travel it stops dead. Drag k v |v| and damping that goes with a power of speed add
+// to the friction.
 //
 // A belt divides the mass: share s is the motor's, with the driving voltage and its damping b; the rest is
 // the carriage's, with its friction. They pull at each other with z / C + d dz/dt, z = motor - carriage,
@@ -14,6 +15,8 @@
 //
 // Play: what is integrated is what drives the carriage; the carriage rests until it is pushed on from either
 // side of the play.
+//
+// A smooth discrepancy adds f(y) to g, or to the friction f(v) s or sgn(v) f(y) s, s = 1 - exp(-(v / v_0)^2).
 //
 // The flexure: q = platform's swing against the wire's end, w = dq/dt + coupling v, so that no acceleration
 // is needed and an impact of the carriage passes on:
@@ -38,6 +41,7 @@ struct CarriageModel {
     FrictionDepartures friction = {};
     MechanicsDepartures mechanics = {};
     FlexureDepartures flexure = {};
+    Discrepancy discrepancy = {};
 };
 
 struct CarriageState {

@@ -1,6 +1,8 @@
 #pragma once
 // What a rig may have and its file does not state. Every field's default is neutral: the rig as its file
 // describes it. Forces on the carriage are in volts at the motor, as the rig file's gain is.
+#include "reference/smooth_function.h"
+
 #include <optional>
 
 namespace fidservo::reference {
@@ -10,6 +12,7 @@ struct DriveDepartures {
     double gain = 1.0;
     double offset_V = 0.0;  ///< a constant force, held by the dead zone while the carriage stands
     double delay_s = 0.0;
+    double motor = 1.0;         ///< factor on the force behind the dead zone, as of another motor constant
     double fading_per_s = 0.0;  ///< share of the gain that is lost a second, as a motor warms
 };
 
@@ -17,6 +20,7 @@ struct DriveDepartures {
 struct Bristles {
     double stiffness_V_per_mm = 100.0;
     double damping_V_s_per_mm = 0.1;
+    double exponent = 1.0;  ///< with which they give way: 1 LuGre's; Dahl's law has any
 };
 
 /// Friction on the motion, opposing it.
@@ -28,15 +32,21 @@ struct FrictionDepartures {
     double stribeck_V = 0.0;  ///< friction at rest in excess of that at speed
     double stribeck_speed_mm_per_s = 20.0;
     double stribeck_exponent = 2.0;         ///< of speed in the excess's decay: 2 a bell, 1 an exponential
+    bool stribeck_is_rational = false;      ///< it decays as 1 / (1 + (v / v_s)^2) instead
     std::optional<Bristles> bristles = {};  ///< an elastic contact; a rigid one without
     /// A lubricated contact: dry friction times tanh(v / creep), which holds nothing at rest. 0: none.
     double creep_mm_per_s = 0.0;
-    double viscous_forward = 1.0;    ///< factor on the file's damping while moving right
-    double viscous_backward = 1.0;   ///< likewise while moving left
+    double viscous_forward = 1.0;   ///< factor on the file's damping while moving right
+    double viscous_backward = 1.0;  ///< likewise while moving left
+    /// Damping beyond the file's, per the file's, that goes with a power of speed; equal to linear damping at
+    /// 100 mm/s.
+    double viscous_power = 0.0;
+    double viscous_exponent = 1.0;
     double drag_V_s2_per_mm2 = 0.0;  ///< of the square of speed, as in air
     double patch_V = 0.0;            ///< dry friction in excess at the centre of a patch of the rail
     double patch_centre_mm = 100.0;
-    double patch_width_mm = 5.0;  ///< standard deviation of its bell shape
+    double patch_width_mm = 5.0;     ///< standard deviation of its bell shape
+    bool patch_is_rational = false;  ///< its shape is 1 / (1 + (y / width)^2) instead
 };
 
 /// A belt between motor and carriage, as a damped spring.
@@ -54,9 +64,11 @@ struct MechanicsDepartures {
     double cogging_phase_rad = 0.0;
     double cogging_second = 0.0;  ///< share of the force at half the period
     double cogging_second_phase_rad = 0.0;
+    double cogging_skew = 0.0;    ///< a of sin(x + a sin x)
     double cable_V_per_mm = 0.0;  ///< a spring towards cable_centre_mm
     double cable_centre_mm = 100.0;
     double cable_cubic_per_mm2 = 0.0;  ///< of a spring that hardens: k d + k this d^3
+    double cable_slack_mm = 0.0;       ///< to either side, before it pulls
     double play_mm = 0.0;  ///< between what drives the carriage and the carriage, from side to side
     std::optional<Stretch> stretch = {};
 };
@@ -66,7 +78,8 @@ struct EncoderDepartures {
     double ripple_mm = 0.0;
     double ripple_period_mm = 2.0;
     double ripple_phase_rad = 0.0;
-    double bow_per_mm = 0.0;  ///< it reads y + bow (y - bow_centre)^2
+    double ripple_skew = 0.0;  ///< a of sin(x + a sin x)
+    double bow_per_mm = 0.0;   ///< it reads y + bow (y - bow_centre)^2
     double bow_centre_mm = 100.0;
 };
 
@@ -85,6 +98,12 @@ struct HeaterDepartures {
     double cooling_tau = 1.0;   ///< factor: air flow below 1
     double delay_s = 0.0;
     double curvature = 0.0;  ///< heating power times 1 + curvature (2 a - 1), a = 0 at onset, 1 at the limit
+    /// Share by which the wire cools faster 60 degC above the room, growing with the fourth root of its
+    /// excess as free convection does.
+    double convection = 0.0;
+    /// Share by which a cold wire is heated more; it falls with the wire's temperature, to nothing 200 degC
+    /// above the room, as the share of a supply's power that a growing resistance takes does.
+    double cold_gain = 0.0;
     Mount mount = {};
 };
 
@@ -92,8 +111,10 @@ enum class HysteresisLaw { preisach, duhem };
 
 struct HysteresisDepartures {
     HysteresisLaw law = HysteresisLaw::preisach;
-    double stress_shift_degC = 0.0;  ///< transformation temperatures are higher by
-    double stroke = 1.0;             ///< factor on the contraction
+    double stress_shift_degC = 0.0;         ///< transformation temperatures are higher by
+    double stress_shift_degC_per_mm = 0.0;  ///< and by this much more with contraction, as a spring loads it
+    double stroke = 1.0;                    ///< factor on the contraction
+    double stroke_fading_per_mm = 0.0;  ///< share of the factor's excess over 1 that is lost with contraction
 };
 
 /// The platform on its flexure, a resonator whose base is the carriage.
@@ -109,8 +130,10 @@ struct HallDepartures {
     double offset_V = 0.0;
     double cubic = 0.0;  ///< added to the file's coefficient
     double cube = 0.0;   ///< of s^3, in spans
+    double fifth = 0.0;  ///< of s - s^5, in spans
     double drift_V_per_s = 0.0;
     double drift_settling_s = 0.0;    ///< time constant with which it ends; 0: never
+    double drift_slowing_s = 0.0;     ///< after which it goes on as a logarithm of time; 0: it does not slow
     double crosstalk_V_per_V = 0.0;   ///< of the held motor command
     double crosstalk_filter_s = 0.0;  ///< time constant of a filter that it passes; 0: none
     double warm_V_per_degC = 0.0;     ///< of the wire's temperature above the nominal room
@@ -124,6 +147,7 @@ struct CameraDepartures {
     double tilt_axis_rad = 0.0;  ///< that axis's direction, from u towards v
     double tilt_height = 0.0;    ///< of that axis over the plate, as a share of the camera's
     double distortion = 0.0;     ///< radial, k1 of x (1 + k1 r^2) in normalised coordinates
+    double division = 0.0;       ///< radial by another model, k of x / (1 - k r^2)
     double latency_s = 0.0;      ///< by which frames are stamped late
     double clock_skew = 0.0;     ///< the camera's clock gains this share
 };
@@ -141,6 +165,29 @@ struct ImageDepartures {
     double gain_spread = 0.0;    ///< standard deviation of the pixels' fixed gains
 };
 
+/// What a smooth function that no effect has adds to.
+enum class ActsOn {
+    carriage_force,     ///< V at the motor, on a carriage at rest too
+    carriage_friction,  ///< V at the motor, on a moving carriage; it fades where that comes to rest
+    hall_reading,       ///< V
+    camera_place,       ///< mm along the stage
+};
+
+enum class DependsOn {
+    carriage_speed,    ///< mm/s
+    carriage_place,    ///< mm; friction by place opposes the motion
+    contraction,       ///< mm, of the platform
+    wire_temperature,  ///< degC above the nominal room
+    time,              ///< s since the start
+};
+
+/// What remains wrong with a rig once all that has a name is known.
+struct Discrepancy {
+    ActsOn acts_on = ActsOn::hall_reading;
+    DependsOn depends_on = DependsOn::time;
+    SmoothFunction function = {};
+};
+
 struct Departures {
     DriveDepartures drive = {};
     FrictionDepartures friction = {};
@@ -152,6 +199,7 @@ struct Departures {
     HallDepartures hall = {};
     CameraDepartures camera = {};
     ImageDepartures image = {};
+    Discrepancy discrepancy = {};
 };
 
 }  // namespace fidservo::reference

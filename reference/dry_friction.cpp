@@ -19,7 +19,8 @@ double level_V(const CarriageModel& model, double position_mm) {
     level += friction.dead_zone_on_motion * (zone.slope * zone.threshold_V - zone.offset_V);
     if (friction.patch_V != 0.0) {
         const double r = (position_mm - friction.patch_centre_mm) / friction.patch_width_mm;
-        level += friction.patch_V * std::exp(-0.5 * r * r);
+        level +=
+            friction.patch_V * (friction.patch_is_rational ? 1.0 / (1.0 + r * r) : std::exp(-0.5 * r * r));
     }
     return level;
 }
@@ -28,8 +29,10 @@ double steady_V(const CarriageModel& model, double position_mm, double speed_mm_
     const FrictionDepartures& friction = model.friction;
     if (friction.stribeck_V == 0.0) return level_V(model, position_mm);
     const double share = std::abs(speed_mm_per_s) / friction.stribeck_speed_mm_per_s;
-    return level_V(model, position_mm) +
-           friction.stribeck_V * std::exp(-std::pow(share, friction.stribeck_exponent));
+    const double decay = friction.stribeck_is_rational
+                             ? 1.0 / (1.0 + share * share)
+                             : std::exp(-std::pow(share, friction.stribeck_exponent));
+    return level_V(model, position_mm) + friction.stribeck_V * decay;
 }
 
 Bristles bristles_of(const FrictionDepartures& friction) {
@@ -65,7 +68,11 @@ DryFriction dry_friction(const CarriageModel& model, double position_mm, double 
     if (contact == Contact::bristles_in_equilibrium) return {std::copysign(steady, speed_mm_per_s), 0.0};
     const Bristles bristles = bristles_of(model.friction);
     const double elastic_V = bristles.stiffness_V_per_mm * bristle_mm;
-    const double bristle_rate = speed_mm_per_s - elastic_V * std::abs(speed_mm_per_s) / steady;
+    double bristle_rate = speed_mm_per_s - elastic_V * std::abs(speed_mm_per_s) / steady;
+    if (bristles.exponent != 1.0)
+        bristle_rate *=
+            std::pow(std::abs(1.0 - std::copysign(elastic_V, elastic_V * speed_mm_per_s) / steady),
+                     bristles.exponent - 1.0);
     return {elastic_V + bristles.damping_V_s_per_mm * bristle_rate, bristle_rate};
 }
 

@@ -8,7 +8,7 @@
 // creeps at rest, F = g(v) tanh(v / v_c). With bristles
 // (LuGre) the contact is elastic with the deflection z:
 //
-//     dz/dt = v - s0 |v| z / g(v),     F = s0 z + s1 dz/dt
+//     dz/dt = v r |r|^(n - 1),   r = 1 - s0 z sgn(v) / g(v),     F = s0 z + s1 dz/dt
 //
 // At speed the bristles relax in g / (s0 |v|). Steps are cut to that time; where it is below a small share of
 // the step the bristles are taken to be in equilibrium, F = g(v).

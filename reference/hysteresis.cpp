@@ -3,9 +3,11 @@
 namespace fidservo::reference {
 
 HysteresisModel make_hysteresis(const FodTable& table, const HysteresisDepartures& departures) {
-    if (departures.law == HysteresisLaw::duhem)
-        return {make_duhem(table), departures.stress_shift_degC, departures.stroke};
-    return {PreisachPlane(table), departures.stress_shift_degC, departures.stroke};
+    HysteresisModel model{PreisachPlane(table), departures.stress_shift_degC,
+                          departures.stress_shift_degC_per_mm, departures.stroke,
+                          departures.stroke_fading_per_mm};
+    if (departures.law == HysteresisLaw::duhem) model.law = make_duhem(table);
+    return model;
 }
 
 HysteresisState heated_to(const HysteresisModel& model, double temp_degC) {
@@ -15,7 +17,8 @@ HysteresisState heated_to(const HysteresisModel& model, double temp_degC) {
 }
 
 void move_to(const HysteresisModel& model, HysteresisState& state, double temp_degC) {
-    const double seen_degC = temp_degC - model.shift_degC;
+    double seen_degC = temp_degC - model.shift_degC;
+    if (model.shift_degC_per_mm != 0.0) seen_degC -= model.shift_degC_per_mm * contraction_mm(model, state);
     if (const auto* plane = std::get_if<PreisachPlane>(&model.law))
         move_to(*plane, std::get<Staircase>(state), seen_degC);
     else
@@ -23,9 +26,11 @@ void move_to(const HysteresisModel& model, HysteresisState& state, double temp_d
 }
 
 double contraction_mm(const HysteresisModel& model, const HysteresisState& state) {
-    if (const auto* plane = std::get_if<PreisachPlane>(&model.law))
-        return model.stroke * contraction_mm(*plane, std::get<Staircase>(state));
-    return model.stroke * std::get<DuhemState>(state).contraction_mm;
+    const auto* plane = std::get_if<PreisachPlane>(&model.law);
+    const double by_law_mm = plane != nullptr ? contraction_mm(*plane, std::get<Staircase>(state))
+                                              : std::get<DuhemState>(state).contraction_mm;
+    if (model.stroke_fading_per_mm == 0.0) return model.stroke * by_law_mm;
+    return by_law_mm * (1.0 + (model.stroke - 1.0) * (1.0 - model.stroke_fading_per_mm * by_law_mm));
 }
 
 }  // namespace fidservo::reference

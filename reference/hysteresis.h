@@ -8,11 +8,14 @@
 
 namespace fidservo::reference {
 
-/// A load moves the transformation temperatures: the law sees temperature - shift. Immutable.
+/// A load moves the transformation temperatures: the law sees temperature - shift, of which a part may go
+/// with the contraction x. What it gives is multiplied by 1 + (stroke - 1) (1 - fading x). Immutable.
 struct HysteresisModel {
     std::variant<PreisachPlane, DuhemLaw> law;
     double shift_degC;
+    double shift_degC_per_mm;
     double stroke;
+    double stroke_fading_per_mm;
 };
 
 using HysteresisState = std::variant<Staircase, DuhemState>;

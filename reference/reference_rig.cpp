@@ -48,9 +48,31 @@ void move(const RigModel& model, State& state, double macro_V, double micro_V, d
     });
 }
 
+/// What a smooth discrepancy adds to a reading or to the camera's place.
+double smooth_shift(const RigModel& model, const State& state, const Truth& there, ActsOn acts_on) {
+    const Discrepancy& discrepancy = model.departures.discrepancy;
+    if (discrepancy.function.size == 0.0 || discrepancy.acts_on != acts_on) return 0.0;
+    const auto variable = [&] {
+        switch (discrepancy.depends_on) {
+            case DependsOn::carriage_speed:
+                return there.carriage_mm_per_s;
+            case DependsOn::carriage_place:
+                return there.carriage_mm;
+            case DependsOn::contraction:
+                return there.platform_mm;
+            case DependsOn::wire_temperature:
+                return there.wire_degC - model.platform->nominal_room_degC;
+            case DependsOn::time:
+                break;
+        }
+        return static_cast<double>(state.tick) * model.tick_s;
+    };
+    return discrepancy.function(variable());
+}
+
 double camera_position_mm(const RigModel& model, const State& state) {
     const Truth there = truth(model, state);
-    return there.carriage_mm + there.platform_mm;
+    return there.carriage_mm + there.platform_mm + smooth_shift(model, state, there, ActsOn::camera_place);
 }
 
 }  // namespace
@@ -91,12 +113,14 @@ Reading sample(const RigModel& model, State& state) {
     reading.encoder_count =
         encoder_count(model.encoder_resolution_mm, model.departures.encoder, state.carriage.position_mm);
     if (model.platform) {
-        const HallInput input{truth(model, state).platform_mm, state.leaked_V,
+        const Truth there = truth(model, state);
+        const HallInput input{there.platform_mm, state.leaked_V,
                               static_cast<double>(state.tick) * model.tick_s,
                               state.platform->wire_degC[0] - model.platform->nominal_room_degC};
         const HallParameters& hall = model.platform->hall;
-        reading.hall_adc =
-            hall_reading(hall, hall_volts(hall, model.departures.hall, input), state.platform->noise);
+        const double volts = hall_volts(hall, model.departures.hall, input) +
+                             smooth_shift(model, state, there, ActsOn::hall_reading);
+        reading.hall_adc = hall_reading(hall, volts, state.platform->noise);
     }
     return reading;
 }

@@ -10,7 +10,8 @@ std::int64_t encoder_count(double resolution_mm, const EncoderDepartures& depart
     double seen_mm = departures.scale * position_mm;
     if (departures.ripple_mm != 0.0) {
         const double angle = 2.0 * std::numbers::pi * position_mm / departures.ripple_period_mm;
-        seen_mm += departures.ripple_mm * std::sin(angle + departures.ripple_phase_rad);
+        const double phase = angle + departures.ripple_phase_rad;
+        seen_mm += departures.ripple_mm * std::sin(phase + departures.ripple_skew * std::sin(phase));
     }
     const double along_mm = position_mm - departures.bow_centre_mm;
     seen_mm += departures.bow_per_mm * along_mm * along_mm;
@@ -20,10 +21,14 @@ std::int64_t encoder_count(double resolution_mm, const EncoderDepartures& depart
 double hall_volts(const HallParameters& hall, const HallDepartures& departures, const HallInput& input) {
     const double s = (input.platform_mm - hall.centre_mm) / hall.half_range_mm;
     const double cubic = hall.cubic + departures.cubic;
-    const double curve_V = hall.span_V * s * ((1.0 + cubic) - (cubic - departures.cube) * s * s);
+    const double curve_V =
+        hall.span_V * s *
+        ((1.0 + cubic) - (cubic - departures.cube) * s * s + departures.fifth * (1.0 - s * s * s * s));
     const double settling_s = departures.drift_settling_s;
-    const double drifted_s =
-        settling_s > 0.0 ? settling_s * (1.0 - std::exp(-input.time_s / settling_s)) : input.time_s;
+    const double slowing_s = departures.drift_slowing_s;
+    const double drifted_s = settling_s > 0.0  ? settling_s * (1.0 - std::exp(-input.time_s / settling_s))
+                             : slowing_s > 0.0 ? slowing_s * std::log1p(input.time_s / slowing_s)
+                                               : input.time_s;
     return departures.supply * (hall.mid_V + departures.gain * curve_V) + departures.offset_V +
            departures.drift_V_per_s * drifted_s + departures.crosstalk_V_per_V * input.macro_V +
            departures.warm_V_per_degC * input.warmer_degC;

@@ -20,8 +20,9 @@ struct HallInput {
 };
 
 /// Voltage before noise and rounding:
-/// V = supply (mid + gain span ((1 + c) s - c s^3 + d s^3)) + offset + drift(t) + crosstalk u
-///     + warm (T - Ta),  s = (x - centre) / half range; drift(t) a rate times t, or times what it settles to.
+/// V = supply (mid + gain span ((1 + c) s - c s^3 + d s^3 + e (s - s^5))) + offset + drift(t) + crosstalk u
+///     + warm (T - Ta),  s = (x - centre) / half range; drift(t) a rate times t, times what it settles to,
+/// or times a logarithm of time.
 double hall_volts(const HallParameters& hall, const HallDepartures& departures, const HallInput& input);
 
 /// The ADC's reading, 0 .. 2^bits - 1, of a voltage with noise.

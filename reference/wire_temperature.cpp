@@ -4,14 +4,24 @@
 #include "reference/runge_kutta.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fidservo::reference {
 
 namespace {
 
+constexpr double no_gain_degC = 200.0, convection_degC = 60.0;
+
 double wire_rate(const WireModel& model, double rise_degC, double temp_degC) {
-    const double lacking_degC = rise_degC - (temp_degC - model.ambient_degC);
-    return lacking_degC / (lacking_degC > 0.0 ? model.heating_tau_s : model.cooling_tau_s);
+    const double above_degC = temp_degC - model.ambient_degC;
+    if (model.cold_gain != 0.0) rise_degC *= 1.0 + model.cold_gain * (1.0 - above_degC / no_gain_degC);
+    const double lacking_degC = rise_degC - above_degC;
+    if (lacking_degC > 0.0) return lacking_degC / model.heating_tau_s;
+    const double convection =
+        model.convection == 0.0
+            ? 0.0
+            : model.convection * std::pow(std::max(0.0, above_degC) / convection_degC, 0.25);
+    return lacking_degC * (1.0 + convection) / model.cooling_tau_s;
 }
 
 WireState mounted_rate(const WireModel& model, double rise_degC, const WireState& x) {
@@ -41,6 +51,8 @@ WireModel make_wire(const HeaterParameters& heater, const HeaterDepartures& depa
             .cooling_tau_s = heater.cooling_tau_s * departures.cooling_tau,
             .ambient_degC = heater.ambient_degC + departures.ambient_degC,
             .curvature = departures.curvature,
+            .convection = departures.convection,
+            .cold_gain = departures.cold_gain,
             .mount = departures.mount};
 }
 

@@ -3,8 +3,10 @@
 //
 //     dT/dt = (phi(c) - (T - Ta)) / tau - k (T - R_1),     tau by whether phi > T - Ta
 //
-// phi is the temperature rise that the driver's voltage c keeps up. R_1..R_n are the temperatures of the
-// mount: a rod in n equal volumes that conducts along and loses heat to the room,
+// phi is the temperature rise that the driver's voltage c keeps up. Free convection divides the tau of
+// cooling by 1 + q ((T - Ta) / 60)^(1/4); a gain of the cold wire multiplies phi by 1 + g (1 - (T - Ta) /
+// 200), in degC. R_1..R_n are the temperatures of the mount: a rod in n equal volumes that conducts along and
+// loses heat to the room,
 //
 //     dR_i/dt = (R_{i-1} - 2 R_i + R_{i+1}) n^2 / tau_d - (R_i - Ta) / tau_l  (+ k (T - R_1) n / C for i = 1)
 #include "core/micro_parameters.h"
@@ -23,6 +25,8 @@ struct WireModel {
     double heating_tau_s, cooling_tau_s;
     double ambient_degC;
     double curvature = 0.0;
+    double convection = 0.0;
+    double cold_gain = 0.0;
     Mount mount;
 };
 

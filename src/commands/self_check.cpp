@@ -53,7 +53,8 @@ void add_self_check_options(CLI::App& diagnose, SelfCheckRequest& request) {
     for (const auto& [name, kind] : kinds_by_name()) names.push_back(name);
     add("--kinds", request.kinds,
         "Cases of these kinds only: none, one, two, withheld, unlisted; "
-        "or, with rendered frames: frames (an effect of the image), frames-none, frames-withheld")
+        "or, with rendered frames: frames (an effect of the image), frames-none, frames-withheld; "
+        "or, with many causes at once: three, messy, messy-none")
         ->type_name("A,B,..")
         ->delimiter(',')
         ->check(CLI::IsMember(names));

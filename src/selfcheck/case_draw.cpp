@@ -1,13 +1,12 @@
 #include "src/selfcheck/case_draw.h"
 
 #include "core/rig.h"
-#include "gap/candidate.h"
 #include "plant/effects/catalogue.h"
 #include "src/selfcheck/listed_effects.h"
+#include "src/selfcheck/put_effect.h"
 #include "src/selfcheck/rounds.h"
 #include "src/selfcheck/unlisted_effects.h"
 
-#include <algorithm>
 #include <array>
 #include <span>
 
@@ -19,23 +18,6 @@ namespace {
 using enum CaseKind;
 constexpr std::array kinds_in_turn{none, none, one, one, one, one, two, two, withheld, unlisted};
 constexpr KindCycle cycle(kinds_in_turn, "cycle");
-
-/// Sizes reach down to this many floors, but not below this share of the largest.
-constexpr double smallest_floors = 0.7, smallest_share = 1.0 / 300.0;
-
-TrueEffect put_listed(Case& drawn, std::string_view class_name, NoiseStream& draw) {
-    const std::vector<const EffectDraw*> ways = draws_of(class_name);
-    const EffectDraw& way = *ways[index_below(draw, ways.size())];
-    const double smallest = std::max(smallest_floors * way.floor_size, smallest_share * way.largest);
-    const double size = log_uniform(draw, smallest, way.largest);
-    way.put(drawn.true_rig.departures, size, draw);
-    return {.effect = std::string(way.effect),
-            .class_name = std::string(class_name),
-            .block = std::string(plant::find_effect(way.effect)->block),
-            .formula = std::string(way.formula),
-            .size = size,
-            .expected_floors = size / way.floor_size};
-}
 
 TrueEffect put_unlisted(Case& drawn, const UnlistedEffect& effect, NoiseStream& draw) {
     const double size = log_uniform(draw, effect.smallest, effect.largest);
@@ -81,8 +63,9 @@ Case draw_case(const Rig& nominal, std::uint64_t seed, std::size_t number) {
         effects.push_back(put_unlisted(drawn, met(unlisted_effects(), seed, kind, k), draw));
     } else if (kind != none) {
         const std::string_view first = met(std::span(listed_classes()), seed, kind, k);
-        effects.push_back(put_listed(drawn, first, draw));
-        if (kind == two) effects.push_back(put_listed(drawn, partner_of(first, k % 2 == 0, draw), draw));
+        effects.push_back(put_listed(drawn.true_rig, first, draw));
+        if (kind == two)
+            effects.push_back(put_listed(drawn.true_rig, partner_of(first, k % 2 == 0, draw), draw));
         if (kind == withheld) drawn.without.push_back(effects.front().effect);
     }
     return drawn;

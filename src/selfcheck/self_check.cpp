@@ -7,15 +7,18 @@
 #include "src/progress.h"
 #include "src/selfcheck/campaign.h"
 #include "src/selfcheck/case_draw.h"
+#include "src/selfcheck/crowded_draw.h"
 #include "src/selfcheck/filmed_campaign.h"
 #include "src/selfcheck/frames_draw.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fidservo::selfcheck {
 namespace {
@@ -49,8 +52,9 @@ gap::Diagnosis diagnose_blindly(const Rig& nominal, std::vector<Recording> recor
 
 Outcome run_case(const Rig& nominal, const Case& drawn, const std::vector<std::string>& only) {
     const Clock::time_point start = Clock::now();
-    const auto record = has_frames(drawn.label.kind) ? film_campaign : record_campaign;
-    std::vector<Recording> recordings = record(nominal, drawn.true_rig, drawn.campaign_seed);
+    std::vector<Recording> recordings = has_frames(drawn.label.kind)
+                                            ? film_campaign(nominal, drawn.true_rig, drawn.campaign_seed)
+                                            : record_campaign(nominal, drawn.true_rig, drawn.campaign_seed);
     const double recording_s = seconds_since(start);
     const Clock::time_point recorded = Clock::now();
     const gap::Diagnosis diagnosis = diagnose_blindly(nominal, std::move(recordings), only, drawn.without);
@@ -58,13 +62,29 @@ Outcome run_case(const Rig& nominal, const Case& drawn, const std::vector<std::s
     return {drawn.number, drawn.label, score(drawn.label, diagnosis), recording_s, diagnosis_s};
 }
 
-/// Throws InputError where some of the kinds have frames and others have none.
-bool are_with_frames(const std::vector<CaseKind>& kinds) {
-    const auto with_frames = static_cast<std::size_t>(std::ranges::count_if(kinds, has_frames));
-    if (with_frames != 0 && with_frames != kinds.size())
-        throw InputError(
-            "--kinds: frames, frames-none and frames-withheld do not go with kinds that have no frames");
-    return with_frames != 0;
+/// Kinds that are drawn together.
+struct Family {
+    std::string_view kinds;  ///< as --kinds takes them
+    bool (*has)(CaseKind kind);
+    CaseKind (*kind_of)(std::uint64_t seed, std::size_t number);
+    Case (*draw)(const Rig& nominal, std::uint64_t seed, std::size_t number);
+};
+
+constexpr std::array families{
+    Family{"none, one, two, withheld, unlisted",
+           [](CaseKind kind) { return !has_frames(kind) && !is_crowded(kind); }, kind_of_case, draw_case},
+    Family{"frames, frames-none, frames-withheld", has_frames, kind_of_frames_case, draw_frames_case},
+    Family{"three, messy, messy-none", is_crowded, kind_of_crowded_case, draw_crowded_case}};
+
+/// The first one where no kinds are given. Throws InputError where they are of several.
+const Family& family_of(const std::vector<CaseKind>& kinds) {
+    std::vector<std::string_view> together;
+    for (const Family& family : families) {
+        if (std::ranges::all_of(kinds, family.has)) return family;
+        together.push_back(family.kinds);
+    }
+    throw InputError(
+        fmt::format("--kinds: of these only such as are drawn together: {}", fmt::join(together, "; or ")));
 }
 
 }  // namespace
@@ -81,18 +101,17 @@ std::string line_of_last(const SelfCheck& check) {
 SelfCheck run_self_check(const Rig& nominal, const SelfCheckOptions& options,
                          const std::function<void(const SelfCheck&)>& done) {
     demand_whole_rig(nominal);
-    const bool with_frames = are_with_frames(options.kinds);
-    const auto kind_of = with_frames ? kind_of_frames_case : kind_of_case;
-    const auto draw = with_frames ? draw_frames_case : draw_case;
+    const Family& family = family_of(options.kinds);
     SelfCheck check;
     Progress progress("cases", options.cases);
     for (std::size_t number = options.first; check.finished() < options.cases; ++number) {
         check.was_interrupted = interrupt_requested();
         if (check.was_interrupted) break;
-        const CaseKind kind = kind_of(options.seed, number);
+        const CaseKind kind = family.kind_of(options.seed, number);
         if (!options.kinds.empty() && std::ranges::find(options.kinds, kind) == options.kinds.end()) continue;
         try {
-            check.outcomes.push_back(run_case(nominal, draw(nominal, options.seed, number), options.only));
+            check.outcomes.push_back(
+                run_case(nominal, family.draw(nominal, options.seed, number), options.only));
         } catch (const std::exception& error) {
             check.failures.push_back({number, error.what()});
         }

@@ -1,9 +1,12 @@
 #include "src/selfcheck/tally.h"
 
+#include "src/selfcheck/crowded_figures.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 
 namespace fidservo::selfcheck {
@@ -125,7 +128,7 @@ std::vector<ClassRow> classes_of(std::span<const Outcome> outcomes) {
         const Score& score = outcome.score;
         row.right_at_any_size.add(score.right_effect_first);
         if (is_judged(outcome)) row.right.add(score.right_effect_first);
-        ++row.named[score.named.empty() ? "nothing" : score.named.front()];
+        ++row.named[score.named.empty() ? "nothing" : score.named.front().class_name];
     }
     std::vector<ClassRow> result;
     result.reserve(rows.size());
@@ -207,6 +210,8 @@ Tally tally(std::span<const Outcome> outcomes) {
                  .power = power_of(outcomes),
                  .reliability = reliability_of_first(outcomes)};
     result.limits = limits_of(outcomes, result);
+    std::ranges::copy(crowded_shares(outcomes), std::back_inserter(result.shares));
+    std::ranges::copy(crowded_limits(outcomes), std::back_inserter(result.limits));
     return result;
 }
 

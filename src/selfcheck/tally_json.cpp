@@ -26,33 +26,61 @@ Json json_of(const Share& share) {
 }
 
 Json json_of(const TrueEffect& effect) {
-    return {{"effect", effect.effect},     {"class", effect.class_name},
-            {"block", effect.block},       {"formula", effect.formula},
-            {"size", number(effect.size)}, {"expected_floors", number(effect.expected_floors)}};
+    return {{"effect", effect.effect},
+            {"class", effect.class_name},
+            {"block", effect.block},
+            {"formula", effect.formula},
+            {"size", number(effect.size)},
+            {"expected_floors", number(effect.expected_floors)},
+            {"gap_floors", number(effect.gap_floors)}};
+}
+
+Json json_of(const NamedEffect& named) {
+    return {{"effect", named.effect},
+            {"class", named.class_name},
+            {"true", named.is_true},
+            {"probability", number(named.probability)},
+            {"gap", {{"before", number(named.gap_before)}, {"after", number(named.gap_after)}}}};
 }
 
 Json json_of(const Outcome& outcome) {
     Json effects = Json::array();
     for (const TrueEffect& effect : outcome.label.effects) effects.push_back(json_of(effect));
     const Score& score = outcome.score;
-    return {{"number", outcome.number},
-            {"kind", name_of(outcome.label.kind)},
-            {"effects", effects},
-            {"verdict", gap::name_of(score.verdict)},
-            {"floors", number(score.floors)},
-            {"gap", {{"before", number(score.before)}, {"after", number(score.after)}}},
-            {"removed", number(score.removed)},
-            {"named", score.named},
-            {"first_block", score.first_block},
-            {"first_probability", number(score.first_probability)},
-            {"set_size", score.set_size},
-            {"right_block_first", score.right_block_first},
-            {"right_effect_first", score.right_effect_first},
-            {"any_right", score.any_right},
-            {"all_right", score.all_right},
-            {"confident_wrong", score.is_confident_wrong},
-            {"recording_s", number(outcome.recording_s)},
-            {"diagnosis_s", number(outcome.diagnosis_s)}};
+    Json classes = Json::array(), found = Json::array();
+    for (const NamedEffect& named : score.named) {
+        classes.push_back(named.class_name);
+        found.push_back(json_of(named));
+    }
+    Json json{{"number", outcome.number},
+              {"kind", name_of(outcome.label.kind)},
+              {"effects", effects},
+              {"verdict", gap::name_of(score.verdict)},
+              {"floors", number(score.floors)},
+              {"gap", {{"before", number(score.before)}, {"after", number(score.after)}}},
+              {"removed", number(score.removed)},
+              {"floors_left", number(score.floors_left)},
+              {"named", classes},
+              {"found", found},
+              {"first_block", score.first_block},
+              {"first_probability", number(score.first_probability)},
+              {"set_size", score.set_size},
+              {"right_block_first", score.right_block_first},
+              {"right_effect_first", score.right_effect_first},
+              {"any_right", score.any_right},
+              {"truths_named", score.truths_named},
+              {"all_right", score.all_right},
+              {"confident_wrong", score.is_confident_wrong},
+              {"recording_s", number(outcome.recording_s)},
+              {"diagnosis_s", number(outcome.diagnosis_s)}};
+    if (const auto& discrepancy = outcome.label.discrepancy)
+        json["discrepancy"] = {{"block", discrepancy->block},
+                               {"depends_on", discrepancy->depends_on},
+                               {"size", number(discrepancy->size)},
+                               {"gap_floors", number(discrepancy->gap_floors)}};
+    if (score.dominant_place) json["dominant_place"] = *score.dominant_place;
+    if (score.removed_of_true) json["removed_of_true"] = number(*score.removed_of_true);
+    return json;
 }
 
 Json figures_of(const Tally& tally) {

@@ -10,8 +10,8 @@ namespace {
 class ReferenceHardware final : public SimulatedHardware {
   public:
     ReferenceHardware(const Rig& rig, const reference::Departures& departures, double carriage_mm,
-                      std::uint64_t seed, std::vector<double>* way_mm)
-        : model_(reference::make_rig_model(rig, departures)),
+                      std::uint64_t seed, std::vector<double>* way_mm, int substeps)
+        : model_(reference::make_rig_model(rig, departures, substeps)),
           state_(reference::start(model_, carriage_mm, seed)),
           way_mm_(way_mm) {}
 
@@ -43,8 +43,9 @@ class ReferenceHardware final : public SimulatedHardware {
 
 Recording simulate_reference(const Rig& rig, const reference::Departures& departures,
                              const Experiment& experiment, const std::string& name, std::uint64_t seed,
-                             std::vector<double>* way_mm) {
-    ReferenceHardware hardware(rig, departures, experiment.carriage_mm, noise_seed(name, seed), way_mm);
+                             std::vector<double>* way_mm, std::optional<int> substeps) {
+    ReferenceHardware hardware(rig, departures, experiment.carriage_mm, noise_seed(name, seed), way_mm,
+                               substeps.value_or(reference::default_substeps));
     return run_experiment(rig, experiment, name, hardware);
 }
 

@@ -4,6 +4,7 @@
 #include "src/simulation/experiments.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,10 @@ struct Rig;
 /// As `simulate`, but on the independent model of the rig (reference/): for checking, against a rig whose
 /// physics the diagnosis did not write.
 /// @param departures  what the rig has and its file does not state
+/// @param substeps  of the integration a tick; the independent model's own number where it is not given
 /// @param way_mm  takes the camera's true position (macro + micro) at every tick, if given
 Recording simulate_reference(const Rig& rig, const reference::Departures& departures,
                              const Experiment& experiment, const std::string& name, std::uint64_t seed,
-                             std::vector<double>* way_mm = nullptr);
+                             std::vector<double>* way_mm = nullptr, std::optional<int> substeps = {});
 
 }  // namespace fidservo

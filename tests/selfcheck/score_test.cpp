@@ -1,6 +1,8 @@
 // The scorer on diagnoses made by hand.
 #include "src/selfcheck/score.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace fidservo::selfcheck {
@@ -124,6 +126,58 @@ TEST(Score, Withheld_AsksForTheBlockAndForNoSureName) {
     EXPECT_TRUE(named(confident).is_confident_wrong);
     EXPECT_FALSE(named(confident - 0.01).is_confident_wrong);
     EXPECT_FALSE(named(0.95).right_effect_first);
+}
+
+TEST(Score, ThreeEffects_CountThoseThatHaveANameOfTheirOwn) {
+    const TrueEffect payload = truth("payload", "payload", "macro.mechanics");
+    const Label label{CaseKind::three, {cogging, airflow, payload}};
+    const FoundEffect either = found("cogging", "macro.mechanics", 0.9, {"payload"});
+    const FoundEffect second = found("cogging", "macro.mechanics", 0.9);
+    const FoundEffect wrong = found("hall_gain", "micro.hall", confident_of_crowded);
+    EXPECT_EQ(score(label, diagnosis_of(Verdict::explained, {either})).truths_named, 1u);
+    EXPECT_EQ(score(label, diagnosis_of(Verdict::explained, {either, second})).truths_named, 2u);
+    EXPECT_EQ(score(label, diagnosis_of(Verdict::explained, {second, second})).truths_named, 1u);
+    const FoundEffect third = found("airflow", "micro.heater", 0.9);
+    const Score all = score(label, diagnosis_of(Verdict::explained, {either, second, third}));
+    EXPECT_EQ(all.truths_named, 3u);
+    EXPECT_TRUE(all.all_right);
+    const Score four = score(label, diagnosis_of(Verdict::explained, {either, second, third, wrong}));
+    EXPECT_EQ(four.truths_named, 3u);
+    EXPECT_TRUE(four.is_confident_wrong && !four.all_right);
+}
+
+TEST(Score, MessyRig_SaysWhereItsDominantEffectIsAndWhatIsRemoved) {
+    Label label{CaseKind::messy, {stress, cogging}};
+    label.discrepancy = TrueDiscrepancy{.block = "micro.hall", .depends_on = "time", .gap_floors = 2.0};
+    FoundEffect first = found("cogging", "macro.mechanics", 0.8);
+    first.gap_removed = 0.5;
+    FoundEffect second = found("ambient_temperature", "micro.heater", 0.4);
+    second.gap_removed = 0.75;
+    Diagnosis diagnosis = diagnosis_of(Verdict::partly_explained, {first, second});
+    diagnosis.gap = {.before = 3.0, .after = std::sqrt(3.0)};
+    const Score got = score(label, diagnosis);
+    EXPECT_EQ(got.dominant_place, 1u);
+    ASSERT_EQ(got.named.size(), 2u);
+    EXPECT_TRUE(got.named[0].is_true && got.named[1].is_true);
+    EXPECT_EQ(got.named[1].probability, 0.4);
+    // Of an excess of 8 a half and then three quarters are removed.
+    EXPECT_DOUBLE_EQ(got.named[0].gap_before, 3.0);
+    EXPECT_DOUBLE_EQ(got.named[0].gap_after, std::sqrt(5.0));
+    EXPECT_DOUBLE_EQ(got.named[1].gap_before, std::sqrt(5.0));
+    EXPECT_DOUBLE_EQ(got.named[1].gap_after, std::sqrt(3.0));
+    // Without its effects the rig would be at 1 + 2^2: 4 can go, and more than that is gone.
+    EXPECT_EQ(got.removed_of_true, 1.0);
+    diagnosis.gap.after = std::sqrt(6.0);
+    EXPECT_DOUBLE_EQ(*score(label, diagnosis).removed_of_true, 0.75);
+    EXPECT_EQ(got.floors_left, 1.0);
+}
+
+TEST(Score, MessyRigWithoutDominantEffect_HasNone) {
+    Label label{CaseKind::messy_none, {cogging}};
+    const Score got =
+        score(label, diagnosis_of(Verdict::explained, {found("cogging", "macro.mechanics", 0.8)}));
+    EXPECT_TRUE(got.named.front().is_true);
+    EXPECT_FALSE(got.is_confident_wrong || got.dominant_place || got.removed_of_true);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "src/config/rig_file.h"
 #include "tests/src/run_program.h"
 
+#include <algorithm>
 #include <ostream>
 
 #include <gmock/gmock.h>
@@ -26,7 +27,9 @@ TEST(SelfCheckCommand, OptionsThatDoNotGoTogether_AreRefused) {
     };
     refused({"--self-check", "somewhere"}, "--self-check: it makes its own recordings");
     refused({"--self-check", "--without", "cogging"}, "--self-check: it withholds effects itself");
-    refused({"--self-check", "--kinds", "three"}, "three");
+    refused({"--self-check", "--kinds", "four"}, "four");
+    refused({"--self-check", "--kinds", "two,messy"}, "three, messy, messy-none");
+    refused({"--self-check", "--kinds", "frames,none"}, "frames, frames-none, frames-withheld");
     refused({"--cases", "3"}, "--self-check");
 }
 
@@ -57,6 +60,24 @@ TEST(SlowSelfCheck, OneEffectAndNone_AreRecordedDiagnosedAndScored) {
     ASSERT_EQ(one.label.effects.front().effect, "stress_shift") << "the draw has changed: offer its effect";
     EXPECT_TRUE(one.score.right_effect_first && one.score.right_block_first) << line_of(one);
     EXPECT_GT(one.score.floors, 3.0);
+}
+
+TEST(SlowSelfCheck, ManyCauses_AreRecordedDiagnosedAndScored) {
+    const Outcome three = first_case(CaseKind::three);
+    EXPECT_EQ(three.label.effects.size(), 3u);
+    const Outcome messy = first_case(CaseKind::messy);
+    EXPECT_GT(messy.score.before, 5.0) << line_of(messy);
+    ASSERT_TRUE(messy.score.removed_of_true);
+    const Outcome without = first_case(CaseKind::messy_none);
+    EXPECT_EQ(without.label.effects.size(), 8u);
+    EXPECT_FALSE(without.score.dominant_place || without.score.removed_of_true);
+    for (const Outcome* outcome : {&three, &messy, &without})
+        for (const NamedEffect& named : outcome->score.named) {
+            const bool is_drawn = std::ranges::any_of(outcome->label.effects, [&](const TrueEffect& effect) {
+                return effect.class_name == named.class_name;
+            });
+            EXPECT_TRUE(named.is_true || !is_drawn) << line_of(*outcome);
+        }
 }
 
 /// A case that was diagnosed wrongly once, and what is demanded of it.

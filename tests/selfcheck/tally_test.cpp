@@ -28,7 +28,13 @@ Outcome outcome(CaseKind kind, double floors, bool right) {
                                  .expected_floors = floors}};
     result.score.floors = floors;
     result.score.verdict = right ? gap::Verdict::explained : gap::Verdict::no_gap;
-    if (right) result.score.named = {"cogging"};
+    if (right)
+        result.score.named = {{.effect = "cogging",
+                               .class_name = "cogging",
+                               .is_true = true,
+                               .probability = 0.9,
+                               .gap_before = floors,
+                               .gap_after = 1.0}};
     result.score.right_block_first = result.score.right_effect_first = right;
     result.score.any_right = result.score.all_right = right;
     result.score.first_probability = right ? 0.9 : 0.0;
@@ -78,6 +84,57 @@ TEST(Tally, RemovedAndCalibration_AreOfTheRightCases) {
     EXPECT_NEAR(value(got, "not_removed_median"), 0.01, 1e-12);
     EXPECT_NEAR(value(got, "calibration_error"), 0.1, 1e-12);  // 0.9 claimed, always right
     EXPECT_NEAR(value(got, "brier"), 0.01, 1e-12);
+}
+
+TEST(Tally, MessyRigs_AreJudgedByTheirDominantEffect) {
+    Outcome first = outcome(CaseKind::messy, 50.0, true), second = first, none = first;
+    first.score.dominant_place = 0;
+    first.score.removed_of_true = 0.9;
+    second.score.named.insert(second.score.named.begin(), second.score.named.front());
+    second.score.named.front().is_true = false;
+    second.score.named.back().probability = 0.3;
+    second.score.dominant_place = 1;
+    second.score.removed_of_true = 0.7;
+    second.score.is_confident_wrong = true;
+    none.label.kind = CaseKind::messy_none;
+    none.score.named.front().is_true = false;
+    const Tally got = tally(std::vector{first, second, none});
+    EXPECT_EQ(share(got, "messy_dominant").share.hits, 2u);
+    EXPECT_EQ(share(got, "messy_dominant_first").share.hits, 1u);
+    EXPECT_EQ(share(got, "messy_dominant_likely").share.hits, 1u);
+    EXPECT_EQ(share(got, "messy_not_confident").share.hits, 1u);
+    EXPECT_EQ(share(got, "messy_not_confident").share.of, 2u);
+    EXPECT_EQ(share(got, "messy_none_names_true").share.of, 1u);
+    EXPECT_EQ(share(got, "messy_none_names_true").share.hits, 0u);
+    EXPECT_EQ(value(got, "messy_dominant_probability"), 0.3);
+    EXPECT_NEAR(value(got, "messy_not_removed"), 0.2, 1e-12);
+    // Of three claims of 0.9, 0.9 and 0.3 two are true.
+    EXPECT_NEAR(value(got, "messy_calibration_error"), 0.7 - 2.0 / 3.0, 1e-12);
+    EXPECT_FALSE(keeps_all_limits(got));
+}
+
+TEST(Tally, ThreeEffects_CountWhereEachShows) {
+    Outcome all = outcome(CaseKind::three, 5.0, true), two = all, small = all;
+    all.score.truths_named = 3;
+    two.score.truths_named = 2;
+    small.label.effects.front().expected_floors = 1.0;
+    const Tally got = tally(std::vector{all, two, small});
+    EXPECT_EQ(share(got, "three_all").share.hits, 1u);
+    EXPECT_EQ(share(got, "three_all").share.of, 2u);
+    EXPECT_EQ(share(got, "three_two").share.hits, 2u);
+    EXPECT_EQ(share(got, "three_all_any_size").share.of, 3u);
+}
+
+TEST(Tally, NamesInTheJson_HaveWhatACalibrationNeeds) {
+    const std::vector<Outcome> outcomes{outcome(CaseKind::messy, 40.0, true)};
+    const auto json = nlohmann::json::parse(self_check_json({}, {outcomes, {}, false}, tally(outcomes)));
+    const auto& named = json["cases"][0]["found"][0];
+    EXPECT_EQ(named["effect"], "cogging");
+    EXPECT_EQ(named["true"], true);
+    EXPECT_EQ(named["probability"], 0.9);
+    EXPECT_EQ(named["gap"]["before"], 40.0);
+    EXPECT_EQ(named["gap"]["after"], 1.0);
+    EXPECT_TRUE(json["cases"][0].contains("floors_left"));
 }
 
 TEST(Tally, FalseAlarm_MissesItsLimitAndSilenceKeepsAll) {
