@@ -114,16 +114,19 @@ double median_square(const Evidence& evidence, const Errors& errors, Signal sign
     return *middle;
 }
 
+/// Half of the windows are at less than this mean square where a fit is near.
+constexpr double near_square = 2.0;
+
 /// From wherever it begins to where nothing gets better, at levels that follow what is left.
-Fit fitted_from_afar(const Evidence& evidence, const Predict& predict, const Wanted& wanted, Hypothesis start,
-                     double sizes) {
-    constexpr int most_levels = 6, iterations_a_level = 3, last_iterations = 15;
-    constexpr double near = 2.0, hardly_less = 0.8;
+Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
+                      Hypothesis start, double sizes) {
+    constexpr int most_levels = 6, iterations_a_level = 3;
+    constexpr double hardly_less = 0.8;
     const Signal leading = leading_signal(evidence, wanted);
     double last = std::numeric_limits<double>::infinity();
     for (int level = 0; level < most_levels; ++level) {
         const double square = median_square(evidence, predict(start), leading);
-        if (square < near || square > hardly_less * last) break;
+        if (square < near_square || square > hardly_less * last) break;
         last = square;
         start = fit(predict, evidence.windows(), wanted, start,
                     {.most_iterations = iterations_a_level,
@@ -131,9 +134,16 @@ Fit fitted_from_afar(const Evidence& evidence, const Predict& predict, const Wan
                      .expected_sizes = sizes})
                     .hypothesis;
     }
+    return start;
+}
+
+Fit fitted_closely(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
+                   const Hypothesis& start, double sizes) {
+    constexpr int most_iterations = 15;
+    constexpr double tolerance = 1e-6;
     return fit(predict, evidence.windows(), wanted, start,
-               {.most_iterations = last_iterations,
-                .tolerance = 1e-6,
+               {.most_iterations = most_iterations,
+                .tolerance = tolerance,
                 .with_covariance = true,
                 .expected_sizes = sizes});
 }
@@ -239,7 +249,11 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
         chosen.candidates.push_back(candidate);
         chosen.settings.push_back(known != begun.end() ? *known : small(*candidate));
     }
-    Fit fitted = fitted_from_afar(evidence, predict, wanted[0], chosen.settings, expected_sizes);
+    chosen.settings = approached(evidence, predict, wanted[0], std::move(chosen.settings), expected_sizes);
+    const bool is_near =
+        median_square(evidence, predict(chosen.settings), leading_signal(evidence, wanted[0])) < near_square;
+    if (!is_near && begun.empty()) return {};
+    Fit fitted = fitted_closely(evidence, predict, wanted[0], chosen.settings, expected_sizes);
     chosen.settings = fitted.hypothesis;
     const auto prune = [&] {
         while (!chosen.candidates.empty()) {
@@ -247,7 +261,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
             const bool is_all = rest.size() == chosen.candidates.size();
             chosen.keep(rest);
             if (is_all || rest.empty()) break;
-            fitted = fitted_from_afar(evidence, predict, wanted[0], chosen.settings, 0.0);
+            fitted = fitted_closely(evidence, predict, wanted[0], chosen.settings, 0.0);
             chosen.settings = fitted.hypothesis;
         }
     };
@@ -255,7 +269,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
     NeededCandidates needed;
     while (!chosen.candidates.empty()) {
         const Predict predict_other = [&](const Hypothesis& settings) { return incremental[1](settings); };
-        const Fit other = fitted_from_afar(evidence, predict_other, wanted[1], chosen.settings, 0.0);
+        const Fit other = fitted_closely(evidence, predict_other, wanted[1], chosen.settings, 0.0);
         const std::vector<double> here = worth_of_each(chosen.candidates, fitted),
                                   there = worth_of_each(chosen.candidates, other);
         std::vector<std::size_t> rest;
@@ -268,7 +282,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
         }
         chosen.keep(rest);
         if (rest.empty()) break;
-        fitted = fitted_from_afar(evidence, predict, wanted[0], chosen.settings, 0.0);
+        fitted = fitted_closely(evidence, predict, wanted[0], chosen.settings, 0.0);
         chosen.settings = fitted.hypothesis;
         prune();
     }

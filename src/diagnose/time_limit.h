@@ -14,7 +14,7 @@ struct TimeLimit {
 /// Half a minute, of which four fifths are the search's.
 inline constexpr TimeLimit half_a_minute{0.8 * 26.0, 26.0};
 
-/// Half a minute, and 84 s more for an hour of recordings.
+/// Half a minute, and where recordings are longer than ten minutes, 84 s more for each further hour.
 TimeLimit time_limit(const std::vector<Recording>& recordings);
 
 }  // namespace fidservo::diagnose
