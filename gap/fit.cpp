@@ -62,6 +62,11 @@ class Linearised : public ceres::EvaluationCallback {
         double sum = 0.0;
         for (const WindowProducts& window : condensed)
             sum += scale * window_loss(window.mean_square() / scale);
+        if (options_.expected_sizes == 0.0) return sum;
+        for (std::size_t k = 0; k < parameters_.size(); ++k) {
+            const double size = parameters_.typical_sizes(k, parameters_.values[k]) / options_.expected_sizes;
+            sum += 0.5 * scale * size * size;
+        }
         return sum;
     }
 
@@ -204,9 +209,14 @@ void find_covariances(const Linearised& at, const ScaledParameters& parameters, 
     for (std::size_t k = 0; k < parameters.size(); ++k)
         if (!parameters.at_bound(k)) free.push_back(static_cast<Eigen::Index>(k));
     const auto width = static_cast<Eigen::Index>(free.size());
+    if (width == 0) {
+        const auto all = static_cast<Eigen::Index>(parameters.size());
+        result.covariance = result.curvature_covariance = Eigen::MatrixXd::Zero(all, all);
+        return;
+    }
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(width, width), scatter = normal;
     for (const WindowProducts& window : at.condensed) {
-        if (window.count == 0.0 || width == 0) continue;
+        if (window.count == 0.0) continue;
         const Eigen::VectorXd gradient = window.gradient()(free, 0);
         const double weight = 1.0 / (window.count + window.squares);
         normal += weight * Eigen::MatrixXd(window.normal()(free, free));

@@ -75,6 +75,35 @@ TEST(Fit, StepBeyondABound_IsCutThere_AndTheWayBackIsFound) {
     EXPECT_NEAR(found.hypothesis.front().values.front(), 1.3, 1e-3);
 }
 
+/// A third of the windows is predicted at a factor of 1, the others at 1.3.
+Errors of_two_kinds(const Hypothesis& hypothesis) {
+    Errors errors(windows_count * values);
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+        const double truth = k / values < windows_count / 3 ? 1.0 : 1.3;
+        const double lacks = hypothesis.front().values.front() - truth;
+        errors[k] = static_cast<float>(100.0 * lacks * std::sin(0.05 * static_cast<double>(k)));
+    }
+    return errors;
+}
+
+TEST(Fit, FromAfar_FollowsMostWindows_NotThoseNearest) {
+    const Hypothesis start{plant::parse_effect("drive_gain:factor=1")};
+    const auto found = [&](double scale_floors) {
+        return fit(of_two_kinds, windows, Wanted(windows_count, 1), start, {.scale_floors = scale_floors})
+            .hypothesis.front()
+            .values.front();
+    };
+    EXPECT_NEAR(found(1.0), 1.0, 0.01);
+    EXPECT_NEAR(found(100.0), 1.2, 0.02);  // their mean
+}
+
+TEST(Fit, ExpectedSizes_BringBackWhatTheWindowsDoNotTell) {
+    const Predict tells_nothing = [](const Hypothesis&) { return Errors(windows_count * values, 1.0F); };
+    const Fit found = fit(tells_nothing, windows, Wanted(windows_count, 1),
+                          {plant::parse_effect("drive_gain:factor=1.1")}, {.expected_sizes = 3.0});
+    EXPECT_NEAR(found.hypothesis.front().values.front(), 1.0, 1e-4);
+}
+
 // With a value at the start and none in a window there is a problem without a block, which once kept the
 // loss.
 TEST(Fit, WindowsWithoutAValue_GiveTheStartBack) {
