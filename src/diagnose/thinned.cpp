@@ -27,8 +27,9 @@ std::vector<Timed> between(const std::vector<Timed>& all, TimeNs from_ns, TimeNs
 
 /// Rows [first, end) of a recording and what was seen meanwhile.
 Recording piece(const Recording& whole, std::size_t first, std::size_t end) {
+    const RecordingHeader& header = whole;
     Recording part;
-    static_cast<RecordingHeader&>(part) = whole;
+    static_cast<RecordingHeader&>(part) = header;
     part.name += fmt::format(" from {:.0f} s", static_cast<double>(first) * whole.tick_s);
     part.rows.assign(whole.rows.begin() + static_cast<std::ptrdiff_t>(first),
                      whole.rows.begin() + static_cast<std::ptrdiff_t>(end));
