@@ -54,7 +54,9 @@ TEST(NoiseFloor, RestAtOnePlace_NoiseIsFoundWhereverInAStepItIs) {
     for (const double mean : {1024.0, 1024.3, 1024.5}) {
         NoiseStream noise(7, "rest");
         std::vector<double> reading;
-        for (int k = 0; k < 40'000; ++k) reading.push_back(std::floor(mean + 0.4 * noise.normal() + 0.5));
+        constexpr int rows = 40'000;
+        reading.reserve(rows);
+        for (int k = 0; k < rows; ++k) reading.push_back(std::floor(mean + 0.4 * noise.normal() + 0.5));
         const auto found =
             noise_before_rounding(quiet_stretches(reading, std::vector<double>(reading.size(), 0.0)));
         ASSERT_TRUE(found);

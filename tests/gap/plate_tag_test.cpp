@@ -46,11 +46,11 @@ TEST(PlateTag, CornersOfATurnedTag_AreTurnedWithIt) {
 Recording over_another_plate(Recording recording, const Rig& rig) {
     constexpr int first_id = 200;
     const plant::ActualCamera camera{rig.camera->geometry};
-    for (const PlateTag& tag : [&] {
-             std::vector<PlateTag> grid;
-             for (int id = 0; id < 101; ++id) grid.push_back(*plate_tag(recording, rig, id));
-             return grid;
-         }())
+    constexpr int tags = 101;
+    std::vector<PlateTag> grid;
+    grid.reserve(tags);
+    for (int id = 0; id < tags; ++id) grid.push_back(*plate_tag(recording, rig, id));
+    for (const PlateTag& tag : grid)
         recording.plate.push_back({.id = first_id + tag.id,
                                    .centre_mm = tag.centre_mm + Eigen::Vector2d(0.1, -0.2),
                                    .side_mm = 0.9,
