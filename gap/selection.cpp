@@ -167,12 +167,12 @@ Chain begun_with_everything(const Search& search, const Chain& chain) {
 
 /// What moves the wire has causes that stand in for each other: where the Hall reading is off its floor, all
 /// of them are looked at together. Where many do not explain it so, they are looked for one by one, and once
-/// more together with what that has found. The wire is searched apart from the carriage, with a share of the
-/// effort.
+/// more together with what that has found. The wire is searched apart from the carriage; where both are off,
+/// each has its share of the effort.
 /// @param alone  what was tried first
 /// @return whether a pair took the place of something
 bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
-    constexpr double share_of_effort = 0.25;
+    constexpr double equal_share = 0.5;
     constexpr int most_one_by_one = 2;
     const auto is_off = [&](const Chain& explained) {
         return search.off(explained.fitted)[index_of(Signal::hall)];
@@ -184,7 +184,8 @@ bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
         return false;
     }
     bool is_paired = false;
-    search.look_for_causes_in(only(Signal::hall), share_of_effort);
+    const bool is_carriage_off = search.off(chain.fitted)[index_of(Signal::encoder)];
+    search.look_for_causes_in(only(Signal::hall), is_carriage_off ? equal_share : 1.0);
     try {
         is_paired = grow(search, chain, most_one_by_one, alone);
     } catch (const SearchExhausted&) {

@@ -77,10 +77,9 @@ TEST(Diagnosis, FrictionThatDoesNotCreep_HasNoCreepSpeed) {
 }
 
 TEST(SlowDiagnosis, SearchWhoseEffortIsSpent_KeepsWhatItHasFoundAndSaysSo) {
-    const Evidence evidence = campaign(effects({"drive_gain:factor=0.97", "airflow:factor=0.9"}),
-                                       {"macro-sweep", "macro-square", "micro-steps"});
-    DiagnosisOptions options{
-        .only = {"drive_gain", "payload", "airflow", "heater_gain"}, .without = {}, .selection = {}};
+    const Evidence evidence =
+        campaign(effects({"drive_gain:factor=0.9", "cogging"}), {"macro-sweep", "macro-square"});
+    DiagnosisOptions options{.only = {"drive_gain", "payload", "cogging"}, .without = {}, .selection = {}};
     options.selection.search.most_effort = 1e-3;
     const Diagnosis diagnosis = diagnose(evidence, options);
     EXPECT_EQ(names(diagnosis).size(), 1U);
