@@ -147,18 +147,15 @@ void accuse(std::vector<BlockProbability>& where, const std::string& block, doub
     });
 }
 
-/// How far one of the names is trusted: what leaves nothing of the signals that it is learnt from is none the
-/// worse for what others leave elsewhere.
-double trust_in_name(const Evidence& evidence, const Choice& choice, const CrossFit& explained,
-                     const Trust& trust) {
-    if (!trust.missing) return trust.in_names;
+/// Whether an effect leaves nothing of the signals that it is learnt from: what others leave elsewhere says
+/// nothing against it.
+bool leaves_nothing_of_its_own(const Evidence& evidence, const Choice& choice, const CrossFit& explained) {
     const SignalFlags own = teachers_of(*choice.candidate->effect);
     std::vector<double> squares = explained.mean_squares;
     for (std::size_t w = 0; w < squares.size(); ++w)
         if (!own[index_of(evidence.windows()[w].signal)])
             squares[w] = std::numeric_limits<double>::quiet_NaN();
-    const double own_trust = trust_in(typical_floors(evidence.windows(), squares));
-    return own_trust == 1.0 ? own_trust : trust.in_names;
+    return trust_in(typical_floors(evidence.windows(), squares)) == 1.0;
 }
 
 /// Of each block that one of its effects, as far as the choices tell, is part of the explanation.
@@ -219,9 +216,11 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     const Trust trust = trust_of(evidence, selection, diagnosis.gap, tail);
     diagnosis.unexplained = trust.missing;
     diagnosis.effects = found_effects(evidence, selection, fitted);
-    for (std::size_t k = 0; k < diagnosis.effects.size(); ++k)
-        diagnosis.effects[k].probability *=
-            worth_of_names(trust_in_name(evidence, selection.choices[k], explained, trust));
+    for (std::size_t k = 0; k < diagnosis.effects.size(); ++k) {
+        const bool is_cleared =
+            trust.missing && leaves_nothing_of_its_own(evidence, selection.choices[k], explained);
+        diagnosis.effects[k].probability *= worth_of_names(is_cleared ? 1.0 : trust.in_names);
+    }
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, trust.in_names);
     if (trust.missing)
@@ -242,7 +241,7 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
 }
 
 /// The same without another prediction: values as one half gives them, uncertain by how far the other one is
-/// from it; names trusted by the share of the gap that they remove.
+/// from it; names that leave something trusted by the share of the gap that they remove.
 Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection) {
     constexpr double at_the_floor = 1.1;
     Diagnosis diagnosis;
@@ -259,7 +258,10 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection) {
                      .covariance = Eigen::MatrixXd::Zero(parameters, parameters)};
     diagnosis.effects = found_effects(evidence, selection, fitted);
     const double trust = diagnosis.gap.removed();
-    for (FoundEffect& effect : diagnosis.effects) effect.probability *= trust;
+    for (std::size_t k = 0; k < diagnosis.effects.size(); ++k)
+        diagnosis.effects[k].probability *=
+            leaves_nothing_of_its_own(evidence, selection.choices[k], explained) ? worth_of_names(1.0)
+                                                                                 : trust;
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, trust);
     diagnosis.verdict = verdict_of(selection, diagnosis.gap.after > at_the_floor);
