@@ -147,15 +147,18 @@ void accuse(std::vector<BlockProbability>& where, const std::string& block, doub
     });
 }
 
-/// Whether an effect leaves nothing of the signals that it is learnt from: what others leave elsewhere says
-/// nothing against it.
+/// Whether an effect leaves nothing of the signals that it is learnt from while others are off their floors:
+/// what is left there says nothing against it.
 bool leaves_nothing_of_its_own(const Evidence& evidence, const Choice& choice, const CrossFit& explained) {
+    const auto is_at_floor = [&](const std::vector<double>& squares) {
+        return trust_in(typical_floors(evidence.windows(), squares)) == 1.0;
+    };
     const SignalFlags own = teachers_of(*choice.candidate->effect);
     std::vector<double> squares = explained.mean_squares;
     for (std::size_t w = 0; w < squares.size(); ++w)
         if (!own[index_of(evidence.windows()[w].signal)])
             squares[w] = std::numeric_limits<double>::quiet_NaN();
-    return trust_in(typical_floors(evidence.windows(), squares)) == 1.0;
+    return is_at_floor(squares) && !is_at_floor(explained.mean_squares);
 }
 
 /// Of each block that one of its effects, as far as the choices tell, is part of the explanation.
