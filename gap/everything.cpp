@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <utility>
@@ -241,7 +242,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
                                       const std::array<Wanted, 2>& wanted) {
     std::array<Incremental, 2> incremental{Incremental(evidence, beside[0], wanted[0]),
                                            Incremental(evidence, beside[1], wanted[1])};
-    const Predict predict = [&](const Hypothesis& settings) { return incremental[0](settings); };
+    const Predict predict = std::ref(incremental[0]), predict_other = std::ref(incremental[1]);
     Chosen chosen;
     for (const Candidate* candidate : candidates) {
         const auto known = std::ranges::find(begun, candidate->effect, &plant::EffectSetting::effect);
@@ -253,22 +254,24 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
     const bool is_near =
         median_square(evidence, predict(chosen.settings), leading_signal(evidence, wanted[0])) < near_square;
     if (!is_near && begun.empty()) return {};
-    Fit fitted = fitted_closely(evidence, predict, wanted[0], chosen.settings, expected_sizes);
-    chosen.settings = fitted.hypothesis;
+    Fit fitted;
+    const auto fit_again = [&](double sizes) {
+        fitted = fitted_closely(evidence, predict, wanted[0], chosen.settings, sizes);
+        chosen.settings = fitted.hypothesis;
+    };
     const auto prune = [&] {
         while (!chosen.candidates.empty()) {
             const std::vector<std::size_t> rest = kept(chosen.candidates, fitted);
             const bool is_all = rest.size() == chosen.candidates.size();
             chosen.keep(rest);
             if (is_all || rest.empty()) break;
-            fitted = fitted_closely(evidence, predict, wanted[0], chosen.settings, 0.0);
-            chosen.settings = fitted.hypothesis;
+            fit_again(0.0);
         }
     };
+    fit_again(expected_sizes);
     prune();
     NeededCandidates needed;
     while (!chosen.candidates.empty()) {
-        const Predict predict_other = [&](const Hypothesis& settings) { return incremental[1](settings); };
         const Fit other = fitted_closely(evidence, predict_other, wanted[1], chosen.settings, 0.0);
         const std::vector<double> here = worth_of_each(chosen.candidates, fitted),
                                   there = worth_of_each(chosen.candidates, other);
@@ -282,8 +285,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
         }
         chosen.keep(rest);
         if (rest.empty()) break;
-        fitted = fitted_closely(evidence, predict, wanted[0], chosen.settings, 0.0);
-        chosen.settings = fitted.hypothesis;
+        fit_again(0.0);
         prune();
     }
     return needed;

@@ -3,6 +3,7 @@
 #include "core/demand.h"
 #include "core/input_error.h"
 #include "core/rig.h"
+#include "gap/coupling.h"
 #include "gap/evidence_parts.h"
 #include "gap/parallel.h"
 #include "gap/wire_path.h"
@@ -263,10 +264,8 @@ Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings, std::share
     parts.nominal.assign(parts.values, std::numeric_limits<float>::quiet_NaN());
     const Models models = models_of(parts.rig, {});
     const Wanted all = everything(*this);
-    std::array<bool, signal_count> every_signal{};
-    every_signal.fill(true);
     for (std::size_t run = 0; run < parts.recordings.size(); ++run)
-        RunPredictor(parts, run, all, models, false).predict(every_signal, parts.nominal);
+        RunPredictor(parts, run, all, models, false).predict(all_signals, parts.nominal);
 }
 
 Evidence::~Evidence() = default;

@@ -18,17 +18,12 @@ double between(NoiseStream& draw, double low, double high) {
     return low + (high - low) * draw.uniform();
 }
 
-/// 1 + size or its inverse.
-double factor(NoiseStream& draw, double size) {
-    return random_sign(draw) > 0.0 ? 1.0 + size : 1.0 / (1.0 + size);
-}
-
 double phase_rad(NoiseStream& draw) {
     return between(draw, -std::numbers::pi, std::numbers::pi);
 }
 
 void drive_gain(Departures& rig, double size, NoiseStream& draw) {
-    rig.drive.gain = factor(draw, size);
+    rig.drive.gain = random_factor(draw, size);
 }
 void drive_delay(Departures& rig, double size_s, NoiseStream& /*draw*/) {
     rig.drive.delay_s = size_s;
@@ -98,7 +93,7 @@ void cable_force(Departures& rig, double size_V_per_mm, NoiseStream& draw) {
     rig.mechanics.cable_centre_mm = between(draw, 60.0, 140.0);
 }
 void payload(Departures& rig, double size, NoiseStream& draw) {
-    rig.mechanics.payload = factor(draw, size);
+    rig.mechanics.payload = random_factor(draw, size);
 }
 void hardening_cable(Departures& rig, double size_V_per_mm, NoiseStream& draw) {
     cable_force(rig, size_V_per_mm, draw);
@@ -114,7 +109,7 @@ void backlash(Departures& rig, double size_mm, NoiseStream& /*draw*/) {
 }
 
 void encoder_scale(Departures& rig, double size, NoiseStream& draw) {
-    rig.encoder.scale = factor(draw, size);
+    rig.encoder.scale = random_factor(draw, size);
 }
 void encoder_ripple(Departures& rig, double size_mm, NoiseStream& draw) {
     rig.encoder.ripple_mm = size_mm;
@@ -126,13 +121,13 @@ void ambient_temperature(Departures& rig, double size_degC, NoiseStream& draw) {
     rig.heater.ambient_degC = random_sign(draw) * size_degC;
 }
 void airflow(Departures& rig, double size, NoiseStream& draw) {
-    rig.heater.cooling_tau = factor(draw, size);
+    rig.heater.cooling_tau = random_factor(draw, size);
 }
 void heater_gain(Departures& rig, double size, NoiseStream& draw) {
-    rig.heater.gain = factor(draw, size);
+    rig.heater.gain = random_factor(draw, size);
 }
 void heating_lag(Departures& rig, double size, NoiseStream& draw) {
-    rig.heater.heating_tau = factor(draw, size);
+    rig.heater.heating_tau = random_factor(draw, size);
 }
 void second_thermal_mass(Departures& rig, double size_per_s, NoiseStream& draw) {
     rig.heater.mount = {.conductance_per_s = size_per_s,
@@ -148,7 +143,7 @@ void stress_shift(Departures& rig, double size_degC, NoiseStream& draw) {
     rig.hysteresis.stress_shift_degC = random_sign(draw) * size_degC;
 }
 void stroke_change(Departures& rig, double size, NoiseStream& draw) {
-    rig.hysteresis.stroke = factor(draw, size);
+    rig.hysteresis.stroke = random_factor(draw, size);
 }
 void macro_coupling(Departures& rig, double size, NoiseStream& draw) {
     rig.flexure = {.coupling = size,
@@ -157,11 +152,11 @@ void macro_coupling(Departures& rig, double size, NoiseStream& draw) {
 }
 
 void hall_gain(Departures& rig, double size, NoiseStream& draw) {
-    rig.hall.gain = factor(draw, size);
+    rig.hall.gain = random_factor(draw, size);
 }
 /// Of a ratiometric sensor.
 void hall_supply(Departures& rig, double size, NoiseStream& draw) {
-    rig.hall.supply = factor(draw, size);
+    rig.hall.supply = random_factor(draw, size);
 }
 void hall_offset(Departures& rig, double size_V, NoiseStream& draw) {
     rig.hall.offset_V = random_sign(draw) * size_V;
@@ -186,7 +181,7 @@ void hall_crosstalk(Departures& rig, double size_V_per_V, NoiseStream& draw) {
 }
 
 void pixel_scale(Departures& rig, double size, NoiseStream& draw) {
-    rig.camera.scale = factor(draw, size);
+    rig.camera.scale = random_factor(draw, size);
 }
 void camera_rotation(Departures& rig, double size_rad, NoiseStream& draw) {
     rig.camera.rotation_rad = random_sign(draw) * size_rad;
@@ -277,9 +272,13 @@ const std::vector<std::string_view>& listed_classes() {
 }
 
 std::vector<const EffectDraw*> draws_of(std::string_view class_name) {
+    return draws_of(class_name, draws);
+}
+
+std::vector<const EffectDraw*> draws_of(std::string_view class_name, std::span<const EffectDraw> ways) {
     std::vector<const EffectDraw*> found;
-    for (const EffectDraw& draw : draws)
-        if (gap::class_of(draw.effect) == class_name) found.push_back(&draw);
+    for (const EffectDraw& way : ways)
+        if (gap::class_of(way.effect) == class_name) found.push_back(&way);
     return found;
 }
 
@@ -299,6 +298,10 @@ double log_uniform(NoiseStream& draw, double low, double high) {
 
 double random_sign(NoiseStream& draw) {
     return draw.uniform() < 0.5 ? -1.0 : 1.0;
+}
+
+double random_factor(NoiseStream& draw, double size) {
+    return random_sign(draw) > 0.0 ? 1.0 + size : 1.0 / (1.0 + size);
 }
 
 }  // namespace fidservo::selfcheck

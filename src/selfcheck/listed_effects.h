@@ -33,6 +33,9 @@ const std::vector<std::string_view>& listed_classes();
 /// Of a class.
 std::vector<const EffectDraw*> draws_of(std::string_view class_name);
 
+/// Those of a class among some ways.
+std::vector<const EffectDraw*> draws_of(std::string_view class_name, std::span<const EffectDraw> ways);
+
 /// Whether two classes may be drawn together: not where the one's parameters are part of the other's.
 bool can_be_together(std::string_view class_name, std::string_view other);
 
@@ -41,5 +44,8 @@ double log_uniform(NoiseStream& draw, double low, double high);
 
 /// +1 or -1.
 double random_sign(NoiseStream& draw);
+
+/// 1 + size or its inverse.
+double random_factor(NoiseStream& draw, double size);
 
 }  // namespace fidservo::selfcheck

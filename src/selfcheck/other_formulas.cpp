@@ -1,7 +1,5 @@
 #include "src/selfcheck/other_formulas.h"
 
-#include "gap/candidate.h"
-
 #include <array>
 #include <numbers>
 
@@ -12,7 +10,7 @@ using reference::Departures;
 
 /// Another motor constant: the dead zone stays where it was.
 void motor_constant(Departures& rig, double size, NoiseStream& draw) {
-    rig.drive.motor = random_sign(draw) > 0.0 ? 1.0 + size : 1.0 / (1.0 + size);
+    rig.drive.motor = random_factor(draw, size);
 }
 
 void stribeck_rational(Departures& rig, double size_V, NoiseStream& draw) {
@@ -123,10 +121,7 @@ std::span<const EffectDraw> other_formulas() {
 }
 
 std::vector<const EffectDraw*> other_formulas_of(std::string_view class_name) {
-    std::vector<const EffectDraw*> found;
-    for (const EffectDraw& way : others)
-        if (gap::class_of(way.effect) == class_name) found.push_back(&way);
-    return found;
+    return draws_of(class_name, others);
 }
 
 }  // namespace fidservo::selfcheck

@@ -1,7 +1,5 @@
 // Each departure against an answer worked out by hand.
-#include "core/rig.h"
-#include "reference/reference_rig.h"
-#include "src/config/rig_file.h"
+#include "tests/reference/departed_rig.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,25 +11,13 @@
 namespace fidservo::reference {
 namespace {
 
-Rig rig() {
-    return load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
-}
+using testing::after;
+using testing::from_rest;
+using testing::gain;
+using testing::rig;
 
-double gain() {
-    return rig().macro.velocity_gain_mm_per_s_per_V;
-}
 double tau_s() {
     return -rig().tick_s / std::log(rig().macro.velocity_pole);
-}
-
-State after(const RigModel& model, State state, int ticks, double macro_V, double micro_V = 0.0) {
-    for (int k = 0; k < ticks; ++k) advance(model, state, macro_V, micro_V);
-    return state;
-}
-
-State from_rest(const Departures& departures, int ticks, double macro_V, double micro_V = 0.0) {
-    const RigModel model = make_rig_model(rig(), departures);
-    return after(model, start(model, 30.0, 1), ticks, macro_V, micro_V);
 }
 
 TEST(DriveGain, SteadySpeed_FollowsTheDeadZoneOfTheGainedVoltage) {

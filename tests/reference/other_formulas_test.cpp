@@ -1,8 +1,6 @@
 // Departures of which the catalogue has another formula, and smooth ones, each against an answer worked out
 // by hand.
-#include "core/rig.h"
-#include "reference/reference_rig.h"
-#include "src/config/rig_file.h"
+#include "tests/reference/departed_rig.h"
 
 #include <cmath>
 #include <numbers>
@@ -12,20 +10,9 @@
 namespace fidservo::reference {
 namespace {
 
-Rig rig() {
-    return load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
-}
-
-double gain() {
-    return rig().macro.velocity_gain_mm_per_s_per_V;
-}
-
-State from_rest(const Departures& departures, int ticks, double macro_V) {
-    const RigModel model = make_rig_model(rig(), departures);
-    State state = start(model, 30.0, 1);
-    for (int k = 0; k < ticks; ++k) advance(model, state, macro_V, 0.0);
-    return state;
-}
+using testing::from_rest;
+using testing::gain;
+using testing::rig;
 
 TEST(MotorConstant, SteadySpeed_IsThatOfTheForceBehindTheDeadZone) {
     Departures departures;
