@@ -4,6 +4,7 @@
 #include "gap/halves.h"
 #include "tests/gap/effects.h"
 #include "tests/gap/simulated_campaign.h"
+#include "tests/reference_rig.h"
 
 #include <algorithm>
 #include <array>
@@ -21,8 +22,16 @@ namespace {
 using namespace gap;
 using testing::effects;
 
+Recording recorded(std::string_view kind, const Hypothesis& truth, std::uint64_t seed) {
+    const std::string name = std::string(kind) + "-" + std::to_string(seed);
+    return simulate(reference_rig(), truth, make_experiment(kind, reference_rig(), seed, name), name, seed);
+}
+
 Evidence wire_campaign(const Hypothesis& truth) {
-    return testing::campaign(truth, {"micro-steps", "micro-triangle"});
+    std::vector<Recording> recordings;
+    for (const std::string_view kind : {"micro-steps", "micro-triangle"})
+        for (const std::uint64_t seed : {51, 52}) recordings.push_back(recorded(kind, truth, seed));
+    return {reference_rig(), std::move(recordings)};
 }
 
 struct Found {
