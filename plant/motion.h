@@ -61,7 +61,7 @@ class Motion {
         const State first = rate(x_);
         if (is_whole(longest_s) && is_straight(x_)) {
             const State end = whole_step(first);
-            if (slack(end) >= 0.0 && is_straight(end)) {
+            if (slack(end) >= 0.0 && is_straight(end) && !slides_before(end)) {
                 settle(end);
                 return longest_s;
             }
@@ -92,16 +92,18 @@ class Motion {
         for (const DeadZoneBranch branch :
              {DeadZoneBranch::left, DeadZoneBranch::inside, DeadZoneBranch::right})
             for (const double direction : {-1.0, 1.0})
-                for (const bool held : {false, true}) {
-                    Motion motion(axis, 0.0, State{}, direction);
-                    motion.branch_ = branch;
-                    motion.direction_ = direction;
-                    motion.held_ = held;
-                    motion.start_dry_V_ = axis.parameters.friction.coulomb_V;
-                    const auto step = affine_step(motion.rates(), steps.duration_s);
-                    for (std::size_t i = 0; i < size; ++i)
-                        std::ranges::copy(step[i], steps.of_way[motion.way()][i].begin());
-                }
+                for (const bool held : {false, true})
+                    for (const double bend : {direction, 0.0}) {
+                        Motion motion(axis, 0.0, State{}, bend);
+                        motion.branch_ = branch;
+                        motion.direction_ = direction;
+                        if (bend == 0.0 && !motion.bends_as_a_spring()) continue;
+                        motion.held_ = held;
+                        motion.start_dry_V_ = axis.parameters.friction.coulomb_V;
+                        const auto step = affine_step(motion.rates(), steps.duration_s);
+                        for (std::size_t i = 0; i < size; ++i)
+                            std::ranges::copy(step[i], steps.of_way[motion.way()][i].begin());
+                    }
         return steps;
     }
 
@@ -128,20 +130,35 @@ class Motion {
     /// The way in which it moves, until the next event.
     std::size_t way() const {
         const int branch = static_cast<int>(branch_) + 1;
-        return 4 * static_cast<std::size_t>(branch) + (direction_ < 0.0 ? 0U : 2U) + (held_ ? 1U : 0U);
+        return 8 * static_cast<std::size_t>(branch) + (direction_ < 0.0 ? 0U : 4U) + (held_ ? 2U : 0U) +
+               (bends_as_a_spring() ? 1U : 0U);
     }
 
     /// A of x' = A x + b, where forces are straight lines.
     SquareMatrix<size> rates() const {
+        constexpr double far_from_sliding = 1e-3;  // of the way to there
+        const double unit = bends_as_a_spring() ? far_from_sliding * p_.friction.bristle_mm : 1.0;
         SquareMatrix<size> rates;
         const State at_zero = rate(State{});
         for (std::size_t k = 0; k < size; ++k) {
             State one{};
-            one[k] = 1.0;
+            one[k] = unit;
             const State at_one = rate(one);
-            for (std::size_t i = 0; i < size; ++i) rates[i][k] = at_one[i] - at_zero[i];
+            for (std::size_t i = 0; i < size; ++i) rates[i][k] = (at_one[i] - at_zero[i]) / unit;
         }
         return rates;
+    }
+
+    /// Whether bristles that do not slide are elastic.
+    bool bends_as_a_spring() const {
+        return axis_.has_bristles && p_.friction.bristle_exponent == 0.0 && dry_is_coulomb_ &&
+               bend_ != direction_;
+    }
+
+    /// Whether such bristles slide before a place.
+    bool slides_before(const State& x) const {
+        return bends_as_a_spring() &&
+               direction_ * (x[place] - x_[place]) > p_.friction.bristle_mm * (1.0 - direction_ * bend_);
     }
 
     bool is_whole(double duration_s) const {
@@ -150,11 +167,12 @@ class Motion {
         return whole_s > 0.0 && std::abs(duration_s - whole_s) < rounding_s;
     }
 
-    /// Whether forces change by straight lines there: bristles have bent as far as they do, a patch is far,
-    /// and what creeps slides or is nothing.
+    /// Whether forces change by straight lines there: bristles are springs or have bent as far as they do, a
+    /// patch is far, and what creeps slides or is nothing.
     bool is_straight(const State& x) const {
         const Friction& friction = p_.friction;
-        return (!axis_.has_bristles || bend_ == direction_) && !friction.patch.reaches(x[place]) &&
+        return (!axis_.has_bristles || bend_ == direction_ || bends_as_a_spring()) &&
+               !friction.patch.reaches(x[place]) &&
                (axis_.has_bristles || (friction.coulomb_V == 0.0 && friction.coasting_V == 0.0) ||
                 slides(friction, std::max(0.0, direction_ * x[speed])));
     }

@@ -68,11 +68,9 @@ DryFriction dry_friction(const CarriageModel& model, double position_mm, double 
     if (contact == Contact::bristles_in_equilibrium) return {std::copysign(steady, speed_mm_per_s), 0.0};
     const Bristles bristles = bristles_of(model.friction);
     const double elastic_V = bristles.stiffness_V_per_mm * bristle_mm;
-    double bristle_rate = speed_mm_per_s - elastic_V * std::abs(speed_mm_per_s) / steady;
-    if (bristles.exponent != 1.0)
-        bristle_rate *=
-            std::pow(std::abs(1.0 - std::copysign(elastic_V, elastic_V * speed_mm_per_s) / steady),
-                     bristles.exponent - 1.0);
+    const double unbent = 1.0 - std::copysign(elastic_V, elastic_V * speed_mm_per_s) / steady;
+    const double bristle_rate =
+        speed_mm_per_s * std::copysign(std::pow(std::abs(unbent), bristles.exponent), unbent);
     return {elastic_V + bristles.damping_V_s_per_mm * bristle_rate, bristle_rate};
 }
 

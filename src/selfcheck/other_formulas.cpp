@@ -25,11 +25,13 @@ void viscous_power(Departures& rig, double size, NoiseStream& draw) {
     rig.friction.viscous_exponent = random_sign(draw) > 0.0 ? 1.25 : 0.8;
 }
 
+/// Of a contact that is ductile, or nearly elastic until it slides.
 void presliding_dahl(Departures& rig, double size_V, NoiseStream& draw) {
     const double distance_mm = log_uniform(draw, 0.05, 0.5);
+    const double exponent = random_sign(draw) > 0.0 ? 1.5 : 0.2;
     rig.friction.coulomb_V += size_V;
     rig.friction.bristles = reference::Bristles{
-        .stiffness_V_per_mm = size_V / distance_mm, .damping_V_s_per_mm = 0.0, .exponent = 1.5};
+        .stiffness_V_per_mm = size_V / distance_mm, .damping_V_s_per_mm = 0.0, .exponent = exponent};
 }
 
 void rail_patch_rational(Departures& rig, double size_V, NoiseStream& draw) {

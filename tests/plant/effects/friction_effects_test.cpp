@@ -189,6 +189,41 @@ TEST(Presliding, BesideOtherFriction_IsLuGreOfConstantStiffness) {
     }
 }
 
+/// By hand: Dahl's law, in steps of 2 us.
+TEST(Presliding, WithAnExponent_IsDahlsLaw) {
+    for (const double exponent : {0.0, 0.4, 1.0, 1.6}) {
+        const MacroAxis axis =
+            endless_axis_with("presliding:level_V=0.1,distance_um=200,exponent=" + std::to_string(exponent));
+        MacroAxisState state = start(axis, 0.0);
+        constexpr double step_s = 2e-6;
+        constexpr int steps_per_tick = 500;
+        const double tau_s = axis.parameters.time_constant_s;
+        double y = 0.0, v = 0.0, bend = 0.0;
+        for (int k = 0; k < 800; ++k) {
+            const double command_V = 0.15 * std::sin(0.03 * k);
+            advance(axis, state, command_V);
+            for (int i = 0; i < steps_per_tick; ++i) {
+                const double unbent = 1.0 - std::copysign(bend, bend * v);
+                bend += step_s * v / 0.2 * std::copysign(std::pow(std::abs(unbent), exponent), unbent);
+                v += step_s * (gain * (command_V - 0.1 * bend) - v) / tau_s;
+                y += step_s * v;
+            }
+            ASSERT_NEAR(state.position_mm, y, 2e-3) << "tick " << k << ", exponent " << exponent;
+        }
+    }
+}
+
+TEST(Presliding, UnderPulsesOfOneSign_DriftsUnlessItIsElasticUntilItSlides) {
+    const auto drift_mm = [](const char* effect) {
+        const MacroAxis axis = endless_axis_with(effect);
+        MacroAxisState state = start(axis, 0.0);
+        for (int k = 0; k < 200; ++k) state = after(axis, after(axis, state, 0.09, 1), 0.0, 99);
+        return state.position_mm;
+    };
+    EXPECT_GT(drift_mm("presliding:level_V=0.1,distance_um=20"), 0.02);
+    EXPECT_LT(std::abs(drift_mm("presliding:level_V=0.1,distance_um=20,exponent=0")), 1e-3);
+}
+
 TEST(RailPatch, WithSteepEdges_IsLevelBetweenThem) {
     const Friction friction{.patch = {.level_V = 0.2, .centre_mm = 50.0, .width_mm = 10.0, .exponent = 8.0}};
     EXPECT_NEAR(dry_friction_V(friction, 1.0, 45.0, false), 0.2 * std::exp(-0.5 / 256.0), 1e-12);
