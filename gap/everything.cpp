@@ -3,6 +3,7 @@
 #include "gap/fit.h"
 #include "gap/minimum_norm.h"
 #include "gap/score.h"
+#include "plant/effects/catalogue.h"
 
 #include <algorithm>
 #include <array>
@@ -90,40 +91,41 @@ bool has_a_shape(const Candidate& candidate) {
     return false;
 }
 
-std::vector<double> squares_of(const Evidence& evidence, const Errors& errors, Signal signal) {
+/// A fit is near where half of the windows that were off at its start are at less than this mean square.
+constexpr double near_square = 2.0;
+
+/// The windows by which it is told how far off a fit still is: those of the first of carriage, wire and tags
+/// that is fitted, of which predictions are off at the start; what stands still is predicted by anything.
+/// Where a carriage is not yet known, tags are off for another reason.
+Wanted windows_off(const Evidence& evidence, const Wanted& wanted, const Errors& errors) {
     const std::vector<Window>& windows = evidence.windows();
-    const std::vector<double> all = mean_squares(windows, errors);
+    const std::vector<double> squares = mean_squares(windows, errors);
+    for (const Signal signal : {Signal::encoder, Signal::hall, Signal::tag}) {
+        Wanted leading = only_of(windows, wanted, only(signal));
+        if (std::ranges::none_of(leading, [](auto flag) { return flag != 0; })) continue;
+        for (std::size_t w = 0; w < windows.size(); ++w)
+            if (!(squares[w] > near_square)) leading[w] = 0;
+        return leading;
+    }
+    return Wanted(windows.size(), 0);
+}
+
+double median_square(const Evidence& evidence, const Errors& errors, const Wanted& leading) {
+    const std::vector<double> all = mean_squares(evidence.windows(), errors);
     std::vector<double> squares;
     for (std::size_t w = 0; w < all.size(); ++w)
-        if (windows[w].signal == signal && !std::isnan(all[w])) squares.push_back(all[w]);
-    return squares;
-}
-
-/// The signal by which it is told how far off a fit still is: the Hall reading, or the tags where none is
-/// fitted. Where a carriage is not yet known, tags are off for another reason.
-Signal leading_signal(const Evidence& evidence, const Wanted& wanted) {
-    for (std::size_t w = 0; w < wanted.size(); ++w)
-        if (wanted[w] != 0 && evidence.windows()[w].signal == Signal::hall) return Signal::hall;
-    return Signal::tag;
-}
-
-double median_square(const Evidence& evidence, const Errors& errors, Signal signal) {
-    std::vector<double> squares = squares_of(evidence, errors, signal);
+        if (leading[w] != 0 && !std::isnan(all[w])) squares.push_back(all[w]);
     if (squares.empty()) return 0.0;
     const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
     std::ranges::nth_element(squares, middle);
     return *middle;
 }
 
-/// Half of the windows are at less than this mean square where a fit is near.
-constexpr double near_square = 2.0;
-
 /// From wherever it begins to where nothing gets better, at levels that follow what is left.
 Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
-                      Hypothesis start, double sizes) {
+                      const Wanted& leading, Hypothesis start, double sizes) {
     constexpr int most_levels = 6, iterations_a_level = 3;
     constexpr double hardly_less = 0.8;
-    const Signal leading = leading_signal(evidence, wanted);
     double last = std::numeric_limits<double>::infinity();
     for (int level = 0; level < most_levels; ++level) {
         const double square = median_square(evidence, predict(start), leading);
@@ -237,6 +239,15 @@ bool is_smooth(const Candidate& candidate) {
     return others == SignalFlags{} && !candidate.wave && !candidate.patch && !candidate.is_limit;
 }
 
+bool is_smooth_of_carriage(const Rig& rig, const Candidate& candidate) {
+    if (!teachers_of(*candidate.effect)[index_of(Signal::encoder)] || candidate.wave || candidate.patch ||
+        candidate.is_limit || candidate.step_within_counts > 0.0)
+        return false;
+    plant::PlantParameters parameters = plant::plant_parameters(rig);
+    candidate.effect->apply(parameters, plant::typical_setting(*candidate.effect).values);
+    return parameters.axis.play_mm == 0.0;
+}
+
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
                                       const std::array<Wanted, 2>& wanted) {
@@ -250,9 +261,10 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
         chosen.candidates.push_back(candidate);
         chosen.settings.push_back(known != begun.end() ? *known : small(*candidate));
     }
-    chosen.settings = approached(evidence, predict, wanted[0], std::move(chosen.settings), expected_sizes);
-    const bool is_near =
-        median_square(evidence, predict(chosen.settings), leading_signal(evidence, wanted[0])) < near_square;
+    const Wanted leading = windows_off(evidence, wanted[0], predict(chosen.settings));
+    chosen.settings =
+        approached(evidence, predict, wanted[0], leading, std::move(chosen.settings), expected_sizes);
+    const bool is_near = median_square(evidence, predict(chosen.settings), leading) < near_square;
     if (!is_near && begun.empty()) return {};
     Fit fitted;
     const auto fit_again = [&](double sizes) {

@@ -13,9 +13,6 @@
 namespace fidservo::gap {
 namespace {
 
-/// Standard deviations that excess forces are told in: what rounding leaves counts for little then.
-constexpr double deviations = 2.5;
-
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 /// As errors of the windows wanted: all that the supports need of them is where they are.
@@ -111,9 +108,9 @@ double stretch_of(const Rig& rig, const plant::PlantParameters& parameters) {
 
 }  // namespace
 
-ForceBalance::ForceBalance(const Evidence& evidence, const Wanted& wanted)
+ForceBalance::ForceBalance(const Evidence& evidence, const Wanted& wanted, std::size_t half_support)
     : evidence_(evidence),
-      forces_(evidence, where_wanted(evidence, wanted), short_half_support),
+      forces_(evidence, where_wanted(evidence, wanted), half_support),
       velocity_(forces_.mean_velocity()),
       acceleration_(forces_.mean_acceleration()) {
     for (const Recording& recording : evidence.recordings())
@@ -166,6 +163,12 @@ Errors ForceBalance::excess_in_own_deviations(const Hypothesis& hypothesis) cons
     for (const CarriageForces::Support& support : supports())
         all[support.slot] /= static_cast<float>(deviation);
     return all;
+}
+
+double ForceBalance::way_mm() const {
+    if (forces_.rows().empty()) return 0.0;
+    const auto [least, most] = std::ranges::minmax(forces_.rows(), {}, &SlidingRow::position_mm);
+    return most.position_mm - least.position_mm;
 }
 
 bool shows_in_balance(const plant::Effect& effect) {

@@ -21,16 +21,25 @@ namespace fidservo::gap {
 
 class ForceBalance {
   public:
-    /// @param wanted  windows of the encoder that are looked at
-    ForceBalance(const Evidence& evidence, const Wanted& wanted);
+    /// Standard deviations that excess forces are told in: what rounding leaves counts for little then.
+    static constexpr double deviations = 2.5;
 
-    /// The force that each support has in excess, over 2.5 standard deviations by the floor of the readings
-    /// under the rig file; laid out like Errors, at the value of the support's middle row, NaN elsewhere.
+    /// @param wanted  windows of the encoder that are looked at
+    /// @param half_support  as of CarriageForces
+    ForceBalance(const Evidence& evidence, const Wanted& wanted,
+                 std::size_t half_support = short_half_support);
+
+    /// The force that each support has in excess, over `deviations` standard ones by the floor of the
+    /// readings under the rig file; laid out like Errors, at the value of the support's middle row, NaN
+    /// elsewhere.
     Errors excess(const Hypothesis& hypothesis) const;
 
-    /// The same over 2.5 standard deviations under the hypothesis: on the readings' acceleration acts what
+    /// The same over those under the hypothesis: on the readings' acceleration acts what
     /// mass it leaves the carriage.
     Errors excess_in_own_deviations(const Hypothesis& hypothesis) const;
+
+    /// How far the places are apart at which the carriage slides, mm.
+    double way_mm() const;
 
     /// The middles of the supports in Errors.
     const std::vector<CarriageForces::Support>& supports() const { return forces_.supports(); }

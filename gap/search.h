@@ -2,6 +2,7 @@
 // One step of a search: which effect, added to what is known, predicts best what was not fitted.
 #include "gap/candidate.h"
 #include "gap/cross_fit.h"
+#include "gap/everything.h"
 #include "gap/force_pairs.h"
 #include "gap/search_memory.h"
 
@@ -86,6 +87,11 @@ class Search {
         CrossFit fitted;
     };
     Together everything_beside(const CrossFit& base) const;
+
+    /// The same of the carriage beside a base that knows nothing of it: from the models that balance its
+    /// forces (gap/force_regression.h) the one that predicts best where it is followed, in the form that
+    /// does, with all that is smooth. The base where nothing balances them.
+    Together forces_beside(const CrossFit& base) const;
 
     /// How the budget ended while something was refined that was kept.
     std::optional<Ended> over() const { return over_; }
@@ -190,6 +196,7 @@ class Search {
     struct Contender;
 
   private:
+    Together together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const;
     struct PairAttempt;
     class CloserFit;
     PairAttempt attempt(const CrossFit& base, const Candidate& first, const Candidate& second,

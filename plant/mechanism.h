@@ -29,12 +29,12 @@ struct MechanismState {
     double bristle_bend = 0.0;         ///< z of plant/friction.h, -1 .. 1
 };
 
-/// G of a whole step for each way in which an axis can move: by branch of the dead zone, direction, whether
-/// friction holds the carriage, and whether its bristles bend as springs do. Of 2 states the upper left
+/// G of a whole step for each way in which an axis can move: by branch of the dead zone, direction, and
+/// whether friction holds the carriage. Of 2 states the upper left
 /// corner counts.
 struct WholeSteps {
     double duration_s = 0.0;  ///< 0: forces are nowhere straight lines
-    std::array<SquareMatrix<4>, 24> of_way{};
+    std::array<SquareMatrix<4>, 12> of_way{};
 };
 
 /// Of an axis that is otherwise made.

@@ -5,6 +5,7 @@
 #include "plant/event_step.h"
 #include "plant/macro_axis.h"
 #include "plant/motion_series.h"
+#include "plant/spring_motion.h"
 
 #include <algorithm>
 #include <array>
@@ -55,13 +56,16 @@ class Motion {
 
     /// Moves on by at most `longest_s`, to the next event if there is one before. Returns the time it took.
     double advance(double longest_s) {
-        if constexpr (!has_belt)
+        if constexpr (!has_belt) {
             if (const std::optional<double> in_series_s = advance_in_series(longest_s)) return *in_series_s;
+            if (const std::optional<double> on_springs_s = advance_on_springs(longest_s))
+                return *on_springs_s;
+        }
         if (axis_.has_bristles) start_dry_V_ = dry_V_at(x_);
         const State first = rate(x_);
         if (is_whole(longest_s) && is_straight(x_)) {
             const State end = whole_step(first);
-            if (slack(end) >= 0.0 && is_straight(end) && !slides_before(end)) {
+            if (slack(end) >= 0.0 && is_straight(end)) {
                 settle(end);
                 return longest_s;
             }
@@ -92,18 +96,16 @@ class Motion {
         for (const DeadZoneBranch branch :
              {DeadZoneBranch::left, DeadZoneBranch::inside, DeadZoneBranch::right})
             for (const double direction : {-1.0, 1.0})
-                for (const bool held : {false, true})
-                    for (const double bend : {direction, 0.0}) {
-                        Motion motion(axis, 0.0, State{}, bend);
-                        motion.branch_ = branch;
-                        motion.direction_ = direction;
-                        if (bend == 0.0 && !motion.bends_as_a_spring()) continue;
-                        motion.held_ = held;
-                        motion.start_dry_V_ = axis.parameters.friction.coulomb_V;
-                        const auto step = affine_step(motion.rates(), steps.duration_s);
-                        for (std::size_t i = 0; i < size; ++i)
-                            std::ranges::copy(step[i], steps.of_way[motion.way()][i].begin());
-                    }
+                for (const bool held : {false, true}) {
+                    Motion motion(axis, 0.0, State{}, direction);
+                    motion.branch_ = branch;
+                    motion.direction_ = direction;
+                    motion.held_ = held;
+                    motion.start_dry_V_ = axis.parameters.friction.coulomb_V;
+                    const auto step = affine_step(motion.rates(), steps.duration_s);
+                    for (std::size_t i = 0; i < size; ++i)
+                        std::ranges::copy(step[i], steps.of_way[motion.way()][i].begin());
+                }
         return steps;
     }
 
@@ -130,35 +132,20 @@ class Motion {
     /// The way in which it moves, until the next event.
     std::size_t way() const {
         const int branch = static_cast<int>(branch_) + 1;
-        return 8 * static_cast<std::size_t>(branch) + (direction_ < 0.0 ? 0U : 4U) + (held_ ? 2U : 0U) +
-               (bends_as_a_spring() ? 1U : 0U);
+        return 4 * static_cast<std::size_t>(branch) + (direction_ < 0.0 ? 0U : 2U) + (held_ ? 1U : 0U);
     }
 
     /// A of x' = A x + b, where forces are straight lines.
     SquareMatrix<size> rates() const {
-        constexpr double far_from_sliding = 1e-3;  // of the way to there
-        const double unit = bends_as_a_spring() ? far_from_sliding * p_.friction.bristle_mm : 1.0;
         SquareMatrix<size> rates;
         const State at_zero = rate(State{});
         for (std::size_t k = 0; k < size; ++k) {
             State one{};
-            one[k] = unit;
+            one[k] = 1.0;
             const State at_one = rate(one);
-            for (std::size_t i = 0; i < size; ++i) rates[i][k] = (at_one[i] - at_zero[i]) / unit;
+            for (std::size_t i = 0; i < size; ++i) rates[i][k] = at_one[i] - at_zero[i];
         }
         return rates;
-    }
-
-    /// Whether bristles that do not slide are elastic.
-    bool bends_as_a_spring() const {
-        return axis_.has_bristles && p_.friction.bristle_exponent == 0.0 && dry_is_coulomb_ &&
-               bend_ != direction_;
-    }
-
-    /// Whether such bristles slide before a place.
-    bool slides_before(const State& x) const {
-        return bends_as_a_spring() &&
-               direction_ * (x[place] - x_[place]) > p_.friction.bristle_mm * (1.0 - direction_ * bend_);
     }
 
     bool is_whole(double duration_s) const {
@@ -167,12 +154,11 @@ class Motion {
         return whole_s > 0.0 && std::abs(duration_s - whole_s) < rounding_s;
     }
 
-    /// Whether forces change by straight lines there: bristles are springs or have bent as far as they do, a
-    /// patch is far, and what creeps slides or is nothing.
+    /// Whether forces change by straight lines there: bristles have bent as far as they do, a patch is far,
+    /// and what creeps slides or is nothing.
     bool is_straight(const State& x) const {
         const Friction& friction = p_.friction;
-        return (!axis_.has_bristles || bend_ == direction_ || bends_as_a_spring()) &&
-               !friction.patch.reaches(x[place]) &&
+        return (!axis_.has_bristles || bend_ == direction_) && !friction.patch.reaches(x[place]) &&
                (axis_.has_bristles || (friction.coulomb_V == 0.0 && friction.coasting_V == 0.0) ||
                 slides(friction, std::max(0.0, direction_ * x[speed])));
     }
@@ -206,6 +192,38 @@ class Motion {
         if (!is_straight(there.end)) return std::nullopt;
         settle(there.end);
         return there.duration_s;
+    }
+
+    /// Nothing but where elastic bristles bend. Without a belt.
+    std::optional<double> advance_on_springs(double longest_s) {
+        const Friction& friction = p_.friction;
+        if (!axis_.has_bristles || friction.bristle_exponent != 0.0 || !dry_is_coulomb_ ||
+            axis_.has_standing_force || held_ || bend_ == direction_)
+            return std::nullopt;
+        start_dry_V_ = friction.coulomb_V;
+        const double to_sliding_mm = friction.bristle_mm * (1.0 - direction_ * bend_);
+        const SpringMotion motion = spring_motion();
+        const auto reach = [&](double duration_s) {
+            const auto [way_mm, mm_per_s] = motion.after(duration_s);
+            return Reached{{x_[place] + way_mm, mm_per_s}, duration_s};
+        };
+        const auto slack_of = [&](const Reached& there) {
+            return std::min(slack(there.end), to_sliding_mm - direction_ * (there.end[place] - x_[place]));
+        };
+        Reached there = reach(longest_s);
+        if (slack_of(there) < 0.0)
+            there = step_to_event(std::min(slack(x_), to_sliding_mm), there, reach, slack_of);
+        settle(there.end);
+        return there.duration_s;
+    }
+
+    SpringMotion spring_motion() const {
+        const Friction& friction = p_.friction;
+        const double tau_s = p_.time_constant_s, gain = p_.velocity_gain_mm_per_s_per_V;
+        const double viscous = direction_ > 0.0 ? friction.right_V_s_per_mm : friction.left_V_s_per_mm;
+        return {gain * (voltage_V_ - friction.coulomb_V * bend_) / tau_s,
+                gain * friction.coulomb_V / (friction.bristle_mm * tau_s),
+                (1.0 + gain * (friction.bristle_damping_V_s_per_mm + viscous)) / tau_s, x_[speed]};
     }
 
     MotionSeries series_of(double duration_s) const {

@@ -1,0 +1,38 @@
+#pragma once
+// A motion against a spring, from where it begins:
+//
+//     v' = a - k y - b v,     y' = v,     y(0) = 0
+//
+// With c = b / 2 and s = c^2 - k, C = cosh(sqrt(s) t), S = sinh(sqrt(s) t) / sqrt(s), both real for any s,
+//
+//     y = a / k + exp(-c t) (-a / k C + (v0 - c a / k) S),     v = exp(-c t) (v0 C + (a - c v0) S)
+#include <cmath>
+#include <utility>
+
+namespace fidservo::plant {
+
+struct SpringMotion {
+    double start_mm_per_s2;   ///< a
+    double stiffness_per_s2;  ///< k > 0
+    double damping_per_s;     ///< b
+    double start_mm_per_s;    ///< v0
+
+    /// y in mm and v in mm/s after a time in s.
+    std::pair<double, double> after(double time_s) const {
+        const double c = 0.5 * damping_per_s, s = c * c - stiffness_per_s2;
+        const double rate = std::sqrt(std::abs(s)), turned = rate * time_s;
+        double cosine = 1.0, sine = time_s;
+        if (s < 0.0) {
+            cosine = std::cos(turned);
+            sine = std::sin(turned) / rate;
+        } else if (s > 0.0) {
+            cosine = std::cosh(turned);
+            sine = std::sinh(turned) / rate;
+        }
+        const double decay = std::exp(-c * time_s), rest_mm = start_mm_per_s2 / stiffness_per_s2;
+        return {rest_mm + decay * (-rest_mm * cosine + (start_mm_per_s - c * rest_mm) * sine),
+                decay * (start_mm_per_s * cosine + (start_mm_per_s2 - c * start_mm_per_s) * sine)};
+    }
+};
+
+}  // namespace fidservo::plant
