@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace fidservo::gap {
@@ -140,15 +141,29 @@ Search::Together Search::forces_beside(const CrossFit& base) const {
         });
         return losses;
     };
-    const std::vector<BalancedModel> forms = forms_of(models[place_of_least(losses_of(models))], candidates_);
-    const std::vector<double> losses = losses_of(forms);
-    const std::size_t least = place_of_least(losses);
-    const double chance = std::log(static_cast<double>(forms.size()) / options_.tail);
-    const BalancedModel& best = losses[least] < losses.front() - chance ? forms[least] : forms.front();
-    const Hypothesis begun = fit(predict, windows, wanted[0], best.settings).hypothesis;
+    const auto best_form = [&](const BalancedModel& plain) {
+        constexpr std::size_t most_fitted = 4;
+        std::vector<BalancedModel> forms = forms_of(plain, candidates_);
+        const double chance = std::log(static_cast<double>(forms.size()) / options_.tail);
+        const std::vector<double> losses = losses_of(forms);
+        std::vector<std::size_t> order(forms.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::stable_sort(order.begin() + 1, order.end(), {},
+                                 [&](std::size_t f) { return losses[f]; });
+        order.resize(std::min(order.size(), most_fitted));
+        std::vector<double> fitted(order.size());
+        parallel_for(order.size(), [&](std::size_t k) {
+            Fit closer = fit(predict, windows, wanted[0], forms[order[k]].settings);
+            forms[order[k]].settings = std::move(closer.hypothesis);
+            fitted[k] = closer.loss;
+        });
+        const std::size_t least = place_of_least(fitted);
+        return forms[order[fitted[least] < fitted.front() - chance ? least : 0]];
+    };
+    const BalancedModel form = best_form(models[place_of_least(losses_of(models))]);
     return together(base.of_half,
-                    needed_of_everything(evidence, smooth_beside(evidence.rig(), best, candidates_),
-                                         base.of_half, begun, wanted));
+                    needed_of_everything(evidence, smooth_beside(evidence.rig(), form, candidates_),
+                                         base.of_half, form.settings, wanted));
 }
 
 Search::Together Search::together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const {

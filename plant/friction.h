@@ -14,17 +14,16 @@
 // Bristles bend over a length d before they slide (Dahl 1968; in the path that is covered, as Bliman and
 // Sorine 1995 write it):
 //
-//     F = Fc z + c1 d dz/dt + c v,     dz/dy = sgn(e) |e|^i / d,     e = 1 - z sgn(v) Fc / g
+//     F = Fc z + c1 d dz/dt + c v,     dz/dy = e / d,     e = 1 - z sgn(v) Fc / g
 //
-// With Dahl's exponent i = 1 this is LuGre (Canudas de Wit et al. 1995) with the stiffness sigma0 = Fc / d,
-// whatever g is, and sigma1 = c1. It lets a carriage drift under pulses that are too weak to break it away;
-// with i = 0 bristles are springs until they slide, and nothing drifts (Dupont et al. 2002). z follows from
-// the way alone, so that no speed makes the equations stiff. Along a way w = s (y - y0) in direction s, on
-// which g / Fc goes evenly from a to b, with little between them, m their mean and q = w / (m d):
+// This is LuGre (Canudas de Wit et al. 1995) with the stiffness sigma0 = Fc / d, whatever g is, and sigma1 =
+// c1. It lets a carriage drift under pulses that are too weak to break it away. Where bristles are springs
+// until they slide, dz/dy = sgn(e) / d, nothing drifts (Dupont et al. 2002). z follows from the way alone, so
+// that no speed makes the equations stiff. Along a way w = s (y - y0) in direction s, on which g / Fc goes
+// evenly from a to b, with little between them, m their mean and q = w / (m d):
 //
-//     i = 1:      z(y) = s m + (z0 - s m) E + s (b - a) ((1 + E) / 2 - (1 - E) / q),     E = exp(-q)
-//     otherwise:  |e(y)|^(1 - i) = |e(y0)|^(1 - i) - (1 - i) q, with m for g; with i < 1 nothing once it is
-//     there
+//     LuGre:    z(y) = s m + (z0 - s m) E + s (b - a) ((1 + E) / 2 - (1 - E) / q),     E = exp(-q)
+//     springs:  z(y) = z0 + s q m, no farther than to s m
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -65,7 +64,7 @@ struct Friction {
     double left_V_s_per_mm = 0.0;
     double bristle_mm = 0.0;  ///< d; 0: rigid
     double bristle_damping_V_s_per_mm = 0.0;
-    double bristle_exponent = 1.0;  ///< i, 0 .. 2
+    bool bristles_are_springs = false;  ///< until they slide
 };
 
 /// Whether g can be other than 0.
@@ -143,23 +142,15 @@ inline std::optional<Creep> balanced_creep(const Friction& friction, double velo
     return Creep{friction.creep_mm_per_s * std::atanh(balance), dry_V * slope / friction.creep_mm_per_s};
 }
 
-/// sgn(base) |base|^exponent.
-inline double signed_power(double base, double exponent) {
-    return exponent == 1.0 ? base : std::copysign(std::pow(std::abs(base), exponent), base);
-}
-
 /// z after a way in one direction, on which g goes from before_V to dry_V.
 inline double bristle_bend(const Friction& friction, double bend, double way_mm, double direction,
                            double before_V, double dry_V) {
     const double half = 0.5, straight = 1e-3;
     const double mean = half * (before_V + dry_V) / friction.coulomb_V;
     const double ways = direction * way_mm / (mean * friction.bristle_mm);
-    if (friction.bristle_exponent != 1.0) {
-        constexpr double most_unbent = 2.0;
-        const double rest = 1.0 - friction.bristle_exponent, before = 1.0 - direction * bend / mean;
-        const double least = rest > 0.0 ? 0.0 : std::pow(most_unbent, rest);
-        const double left = std::max(least, std::pow(std::abs(before), rest) - rest * ways);
-        return direction * mean * (1.0 - std::copysign(std::pow(left, 1.0 / rest), before));
+    if (friction.bristles_are_springs) {
+        const double before = direction * bend, way = ways * mean;
+        return direction * (before <= mean ? std::min(mean, before + way) : std::max(mean, before - way));
     }
     const double lost = -std::expm1(-ways);
     const double bent = bend + (direction * mean - bend) * lost;
@@ -173,7 +164,8 @@ inline double bristle_friction_V(const Friction& friction, double velocity_mm_pe
                                  double bend, double dry_V) {
     const double viscous = direction > 0.0 ? friction.right_V_s_per_mm : friction.left_V_s_per_mm;
     const double elastic_V = friction.coulomb_V * bend;
-    const double unbent = signed_power(1.0 - direction * elastic_V / dry_V, friction.bristle_exponent);
+    const double rest = 1.0 - direction * elastic_V / dry_V;
+    const double unbent = friction.bristles_are_springs && rest != 0.0 ? std::copysign(1.0, rest) : rest;
     return elastic_V + friction.bristle_damping_V_s_per_mm * velocity_mm_per_s * unbent +
            viscous * velocity_mm_per_s;
 }

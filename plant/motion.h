@@ -194,10 +194,10 @@ class Motion {
         return there.duration_s;
     }
 
-    /// Nothing but where elastic bristles bend. Without a belt.
+    /// Nothing but where bristles that are springs bend. Without a belt.
     std::optional<double> advance_on_springs(double longest_s) {
         const Friction& friction = p_.friction;
-        if (!axis_.has_bristles || friction.bristle_exponent != 0.0 || !dry_is_coulomb_ ||
+        if (!axis_.has_bristles || !friction.bristles_are_springs || !dry_is_coulomb_ ||
             axis_.has_standing_force || held_ || bend_ == direction_)
             return std::nullopt;
         start_dry_V_ = friction.coulomb_V;

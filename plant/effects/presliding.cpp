@@ -11,14 +11,14 @@ constexpr EffectParameter parameters[] = {
     {"distance_um", "um", 0.1, 1000.0, 50.0, 50.0, "way over which the bristles bend"},
     {"damping_V_s_per_mm", "V s/mm", 0.0, 0.05, 0.0, 0.0,
      "of the bristles, at most 50 ms of their stiffness"},
-    {.name = "exponent",
+    {.name = "springs",
      .unit = "",
      .low = 0.0,
-     .high = 2.0,
-     .vanishing = 1.0,
-     .typical = 1.0,
-     .meaning = "Dahl's: 1 they give way from the first on, 0 they are elastic until they slide",
-     .negligible = 0.05},
+     .high = 1.0,
+     .vanishing = 0.0,
+     .typical = 0.0,
+     .meaning = "1: bristles are springs until they slide; 0: they give way from the first on",
+     .is_choice = true},
 };
 
 /// Their relaxation time is bounded, or a level that vanishes would leave the damping.
@@ -29,7 +29,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
     friction.coulomb_V += level_V;
     friction.bristle_mm += distance_mm;
     friction.bristle_damping_V_s_per_mm += std::min(values[2], longest_relaxation_s * level_V / distance_mm);
-    friction.bristle_exponent = parameters[3].acting(values[3]);
+    friction.bristles_are_springs = parameters[3].is_high(values[3]);
 }
 
 }  // namespace
@@ -39,13 +39,12 @@ extern constexpr Effect presliding{
     .block = "macro.friction",
     .text =
         "Elastic micro-motion before break-away: bristles of bend z carry all dry friction g, "
-        "F = Fc z + c1 dz/dt d, dz/dt = v sgn(e) |e|^i / d, e = 1 - z sgn(v) Fc / g, where Fc is this level "
-        "plus other Coulomb friction and c1 at most 50 ms times level / d. With the exponent i = 1 LuGre "
-        "with "
-        "sigma0 = Fc / d, sigma1 = c1; Dahl without damping. With i = 0 elastic until it slides.",
+        "F = Fc z + c1 dz/dt d, dz/dt = (v - |v| z Fc / g) / d, where Fc is this level plus other Coulomb "
+        "friction and c1 at most 50 ms times level / d. LuGre with sigma0 = Fc / d, sigma1 = c1; Dahl "
+        "without damping. As springs, dz/dt = v / d up to where |z| Fc = g.",
     .source =
         "Dahl, Aerospace Corp. TOR-0158(3107-18)-1, 1968; Canudas de Wit et al., IEEE Trans. Autom. Control "
-        "40(3), 1995; Dupont et al., ibid. 47(5), 2002: why it must not drift",
+        "40(3), 1995; Dupont et al., ibid. 47(5), 2002: without drift",
     .parameters = parameters,
     .apply = apply,
 };

@@ -82,7 +82,6 @@ TEST(Refinements, AreWhatAnEffectMayBeWithoutAndCountAsNoParameter) {
                                                      {"second_thermal_mass", {"heating", "diffusion_s"}},
                                                      {"hall_offset", {"shift_um"}},
                                                      {"hall_crosstalk", {"lag_ms"}},
-                                                     {"presliding", {"exponent"}},
                                                      {"cogging", {"second_sine", "second_cosine"}},
                                                      {"hall_drift", {"settling_per_s"}}};
     for (const auto& [name, refined] : expected) {
@@ -102,7 +101,7 @@ TEST(Refinements, AreWhatAnEffectMayBeWithoutAndCountAsNoParameter) {
                   effect.parameters.size())
             << name;
     }
-    EXPECT_TRUE(refinements_of(*plant::find_effect("payload")).empty());
+    EXPECT_TRUE(refinements_of(*plant::find_effect("presliding")).empty());
 }
 
 /// What an effect is without has no slope, and no prediction is spent on it; a negative value is no such
