@@ -69,15 +69,9 @@ class Incremental {
     Errors known_;
 };
 
-/// A share of its typical size: where it is nothing, no slope tells of its shape.
-plant::EffectSetting small(const Candidate& candidate) {
-    constexpr double share = 0.03;
+plant::EffectSetting of_no_size(const Candidate& candidate) {
     plant::EffectSetting setting{candidate.effect, candidate.shapes.front()};
-    for (const std::size_t k : candidate.sizes) {
-        const plant::EffectParameter& parameter = candidate.effect->parameters[k];
-        setting.values[k] = parameter.vanishing + share * (setting.values[k] - parameter.vanishing);
-        if (parameter.is_negligible(setting.values[k])) setting.values[k] = parameter.vanishing;
-    }
+    for (const std::size_t k : candidate.sizes) setting.values[k] = candidate.effect->parameters[k].vanishing;
     return setting;
 }
 
@@ -259,7 +253,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
         const auto known = std::ranges::find(begun, candidate->effect, &plant::EffectSetting::effect);
         if (known == begun.end() && has_a_shape(*candidate)) continue;
         chosen.candidates.push_back(candidate);
-        chosen.settings.push_back(known != begun.end() ? *known : small(*candidate));
+        chosen.settings.push_back(known != begun.end() ? *known : of_no_size(*candidate));
     }
     const Wanted leading = windows_off(evidence, wanted[0], predict(chosen.settings));
     chosen.settings =

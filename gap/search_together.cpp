@@ -160,7 +160,25 @@ Search::Together Search::forces_beside(const CrossFit& base) const {
         const std::size_t least = place_of_least(fitted);
         return forms[order[fitted[least] < fitted.front() - chance ? least : 0]];
     };
+    const auto fitted_alone = [&](const BalancedModel& model) {
+        const Predict other = [&](const Hypothesis& settings) {
+            Hypothesis whole = base.of_half[1];
+            whole.insert(whole.end(), settings.begin(), settings.end());
+            return evidence.errors(whole, wanted[1]);
+        };
+        NeededCandidates alone{model.candidates, {model.settings, model.settings}, {}};
+        alone.of_half[1] = fit(other, windows, wanted[1], model.settings).hypothesis;
+        const double loss = total_loss(windows, wanted[0], predict(model.settings));
+        for (std::size_t k = 0; k < model.settings.size(); ++k) {
+            Hypothesis without = model.settings;
+            without.erase(without.begin() + static_cast<std::ptrdiff_t>(k));
+            alone.worth.push_back(2.0 * (total_loss(windows, wanted[0], predict(without)) - loss));
+        }
+        return alone;
+    };
     const BalancedModel form = best_form(models[place_of_least(losses_of(models))]);
+    const Together alone = together(base.of_half, fitted_alone(form));
+    if (!off(alone.fitted)[index_of(Signal::encoder)]) return alone;
     return together(base.of_half,
                     needed_of_everything(evidence, smooth_beside(evidence.rig(), form, candidates_),
                                          base.of_half, form.settings, wanted));

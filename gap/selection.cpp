@@ -149,20 +149,47 @@ bool pair_up(Search& search, Chain& chain, int most_effects) {
     return changed;
 }
 
-/// A chain with what is needed of everything in place of its smooth effects.
-Chain begun_with_everything(const Search& search, const Chain& chain) {
-    Search::Together together = search.everything_beside(chain.fitted);
-    Chain whole;
-    for (const Choice& choice : chain.choices)
-        if (!is_smooth(*choice.candidate)) whole.choices.push_back(choice);
-    whole.fitted = std::move(together.fitted);
+/// A chain, explained so far as `together` has it, with what was needed there as its last choices.
+Chain with_together(Chain chain, Search::Together together) {
+    chain.fitted = std::move(together.fitted);
     for (std::size_t k = 0; k < together.candidates.size(); ++k) {
         const Candidate* const candidate = together.candidates[k];
         Trial itself{
-            .candidate = candidate, .gain = together.worth[k], .is_leader = true, .fitted = whole.fitted};
-        whole.choices.push_back({candidate, whole.fitted.loss + together.worth[k], {std::move(itself)}, {}});
+            .candidate = candidate, .gain = together.worth[k], .is_leader = true, .fitted = chain.fitted};
+        chain.choices.push_back({candidate, chain.fitted.loss + together.worth[k], {std::move(itself)}, {}});
     }
-    return whole;
+    return chain;
+}
+
+/// A chain with what is needed of everything in place of its smooth effects.
+Chain begun_with_everything(const Search& search, const Chain& chain) {
+    Chain rest;
+    for (const Choice& choice : chain.choices)
+        if (!is_smooth(*choice.candidate)) rest.choices.push_back(choice);
+    return with_together(std::move(rest), search.everything_beside(chain.fitted));
+}
+
+/// What explains a signal at once, of more effects than this, needs no search.
+constexpr std::size_t most_one_by_one = 2;
+
+/// Grows a chain by a few effects of one signal, with a share of the effort.
+/// @return whether a pair took the place of something
+bool grow_one_by_one(Search& search, Chain& chain, Signal signal, double share, std::vector<Trial>* alone) {
+    bool is_paired = false;
+    const std::size_t most = chain.choices.size() + most_one_by_one;
+    search.look_for_causes_in(only(signal), share);
+    try {
+        is_paired = grow(search, chain, static_cast<int>(most), alone);
+    } catch (const SearchExhausted&) {
+        if (search.over()) throw;
+    }
+    search.limit(false);
+    search.look_for_causes_in(all_signals, 1.0);
+    return is_paired;
+}
+
+bool is_off(const Search& search, const Chain& chain, Signal signal) {
+    return search.off(chain.fitted)[index_of(signal)];
 }
 
 /// What moves the wire has causes that stand in for each other: where the Hall reading is off its floor, all
@@ -173,29 +200,44 @@ Chain begun_with_everything(const Search& search, const Chain& chain) {
 /// @return whether a pair took the place of something
 bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
     constexpr double equal_share = 0.5;
-    constexpr int most_one_by_one = 2;
-    const auto is_off = [&](const Chain& explained) {
-        return search.off(explained.fitted)[index_of(Signal::hall)];
-    };
-    if (!is_off(chain)) return false;
+    if (!is_off(search, chain, Signal::hall)) return false;
     Chain whole = begun_with_everything(search, chain);
-    if (whole.choices.size() > most_one_by_one && !is_off(whole)) {
+    if (whole.choices.size() > most_one_by_one && !is_off(search, whole, Signal::hall)) {
+        chain = std::move(whole);
+        return false;
+    }
+    const double share = is_off(search, chain, Signal::encoder) ? equal_share : 1.0;
+    const bool is_paired = grow_one_by_one(search, chain, Signal::hall, share, alone);
+    if (!is_off(search, chain, Signal::hall)) return is_paired;
+    whole = begun_with_everything(search, chain);
+    if (is_better(search, whole, chain)) chain = std::move(whole);
+    return is_paired;
+}
+
+/// What moves the carriage adds up in the balance of its forces: where the encoder is off its floor, that is
+/// where an explanation begins. Where few effects explain it, or many do not, they are looked for one by one
+/// as well.
+/// @return whether a pair took the place of something
+bool explain_carriage(Search& search, Chain& chain, std::vector<Trial>* alone) {
+    constexpr double share = 0.5;
+    if (!is_off(search, chain, Signal::encoder)) return false;
+    Chain whole = with_together(chain, search.forces_beside(chain.fitted));
+    if (whole.choices.size() > chain.choices.size() + most_one_by_one &&
+        !is_off(search, whole, Signal::encoder)) {
         chain = std::move(whole);
         return false;
     }
     bool is_paired = false;
-    const bool is_carriage_off = search.off(chain.fitted)[index_of(Signal::encoder)];
-    search.look_for_causes_in(only(Signal::hall), is_carriage_off ? equal_share : 1.0);
+    const auto take_the_better = [&] {
+        if (is_better(search, whole, chain)) chain = std::move(whole);
+    };
     try {
-        is_paired = grow(search, chain, most_one_by_one, alone);
-    } catch (const SearchExhausted&) {
-        if (search.over()) throw;
+        is_paired = grow_one_by_one(search, chain, Signal::encoder, share, alone);
+    } catch (...) {
+        take_the_better();
+        throw;
     }
-    search.limit(false);
-    search.look_for_causes_in(all_signals, 1.0);
-    if (!is_off(chain)) return is_paired;
-    whole = begun_with_everything(search, chain);
-    if (is_better(search, whole, chain)) chain = std::move(whole);
+    if (is_off(search, chain, Signal::encoder)) take_the_better();
     return is_paired;
 }
 
@@ -282,6 +324,9 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     selection.steps.push_back(chain.fitted);
     try {
         bool is_paired = explain_hall(search, chain, &selection.alone);
+        std::vector<Trial> moved;
+        is_paired = explain_carriage(search, chain, &moved) || is_paired;
+        add_tried(selection.alone, std::move(moved));
         const int most_effects = static_cast<int>(chain.choices.size()) + options.most_effects;
         std::vector<Trial> tried;
         is_paired = grow(search, chain, most_effects, &tried) || is_paired;

@@ -54,7 +54,8 @@ Heater make_heater(const HeaterParameters& parameters, double tick_s, const Seco
                            mass.coupling,
                            mass.tau_s,
                            mass.taken,
-                           mass.heating};
+                           mass.heating,
+                           mass.is_source};
     std::optional<ThermalRod> rod;
     if (mass.coupling > 0.0 && mass.diffusion_s > 0.0) rod = thermal_rod(pair, mass.diffusion_s, tick_s);
     return {parameters,

@@ -26,6 +26,7 @@ struct SecondMass {
     double taken = 1.0;
     double heating = 1.0;
     double diffusion_s = 0.0;  ///< 0: of one temperature
+    bool is_source = false;    ///< where it takes less than it gives back: plant/thermal_pair.h
 };
 
 /// Parameters and what follows from them for one tick. Immutable.

@@ -25,7 +25,7 @@ Eigen::Matrix2d decay(const Eigen::Matrix2d& A, double time_s) {
 
 ThermalRegime<2> pair_regime_of(const ThermalPair& pair, bool heating, double tick_s) {
     const double tau_s = heating ? pair.heating_tau_s : pair.cooling_tau_s;
-    const double s = pair.surrounding(), p = std::max(1.0, pair.taken);
+    const double s = pair.surrounding(), p = pair.drawn();
     const double e = (pair.coupling - s) * (heating ? pair.heating : 1.0) * tau_s / pair.cooling_tau_s;
     Eigen::Matrix2d rates_per_s;
     rates_per_s << -(1.0 + e * p) / tau_s, (s + e) / tau_s, 1.0 / pair.mass_tau_s, -1.0 / pair.mass_tau_s;
@@ -47,7 +47,11 @@ struct PairModel {
 }  // namespace
 
 double ThermalPair::surrounding() const {
-    return coupling * std::max(0.0, 1.0 - taken);
+    return is_source ? 0.0 : coupling * std::max(0.0, 1.0 - taken);
+}
+
+double ThermalPair::drawn() const {
+    return is_source ? taken : std::max(1.0, taken);
 }
 
 ThermalPairTick thermal_pair_tick(const ThermalPair& pair, double time_s) {

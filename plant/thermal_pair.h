@@ -3,13 +3,14 @@
 //
 //     dq/dt = (phi - q + s b) / tau - h e / tau_c (p q - b)        q, b: wire and mass above ambient, degC
 //     tau_b db/dt = q - b,    b in units of what the wire brings it to at last
-//     s = a max(0, 1 - l),  e = a - s,  p = max(1, l)
+//     s = a max(0, 1 - l),  e = a - s,  p = max(1, l);  or, of a source, s = 0,  e = a,  p = l
 //
 // a: what the mass gives back, as conductance to it per conductance to the room; l: what it takes per what it
 // gives back. l = 1: it loses heat to the wire only; above, to the room too; below, it is in part the wire's
-// surroundings, which warm at no cost to the wire. tau is the heating time constant while phi > q - s b, else
-// the cooling one, tau_c; h a factor on the conductance while heating. Both equations are linear within a
-// regime and have real rates, so that a tick has a closed form:
+// surroundings, which warm at no cost to the wire, or, of a source, heats the wire by what it has not taken.
+// tau is the heating time constant while phi > q - s b, else the cooling one, tau_c; h a factor on the
+// conductance while heating. Both equations are linear within a regime and have real rates, so that a tick
+// has a closed form:
 //
 //     y(t) = exp(m t) (cosh(d t) I + sinh(d t)/d (A - m I)) y(0),   m = tr A / 2,  d^2 = m^2 - det A,
 //
@@ -30,9 +31,12 @@ struct ThermalPair {
     double mass_tau_s;     ///< tau_b > 0
     double taken = 1.0;    ///< l >= 0
     double heating = 1.0;  ///< h > 0
+    bool is_source = false;
 
     /// s: of what the mass gives back, what warms the surroundings.
     double surrounding() const;
+    /// p: what the wire loses to it, per what it gives back.
+    double drawn() const;
 };
 
 /// Wire and mass above ambient in degC after a time under a constant phi (degC), however long.

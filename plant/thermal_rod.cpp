@@ -19,7 +19,7 @@ RodRegime::Matrix rates_of(const ThermalPair& pair, double diffusion_s, bool hea
     const double taken = n / (p * pair.mass_tau_s), lost = (p - 1.0) / (p * pair.mass_tau_s);
     const double conducted = n * n / diffusion_s;
     RodRegime::Matrix rates = RodRegime::Matrix::Zero();
-    rates(0, 0) = -1.0 / tau_s - e * p;
+    rates(0, 0) = -1.0 / tau_s - e * pair.drawn();
     rates(0, 1) = s / tau_s + e;
     rates(1, 0) = taken * p;
     rates(1, 1) = -taken;

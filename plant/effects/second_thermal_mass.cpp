@@ -15,12 +15,24 @@ constexpr EffectParameter parameters[] = {
     {"heating", "", 1.0, 2.6, 1.0, 1.0, "conductance while the wire heats, per that while it cools", 0.02},
     {"diffusion_s", "s", 0.0, 10.0, 0.0, 0.0,
      "the mass's length^2 over its diffusivity; 0: of one temperature", 0.25},
+    {.name = "source",
+     .unit = "",
+     .low = 0.0,
+     .high = 1.0,
+     .vanishing = 0.0,
+     .typical = 0.0,
+     .meaning = "1: what it gives back and has not taken heats the wire; 0: it warms the wire's surroundings",
+     .is_choice = true},
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
     const double lost = std::max(1.0, values[2]);  // by the mass, to the room too, per what it gives back
-    plant.micro->mass = {values[0] / lost, values[1] / lost, values[2], parameters[3].acting(values[3]),
-                         parameters[4].acting(values[4])};
+    plant.micro->mass = {values[0] / lost,
+                         values[1] / lost,
+                         values[2],
+                         parameters[3].acting(values[3]),
+                         parameters[4].acting(values[4]),
+                         parameters[5].is_high(values[5])};
 }
 
 }  // namespace
@@ -32,7 +44,8 @@ extern constexpr Effect second_thermal_mass{
         "Plates or the mount store heat and slow the cooling later on. With q, m the rise of wire and "
         "mass above the room: dq/dt = (phi - q) / tau - conductance / tau_c (q - m), mass_tau dm/dt = "
         "q - m - (taken - 1) m; tau is the heating time constant while phi > q, else the cooling one, tau_c. "
-        "Below 1, what is not taken warms the wire's surroundings (plant/thermal_pair.h). A mass that "
+        "Below 1, what is not taken warms the wire's surroundings, or heats the wire (plant/thermal_pair.h). "
+        "A mass that "
         "conducts is a rod of three parts (plant/thermal_rod.h).",
     .source =
         "Incropera, DeWitt, Fundamentals of Heat and Mass Transfer, 6th ed., 2007, ch. 5: two lumped "

@@ -73,6 +73,25 @@ TEST(SecondThermalMass, AsSurroundingsOrWithinTheWiresOwnRate_FollowsThoseEquati
                 1e-3);
 }
 
+/// The equations of a mount that only gives back, by Euler's method in steps of 1 us.
+TEST(SecondThermalMass, AsASource_FollowsThoseEquations) {
+    constexpr double share = 0.19, mass_tau_s = 7.0, heating_tau_s = 0.55, cooling_tau_s = 1.0, step_s = 1e-6;
+    double wire = 0.0, mass = 0.0;
+    const StagePlant plant = plant_with("second_thermal_mass:conductance=0.19,mass_tau_s=7,taken=0,source=1");
+    StageState state = start(plant, 50.0, 1);
+    for (int tick = 0; tick < 4000; ++tick) {
+        const double command_V = tick < 2500 ? 1.6 : 1.4, phi = 272.0 * (command_V - 1.3);
+        advance(plant, state, 0.0, command_V);
+        for (int k = 0; k < 1000; ++k) {
+            const double tau_s = phi > wire ? heating_tau_s : cooling_tau_s;
+            const double wire_rate = (phi - wire) / tau_s + share / cooling_tau_s * mass;
+            mass += step_s / mass_tau_s * (wire - mass);
+            wire += step_s * wire_rate;
+        }
+        ASSERT_NEAR(rise_degC(state), wire, 2e-3) << "tick " << tick;
+    }
+}
+
 /// Settles where what the wire is given is lost by it and, through the mass, by that: by conductances in
 /// series.
 TEST(SecondThermalMass, ThatLosesHeatToTheRoom_SettlesByConductancesInSeries) {
