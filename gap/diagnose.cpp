@@ -263,8 +263,9 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection) {
     const double trust = diagnosis.gap.removed();
     for (std::size_t k = 0; k < diagnosis.effects.size(); ++k)
         diagnosis.effects[k].probability *=
-            leaves_nothing_of_its_own(evidence, selection.choices[k], explained) ? worth_of_names(1.0)
-                                                                                 : trust;
+            leaves_nothing_of_its_own(evidence, selection.choices[k], explained)
+                ? worth_of_names(1.0)
+                : std::min(trust, worth_of_names(1.0));
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, trust);
     diagnosis.verdict = verdict_of(selection, diagnosis.gap.after > at_the_floor);

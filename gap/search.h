@@ -90,8 +90,8 @@ class Search {
 
     /// The same of the carriage beside a base that knows nothing of it: from the models that balance its
     /// forces (gap/force_regression.h) the one that predicts best where it is followed, in the form that
-    /// does, with all that is smooth. The base where nothing balances them.
-    Together forces_beside(const CrossFit& base) const;
+    /// does, with all that is smooth. The base where nothing balances them. Does not count as effort.
+    Together forces_beside(const CrossFit& base);
 
     /// How the budget ended while something was refined that was kept.
     std::optional<Ended> over() const { return over_; }
@@ -197,6 +197,7 @@ class Search {
 
   private:
     Together together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const;
+    Together balanced_beside(const CrossFit& base) const;
     struct PairAttempt;
     class CloserFit;
     PairAttempt attempt(const CrossFit& base, const Candidate& first, const Candidate& second,

@@ -172,73 +172,71 @@ Chain begun_with_everything(const Search& search, const Chain& chain) {
 /// What explains a signal at once, of more effects than this, needs no search.
 constexpr std::size_t most_one_by_one = 2;
 
-/// Grows a chain by a few effects of one signal, with a share of the effort.
-/// @return whether a pair took the place of something
-bool grow_one_by_one(Search& search, Chain& chain, Signal signal, double share, std::vector<Trial>* alone) {
-    bool is_paired = false;
-    const std::size_t most = chain.choices.size() + most_one_by_one;
-    search.look_for_causes_in(only(signal), share);
-    try {
-        is_paired = grow(search, chain, static_cast<int>(most), alone);
-    } catch (const SearchExhausted&) {
-        if (search.over()) throw;
-    }
-    search.limit(false);
-    search.look_for_causes_in(all_signals, 1.0);
-    return is_paired;
-}
-
 bool is_off(const Search& search, const Chain& chain, Signal signal) {
     return search.off(chain.fitted)[index_of(signal)];
 }
 
 /// What moves the wire has causes that stand in for each other: where the Hall reading is off its floor, all
-/// of them are looked at together. Where many do not explain it so, they are looked for one by one, and once
-/// more together with what that has found. The wire is searched apart from the carriage; where both are off,
-/// each has its share of the effort.
+/// of them are looked at together.
+void explain_hall_at_once(const Search& search, Chain& chain) {
+    if (!is_off(search, chain, Signal::hall)) return;
+    Chain whole = begun_with_everything(search, chain);
+    if (whole.choices.size() > most_one_by_one && !is_off(search, whole, Signal::hall))
+        chain = std::move(whole);
+}
+
+/// Where many do not explain the Hall reading at once, they are looked for one by one, and once more together
+/// with what that has found. The wire is searched apart from the carriage; where both are off, each has its
+/// share of the effort.
 /// @param alone  what was tried first
 /// @return whether a pair took the place of something
 bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
     constexpr double equal_share = 0.5;
     if (!is_off(search, chain, Signal::hall)) return false;
-    Chain whole = begun_with_everything(search, chain);
-    if (whole.choices.size() > most_one_by_one && !is_off(search, whole, Signal::hall)) {
-        chain = std::move(whole);
-        return false;
+    bool is_paired = false;
+    const bool is_carriage_off = is_off(search, chain, Signal::encoder);
+    search.look_for_causes_in(only(Signal::hall), is_carriage_off ? equal_share : 1.0);
+    try {
+        is_paired = grow(search, chain, static_cast<int>(chain.choices.size() + most_one_by_one), alone);
+    } catch (const SearchExhausted&) {
+        if (search.over()) throw;
     }
-    const double share = is_off(search, chain, Signal::encoder) ? equal_share : 1.0;
-    const bool is_paired = grow_one_by_one(search, chain, Signal::hall, share, alone);
+    search.limit(false);
+    search.look_for_causes_in(all_signals, 1.0);
     if (!is_off(search, chain, Signal::hall)) return is_paired;
-    whole = begun_with_everything(search, chain);
+    Chain whole = begun_with_everything(search, chain);
     if (is_better(search, whole, chain)) chain = std::move(whole);
     return is_paired;
 }
 
-/// What moves the carriage adds up in the balance of its forces: where the encoder is off its floor, that is
-/// where an explanation begins. Where few effects explain it, or many do not, they are looked for one by one
-/// as well.
-/// @return whether a pair took the place of something
-bool explain_carriage(Search& search, Chain& chain, std::vector<Trial>* alone) {
-    constexpr double share = 0.5;
-    if (!is_off(search, chain, Signal::encoder)) return false;
+/// What moves the carriage adds up in the balance of its forces: where the encoder is off its floor, a chain
+/// with what balances them.
+std::optional<Chain> balanced(Search& search, const Chain& chain) {
+    if (!is_off(search, chain, Signal::encoder)) return {};
     Chain whole = with_together(chain, search.forces_beside(chain.fitted));
-    if (whole.choices.size() > chain.choices.size() + most_one_by_one &&
-        !is_off(search, whole, Signal::encoder)) {
-        chain = std::move(whole);
-        return false;
-    }
-    bool is_paired = false;
-    const auto take_the_better = [&] {
-        if (is_better(search, whole, chain)) chain = std::move(whole);
+    if (whole.choices.size() == chain.choices.size()) return {};
+    return whole;
+}
+
+bool moves_carriage(const Choice& choice) {
+    return teachers_of(*choice.candidate->effect)[index_of(Signal::encoder)];
+}
+
+/// A chain with what another one has of the carriage instead of its own.
+Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& other) {
+    Chain merged;
+    const auto add = [&](const Chain& from, bool of_carriage) {
+        for (std::size_t k = 0; k < from.choices.size(); ++k) {
+            if (moves_carriage(from.choices[k]) != of_carriage) continue;
+            merged.choices.push_back(from.choices[k]);
+            for (std::size_t side = 0; side < 2; ++side)
+                merged.fitted.of_half[side].push_back(from.fitted.of_half[side][k]);
+        }
     };
-    try {
-        is_paired = grow_one_by_one(search, chain, Signal::encoder, share, alone);
-    } catch (...) {
-        take_the_better();
-        throw;
-    }
-    if (is_off(search, chain, Signal::encoder)) take_the_better();
-    return is_paired;
+    add(chain, false);
+    add(other, true);
+    search.judge(merged.fitted);
+    return merged;
 }
 
 /// Adds what was tried later for signals of which nothing was tried before.
@@ -322,11 +320,14 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     Selection selection;
     Chain chain{{}, search.nothing()};
     selection.steps.push_back(chain.fitted);
+    std::optional<Chain> by_forces;
     try {
+        explain_hall_at_once(search, chain);
+        by_forces = balanced(search, chain);
+        if (by_forces && by_forces->choices.size() > chain.choices.size() + most_one_by_one &&
+            !is_off(search, *by_forces, Signal::encoder))
+            chain = *by_forces;
         bool is_paired = explain_hall(search, chain, &selection.alone);
-        std::vector<Trial> moved;
-        is_paired = explain_carriage(search, chain, &moved) || is_paired;
-        add_tried(selection.alone, std::move(moved));
         const int most_effects = static_cast<int>(chain.choices.size()) + options.most_effects;
         std::vector<Trial> tried;
         is_paired = grow(search, chain, most_effects, &tried) || is_paired;
@@ -342,6 +343,10 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     }
     evidence.budget().end_search();
     search.limit(false);
+    if (by_forces && is_off(search, chain, Signal::encoder)) {
+        Chain merged = with_carriage_of(search, chain, *by_forces);
+        if (is_better(search, merged, chain)) chain = std::move(merged);
+    }
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     try {
         if (search.is_at_floor(chain.fitted)) selection.limits = limits_in(chain);

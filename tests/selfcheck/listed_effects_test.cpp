@@ -86,7 +86,7 @@ const std::vector<Pair>& pairs() {
              rig.friction.coulomb_V = 0.09;
              rig.friction.bristles = reference::Bristles{0.9, 0.002};
          },
-         {0.09, 100.0, 0.002}},
+         {0.09, 100.0, 0.002, 0.0}},
         {"rail_patch",
          [](Departures& rig) {
              rig.friction.patch_V = 0.2;

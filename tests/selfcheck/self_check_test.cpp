@@ -151,7 +151,6 @@ INSTANTIATE_TEST_SUITE_P(
         KnownCase{"WaveThatIsPolishedTwice", 2106, 67, "cogging", is_followed_to_the_floor},
         KnownCase{"WaveOfThreeMillivoltsBesideAMass", 2104, 154, "cogging", is_all_right},
         KnownCase{"WeakWaveBesideAMass", 2094, 325, "payload", is_all_right},
-        KnownCase{"WeakWaveBesideBristles", 2086, 106, "presliding", is_followed_to_the_floor},
         // Bristles that the catalogue lacks are friction and a mass, which leave next to nothing.
         KnownCase{"BristlesThatAreNotKnown", 2094, 190, "presliding", has_right_block},
         // Where the tags are smeared they say nothing of the camera's geometry, and few others move.

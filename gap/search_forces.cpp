@@ -1,0 +1,187 @@
+// An explanation of the carriage from where its forces balance.
+#include "core/rig.h"
+#include "gap/everything.h"
+#include "gap/force_regression.h"
+#include "gap/halves.h"
+#include "gap/parallel.h"
+#include "gap/score.h"
+#include "gap/search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace fidservo::gap {
+namespace {
+
+/// What moves the carriage.
+Hypothesis moving_carriage(Hypothesis hypothesis) {
+    std::erase_if(hypothesis, [](const plant::EffectSetting& setting) {
+        return !teachers_of(*setting.effect)[index_of(Signal::encoder)];
+    });
+    return hypothesis;
+}
+
+std::size_t place_of_least(const std::vector<double>& values) {
+    return static_cast<std::size_t>(std::ranges::min_element(values) - values.begin());
+}
+
+/// A setting, and with each refinement that its effect may have, and each other choice.
+std::vector<plant::EffectSetting> with_refinements(const plant::EffectSetting& setting) {
+    std::vector<plant::EffectSetting> all{setting};
+    const auto add = [&](std::size_t parameter, double value) {
+        all.push_back(setting);
+        all.back().values[parameter] = value;
+    };
+    for (const Refinement& refinement : refinements_of(*setting.effect))
+        for (const double value : refinement.values) add(refinement.parameter, value);
+    for (std::size_t k = 0; k < setting.values.size(); ++k) {
+        const plant::EffectParameter& parameter = setting.effect->parameters[k];
+        if (parameter.is_choice)
+            add(k, parameter.is_high(setting.values[k]) ? parameter.low : parameter.high);
+    }
+    return all;
+}
+
+/// A model as it is, and with one of its effects in another form: richer, or refined. The balance does not
+/// see how a carriage stands.
+std::vector<BalancedModel> forms_of(const BalancedModel& model, const std::vector<Candidate>& candidates) {
+    std::vector<BalancedModel> forms{model};
+    for (std::size_t at = 0; at < model.settings.size(); ++at) {
+        const auto add = [&](const Candidate& candidate, const plant::EffectSetting& plain) {
+            for (plant::EffectSetting& setting : with_refinements(plain)) {
+                forms.push_back(model);
+                forms.back().candidates[at] = &candidate;
+                forms.back().settings[at] = std::move(setting);
+            }
+        };
+        add(*model.candidates[at], model.settings[at]);
+        for (const Candidate& richer : candidates)
+            if (std::ranges::find(model.candidates, &richer) == model.candidates.end())
+                for (const plant::EffectSetting& form : rich_forms(model.settings[at], richer))
+                    add(richer, form);
+    }
+    return forms;
+}
+
+/// A model's candidates, and what else is smooth and is neither a form of one of these nor of another.
+std::vector<const Candidate*> smooth_beside(const Rig& rig, const BalancedModel& model,
+                                            const std::vector<Candidate>& candidates) {
+    std::vector<const Candidate*> all = model.candidates;
+    for (const Candidate& candidate : candidates) {
+        const auto is_a_form = [&](const Candidate* other) {
+            return other->class_name == candidate.class_name ||
+                   is_limit_of(other->effect->name, candidate.effect->name) ||
+                   is_limit_of(candidate.effect->name, other->effect->name);
+        };
+        if (is_smooth_of_carriage(rig, candidate) && std::ranges::none_of(all, is_a_form))
+            all.push_back(&candidate);
+    }
+    return all;
+}
+
+/// Models where the carriage is followed with them, beside what is known, in one half of the windows.
+class FollowedHalf {
+  public:
+    FollowedHalf(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted)
+        : evidence_(evidence), wanted_(wanted), predict_([&evidence, &known, &wanted](const auto& settings) {
+              Hypothesis whole = known;
+              whole.insert(whole.end(), settings.begin(), settings.end());
+              return evidence.errors(whole, wanted);
+          }) {}
+
+    double loss(const Hypothesis& settings) const {
+        return total_loss(evidence_.windows(), wanted_, predict_(settings));
+    }
+
+    std::vector<double> losses(const std::vector<BalancedModel>& models) const {
+        std::vector<double> losses(models.size());
+        parallel_for(models.size(), [&](std::size_t k) { losses[k] = loss(models[k].settings); });
+        return losses;
+    }
+
+    Fit fitted(const Hypothesis& settings) const {
+        return fit(predict_, evidence_.windows(), wanted_, settings);
+    }
+
+    /// The first of some forms of a model, fitted; or another one that follows the carriage better, by more
+    /// than chance, of those that do best unfitted.
+    BalancedModel best_form(std::vector<BalancedModel> forms, double tail) const {
+        constexpr std::size_t most_fitted = 4;
+        const double chance = std::log(static_cast<double>(forms.size()) / tail);
+        const std::vector<double> unfitted = losses(forms);
+        std::vector<std::size_t> order(forms.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::stable_sort(order.begin() + 1, order.end(), {},
+                                 [&](std::size_t form) { return unfitted[form]; });
+        order.resize(std::min(order.size(), most_fitted));
+        std::vector<double> left(order.size());
+        parallel_for(order.size(), [&](std::size_t k) {
+            Fit closer = fitted(forms[order[k]].settings);
+            forms[order[k]].settings = std::move(closer.hypothesis);
+            left[k] = closer.loss;
+        });
+        const std::size_t least = place_of_least(left);
+        return forms[order[left[least] < left.front() - chance ? least : 0]];
+    }
+
+    /// Loss that each effect of a model saves beside the others.
+    std::vector<double> worth(const Hypothesis& settings) const {
+        const double with_all = loss(settings);
+        std::vector<double> worth;
+        for (std::size_t k = 0; k < settings.size(); ++k) {
+            Hypothesis without = settings;
+            without.erase(without.begin() + static_cast<std::ptrdiff_t>(k));
+            worth.push_back(loss(without) - with_all);
+        }
+        return worth;
+    }
+
+  private:
+    const Evidence& evidence_;
+    const Wanted& wanted_;
+    Predict predict_;
+};
+
+}  // namespace
+
+Search::Together Search::forces_beside(const CrossFit& base) {
+    const Evidence& evidence = fitter_.evidence();
+    const double effort_before = evidence.effort();
+    Together found = balanced_beside(base);
+    effort_at_start_ += evidence.effort() - effort_before;
+    return found;
+}
+
+Search::Together Search::balanced_beside(const CrossFit& base) const {
+    const Evidence& evidence = fitter_.evidence();
+    std::vector<const Candidate*> all;
+    for (const Candidate& candidate : candidates_) all.push_back(&candidate);
+    const std::vector<BalancedModel> models =
+        balanced_models(evidence, halves(evidence), moving_carriage(base.of_half[0]), all, options_.tail);
+    if (models.empty()) return {{}, {}, base};
+    std::array<Wanted, 2> wanted;
+    for (std::size_t side = 0; side < 2; ++side)
+        wanted[side] = only_of(evidence.windows(), fitter_.half(side), only(Signal::encoder));
+    const FollowedHalf first(evidence, base.of_half[0], wanted[0]),
+        second(evidence, base.of_half[1], wanted[1]);
+    const BalancedModel model =
+        first.best_form(forms_of(models[place_of_least(first.losses(models))], candidates_), options_.tail);
+    NeededCandidates itself{model.candidates,
+                            {model.settings, second.fitted(model.settings).hypothesis},
+                            first.worth(model.settings)};
+    const Together alone = together(base.of_half, std::move(itself));
+    if (!off(alone.fitted)[index_of(Signal::encoder)]) return alone;
+    try {
+        Together whole = together(
+            base.of_half, needed_of_everything(evidence, smooth_beside(evidence.rig(), model, candidates_),
+                                               base.of_half, model.settings, wanted));
+        return whole.fitted.loss < alone.fitted.loss ? std::move(whole) : alone;
+    } catch (const BudgetEnded&) {
+        return alone;
+    }
+}
+
+}  // namespace fidservo::gap

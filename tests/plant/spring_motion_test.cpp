@@ -1,0 +1,27 @@
+#include "plant/spring_motion.h"
+
+#include <gtest/gtest.h>
+
+namespace fidservo::plant {
+namespace {
+
+/// By the midpoint rule in steps of 1 us; weakly, critically and strongly damped.
+TEST(SpringMotion, OfAnyDamping_IsThatOfItsEquation) {
+    constexpr double step_s = 1e-6, stiffness_per_s2 = 4e4;
+    for (const double damping_per_s : {10.0, 400.0, 3000.0}) {
+        const SpringMotion motion{800.0, stiffness_per_s2, damping_per_s, -3.0};
+        double y = 0.0, v = -3.0;
+        for (int k = 0; k < 20'000; ++k) {
+            const double y_middle = y + 0.5 * step_s * v;
+            const double v_middle = v + 0.5 * step_s * (800.0 - stiffness_per_s2 * y - damping_per_s * v);
+            y += step_s * v_middle;
+            v += step_s * (800.0 - stiffness_per_s2 * y_middle - damping_per_s * v_middle);
+        }
+        const auto [way_mm, mm_per_s] = motion.after(0.02);
+        EXPECT_NEAR(way_mm, y, 1e-6) << damping_per_s;
+        EXPECT_NEAR(mm_per_s, v, 1e-4) << damping_per_s;
+    }
+}
+
+}  // namespace
+}  // namespace fidservo::plant
