@@ -325,7 +325,11 @@ std::vector<BalancedModel> balanced_models(const Evidence& evidence, std::span<c
     const Wanted wanted = only_of(windows, everything(evidence), only(Signal::encoder));
     const ForceBalance balance(evidence, wanted, half_support);
     if (balance.supports().empty()) return {};
-    const std::vector<ForceGroup> groups = groups_of(evidence.rig(), candidates, balance.way_mm());
+    std::vector<const Candidate*> unknown(candidates.begin(), candidates.end());
+    std::erase_if(unknown, [&](const Candidate* candidate) {
+        return std::ranges::find(base, candidate->effect, &plant::EffectSetting::effect) != base.end();
+    });
+    const std::vector<ForceGroup> groups = groups_of(evidence.rig(), unknown, balance.way_mm());
     Columns columns(evidence, balance, base, groups, halves);
     Wanted first_half = wanted;
     for (std::size_t w = 0; w < windows.size(); ++w)

@@ -29,7 +29,7 @@ bool is_force(const Rig& rig, const Candidate& candidate);
 /// The models of one effect, of two, and so on, refined by the balance of one half (gap/balance_fit.h).
 /// @param halves  of every window (gap/halves.h); the first one is fitted
 /// @param base    what is known of the rig
-/// @param candidates  those that are forces are tried, one of a class
+/// @param candidates  those that are forces and not known are tried, one of a class
 /// @param tail  of taking in anything where there is nothing
 std::vector<BalancedModel> balanced_models(const Evidence& evidence, std::span<const std::uint8_t> halves,
                                            const Hypothesis& base,
