@@ -175,10 +175,10 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
     const Together alone = together(base.of_half, std::move(itself));
     if (!off(alone.fitted)[index_of(Signal::encoder)]) return alone;
     try {
-        Together whole = together(
+        const Together whole = together(
             base.of_half, needed_of_everything(evidence, smooth_beside(evidence.rig(), model, candidates_),
                                                base.of_half, model.settings, wanted));
-        return whole.fitted.loss < alone.fitted.loss ? std::move(whole) : alone;
+        return whole.fitted.loss < alone.fitted.loss ? whole : alone;
     } catch (const BudgetEnded&) {
         return alone;
     }

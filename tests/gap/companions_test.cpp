@@ -76,10 +76,11 @@ TEST(Diagnosis, FrictionThatDoesNotCreep_HasNoCreepSpeed) {
         EXPECT_NE(parameter.name, "creep_mm_per_s");
 }
 
+/// Of effects that no balance of forces shows.
 TEST(SlowDiagnosis, SearchWhoseEffortIsSpent_KeepsWhatItHasFoundAndSaysSo) {
     const Evidence evidence =
-        campaign(effects({"drive_gain:factor=0.9", "cogging"}), {"macro-sweep", "macro-square"});
-    DiagnosisOptions options{.only = {"drive_gain", "payload", "cogging"}, .without = {}, .selection = {}};
+        campaign(effects({"drive_delay:delay_ms=8", "backlash"}), {"macro-sweep", "macro-square"});
+    DiagnosisOptions options{.only = {"drive_delay", "backlash"}, .without = {}, .selection = {}};
     options.selection.search.most_effort = 1e-3;
     const Diagnosis diagnosis = diagnose(evidence, options);
     EXPECT_EQ(names(diagnosis).size(), 1U);

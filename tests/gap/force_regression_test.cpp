@@ -24,8 +24,8 @@ constexpr double tail = 0.01;
 std::vector<BalancedModel> models_of(const Hypothesis& truth, const Hypothesis& known = {}) {
     const Evidence evidence = campaign(truth, {"macro-sweep", "macro-pulses", "macro-square"});
     const std::vector<Candidate> all = candidates(evidence, {}, {});
-    std::vector<const Candidate*> tried;
-    for (const Candidate& candidate : all) tried.push_back(&candidate);
+    std::vector<const Candidate*> tried(all.size());
+    std::ranges::transform(all, tried.begin(), [](const Candidate& candidate) { return &candidate; });
     std::vector<BalancedModel> models = balanced_models(evidence, halves(evidence), known, tried, tail);
     for (BalancedModel& model : models) model.candidates.clear();  // they end with this function
     return models;
