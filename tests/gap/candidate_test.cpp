@@ -41,10 +41,11 @@ TEST(RichForms, OfAPlainEffect_HaveItsSizeAndWhatTheyShare_AlongTheShapes) {
         return rich_forms(effects({plain}).front(), *std::ranges::find_if(all, named));
     };
     const auto bristles = forms_of("coulomb_friction:level_V=0.25", "presliding");
-    ASSERT_EQ(bristles.size(), 3U);
+    ASSERT_EQ(bristles.size(), 6U) << "three lengths, springs or not";
     for (const plant::EffectSetting& form : bristles) EXPECT_EQ(form.values[0], 0.25);
     EXPECT_EQ(bristles[0].values[1], 10.0);
-    EXPECT_EQ(bristles[2].values[1], 250.0);
+    EXPECT_EQ(bristles[5].values[1], 250.0);
+    EXPECT_EQ(bristles[5].values[3], 1.0);
     const auto creeping = forms_of("coulomb_friction:level_V=0.25,creep_mm_per_s=0.4", "stribeck_friction");
     ASSERT_FALSE(creeping.empty());
     for (const plant::EffectSetting& form : creeping) EXPECT_EQ(form.values[2], 0.4);
