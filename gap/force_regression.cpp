@@ -88,12 +88,14 @@ ForceGroup group_of(const Candidate& wave, double period_mm) {
     return group;
 }
 
-/// Neighbouring periods are two fifths of a turn apart over the whole way.
+/// Neighbouring periods are two fifths of a turn apart over the whole way, or as many as can be tried over a
+/// longer one.
 std::vector<double> periods_over(double way_mm) {
-    constexpr double turns_apart = 0.4;
+    constexpr double turns_apart = 0.4, most_periods = 300.0;
+    constexpr double least_per_mm = 1.0 / longest_period_mm, most_per_mm = 1.0 / shortest_period_mm;
+    const double step_per_mm = std::max(turns_apart / way_mm, (most_per_mm - least_per_mm) / most_periods);
     std::vector<double> periods_mm;
-    for (double per_mm = 1.0 / longest_period_mm; per_mm < 1.0 / shortest_period_mm;
-         per_mm += turns_apart / way_mm)
+    for (double per_mm = least_per_mm; per_mm < most_per_mm; per_mm += step_per_mm)
         periods_mm.push_back(1.0 / per_mm);
     return periods_mm;
 }

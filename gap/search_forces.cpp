@@ -24,6 +24,9 @@ Hypothesis moving_carriage(Hypothesis hypothesis) {
     return hypothesis;
 }
 
+/// Of the effort of a search, after which what balances the forces is given up.
+constexpr double share_for_forces = 0.3;
+
 std::size_t place_of_least(const std::vector<double>& values) {
     return static_cast<std::size_t>(std::ranges::min_element(values) - values.begin());
 }
@@ -82,11 +85,13 @@ std::vector<const Candidate*> smooth_beside(const Rig& rig, const BalancedModel&
     return all;
 }
 
-/// Models where the carriage is followed with them, beside what is known, in one half of the windows.
+/// Models where the carriage is followed with them, beside what is known, in one half of the windows. What
+/// is asked once the effort is spent is worth nothing.
 class FollowedHalf {
   public:
-    FollowedHalf(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted)
-        : evidence_(evidence), wanted_(wanted), predict_([&evidence, &known, &wanted](const auto& settings) {
+    FollowedHalf(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted, double most_effort)
+        : evidence_(evidence), wanted_(wanted), predict_([&, most_effort](const auto& settings) {
+              if (evidence.effort() > most_effort) return Errors{};
               Hypothesis whole = known;
               whole.insert(whole.end(), settings.begin(), settings.end());
               return evidence.errors(whole, wanted);
@@ -165,13 +170,15 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
     std::array<Wanted, 2> wanted;
     for (std::size_t side = 0; side < 2; ++side)
         wanted[side] = only_of(evidence.windows(), fitter_.half(side), only(Signal::encoder));
-    const FollowedHalf first(evidence, base.of_half[0], wanted[0]),
-        second(evidence, base.of_half[1], wanted[1]);
+    const double most_effort = evidence.effort() + share_for_forces * options_.most_effort;
+    const FollowedHalf first(evidence, base.of_half[0], wanted[0], most_effort),
+        second(evidence, base.of_half[1], wanted[1], most_effort);
     const BalancedModel model =
         first.best_form(forms_of(models[place_of_least(first.losses(models))], candidates_), options_.tail);
     NeededCandidates itself{model.candidates,
                             {model.settings, second.fitted(model.settings).hypothesis},
                             first.worth(model.settings)};
+    if (evidence.effort() > most_effort) return {{}, {}, base};
     const Together alone = together(base.of_half, std::move(itself));
     if (!off(alone.fitted)[index_of(Signal::encoder)]) return alone;
     try {

@@ -344,8 +344,12 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     evidence.budget().end_search();
     search.limit(false);
     if (by_forces && is_off(search, chain, Signal::encoder)) {
-        Chain merged = with_carriage_of(search, chain, *by_forces);
-        if (is_better(search, merged, chain)) chain = std::move(merged);
+        try {
+            by_forces = with_carriage_of(search, chain, *by_forces);
+        } catch (const BudgetEnded& ended) {
+            selection.ended = ended.how();  // it stands as it was found
+        }
+        if (is_better(search, *by_forces, chain)) chain = *std::move(by_forces);
     }
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     try {
