@@ -155,6 +155,7 @@ class FollowedHalf {
 Search::Together Search::forces_beside(const CrossFit& base) {
     const Evidence& evidence = fitter_.evidence();
     const double effort_before = evidence.effort();
+    if (options_.tell) options_.tell("what balances the carriage's forces");
     Together found = balanced_beside(base);
     effort_at_start_ += evidence.effort() - effort_before;
     return found;

@@ -173,7 +173,7 @@ TEST_F(SharedCase, MotorOfOthers_SignalEndsItWithTheBestUntilThen) {
     const std::filesystem::path json = out_ / "diagnosis.json";
     ChildProcess program({FIDSERVO_PROGRAM, "diagnose", "--rig", (folder_ / "rig.yaml").string(),
                           folder_.string(), "--json", json.string()});
-    EXPECT_TRUE(program.prints(" closer"));
+    EXPECT_TRUE(program.prints(" of at most "));
     program.send(SIGTERM);
     EXPECT_TRUE(program.output_ends());
     EXPECT_EQ(program.wait(), 0) << program.output();
