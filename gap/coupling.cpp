@@ -31,6 +31,16 @@ Places coupled_through(const Hypothesis& hypothesis, SignalFlags signals) {
 
 }  // namespace
 
+bool moves_carriage(const plant::Effect& effect) {
+    return effect.block.starts_with("macro.");
+}
+
+Hypothesis moving_carriage(Hypothesis hypothesis) {
+    std::erase_if(hypothesis,
+                  [](const plant::EffectSetting& setting) { return !moves_carriage(*setting.effect); });
+    return hypothesis;
+}
+
 SignalFlags only(Signal signal) {
     SignalFlags flags{};
     flags[index_of(signal)] = true;

@@ -15,6 +15,12 @@ inline constexpr SignalFlags all_signals{true, true, true, true, true, true};
 
 SignalFlags only(Signal signal);
 
+/// Whether an effect changes how the carriage moves, or how its encoder says so.
+bool moves_carriage(const plant::Effect& effect);
+
+/// Those settings of a hypothesis that do.
+Hypothesis moving_carriage(Hypothesis hypothesis);
+
 /// Signals from which the parameters of an effect are learnt: those whose prediction it changes at first
 /// hand. What moves the carriage shows in the tags as well, but says there what the encoder has said;
 /// so does a longer exposure, which the image tells.

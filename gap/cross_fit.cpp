@@ -9,13 +9,6 @@
 #include <utility>
 
 namespace fidservo::gap {
-namespace {
-
-bool moves_carriage(const plant::Effect& effect) {
-    return effect.block.starts_with("macro.");
-}
-
-}  // namespace
 
 CrossFitter::CrossFitter(const Evidence& evidence, std::size_t windows, std::function<bool()> stop)
     : evidence_(evidence), windows_(windows), stop_(std::move(stop)), half_(halves(evidence)) {}

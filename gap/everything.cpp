@@ -1,9 +1,10 @@
 #include "gap/everything.h"
 
+#include "core/median.h"
 #include "gap/fit.h"
+#include "gap/force_balance.h"
 #include "gap/minimum_norm.h"
 #include "gap/score.h"
-#include "plant/effects/catalogue.h"
 
 #include <algorithm>
 #include <array>
@@ -109,10 +110,7 @@ double median_square(const Evidence& evidence, const Errors& errors, const Wante
     std::vector<double> squares;
     for (std::size_t w = 0; w < all.size(); ++w)
         if (leading[w] != 0 && !std::isnan(all[w])) squares.push_back(all[w]);
-    if (squares.empty()) return 0.0;
-    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-    std::ranges::nth_element(squares, middle);
-    return *middle;
+    return squares.empty() ? 0.0 : median_of(std::move(squares));
 }
 
 /// From wherever it begins to where nothing gets better, at levels that follow what is left.
@@ -233,13 +231,9 @@ bool is_smooth(const Candidate& candidate) {
     return others == SignalFlags{} && !candidate.wave && !candidate.patch && !candidate.is_limit;
 }
 
-bool is_smooth_of_carriage(const Rig& rig, const Candidate& candidate) {
-    if (!teachers_of(*candidate.effect)[index_of(Signal::encoder)] || candidate.wave || candidate.patch ||
-        candidate.is_limit || candidate.step_within_counts > 0.0)
-        return false;
-    plant::PlantParameters parameters = plant::plant_parameters(rig);
-    candidate.effect->apply(parameters, plant::typical_setting(*candidate.effect).values);
-    return parameters.axis.play_mm == 0.0;
+bool is_smooth_of_carriage(const Candidate& candidate) {
+    return shows_in_balance(*candidate.effect) && !candidate.wave && !candidate.patch &&
+           !candidate.is_limit && candidate.step_within_counts == 0.0;
 }
 
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,

@@ -34,7 +34,7 @@ bool is_smooth(const Candidate& candidate);
 
 /// The same of a carriage that is predicted nearly right: without play, place or period, and what does not
 /// hide within the counts.
-bool is_smooth_of_carriage(const Rig& rig, const Candidate& candidate);
+bool is_smooth_of_carriage(const Candidate& candidate);
 
 /// Of all candidates without a shape of their own, and those begun: fits the first half, keeps what is worth
 /// it there, fits that on the other half too, and keeps what is worth it on both.

@@ -59,7 +59,7 @@ Touched touched_by(const Hypothesis& hypothesis, const Models& models) {
     Touched touched;
     for (const plant::EffectSetting& setting : hypothesis) {
         for (const Signal signal : reach_of(*setting.effect)) touched.signals[index_of(signal)] = true;
-        if (setting.effect->block.starts_with("macro.")) touched.carriage = true;
+        if (moves_carriage(*setting.effect)) touched.carriage = true;
     }
     if (models.carriage.start_offset_count != 0.0) {
         touched.carriage = true;

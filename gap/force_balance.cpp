@@ -3,6 +3,7 @@
 #include "core/dead_zone.h"
 #include "core/rig.h"
 #include "gap/carriage_run.h"
+#include "gap/coupling.h"
 #include "plant/effects/catalogue.h"
 #include "plant/transmission.h"
 
@@ -172,7 +173,7 @@ double ForceBalance::way_mm() const {
 }
 
 bool shows_in_balance(const plant::Effect& effect) {
-    if (!effect.block.starts_with("macro.")) return false;
+    if (!moves_carriage(effect)) return false;
     plant::PlantParameters parameters;
     effect.apply(parameters, plant::typical_setting(effect).values);
     return parameters.axis.play_mm == 0.0;

@@ -1,10 +1,12 @@
 #include "gap/force_regression.h"
 
+#include "core/median.h"
 #include "core/rig.h"
 #include "gap/balance_fit.h"
 #include "gap/coupling.h"
 #include "gap/parallel.h"
 #include "gap/score.h"
+#include "gap/wave_scan.h"
 #include "plant/effects/catalogue.h"
 
 #include <algorithm>
@@ -24,8 +26,8 @@ namespace {
 /// Share of a typical size at which errors are still proportional to it.
 constexpr double small_share = 0.1;
 
-/// Periods of force that are looked for, mm: a belt's teeth are 2 mm apart at least.
-constexpr double shortest_period_mm = 1.9, longest_period_mm = 50.0;
+/// The longest period of force that is looked for.
+constexpr double longest_period_mm = 50.0;
 
 constexpr std::size_t most_balanced = 6;
 
@@ -92,7 +94,7 @@ ForceGroup group_of(const Candidate& wave, double period_mm) {
 /// longer one.
 std::vector<double> periods_over(double way_mm) {
     constexpr double turns_apart = 0.4, most_periods = 300.0;
-    constexpr double least_per_mm = 1.0 / longest_period_mm, most_per_mm = 1.0 / shortest_period_mm;
+    constexpr double least_per_mm = 1.0 / longest_period_mm, most_per_mm = 1.0 / shortest_wave_mm;
     const double step_per_mm = std::max(turns_apart / way_mm, (most_per_mm - least_per_mm) / most_periods);
     std::vector<double> periods_mm;
     for (double per_mm = least_per_mm; per_mm < most_per_mm; per_mm += step_per_mm)
@@ -243,9 +245,7 @@ class Columns {
         constexpr double deviations_of_median = 1.0 / 0.6745, as_usual = 2.0;
         std::vector<double> sizes(left_.data(), left_.data() + left_.size());
         for (double& size : sizes) size = std::abs(size);
-        const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-        std::ranges::nth_element(sizes, middle);
-        const double scale = as_usual * std::max(noise_, deviations_of_median * *middle);
+        const double scale = as_usual * std::max(noise_, deviations_of_median * median_of(std::move(sizes)));
         weights_ = (1.0 + (left_ / scale).array().square()).rsqrt();
     }
 

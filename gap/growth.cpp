@@ -122,11 +122,11 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
             if (is_far_off() && search.scan_for_wave(chain.fitted, chain.candidates())) continue;
             return is_paired;
         }
-        const bool moves_carriage = teachers_of(*trials.front().candidate->effect)[index_of(Signal::encoder)],
+        const bool is_of_carriage = moves_carriage(*trials.front().candidate->effect),
                    moves_wire = is_of_wire(*trials.front().candidate);
         chain = grown_whatever(search, before, std::move(trials));
         search.throw_if_over();
-        if (moves_carriage && !is_balanced) {
+        if (is_of_carriage && !is_balanced) {
             is_balanced = true;
             is_paired = look_further(search, chain, before, most_effects);
             if (!is_paired && is_far_off() && has_valleys(*chain.choices.back().candidate))

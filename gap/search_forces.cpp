@@ -1,8 +1,6 @@
 // An explanation of the carriage from where its forces balance.
-#include "core/rig.h"
 #include "gap/everything.h"
 #include "gap/force_regression.h"
-#include "gap/halves.h"
 #include "gap/parallel.h"
 #include "gap/score.h"
 #include "gap/search.h"
@@ -15,14 +13,6 @@
 
 namespace fidservo::gap {
 namespace {
-
-/// What moves the carriage.
-Hypothesis moving_carriage(Hypothesis hypothesis) {
-    std::erase_if(hypothesis, [](const plant::EffectSetting& setting) {
-        return !teachers_of(*setting.effect)[index_of(Signal::encoder)];
-    });
-    return hypothesis;
-}
 
 /// Of the effort of a search, after which what balances the forces is given up.
 constexpr double share_for_forces = 0.3;
@@ -70,7 +60,7 @@ std::vector<BalancedModel> forms_of(const BalancedModel& model, const std::vecto
 }
 
 /// A model's candidates, and what else is smooth and is neither a form of one of these nor of another.
-std::vector<const Candidate*> smooth_beside(const Rig& rig, const BalancedModel& model,
+std::vector<const Candidate*> smooth_beside(const BalancedModel& model,
                                             const std::vector<Candidate>& candidates) {
     std::vector<const Candidate*> all = model.candidates;
     for (const Candidate& candidate : candidates) {
@@ -79,7 +69,7 @@ std::vector<const Candidate*> smooth_beside(const Rig& rig, const BalancedModel&
                    is_limit_of(other->effect->name, candidate.effect->name) ||
                    is_limit_of(candidate.effect->name, other->effect->name);
         };
-        if (is_smooth_of_carriage(rig, candidate) && std::ranges::none_of(all, is_a_form))
+        if (is_smooth_of_carriage(candidate) && std::ranges::none_of(all, is_a_form))
             all.push_back(&candidate);
     }
     return all;
@@ -166,7 +156,7 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
     std::vector<const Candidate*> all;
     for (const Candidate& candidate : candidates_) all.push_back(&candidate);
     const std::vector<BalancedModel> models =
-        balanced_models(evidence, halves(evidence), moving_carriage(base.of_half[0]), all, options_.tail);
+        balanced_models(evidence, fitter_.half(1), moving_carriage(base.of_half[0]), all, options_.tail);
     if (models.empty()) return {{}, {}, base};
     std::array<Wanted, 2> wanted;
     for (std::size_t side = 0; side < 2; ++side)
@@ -183,9 +173,9 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
     const Together alone = together(base.of_half, std::move(itself));
     if (!off(alone.fitted)[index_of(Signal::encoder)]) return alone;
     try {
-        const Together whole = together(
-            base.of_half, needed_of_everything(evidence, smooth_beside(evidence.rig(), model, candidates_),
-                                               base.of_half, model.settings, wanted));
+        const Together whole =
+            together(base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_),
+                                                        base.of_half, model.settings, wanted));
         return whole.fitted.loss < alone.fitted.loss ? whole : alone;
     } catch (const BudgetEnded&) {
         return alone;

@@ -21,7 +21,7 @@ namespace {
 /// by jumps and slopes mislead.
 bool is_plain(const Candidate& candidate) {
     const bool knows_its_shape = candidate.sizes.size() == unrefined_parameters(*candidate.effect);
-    return !candidate.is_limit && candidate.effect->block.starts_with("macro.") && knows_its_shape;
+    return !candidate.is_limit && moves_carriage(*candidate.effect) && knows_its_shape;
 }
 
 /// At its typical sizes, and at the opposite ones where it has them.
@@ -75,10 +75,7 @@ void Search::add_typical(const CrossFit& base, const Candidate& first, const Can
 const std::vector<ForcePair>& Search::force_pairs(const CrossFit& base,
                                                   std::vector<const Candidate*> candidates) {
     std::erase_if(candidates, [](const Candidate* candidate) { return !is_balanced(*candidate); });
-    Hypothesis known = base.of_half[0];
-    std::erase_if(known, [](const plant::EffectSetting& setting) {
-        return !setting.effect->block.starts_with("macro.");
-    });
+    Hypothesis known = moving_carriage(base.of_half[0]);
     if (last_balance_.base == known && last_balance_.candidates == candidates) return last_balance_.pairs;
     const Evidence& evidence = fitter_.evidence();
     const Wanted wanted = only_of(evidence.windows(), fitter_.half(0), only(Signal::encoder));

@@ -218,16 +218,12 @@ std::optional<Chain> balanced(Search& search, const Chain& chain) {
     return whole;
 }
 
-bool moves_carriage(const Choice& choice) {
-    return teachers_of(*choice.candidate->effect)[index_of(Signal::encoder)];
-}
-
 /// A chain with what another one has of the carriage instead of its own.
 Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& other) {
     Chain merged;
     const auto add = [&](const Chain& from, bool of_carriage) {
         for (std::size_t k = 0; k < from.choices.size(); ++k) {
-            if (moves_carriage(from.choices[k]) != of_carriage) continue;
+            if (moves_carriage(*from.choices[k].candidate->effect) != of_carriage) continue;
             merged.choices.push_back(from.choices[k]);
             for (std::size_t side = 0; side < 2; ++side)
                 merged.fitted.of_half[side].push_back(from.fitted.of_half[side][k]);

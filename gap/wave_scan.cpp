@@ -18,7 +18,7 @@ namespace {
 
 /// Of inverse periods: half a turn over the rail's length; over what a carriage goes as a rule much less.
 constexpr double step_per_mm = 0.005;
-constexpr double shortest_wave_mm = 1.9, longest_wave_mm = 25.0;
+constexpr double longest_wave_mm = 25.0;
 constexpr int phases = 6;
 constexpr double step_rad = 2.0 * std::numbers::pi / phases;
 constexpr std::array speeds_mm_per_s{0.7, 1.5, 4.0};

@@ -10,11 +10,14 @@
 
 namespace fidservo::gap {
 
-/// The wave that predicts windows best, of all periods from 1.9 to 25 mm (a belt's teeth are 2 mm apart at
-/// least), all phases, and amplitudes that move a carriage left alone at 0.7, 1.5 and 4 mm/s. No balance of
-/// forces shows so weak a wave, only which way a carriage goes that the dead zone leaves alone; and as it may
-/// go many ways, nothing leads there from a wave half a turn beside. By successive halving (Jamieson and
-/// Talwalkar 2016): all by a few windows, the best of them by more.
+/// The shortest period of a force along the rail that is looked for: a belt's teeth are 2 mm apart at least.
+inline constexpr double shortest_wave_mm = 1.9;
+
+/// The wave that predicts windows best, of all periods up to 25 mm, all phases, and amplitudes that move a
+/// carriage left alone at 0.7, 1.5 and 4 mm/s. No balance of forces shows so weak a wave, only which way a
+/// carriage goes that the dead zone leaves alone; and as it may go many ways, nothing leads there from a wave
+/// half a turn beside. By successive halving (Jamieson and Talwalkar 2016): all by a few windows, the best of
+/// them by more.
 /// @param predictor  of the windows flagged
 /// @param asked      windows to predict; those in which the base is far off say most
 /// @param candidate  with a wave of force

@@ -168,7 +168,9 @@ const Case& messy_none() {
 
 TEST(SlowCrowdedDraw, MessyRigs_KeepTheirGapsAndAreTheSameAgain) {
     const std::size_t number = first_number_of(CaseKind::messy, 3);
-    expect_messy(draw_crowded_case(nominal(), 3, number).label, true);
+    const Case messy = draw_crowded_case(nominal(), 3, number);
+    expect_messy(messy.label, true);
+    expect_same(messy, draw_crowded_case(nominal(), 3, number));
     expect_messy(messy_none().label, false);
     expect_same(messy_none(), draw_crowded_case(nominal(), 3, first_number_of(CaseKind::messy_none, 3)));
 }
