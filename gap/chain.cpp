@@ -36,12 +36,12 @@ std::vector<const Candidate*> Chain::candidates() const {
     return all;
 }
 
-bool has_room_for_two(const Chain& chain, int most_effects) {
-    return static_cast<int>(chain.choices.size()) + 2 <= most_effects;
+bool has_room_for_two(const Chain& chain, std::size_t most_effects) {
+    return chain.choices.size() + 2 <= most_effects;
 }
 
 Choice choice_of(const Search& search, const CrossFit& beside, std::vector<Trial> trials) {
-    Choice choice{trials.front().candidate, beside.loss, {}, {}};
+    Choice choice{.candidate = trials.front().candidate, .loss_without = beside.loss};
     for (std::size_t k = 1; k < trials.size(); ++k)
         if (trials[k].is_leader && !trials[k].candidate->is_limit && trials[k].gain > least_gain &&
             search.ties(trials[0].fitted, trials[k].fitted))

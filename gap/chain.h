@@ -10,9 +10,10 @@ namespace fidservo::gap {
 /// An effect that was taken in.
 struct Choice {
     const Candidate* candidate = nullptr;
-    double loss_without = 0.0;           ///< of the rest of the explanation alone
-    std::vector<Trial> alternatives;     ///< everything that was tried in its place, itself first
-    std::vector<const Candidate*> ties;  ///< of these, what does as well
+    double loss_without = 0.0;                ///< of what it was tried beside, alone
+    std::vector<Trial> alternatives = {};     ///< everything that was tried in its place, itself first
+    std::vector<const Candidate*> ties = {};  ///< of these, what does as well
+    CrossFit left_out = {};  ///< the whole explanation without it, fitted anew; empty: not worked out
 };
 
 /// Effects, and the rig as it is explained with all of them.
@@ -23,7 +24,7 @@ struct Chain {
     std::vector<const Candidate*> candidates() const;
 };
 
-bool has_room_for_two(const Chain& chain, int most_effects);
+bool has_room_for_two(const Chain& chain, std::size_t most_effects);
 
 /// What was tried beside a cross fit, the first of it taken in.
 Choice choice_of(const Search& search, const CrossFit& beside, std::vector<Trial> trials);

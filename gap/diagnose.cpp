@@ -1,8 +1,9 @@
 #include "gap/diagnose.h"
 
 #include "gap/gap_size.h"
-#include "gap/posterior.h"
-#include "gap/trust.h"
+#include "gap/model_weights.h"
+#include "gap/remainder.h"
+#include "gap/standing.h"
 #include "gap/undecided.h"
 #include "gap/unpredictable.h"
 #include "plant/effects/catalogue.h"
@@ -17,24 +18,6 @@
 
 namespace fidservo::gap {
 namespace {
-
-/// Probabilities of the alternatives of a choice, the one of no further effect at the end.
-std::vector<double> shares_of(const std::vector<Trial>& trials, double loss_without) {
-    std::vector<double> losses;
-    losses.reserve(trials.size() + 1);
-    for (const Trial& trial : trials) losses.push_back(loss_without - trial.gain);
-    losses.push_back(loss_without);
-    return probabilities(losses);
-}
-
-/// Sum over the effects of a class.
-double probability_of_class(const Choice& choice) {
-    const std::vector<double> shares = shares_of(choice.alternatives, choice.loss_without);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < choice.alternatives.size(); ++k)
-        if (choice.alternatives[k].candidate->class_name == choice.candidate->class_name) sum += shares[k];
-    return sum;
-}
 
 std::vector<std::string> indistinguishable(const Choice& choice) {
     std::vector<std::string> names;
@@ -78,7 +61,7 @@ std::vector<FittedParameter> parameters_of(const plant::EffectSetting& setting,
 }
 
 std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection,
-                                       const Fit& fitted) {
+                                       const std::vector<Support>& supports, const Fit& fitted) {
     std::vector<FoundEffect> found;
     const std::vector<double>& before = selection.steps.front().mean_squares;
     const std::array<Hypothesis, 2>& halves = selection.steps.back().of_half;
@@ -89,7 +72,8 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
         const auto [low, high] = removed_interval(evidence, before, after);
         found.push_back({.effect = std::string(choice.candidate->effect->name),
                          .block = std::string(choice.candidate->effect->block),
-                         .probability = probability_of_class(choice),
+                         .probability = calibrated_probability(supports[k]),
+                         .support = supports[k],
                          .parameters = parameters_of(fitted.hypothesis[k], {halves[0][k], halves[1][k]},
                                                      fitted.covariance, first),
                          .indistinguishable_from = indistinguishable(choice),
@@ -104,13 +88,13 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
 
 std::vector<TriedEffect> tried_effects(const Evidence& evidence, const Selection& selection) {
     const CrossFit& nothing = selection.steps.front();
-    const std::vector<double> shares = shares_of(selection.alone, nothing.loss);
+    const std::vector<double> weights = weights_of_trials(evidence, selection.alone, nothing);
     std::vector<TriedEffect> tried;
     for (std::size_t k = 0; k < selection.alone.size(); ++k) {
         const Trial& trial = selection.alone[k];
         tried.push_back(
             {std::string(trial.candidate->effect->name), std::string(trial.candidate->effect->block),
-             shares[k],
+             weights[k],
              trial.fitted.mean_squares.empty()
                  ? 0.0
                  : total_gap(signal_gaps(evidence, nothing.mean_squares, trial.fitted.mean_squares))
@@ -147,33 +131,26 @@ void accuse(std::vector<BlockProbability>& where, const std::string& block, doub
     });
 }
 
-/// Whether an effect leaves nothing of the signals that it is learnt from while others are off their floors:
-/// what is left there says nothing against it.
-bool leaves_nothing_of_its_own(const Evidence& evidence, const Choice& choice, const CrossFit& explained) {
-    const auto is_at_floor = [&](const std::vector<double>& squares) {
-        return trust_in(typical_floors(evidence.windows(), squares)) == 1.0;
-    };
-    const SignalFlags own = teachers_of(*choice.candidate->effect);
-    std::vector<double> squares = explained.mean_squares;
-    for (std::size_t w = 0; w < squares.size(); ++w)
-        if (!own[index_of(evidence.windows()[w].signal)])
-            squares[w] = std::numeric_limits<double>::quiet_NaN();
-    return is_at_floor(squares) && !is_at_floor(explained.mean_squares);
-}
-
-/// Of each block that one of its effects, as far as the choices tell, is part of the explanation.
-std::vector<BlockProbability> blocks_of(const Selection& selection, double trust) {
+/// Of each block that one of its effects, as far as the weights tell, is part of the explanation.
+std::vector<BlockProbability> blocks_of(const Selection& selection, const std::vector<ChoiceWeights>& weights,
+                                        const std::vector<FoundEffect>& found) {
     std::vector<BlockProbability> where;
-    for (const Choice& choice : selection.choices) {
-        const std::vector<double> shares = shares_of(choice.alternatives, choice.loss_without);
+    for (std::size_t c = 0; c < selection.choices.size(); ++c) {
+        const Choice& choice = selection.choices[c];
         const std::string block_of_class = likeliest_block(choice);
         std::map<std::string, double> here;
+        double named = 0.0;
         for (std::size_t k = 0; k < choice.alternatives.size(); ++k) {
             const Candidate& candidate = *choice.alternatives[k].candidate;
-            const bool is_of_class = candidate.class_name == choice.candidate->class_name;
-            here[is_of_class ? block_of_class : std::string(candidate.effect->block)] += shares[k];
+            const double weight = weights[c].of_alternatives[k];
+            if (candidate.class_name == choice.candidate->class_name)
+                named += weight;
+            else
+                here[std::string(candidate.effect->block)] += weight;
         }
-        for (const auto& [block, probability] : here) accuse(where, block, trust * probability);
+        here[block_of_class] += named;
+        const double all = named > 0.0 ? found[c].probability / named : 0.0;
+        for (const auto& [block, weight] : here) accuse(where, block, std::min(1.0, all * weight));
     }
     std::erase_if(where, [](const BlockProbability& block) { return block.probability <= 1e-4; });
     return where;
@@ -185,6 +162,25 @@ double certainty_of(const Remainder& missing) {
     constexpr double any_of_them = 0.5;
     const bool is_of_a_stage = missing.block.starts_with("macro.") || missing.block.starts_with("micro.");
     return is_of_a_stage && missing.depends_on.empty() ? any_of_them : 1.0;
+}
+
+/// Where nothing is named, what nearly was: an effect that must not be named left nothing, so that it is what
+/// the richer ones of its block come to at a limit; or the errors were found to depend on nothing, but one
+/// effect predicts them better than any other.
+std::string block_of_nameless(const Selection& selection, const Remainder& remainder) {
+    const auto is_of_richer = [&](const Candidate* limit) {
+        return std::ranges::all_of(selection.alone, [&](const Trial& trial) {
+            return !is_limit_of(limit->effect->name, trial.candidate->effect->name) ||
+                   trial.candidate->effect->block == limit->effect->block;
+        });
+    };
+    const auto limit = std::ranges::find_if(selection.limits, is_of_richer);
+    if (limit != selection.limits.end()) return std::string((*limit)->effect->block);
+    if (!remainder.depends_on.empty() || !remainder.block.starts_with("macro.") || selection.alone.empty())
+        return remainder.block;
+    const Trial& best = *std::ranges::max_element(selection.alone, {}, &Trial::gain);
+    const std::string_view block = best.candidate->effect->block;
+    return best.gain > least_gain && block.starts_with("macro.") ? std::string(block) : remainder.block;
 }
 
 /// Leaves out what nobody can predict. Returns how many windows of the encoder that is.
@@ -205,35 +201,59 @@ Verdict verdict_of(const Selection& selection, bool something_is_left) {
     return something_is_left ? Verdict::partly_explained : Verdict::explained;
 }
 
+/// What can be said without another prediction: how large the gap is, the names and how probable they are.
+/// @param whole  what the gap depends on where nothing is named; none where that is not known
+void say_what_is_named(const Evidence& evidence, const Selection& selection, const Fit& fitted,
+                       const std::optional<Remainder>& whole, Diagnosis& diagnosis) {
+    std::vector<ChoiceWeights> weights;
+    for (const Choice& choice : selection.choices)
+        weights.push_back(weights_of(evidence, choice, selection.steps.back().mean_squares));
+    diagnosis.hypothesis = fitted.hypothesis;
+    diagnosis.signals =
+        signal_gaps(evidence, selection.steps.front().mean_squares, selection.steps.back().mean_squares);
+    diagnosis.gap = total_gap(diagnosis.signals);
+    diagnosis.effects =
+        found_effects(evidence, selection, supports(evidence, selection, weights, whole), fitted);
+    diagnosis.candidates = tried_effects(evidence, selection);
+    diagnosis.where = blocks_of(selection, weights, diagnosis.effects);
+}
+
+double mean_probability(const std::vector<FoundEffect>& effects) {
+    double sum = 0.0;
+    for (const FoundEffect& effect : effects) sum += effect.probability;
+    return effects.empty() ? 0.0 : sum / static_cast<double>(effects.size());
+}
+
+/// Which block is accused beside the names, and how likely it is the cause rather than they.
+void accuse_what_is_left(const Selection& selection, const std::optional<Remainder>& whole,
+                         Diagnosis& diagnosis) {
+    Remainder& left = *diagnosis.unexplained;
+    const double in_names = mean_probability(diagnosis.effects);
+    if (selection.choices.empty())
+        left.block = block_of_nameless(selection, left);
+    else if (whole && in_names <= 0.5)
+        left.block = whole->block;  // the names stand in for something else
+    accuse(diagnosis.where, left.block,
+           (1.0 - in_names) * (selection.choices.empty() ? certainty_of(left) : 1.0));
+}
+
 /// What the search has found, with what it is worth.
 Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tried, Selection selection,
                      double tail) {
     Diagnosis diagnosis;
     const std::ptrdiff_t left_out = leave_out_unpredictable(evidence, selection);
-    const CrossFit& nothing = selection.steps.front();
     const CrossFit& explained = selection.steps.back();
-    const Fit fitted = fit_to_all(evidence, explained);
-    diagnosis.hypothesis = fitted.hypothesis;
-    diagnosis.signals = signal_gaps(evidence, nothing.mean_squares, explained.mean_squares);
-    diagnosis.gap = total_gap(diagnosis.signals);
-    const Trust trust = trust_of(evidence, selection, diagnosis.gap, tail);
-    diagnosis.unexplained = trust.missing;
-    diagnosis.effects = found_effects(evidence, selection, fitted);
-    for (std::size_t k = 0; k < diagnosis.effects.size(); ++k) {
-        const bool is_cleared =
-            trust.missing && leaves_nothing_of_its_own(evidence, selection.choices[k], explained);
-        diagnosis.effects[k].probability *= worth_of_names(is_cleared ? 1.0 : trust.in_names);
-    }
-    diagnosis.candidates = tried_effects(evidence, selection);
-    diagnosis.where = blocks_of(selection, trust.in_names);
-    if (trust.missing)
-        accuse(diagnosis.where, trust.missing->block,
-               (1.0 - trust.in_names) * (selection.choices.empty() ? certainty_of(*trust.missing) : 1.0));
+    std::optional<Remainder> whole;
+    if (!selection.choices.empty()) whole = remainder_of(evidence, selection.steps.front(), tail);
+    say_what_is_named(evidence, selection, fit_to_all(evidence, explained), whole, diagnosis);
+    diagnosis.unexplained = remainder_of(evidence, explained, tail);
+    if (!diagnosis.unexplained && mean_probability(diagnosis.effects) <= 0.5) diagnosis.unexplained = whole;
+    diagnosis.verdict = verdict_of(selection, diagnosis.unexplained.has_value());
+    if (diagnosis.unexplained) accuse_what_is_left(selection, whole, diagnosis);
     if (diagnosis.unexplained && selection.choices.empty()) {
         const std::string wanting = what_is_wanting(evidence, selection);
         if (!wanting.empty()) diagnosis.unexplained->text += "; " + wanting;
     }
-    diagnosis.verdict = verdict_of(selection, trust.missing.has_value());
     diagnosis.notes = undecided(evidence, tried, selection);
     if (left_out > 0)
         diagnosis.notes.push_back(
@@ -244,30 +264,17 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
 }
 
 /// The same without another prediction: values as one half gives them, uncertain by how far the other one is
-/// from it; names that leave something trusted by the share of the gap that they remove.
+/// from it.
 Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection) {
     constexpr double at_the_floor = 1.1;
     Diagnosis diagnosis;
-    const CrossFit& nothing = selection.steps.front();
-    const CrossFit& explained = selection.steps.back();
-    diagnosis.hypothesis = explained.of_half[0];
-    diagnosis.signals = signal_gaps(evidence, nothing.mean_squares, explained.mean_squares);
-    diagnosis.gap = total_gap(diagnosis.signals);
+    const Hypothesis& hypothesis = selection.steps.back().of_half[0];
     Eigen::Index parameters = 0;
-    for (const plant::EffectSetting& setting : diagnosis.hypothesis)
+    for (const plant::EffectSetting& setting : hypothesis)
         parameters += static_cast<Eigen::Index>(setting.values.size());
-    const Fit fitted{.hypothesis = diagnosis.hypothesis,
-                     .loss = 0.0,
-                     .covariance = Eigen::MatrixXd::Zero(parameters, parameters)};
-    diagnosis.effects = found_effects(evidence, selection, fitted);
-    const double trust = diagnosis.gap.removed();
-    for (std::size_t k = 0; k < diagnosis.effects.size(); ++k)
-        diagnosis.effects[k].probability *=
-            leaves_nothing_of_its_own(evidence, selection.choices[k], explained)
-                ? worth_of_names(1.0)
-                : std::min(trust, worth_of_names(1.0));
-    diagnosis.candidates = tried_effects(evidence, selection);
-    diagnosis.where = blocks_of(selection, trust);
+    const Fit fitted{
+        .hypothesis = hypothesis, .loss = 0.0, .covariance = Eigen::MatrixXd::Zero(parameters, parameters)};
+    say_what_is_named(evidence, selection, fitted, {}, diagnosis);
     diagnosis.verdict = verdict_of(selection, diagnosis.gap.after > at_the_floor);
     return diagnosis;
 }

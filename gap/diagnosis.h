@@ -15,6 +15,7 @@ std::string_view name_of(Verdict verdict);
 struct SignalGap {
     Signal signal;
     double before, after, floor;
+    double discrepancy = 0.0;  ///< of `after`, what no named effect explains: beyond what noise leaves
 };
 
 struct BlockProbability {
@@ -27,10 +28,30 @@ struct FittedParameter {
     double value, std;
 };
 
+/// What speaks for a name.
+struct Support {
+    /// Of the explanations that were tried in its place, the weight of those that have it, or what these
+    /// recordings cannot tell from it (gap/model_weights.h).
+    double weight = 0.0;
+    /// What is left of that of the signals which teach it in which it matters most (typical_floors).
+    double left_floors = 1.0;
+    double without_floors = 1.0;  ///< the same without it
+    double gap_without = 1.0;     ///< the whole gap without it, in floors
+    double gap_left = 0.0;        ///< share of the whole gap that all names together leave
+    double names = 1.0;           ///< how many effects are named
+    /// Whether the whole gap, analysed without names, accuses a block that is named: 1; one of the same stage
+    /// or of the view that is not: 0; neither: 0.5.
+    double agreement = 0.5;
+    /// By how much its size differs from one half of the windows to the other, over its mean.
+    double halves_apart = 0.0;
+    bool is_at_bound = false;  ///< whether a value has gone as far from what is usual as it may
+};
+
 /// An effect taken into the explanation.
 struct FoundEffect {
     std::string effect, block;
     double probability;
+    Support support = {};
     std::vector<FittedParameter> parameters;
     std::vector<std::string> indistinguishable_from;
     /// Of these, as fitted, what other recordings could tell from it.
@@ -68,7 +89,7 @@ struct Diagnosis {
     Verdict verdict = Verdict::no_gap;
     std::vector<SignalGap> signals;
     std::vector<BlockProbability> where;  ///< most likely first
-    std::vector<FoundEffect> effects;     ///< what the rest can least do without first
+    std::vector<FoundEffect> effects;     ///< that first whose lack leaves the largest gap
     std::vector<TriedEffect> candidates;  ///< most likely first
     TotalGap gap{1.0, 1.0};
     std::optional<Remainder> unexplained;

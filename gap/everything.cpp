@@ -5,6 +5,7 @@
 #include "gap/force_balance.h"
 #include "gap/minimum_norm.h"
 #include "gap/score.h"
+#include "gap/shape_screening.h"
 
 #include <algorithm>
 #include <array>
@@ -70,22 +71,6 @@ class Incremental {
     Errors known_;
 };
 
-plant::EffectSetting of_no_size(const Candidate& candidate) {
-    plant::EffectSetting setting{candidate.effect, candidate.shapes.front()};
-    for (const std::size_t k : candidate.sizes) setting.values[k] = candidate.effect->parameters[k].vanishing;
-    return setting;
-}
-
-/// Whether it has parameters that say neither how large it is nor what it may be without.
-bool has_a_shape(const Candidate& candidate) {
-    const auto& parameters = candidate.effect->parameters;
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-        const bool is_size = std::ranges::find(candidate.sizes, k) != candidate.sizes.end();
-        if (!is_size && !parameters[k].is_choice && parameters[k].negligible == 0.0) return true;
-    }
-    return false;
-}
-
 /// A fit is near where half of the windows that were off at its start are at less than this mean square.
 constexpr double near_square = 2.0;
 
@@ -116,8 +101,8 @@ double median_square(const Evidence& evidence, const Errors& errors, const Wante
 /// From wherever it begins to where nothing gets better, at levels that follow what is left.
 Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
                       const Wanted& leading, Hypothesis start, double sizes) {
-    constexpr int most_levels = 6, iterations_a_level = 3;
-    constexpr double hardly_less = 0.8;
+    constexpr int most_levels = 6, iterations_a_level = 8;
+    constexpr double hardly_less = 0.5, tolerance = 0.02;
     double last = std::numeric_limits<double>::infinity();
     for (int level = 0; level < most_levels; ++level) {
         const double square = median_square(evidence, predict(start), leading);
@@ -125,6 +110,7 @@ Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wa
         last = square;
         start = fit(predict, evidence.windows(), wanted, start,
                     {.most_iterations = iterations_a_level,
+                     .tolerance = tolerance,
                      .scale_floors = std::sqrt(1.0 + square),
                      .expected_sizes = sizes})
                     .hypothesis;
@@ -133,13 +119,14 @@ Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wa
 }
 
 Fit fitted_closely(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
-                   const Hypothesis& start, double sizes) {
-    constexpr int most_iterations = 15;
-    constexpr double tolerance = 1e-6;
+                   const Hypothesis& start, double sizes, double scale_floors, int most_iterations) {
+    constexpr double tolerance = 1e-6, hardly_worth = 0.01 * least_worth;
     return fit(predict, evidence.windows(), wanted, start,
                {.most_iterations = most_iterations,
                 .tolerance = tolerance,
+                .least_improvement = hardly_worth,
                 .with_covariance = true,
+                .scale_floors = scale_floors,
                 .expected_sizes = sizes});
 }
 
@@ -222,6 +209,19 @@ struct Chosen {
     }
 };
 
+/// All candidates without a shape of their own, as large as nothing, and those begun as they are.
+Chosen begun_with(std::span<const Candidate* const> candidates, const Hypothesis& begun) {
+    Chosen chosen;
+    for (const Candidate* candidate : candidates) {
+        const auto known = std::ranges::find(begun, candidate->effect, &plant::EffectSetting::effect);
+        if (known == begun.end() && has_a_shape(*candidate)) continue;
+        chosen.candidates.push_back(candidate);
+        chosen.settings.push_back(known != begun.end() ? *known
+                                                       : of_size(*candidate, candidate->shapes.front(), 0.0));
+    }
+    return chosen;
+}
+
 }  // namespace
 
 bool is_smooth(const Candidate& candidate) {
@@ -239,56 +239,83 @@ bool is_smooth_of_carriage(const Candidate& candidate) {
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
                                       const std::array<Wanted, 2>& wanted) {
+    // Most of what is not needed shows before values are known closely.
+    constexpr std::array iterations{4, 15};
     std::array<Incremental, 2> incremental{Incremental(evidence, beside[0], wanted[0]),
                                            Incremental(evidence, beside[1], wanted[1])};
-    const Predict predict = std::ref(incremental[0]), predict_other = std::ref(incremental[1]);
-    Chosen chosen;
-    for (const Candidate* candidate : candidates) {
-        const auto known = std::ranges::find(begun, candidate->effect, &plant::EffectSetting::effect);
-        if (known == begun.end() && has_a_shape(*candidate)) continue;
-        chosen.candidates.push_back(candidate);
-        chosen.settings.push_back(known != begun.end() ? *known : of_no_size(*candidate));
-    }
-    const Wanted leading = windows_off(evidence, wanted[0], predict(chosen.settings));
+    const std::array<Predict, 2> predict{std::ref(incremental[0]), std::ref(incremental[1])};
+    Chosen chosen = begun_with(candidates, begun);
+    const Wanted leading = windows_off(evidence, wanted[0], predict[0](chosen.settings));
     chosen.settings =
-        approached(evidence, predict, wanted[0], leading, std::move(chosen.settings), expected_sizes);
-    const bool is_near = median_square(evidence, predict(chosen.settings), leading) < near_square;
+        approached(evidence, predict[0], wanted[0], leading, std::move(chosen.settings), expected_sizes);
+    const double square = median_square(evidence, predict[0](chosen.settings), leading);
+    const bool is_near = square < near_square;
     if (!is_near && begun.empty()) return {};
-    Fit fitted;
-    const auto fit_again = [&](double sizes) {
-        fitted = fitted_closely(evidence, predict, wanted[0], chosen.settings, sizes);
-        chosen.settings = fitted.hypothesis;
+    const double scale_floors = is_near ? 1.0 : std::sqrt(1.0 + square);
+    std::array<Fit, 2> fitted;
+    const auto fit_half = [&](std::size_t side, double sizes, int most_iterations) {
+        fitted[side] = fitted_closely(evidence, predict[side], wanted[side], chosen.settings, sizes,
+                                      scale_floors, most_iterations);
     };
-    const auto prune = [&] {
+    const auto fit_first = [&](double sizes, int most_iterations) {
+        fit_half(0, sizes, most_iterations);
+        chosen.settings = fitted[0].hypothesis;
+    };
+    const auto prune = [&](int most_iterations) {
         while (!chosen.candidates.empty()) {
-            const std::vector<std::size_t> rest = kept(chosen.candidates, fitted);
+            const std::vector<std::size_t> rest = kept(chosen.candidates, fitted[0]);
             const bool is_all = rest.size() == chosen.candidates.size();
             chosen.keep(rest);
             if (is_all || rest.empty()) break;
-            fit_again(0.0);
+            fit_first(0.0, most_iterations);
         }
     };
-    fit_again(expected_sizes);
-    prune();
-    NeededCandidates needed;
-    while (!chosen.candidates.empty()) {
-        const Fit other = fitted_closely(evidence, predict_other, wanted[1], chosen.settings, 0.0);
-        const std::vector<double> here = worth_of_each(chosen.candidates, fitted),
-                                  there = worth_of_each(chosen.candidates, other);
-        std::vector<std::size_t> rest;
-        for (std::size_t c = 0; c < here.size(); ++c)
-            if (std::min(here[c], there[c]) >= least_worth) rest.push_back(c);
-        if (rest.size() == here.size()) {
-            needed = {chosen.candidates, {chosen.settings, other.hypothesis}, {}};
-            for (std::size_t c = 0; c < here.size(); ++c) needed.worth.push_back(here[c] + there[c]);
-            break;
+    double sizes = expected_sizes;
+    std::vector<double> worth;
+    for (const int most_iterations : iterations)
+        for (bool is_all = false; !is_all && !chosen.candidates.empty(); sizes = 0.0) {
+            fit_first(sizes, most_iterations);
+            prune(most_iterations);
+            if (chosen.candidates.empty()) break;
+            fit_half(1, 0.0, most_iterations);
+            const std::vector<double> here = worth_of_each(chosen.candidates, fitted[0]),
+                                      there = worth_of_each(chosen.candidates, fitted[1]);
+            std::vector<std::size_t> rest;
+            worth.clear();
+            for (std::size_t c = 0; c < here.size(); ++c) {
+                worth.push_back(here[c] + there[c]);
+                if (std::min(here[c], there[c]) >= least_worth) rest.push_back(c);
+            }
+            is_all = rest.size() == here.size();
+            chosen.keep(rest);
         }
-        chosen.keep(rest);
-        if (rest.empty()) break;
-        fit_again(0.0);
-        prune();
+    if (chosen.candidates.empty()) return {};
+    return {chosen.candidates, {fitted[0].hypothesis, fitted[1].hypothesis}, std::move(worth)};
+}
+
+Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,
+                            const Hypothesis& beside, const Hypothesis& begun, const Wanted& wanted) {
+    constexpr double share_of_best = 0.5;
+    const Predict predict = [&](const Hypothesis& settings) {
+        Hypothesis whole = beside;
+        whole.insert(whole.end(), settings.begin(), settings.end());
+        return evidence.errors(whole, wanted);
+    };
+    const Chosen others = begun_with(candidates, begun);
+    std::vector<const Candidate*> shaped;
+    for (const Candidate* candidate : candidates)
+        if (std::ranges::find(others.candidates, candidate) == others.candidates.end())
+            shaped.push_back(candidate);
+    const Errors errors = predict(others.settings);
+    const double square = median_square(evidence, errors, windows_off(evidence, wanted, errors));
+    Hypothesis best;
+    double most = 0.0;
+    for (const ScreenedShape& shape : screened_shapes(predict, evidence.windows(), wanted, others.settings,
+                                                      shaped, std::sqrt(1.0 + square), expected_sizes)) {
+        most = std::max(most, shape.gain);
+        if (shape.gain >= share_of_best * most) best.push_back(shape.setting);
     }
-    return needed;
+    return best;
 }
 
 }  // namespace fidservo::gap

@@ -46,4 +46,11 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
                                       const std::array<Wanted, 2>& wanted);
 
+/// Of those candidates that have a shape of their own and are not begun, the settings which promise most
+/// beside everything else (gap/shape_screening.h), best first: one a candidate, and none that promises less
+/// than half of the best.
+/// @param beside, wanted  of the first half; otherwise as above
+Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,
+                            const Hypothesis& beside, const Hypothesis& begun, const Wanted& wanted);
+
 }  // namespace fidservo::gap

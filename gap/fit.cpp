@@ -237,6 +237,7 @@ void find_covariances(const Linearised& at, const ScaledParameters& parameters, 
 
 Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
         const Hypothesis& start, const FitOptions& options) {
+    constexpr double least_loss = 1.0;  // that an improvement is a share of
     ScaledParameters parameters(start);
     const std::vector<double> values_at_start = parameters.values;
     Linearised linearised(predict, parameters, windows, counted, options);
@@ -265,8 +266,9 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     solver.max_num_iterations = options.most_iterations;
-    solver.function_tolerance = options.tolerance;
-    solver.parameter_tolerance = options.tolerance;
+    solver.function_tolerance =
+        std::max(options.tolerance, options.least_improvement / std::max(loss_at_start, least_loss));
+    solver.parameter_tolerance = std::min(options.tolerance, FitOptions{}.tolerance);
     solver.max_num_line_search_step_size_iterations = 0;  // a step beyond a bound is cut, no more
     solver.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;

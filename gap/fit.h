@@ -32,7 +32,9 @@ inline constexpr double usual_step = 0.01, close_step = 0.001;
 
 struct FitOptions {
     int most_iterations = 12;
-    double tolerance = 1e-4;          ///< relative, of loss and parameters, at which a fit ends
+    double tolerance = 1e-4;  ///< of the loss, and of parameters if less, relative, at which a fit ends
+    /// Loss by which an iteration has to improve for another one to follow; 0: as the tolerance says.
+    double least_improvement = 0.0;
     bool with_covariance = false;     ///< costs a prediction a parameter
     double step_scales = usual_step;  ///< of differences
     /// Errors up to this many floors count as noise: the loss is 1/2 a^2 log(1 + S_w / a^2) with this a. A

@@ -30,7 +30,7 @@ class MeanOverSignals {
 
 /// Sums over windows: squared errors in floors, and the number of values.
 struct Sums {
-    std::array<double, signal_count> before{}, after{}, values{};
+    std::array<double, signal_count> before{}, after{}, values{}, expected{};
 
     void add(const Window& window, double before_square, double after_square) {
         if (std::isnan(before_square) || std::isnan(after_square)) return;
@@ -39,6 +39,7 @@ struct Sums {
         before[signal] += count * before_square;
         after[signal] += count * after_square;
         values[signal] += count;
+        expected[signal] += count * window.expected_square;
     }
 
     TotalGap total() const {
@@ -59,9 +60,10 @@ std::vector<SignalGap> signal_gaps(const Evidence& evidence, std::span<const dou
     for (std::size_t s = 0; s < signal_count; ++s) {
         if (sums.values[s] == 0.0) continue;
         const auto signal = static_cast<Signal>(s);
-        const double floor = evidence.floor(signal);
+        const double floor = evidence.floor(signal), square_left = sums.after[s] / sums.values[s];
         gaps.push_back({signal, floor * std::sqrt(sums.before[s] / sums.values[s]),
-                        floor * std::sqrt(sums.after[s] / sums.values[s]), floor});
+                        floor * std::sqrt(square_left), floor,
+                        floor * std::sqrt(std::max(0.0, square_left - sums.expected[s] / sums.values[s]))});
     }
     return gaps;
 }
@@ -102,17 +104,17 @@ std::pair<double, double> removed_interval(const Evidence& evidence, std::span<c
     return {at(tail), at(1.0 - tail)};
 }
 
-double typical_floors(std::span<const Window> windows, std::span<const double> mean_squares) {
-    std::array<double, signal_count> logs{}, counts{};
+std::array<double, signal_count> typical_floors(std::span<const Window> windows,
+                                                std::span<const double> mean_squares) {
+    std::array<double, signal_count> logs{}, counts{}, floors{};
     for (std::size_t w = 0; w < windows.size(); ++w) {
         if (std::isnan(mean_squares[w])) continue;
         logs[index_of(windows[w].signal)] += std::log1p(mean_squares[w]);
         counts[index_of(windows[w].signal)] += 1.0;
     }
-    double largest = 0.0;
     for (std::size_t s = 0; s < signal_count; ++s)
-        if (counts[s] > 0.0) largest = std::max(largest, std::sqrt(std::expm1(logs[s] / counts[s])));
-    return largest;
+        floors[s] = counts[s] > 0.0 ? std::max(1.0, std::sqrt(std::expm1(logs[s] / counts[s]))) : 1.0;
+    return floors;
 }
 
 }  // namespace fidservo::gap

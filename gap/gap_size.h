@@ -9,6 +9,7 @@
 #include "gap/diagnosis.h"
 #include "gap/evidence.h"
 
+#include <array>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,8 +25,10 @@ TotalGap total_gap(std::span<const SignalGap> signals);
 std::pair<double, double> removed_interval(const Evidence& evidence, std::span<const double> before,
                                            std::span<const double> after);
 
-/// How far windows typically are from the floor: of the signal that is furthest, sqrt(exp(mean log(1 + S_w))
-/// - 1). A window in which the carriage let go that should have held weighs no more than others here.
-double typical_floors(std::span<const Window> windows, std::span<const double> mean_squares);
+/// How far a signal's windows typically are from its floor, sqrt(exp(mean log(1 + S_w)) - 1); 1 at least, and
+/// of a signal without windows. A window in which the carriage let go that should have held weighs no more
+/// than others here.
+std::array<double, signal_count> typical_floors(std::span<const Window> windows,
+                                                std::span<const double> mean_squares);
 
 }  // namespace fidservo::gap

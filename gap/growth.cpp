@@ -22,7 +22,7 @@ Chain grown_whatever(Search& search, const Chain& chain, std::vector<Trial> tria
 /// Takes in a weak wave that a scan has found, instead of the last effect; where that one gains more, since
 /// it stands in for the wave and something else, the wave together with what is best beside it.
 /// @return whether two effects took the place of the last one
-bool take_in_scanned(Search& search, Chain& chain, const Chain& before, int most_effects) {
+bool take_in_scanned(Search& search, Chain& chain, const Chain& before, std::size_t most_effects) {
     constexpr Effort effort{.scatters = false};
     std::vector<Trial> trials = search.try_all(before.fitted, before.candidates(), effort);
     if (!has_leader(trials)) return false;
@@ -46,7 +46,7 @@ bool take_in_scanned(Search& search, Chain& chain, const Chain& before, int most
 /// both; where it stays far off, a weak wave, which no balance of forces shows, beside the one that it shows
 /// or alone; and instead of a wave that does not balance the forces alone, any two that do.
 /// @return whether a pair took the place of the last effect
-bool look_further(Search& search, Chain& chain, const Chain& before, int most_effects) {
+bool look_further(Search& search, Chain& chain, const Chain& before, std::size_t most_effects) {
     if (balance(search, chain, most_effects, true)) return true;
     constexpr double floors_of_a_way = 3.0;  // that another way leaves
     const auto is_far_off = [&](double floors) {
@@ -101,7 +101,7 @@ bool take_in_pair(Search& search, Chain& chain, const Chain& rest, std::optional
     return are_both_in;
 }
 
-bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
+bool balance(Search& search, Chain& chain, std::size_t most_effects, bool only_needed) {
     if (!search.off(chain.fitted)[index_of(Signal::encoder)]) return false;
     const Chain rest = rest_of(search, chain, only(Signal::encoder));
     if (!has_room_for_two(rest, most_effects)) return false;
@@ -110,10 +110,10 @@ bool balance(Search& search, Chain& chain, int most_effects, bool only_needed) {
                         nearly_all, only_needed);
 }
 
-bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* first_step) {
-    bool is_balanced = false, is_paired = false, is_of_two = false;
+bool grow(Search& search, Chain& chain, const Growth& growth, std::vector<Trial>* first_step) {
+    bool is_balanced = !growth.in_pairs, is_paired = false, is_of_two = false;
     const auto is_far_off = [&] { return search.far_off(chain.fitted)[index_of(Signal::encoder)]; };
-    while (static_cast<int>(chain.choices.size()) < most_effects) {
+    while (chain.choices.size() < growth.most_effects) {
         const Chain before = chain;
         std::vector<Trial> trials = search.try_all(chain.fitted, chain.candidates(), {.scatters = false});
         if (first_step != nullptr) *first_step = trials;
@@ -128,12 +128,13 @@ bool grow(Search& search, Chain& chain, int most_effects, std::vector<Trial>* fi
         search.throw_if_over();
         if (is_of_carriage && !is_balanced) {
             is_balanced = true;
-            is_paired = look_further(search, chain, before, most_effects);
+            is_paired = look_further(search, chain, before, growth.most_effects);
             if (!is_paired && is_far_off() && has_valleys(*chain.choices.back().candidate))
                 chain = grown_whatever(search, before, search.try_all(before.fitted, before.candidates()));
         }
-        if (moves_wire && !is_of_two && search.leaves_much(chain.fitted)[index_of(Signal::hall)] &&
-            has_room_for_two(before, most_effects)) {
+        if (moves_wire && growth.in_pairs && !is_of_two &&
+            search.leaves_much(chain.fitted)[index_of(Signal::hall)] &&
+            has_room_for_two(before, growth.most_effects)) {
             is_of_two = true;
             if (take_in_pair(search, chain, before, search.wire_pair(before.fitted, before.candidates()),
                              nearly_all, false))

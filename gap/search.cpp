@@ -1,6 +1,7 @@
 #include "gap/search.h"
 
 #include "gap/contender.h"
+#include "gap/gap_size.h"
 #include "gap/parallel.h"
 #include "gap/starts.h"
 
@@ -112,7 +113,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     parallel_for(leaders.size(), [&](std::size_t k) { fit_second_half(base, leaders[k]); });
     throw_if_exhausted();
     try {
-        refine(base, all, leaders, effort);
+        if (effort.refines) refine(base, all, leaders, effort);
     } catch (const BudgetEnded& ended) {
         over_ = ended.how();
         fitter_.evidence().budget().end_search();
@@ -359,6 +360,10 @@ SignalFlags Search::off(const CrossFit& fitted) const {
 
 SignalFlags Search::far_off(const CrossFit& fitted, double floors) const {
     return above(fitter_.excess(fitted.mean_squares), floors * floors - 1.0);
+}
+
+double Search::gap_floors(const CrossFit& fitted) const {
+    return total_gap(signal_gaps(fitter_.evidence(), fitted.mean_squares, fitted.mean_squares)).after;
 }
 
 bool Search::is_at_floor(const CrossFit& fitted) const {

@@ -37,6 +37,7 @@ struct Effort {
     std::size_t fits = 8, leaders = 4;
     /// Whether the best wave is looked for among many values where it leaves something.
     bool scatters = true;
+    bool refines = true;  ///< whether the leaders are fitted closer than from afar
 };
 
 /// Share of a signal's excess that a wave takes away where its place and period are nearly right.
@@ -87,6 +88,10 @@ class Search {
         CrossFit fitted;
     };
     Together everything_beside(const CrossFit& base) const;
+
+    /// The same with one further effect that has a shape of its own: each time another one, of those that
+    /// promise most in the signals that the base leaves off.
+    std::vector<Together> shaped_beside(const CrossFit& base) const;
 
     /// The same of the carriage beside a base that knows nothing of it: from the models that balance its
     /// forces (gap/force_regression.h) the one that predicts best where it is followed, in the form that
@@ -181,6 +186,9 @@ class Search {
     /// Signals at some floors and more.
     SignalFlags far_off(const CrossFit& fitted, double floors = 3.0) const;
 
+    /// Of all signals together, r.m.s., in floors (gap/gap_size.h).
+    double gap_floors(const CrossFit& fitted) const;
+
     /// Whether every signal is at its floor: nothing is left for another effect to explain.
     bool is_at_floor(const CrossFit& fitted) const;
 
@@ -197,6 +205,9 @@ class Search {
 
   private:
     Together together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const;
+    struct EverythingBeside;
+    EverythingBeside everything_of(const CrossFit& base) const;
+    Together needed_of(const EverythingBeside& all) const;
     Together balanced_beside(const CrossFit& base) const;
     struct PairAttempt;
     class CloserFit;

@@ -27,21 +27,48 @@ std::vector<const Candidate*> smooth_ones(const std::vector<Candidate>& all, con
 
 }  // namespace
 
-Search::Together Search::everything_beside(const CrossFit& base) const {
-    constexpr SignalFlags smooth{false, true, true, false, false, false};
-    const std::vector<const Candidate*> all = smooth_ones(candidates_, base.of_half[0]);
-    const auto is_among = [&](const plant::EffectSetting& setting) {
-        return std::ranges::find(all, setting.effect, &Candidate::effect) != all.end();
-    };
-    const Evidence& evidence = fitter_.evidence();
-    std::array<Hypothesis, 2> beside = base.of_half;
-    for (Hypothesis& hypothesis : beside) std::erase_if(hypothesis, is_among);
-    Hypothesis begun = base.of_half[0];
-    std::erase_if(begun, [&](const plant::EffectSetting& setting) { return !is_among(setting); });
+/// What everything is fitted to, and beside what.
+struct Search::EverythingBeside {
+    std::vector<const Candidate*> candidates;
+    std::array<Hypothesis, 2> beside;
+    Hypothesis begun;
     std::array<Wanted, 2> wanted;
+};
+
+Search::EverythingBeside Search::everything_of(const CrossFit& base) const {
+    constexpr SignalFlags smooth{false, true, true, false, false, false};
+    EverythingBeside everything{smooth_ones(candidates_, base.of_half[0]), base.of_half, base.of_half[0], {}};
+    const auto is_among = [&](const plant::EffectSetting& setting) {
+        return std::ranges::find(everything.candidates, setting.effect, &Candidate::effect) !=
+               everything.candidates.end();
+    };
+    for (Hypothesis& hypothesis : everything.beside) std::erase_if(hypothesis, is_among);
+    std::erase_if(everything.begun, [&](const plant::EffectSetting& setting) { return !is_among(setting); });
     for (std::size_t side = 0; side < 2; ++side)
-        wanted[side] = only_of(evidence.windows(), fitter_.half(side), smooth);
-    return together(beside, needed_of_everything(evidence, all, beside, begun, wanted));
+        everything.wanted[side] = only_of(fitter_.evidence().windows(), fitter_.half(side), smooth);
+    return everything;
+}
+
+Search::Together Search::needed_of(const EverythingBeside& all) const {
+    return together(all.beside, needed_of_everything(fitter_.evidence(), all.candidates, all.beside,
+                                                     all.begun, all.wanted));
+}
+
+Search::Together Search::everything_beside(const CrossFit& base) const {
+    return needed_of(everything_of(base));
+}
+
+std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) const {
+    const EverythingBeside all = everything_of(base);
+    const Wanted wanted = only_of(fitter_.evidence().windows(), all.wanted[0], off(base));
+    std::vector<Together> found;
+    for (const plant::EffectSetting& shape :
+         promising_shapes(fitter_.evidence(), all.candidates, all.beside[0], all.begun, wanted)) {
+        EverythingBeside with = all;
+        with.begun.push_back(shape);
+        found.push_back(needed_of(with));
+    }
+    return found;
 }
 
 Search::Together Search::together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const {

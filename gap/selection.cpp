@@ -96,7 +96,7 @@ bool explains(const Search& search, const CrossFit& without, const CrossFit& wit
 /// Where nothing was taken in, two effects may hide each other: what promises a little is tried as the first
 /// of a pair.
 /// @return whether anything changed
-bool pair_up(Search& search, Chain& chain, int most_effects) {
+bool pair_up(Search& search, Chain& chain, std::size_t most_effects) {
     constexpr Effort effort{.fits = 3, .leaders = 1};
     const SignalFlags off = search.off(chain.fitted);
     if (off == SignalFlags{}) return false;
@@ -156,33 +156,115 @@ Chain with_together(Chain chain, Search::Together together) {
         const Candidate* const candidate = together.candidates[k];
         Trial itself{
             .candidate = candidate, .gain = together.worth[k], .is_leader = true, .fitted = chain.fitted};
-        chain.choices.push_back({candidate, chain.fitted.loss + together.worth[k], {std::move(itself)}, {}});
+        chain.choices.push_back(
+            {candidate, chain.fitted.loss + together.worth[k], {std::move(itself)}, {}, {}});
     }
     return chain;
 }
-
-/// A chain with what is needed of everything in place of its smooth effects.
-Chain begun_with_everything(const Search& search, const Chain& chain) {
-    Chain rest;
-    for (const Choice& choice : chain.choices)
-        if (!is_smooth(*choice.candidate)) rest.choices.push_back(choice);
-    return with_together(std::move(rest), search.everything_beside(chain.fitted));
-}
-
-/// What explains a signal at once, of more effects than this, needs no search.
-constexpr std::size_t most_one_by_one = 2;
 
 bool is_off(const Search& search, const Chain& chain, Signal signal) {
     return search.off(chain.fitted)[index_of(signal)];
 }
 
-/// What moves the wire has causes that stand in for each other: where the Hall reading is off its floor, all
-/// of them are looked at together.
-void explain_hall_at_once(const Search& search, Chain& chain) {
-    if (!is_off(search, chain, Signal::hall)) return;
-    Chain whole = begun_with_everything(search, chain);
-    if (whole.choices.size() > most_one_by_one && !is_off(search, whole, Signal::hall))
+/// A chain with what was found of everything in place of its smooth effects.
+Chain with_everything(const Chain& chain, Search::Together together) {
+    Chain rest;
+    for (const Choice& choice : chain.choices)
+        if (!is_smooth(*choice.candidate)) rest.choices.push_back(choice);
+    return with_together(std::move(rest), std::move(together));
+}
+
+/// A chain with what is needed of everything in place of its smooth effects, and of those that have a shape
+/// of their own, one after the other, as long as the Hall reading stays off its floor and each is no chance.
+/// @param whole  is better each time that it is changed
+void begin_with_everything(const Search& search, const Chain& chain, Chain& whole) {
+    Chain all = with_everything(chain, search.everything_beside(chain.fitted));
+    if (all.choices.size() > chain.choices.size()) whole = std::move(all);
+    while (is_off(search, whole, Signal::hall)) {
+        std::optional<Chain> best;
+        for (Search::Together& together : search.shaped_beside(whole.fitted)) {
+            Chain longer = with_everything(whole, std::move(together));
+            if (!best || longer.fitted.loss < best->fitted.loss) best = std::move(longer);
+        }
+        if (!best || !is_better(search, *best, whole)) return;
+        whole = *std::move(best);
+    }
+}
+
+/// Whether fits without each of a chain's effects take too long.
+bool is_long(const Chain& chain) {
+    constexpr std::size_t most_short = 4;
+    return chain.choices.size() > most_short;
+}
+
+/// What explains a signal at once, of more effects than this, needs no search.
+constexpr std::size_t most_one_by_one = 2;
+
+/// Adds what was tried later for signals of which nothing was tried before.
+void add_tried(std::vector<Trial>& alone, std::vector<Trial> later) {
+    for (Trial& trial : later) {
+        const auto known = std::ranges::find(alone, trial.candidate, &Trial::candidate);
+        if (known == alone.end())
+            alone.push_back(std::move(trial));
+        else if (trial.gain > known->gain)
+            *known = std::move(trial);
+    }
+    std::ranges::stable_sort(alone, std::greater{}, &Trial::gain);
+}
+
+/// Whether one effect alone, fitted from afar, explains a signal nearly as well as a whole chain does.
+bool one_nearly_does(Search& search, const Chain& chain, const Chain& whole, std::vector<Trial>* alone) {
+    constexpr double nearly = 0.9;  // of what the whole gains
+    std::vector<Trial> trials =
+        search.try_all(chain.fitted, chain.candidates(), {.scatters = false, .refines = false});
+    const bool does =
+        has_leader(trials) && trials.front().gain > nearly * (chain.fitted.loss - whole.fitted.loss);
+    add_tried(*alone, std::move(trials));
+    return does;
+}
+
+/// A signal that is off its floor is explained by one effect, or by those that a whole chain has found at
+/// once where these do better. Many that bring it to its floor need no comparison.
+/// @return whether these do
+bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal, std::vector<Trial>* alone) {
+    if (whole.choices.size() <= chain.choices.size()) return false;
+    const bool are_many = whole.choices.size() > chain.choices.size() + most_one_by_one;
+    Chain one = chain;
+    try {
+        search.look_for_causes_in(only(signal), 1.0);
+        if (!(are_many && !is_off(search, whole, signal)) && one_nearly_does(search, chain, whole, alone)) {
+            const Growth growth{.most_effects = chain.choices.size() + 1, .in_pairs = false};
+            grow(search, one, growth, alone);
+        }
+        search.limit(false);
+        search.look_for_causes_in(all_signals, 1.0);
+    } catch (...) {
         chain = std::move(whole);
+        throw;
+    }
+    const bool do_better = one.choices.size() == chain.choices.size() || is_better(search, whole, one);
+    chain = do_better ? std::move(whole) : std::move(one);
+    return do_better;
+}
+
+/// What moves the wire has causes that stand in for each other: all of them are looked at together.
+bool explain_hall_at_once(Search& search, Chain& chain, std::vector<Trial>* alone) {
+    if (!is_off(search, chain, Signal::hall)) return false;
+    Chain whole = chain;
+    try {
+        begin_with_everything(search, chain, whole);
+    } catch (const BudgetEnded&) {
+        chain = std::move(whole);
+        throw;
+    }
+    return explain_by_one_or(search, chain, std::move(whole), Signal::hall, alone);
+}
+
+/// What moves the carriage adds up in the balance of its forces.
+bool explain_carriage_at_once(Search& search, Chain& chain, std::vector<Trial>* alone) {
+    return is_off(search, chain, Signal::encoder) &&
+           explain_by_one_or(search, chain, with_together(chain, search.forces_beside(chain.fitted)),
+                             Signal::encoder, alone);
 }
 
 /// Where many do not explain the Hall reading at once, they are looked for one by one, and once more together
@@ -197,54 +279,17 @@ bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
     const bool is_carriage_off = is_off(search, chain, Signal::encoder);
     search.look_for_causes_in(only(Signal::hall), is_carriage_off ? equal_share : 1.0);
     try {
-        is_paired = grow(search, chain, static_cast<int>(chain.choices.size() + most_one_by_one), alone);
+        is_paired = grow(search, chain, {.most_effects = chain.choices.size() + most_one_by_one}, alone);
     } catch (const SearchExhausted&) {
         if (search.over()) throw;
     }
     search.limit(false);
     search.look_for_causes_in(all_signals, 1.0);
     if (!is_off(search, chain, Signal::hall)) return is_paired;
-    Chain whole = begun_with_everything(search, chain);
+    Chain whole = chain;
+    begin_with_everything(search, chain, whole);
     if (is_better(search, whole, chain)) chain = std::move(whole);
     return is_paired;
-}
-
-/// What moves the carriage adds up in the balance of its forces: where the encoder is off its floor, a chain
-/// with what balances them.
-std::optional<Chain> balanced(Search& search, const Chain& chain) {
-    if (!is_off(search, chain, Signal::encoder)) return {};
-    Chain whole = with_together(chain, search.forces_beside(chain.fitted));
-    if (whole.choices.size() == chain.choices.size()) return {};
-    return whole;
-}
-
-/// A chain with what another one has of the carriage instead of its own.
-Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& other) {
-    Chain merged;
-    const auto add = [&](const Chain& from, bool of_carriage) {
-        for (std::size_t k = 0; k < from.choices.size(); ++k) {
-            if (moves_carriage(*from.choices[k].candidate->effect) != of_carriage) continue;
-            merged.choices.push_back(from.choices[k]);
-            for (std::size_t side = 0; side < 2; ++side)
-                merged.fitted.of_half[side].push_back(from.fitted.of_half[side][k]);
-        }
-    };
-    add(chain, false);
-    add(other, true);
-    search.judge(merged.fitted);
-    return merged;
-}
-
-/// Adds what was tried later for signals of which nothing was tried before.
-void add_tried(std::vector<Trial>& alone, std::vector<Trial> later) {
-    for (Trial& trial : later) {
-        const auto known = std::ranges::find(alone, trial.candidate, &Trial::candidate);
-        if (known == alone.end())
-            alone.push_back(std::move(trial));
-        else if (trial.gain > known->gain)
-            *known = std::move(trial);
-    }
-    std::ranges::stable_sort(alone, std::greater{}, &Trial::gain);
 }
 
 std::vector<const Candidate*> limits_in(const Chain& chain) {
@@ -261,20 +306,26 @@ Chain nameable(const Search& search, Chain chain) {
     return chain;
 }
 
-/// Whether fits without each of a chain's effects take too long.
-bool is_long(const Chain& chain) {
-    constexpr std::size_t most_short = 4;
-    return chain.choices.size() > most_short;
+/// What is left without one of a chain's effects; of many, without another fit of the rest.
+CrossFit left_out_of(const Search& search, const Chain& chain, std::size_t left_out) {
+    if (chain.choices.size() == 1) return search.nothing();
+    if (!is_long(chain)) return without(search, chain, left_out).fitted;
+    CrossFit rest = chain.fitted;
+    for (Hypothesis& hypothesis : rest.of_half)
+        hypothesis.erase(hypothesis.begin() + static_cast<std::ptrdiff_t>(left_out));
+    search.judge(rest);
+    return rest;
 }
 
-/// The chain with that first which the rest can least do without.
-Chain weightiest_first(const Search& search, Chain chain) {
+/// The chain with what each of its effects leaves when it is left out; that first which leaves the largest
+/// gap.
+Chain largest_first(const Search& search, Chain chain) {
     const std::size_t count = chain.choices.size();
-    if (count < 2) return chain;
     std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t k = 0; k < count; ++k)
-        order.emplace_back(
-            is_long(chain) ? chain.choices[k].loss_without : without(search, chain, k).fitted.loss, k);
+    for (std::size_t k = 0; k < count; ++k) {
+        chain.choices[k].left_out = left_out_of(search, chain, k);
+        order.emplace_back(search.gap_floors(chain.choices[k].left_out), k);
+    }
     std::ranges::stable_sort(order, std::greater{}, &std::pair<double, std::size_t>::first);
     const auto in_order = [&](auto& values) {
         auto sorted = values;
@@ -316,22 +367,22 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     Selection selection;
     Chain chain{{}, search.nothing()};
     selection.steps.push_back(chain.fitted);
-    std::optional<Chain> by_forces;
     try {
-        explain_hall_at_once(search, chain);
-        by_forces = balanced(search, chain);
-        if (by_forces && by_forces->choices.size() > chain.choices.size() + most_one_by_one &&
-            !is_off(search, *by_forces, Signal::encoder))
-            chain = *by_forces;
-        bool is_paired = explain_hall(search, chain, &selection.alone);
-        const int most_effects = static_cast<int>(chain.choices.size()) + options.most_effects;
+        const bool is_balanced = explain_carriage_at_once(search, chain, &selection.alone);
+        const bool is_known = explain_hall_at_once(search, chain, &selection.alone);
+        bool is_paired = is_known || is_balanced;
+        if (!is_known) is_paired = explain_hall(search, chain, &selection.alone) || is_paired;
+        const std::size_t most_effects = chain.choices.size() + options.most_effects;
         std::vector<Trial> tried;
-        is_paired = grow(search, chain, most_effects, &tried) || is_paired;
+        const Growth growth{.most_effects = most_effects, .in_pairs = !is_balanced};
+        is_paired = grow(search, chain, growth, &tried) || is_paired;
         add_tried(selection.alone, std::move(tried));
         search.limit(true);
-        if (!is_paired || !search.leaves_little(chain.fitted))
+        const bool are_pairs_known = is_balanced && is_off(search, chain, Signal::encoder);
+        if (!are_pairs_known && (!is_paired || !search.leaves_little(chain.fitted)))
             is_paired = pair_up(search, chain, most_effects) || is_paired;
-        if (exchange(search, chain, is_paired)) grow(search, chain, most_effects, nullptr);
+        // Of many, each was asked whether it is needed when they were fitted together.
+        if (!is_long(chain) && exchange(search, chain, is_paired)) grow(search, chain, growth, nullptr);
     } catch (const SearchExhausted&) {
         selection.ended = search.over().value_or(Ended::budget);
     } catch (const BudgetEnded& ended) {
@@ -339,18 +390,10 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     }
     evidence.budget().end_search();
     search.limit(false);
-    if (by_forces && is_off(search, chain, Signal::encoder)) {
-        try {
-            by_forces = with_carriage_of(search, chain, *by_forces);
-        } catch (const BudgetEnded& ended) {
-            selection.ended = ended.how();  // it stands as it was found
-        }
-        if (is_better(search, *by_forces, chain)) chain = *std::move(by_forces);
-    }
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     try {
         if (search.is_at_floor(chain.fitted)) selection.limits = limits_in(chain);
-        Chain sorted = weightiest_first(search, nameable(search, chain));
+        Chain sorted = largest_first(search, nameable(search, chain));
         std::vector<CrossFit> steps;
         for (std::size_t k = 1; k < sorted.choices.size(); ++k) steps.push_back(first_of(search, sorted, k));
         selection.steps.insert(selection.steps.end(), steps.begin(), steps.end());

@@ -10,7 +10,7 @@
 namespace fidservo::gap {
 
 struct Selection {
-    std::vector<Choice> choices;  ///< what the rest can least do without first
+    std::vector<Choice> choices;  ///< that first whose lack leaves the largest gap
     std::vector<CrossFit> steps;  ///< with the first 0, 1, 2 ... of them
     std::vector<Trial> alone;     ///< what was tried first, alone, best first
     /// What was taken in and must not be named, Candidate::is_limit, where it left nothing.
@@ -19,7 +19,7 @@ struct Selection {
 };
 
 struct SelectionOptions {
-    int most_effects = 4;
+    std::size_t most_effects = 4;  ///< that are added one by one
     SearchOptions search;
 };
 

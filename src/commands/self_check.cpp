@@ -62,8 +62,12 @@ void add_self_check_options(CLI::App& diagnose, SelfCheckRequest& request) {
 
 int run_self_check(const SelfCheckRequest& request, const std::filesystem::path& rig_file,
                    const std::vector<std::string>& only, const std::filesystem::path& json) {
-    selfcheck::SelfCheckOptions options{
-        .cases = request.cases, .first = request.first, .kinds = {}, .seed = request.seed, .only = only};
+    selfcheck::SelfCheckOptions options{.cases = request.cases,
+                                        .first = request.first,
+                                        .kinds = {},
+                                        .seed = request.seed,
+                                        .only = only,
+                                        .is_limited = true};
     const auto kinds = kinds_by_name();
     for (const std::string& name : request.kinds) options.kinds.push_back(kinds.at(name));
     watch_for_interrupts();

@@ -23,6 +23,18 @@ Json number(double value) {
     return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);  // unlike stod, takes what is nearly 0
 }
 
+Json json_of(const gap::Support& support) {
+    return {{"weight", number(support.weight)},
+            {"left_floors", number(support.left_floors)},
+            {"without_floors", number(support.without_floors)},
+            {"gap_without", number(support.gap_without)},
+            {"gap_left", number(support.gap_left)},
+            {"names", support.names},
+            {"halves_apart", number(support.halves_apart)},
+            {"agreement", support.agreement},
+            {"at_bound", support.is_at_bound}};
+}
+
 Json json_of(const gap::FoundEffect& effect) {
     Json parameters = Json::array();
     for (const gap::FittedParameter& parameter : effect.parameters)
@@ -33,6 +45,7 @@ Json json_of(const gap::FoundEffect& effect) {
     return {{"effect", effect.effect},
             {"block", effect.block},
             {"probability", number(effect.probability)},
+            {"support", json_of(effect.support)},
             {"parameters", parameters},
             {"indistinguishable_from", effect.indistinguishable_from},
             {"gap_removed", number(effect.gap_removed)},
@@ -72,6 +85,7 @@ std::string diagnosis_json(const gap::Diagnosis& diagnosis) {
                            {"unit", gap::unit_of(signal.signal)},
                            {"before", number(signal.before)},
                            {"after", number(signal.after)},
+                           {"discrepancy", number(signal.discrepancy)},
                            {"floor", number(signal.floor)}});
     for (const gap::BlockProbability& block : diagnosis.where)
         where.push_back({{"block", block.block}, {"probability", number(block.probability)}});

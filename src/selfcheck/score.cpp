@@ -111,7 +111,7 @@ Score score(const Label& label, const gap::Diagnosis& diagnosis) {
         const bool is_right = meet(truths, sets.back());
         const double gap_after = gap_left(score.before, found.gap_removed);
         score.named.push_back({found.effect, std::string(gap::class_of(found.effect)), is_right,
-                               found.probability, gap_before, gap_after});
+                               found.probability, found.support, gap_before, gap_after});
         gap_before = gap_after;
         score.any_right = score.any_right || is_right;
         score.is_confident_wrong = score.is_confident_wrong || (!is_right && found.probability >= limit);

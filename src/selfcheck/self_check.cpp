@@ -3,6 +3,7 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "gap/diagnose.h"
+#include "src/diagnose/time_limit.h"
 #include "src/interrupt.h"
 #include "src/progress.h"
 #include "src/selfcheck/campaign.h"
@@ -15,6 +16,7 @@
 #include <array>
 #include <chrono>
 #include <exception>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -44,20 +46,23 @@ void demand_whole_rig(const Rig& rig) {
 
 /// Sees recordings, the nominal rig, and what the diagnosis is not to try; no label.
 gap::Diagnosis diagnose_blindly(const Rig& nominal, std::vector<Recording> recordings,
-                                const std::vector<std::string>& only,
-                                const std::vector<std::string>& without) {
-    const gap::Evidence evidence(nominal, std::move(recordings));
-    return gap::diagnose(evidence, {.only = only, .without = without, .selection = {}});
+                                const SelfCheckOptions& options, const std::vector<std::string>& without) {
+    const diagnose::TimeLimit limit = diagnose::time_limit(recordings);
+    const auto budget = options.is_limited ? std::make_shared<const gap::Budget>(
+                                                 limit.search_s, limit.whole_s, std::function<bool()>())
+                                           : std::make_shared<const gap::Budget>();
+    const gap::Evidence evidence(nominal, std::move(recordings), budget);
+    return gap::diagnose(evidence, {.only = options.only, .without = without, .selection = {}});
 }
 
-Outcome run_case(const Rig& nominal, const Case& drawn, const std::vector<std::string>& only) {
+Outcome run_case(const Rig& nominal, const Case& drawn, const SelfCheckOptions& options) {
     const Clock::time_point start = Clock::now();
     std::vector<Recording> recordings = has_frames(drawn.label.kind)
                                             ? film_campaign(nominal, drawn.true_rig, drawn.campaign_seed)
                                             : record_campaign(nominal, drawn.true_rig, drawn.campaign_seed);
     const double recording_s = seconds_since(start);
     const Clock::time_point recorded = Clock::now();
-    const gap::Diagnosis diagnosis = diagnose_blindly(nominal, std::move(recordings), only, drawn.without);
+    const gap::Diagnosis diagnosis = diagnose_blindly(nominal, std::move(recordings), options, drawn.without);
     const double diagnosis_s = seconds_since(recorded);
     return {drawn.number, drawn.label, score(drawn.label, diagnosis), recording_s, diagnosis_s};
 }
@@ -110,8 +115,7 @@ SelfCheck run_self_check(const Rig& nominal, const SelfCheckOptions& options,
         const CaseKind kind = family.kind_of(options.seed, number);
         if (!options.kinds.empty() && std::ranges::find(options.kinds, kind) == options.kinds.end()) continue;
         try {
-            check.outcomes.push_back(
-                run_case(nominal, family.draw(nominal, options.seed, number), options.only));
+            check.outcomes.push_back(run_case(nominal, family.draw(nominal, options.seed, number), options));
         } catch (const std::exception& error) {
             check.failures.push_back({number, error.what()});
         }

@@ -22,6 +22,9 @@ struct SelfCheckOptions {
     std::vector<CaseKind> kinds;  ///< others are passed over; empty: all those without frames
     std::uint64_t seed = 1;
     std::vector<std::string> only;  ///< effects that the diagnosis tries; empty: all
+    /// Whether a diagnosis ends when the command's would (src/diagnose/time_limit.h); otherwise it takes what
+    /// it takes, and is the same on any machine.
+    bool is_limited = false;
 };
 
 /// A case that could not be diagnosed.

@@ -35,11 +35,24 @@ Json json_of(const TrueEffect& effect) {
             {"gap_floors", number(effect.gap_floors)}};
 }
 
+Json support_json(const gap::Support& support) {
+    return {{"weight", number(support.weight)},
+            {"left_floors", number(support.left_floors)},
+            {"without_floors", number(support.without_floors)},
+            {"gap_without", number(support.gap_without)},
+            {"gap_left", number(support.gap_left)},
+            {"names", support.names},
+            {"halves_apart", number(support.halves_apart)},
+            {"agreement", support.agreement},
+            {"at_bound", support.is_at_bound}};
+}
+
 Json json_of(const NamedEffect& named) {
     return {{"effect", named.effect},
             {"class", named.class_name},
             {"true", named.is_true},
             {"probability", number(named.probability)},
+            {"support", support_json(named.support)},
             {"gap", {{"before", number(named.gap_before)}, {"after", number(named.gap_after)}}}};
 }
 

@@ -1,0 +1,235 @@
+// Fits the coefficients of a name's probability (gap/standing.h) to self-checks, and judges them on families
+// of effects that were left out of the fit: calibrate SELF-CHECK.json... > gap/calibration.h
+//
+// A name counts by the share of its kind of case below, whatever the number of names in it, so that rigs with
+// many causes do not outvote the others.
+#include "gap/standing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using namespace fidservo;
+using Json = nlohmann::json;
+
+constexpr std::size_t feature_count = gap::feature_names.size();
+
+/// What diagnoses are expected to be about.
+const std::map<std::string, double> share_of_kind{{"one", 0.3},        {"two", 0.2},   {"withheld", 0.15},
+                                                  {"unlisted", 0.1},   {"three", 0.1}, {"messy", 0.1},
+                                                  {"messy-none", 0.05}};
+
+struct Name {
+    std::string kind, family;
+    gap::Features features;
+    bool is_true;
+    double weight = 1.0;
+};
+
+gap::Support support_of(const Json& json) {
+    return {.weight = json.at("weight"),
+            .left_floors = json.at("left_floors"),
+            .without_floors = json.at("without_floors"),
+            .gap_without = json.at("gap_without"),
+            .gap_left = json.at("gap_left"),
+            .names = json.at("names"),
+            .agreement = json.at("agreement"),
+            .halves_apart = json.at("halves_apart"),
+            .is_at_bound = json.at("at_bound")};
+}
+
+std::vector<Name> names_of(const Json& self_check) {
+    std::vector<Name> names;
+    for (const Json& one : self_check.at("cases"))
+        for (const Json& found : one.at("found"))
+            names.push_back({one.at("kind"), found.at("class"),
+                             gap::features_of(support_of(found.at("support"))), found.at("true")});
+    return names;
+}
+
+void weigh(std::vector<Name>& names) {
+    std::map<std::string, double> count;
+    for (const Name& name : names) count[name.kind] += 1.0;
+    double sum = 0.0;
+    for (Name& name : names) sum += name.weight = share_of_kind.at(name.kind) / count[name.kind];
+    for (Name& name : names) name.weight *= static_cast<double>(names.size()) / sum;
+}
+
+struct Coefficients {
+    double offset = 0.0;
+    std::array<double, feature_count> of_feature{};
+
+    double probability(const gap::Features& features) const {
+        double log_odds = offset;
+        for (std::size_t k = 0; k < feature_count; ++k) log_odds += of_feature[k] * features[k];
+        return 1.0 / (1.0 + std::exp(-log_odds));
+    }
+};
+
+/// Penalised likelihood, c_k expected within 1 / sqrt(ridge) of 0: Newton's method over those coefficients
+/// that are not held at 0, from which one that would become negative is taken.
+Coefficients fitted(const std::vector<Name>& names) {
+    constexpr double ridge = 1.0;
+    constexpr int iterations = 50;
+    constexpr auto size = static_cast<Eigen::Index>(feature_count) + 1;
+    std::set<Eigen::Index> held;
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(size);
+    const auto row_of = [&](const Name& name) {
+        Eigen::VectorXd row(size);
+        row(0) = 1.0;
+        for (std::size_t k = 0; k < feature_count; ++k)
+            row(static_cast<Eigen::Index>(k) + 1) = name.features[k];
+        return row;
+    };
+    while (true) {
+        for (int iteration = 0; iteration < iterations; ++iteration) {
+            Eigen::VectorXd gradient = -ridge * values;
+            Eigen::MatrixXd curvature = ridge * Eigen::MatrixXd::Identity(size, size);
+            gradient(0) = 0.0;
+            curvature(0, 0) = 1e-6;
+            for (const Name& name : names) {
+                const Eigen::VectorXd row = row_of(name);
+                const double p = 1.0 / (1.0 + std::exp(-row.dot(values)));
+                gradient += name.weight * ((name.is_true ? 1.0 : 0.0) - p) * row;
+                curvature += name.weight * std::max(p * (1.0 - p), 1e-6) * row * row.transpose();
+            }
+            for (const Eigen::Index k : held) {
+                gradient(k) = 0.0;
+                curvature.row(k).setZero();
+                curvature.col(k).setZero();
+                curvature(k, k) = 1.0;
+            }
+            Eigen::VectorXd step = curvature.ldlt().solve(gradient);
+            constexpr double longest = 1.0;
+            if (step.norm() > longest) step *= longest / step.norm();
+            values += step;
+        }
+        Eigen::Index worst = 0;
+        if (values.tail(size - 1).minCoeff(&worst) >= 0.0) break;
+        held.insert(worst + 1);
+        values(worst + 1) = 0.0;
+    }
+    Coefficients found{.offset = values(0)};
+    for (std::size_t k = 0; k < feature_count; ++k)
+        found.of_feature[k] = values(static_cast<Eigen::Index>(k) + 1);
+    return found;
+}
+
+struct Judged {
+    const Name* name;
+    double probability;
+};
+
+/// Every name by coefficients that know neither its family nor any other of the same fold.
+std::vector<Judged> judged_by_others(const std::vector<Name>& names) {
+    constexpr std::size_t folds = 8;
+    std::vector<Judged> judged;
+    for (std::size_t fold = 0; fold < folds; ++fold) {
+        const auto is_of_fold = [&](const Name& name) {
+            return std::hash<std::string>{}(name.family) % folds == fold;
+        };
+        std::vector<Name> others;
+        for (const Name& name : names)
+            if (!is_of_fold(name)) others.push_back(name);
+        const Coefficients coefficients = fitted(others);
+        for (const Name& name : names)
+            if (is_of_fold(name)) judged.push_back({&name, coefficients.probability(name.features)});
+    }
+    return judged;
+}
+
+/// Expected calibration error of ten bins of equal weight, and Brier's score.
+std::pair<double, double> errors_of(std::vector<Judged> judged) {
+    constexpr double bins = 10.0;
+    std::ranges::sort(judged, {}, &Judged::probability);
+    double all = 0.0, brier = 0.0, error = 0.0, weight = 0.0, claimed = 0.0, came_true = 0.0;
+    for (const Judged& one : judged) all += one.name->weight;
+    for (std::size_t k = 0; k < judged.size(); ++k) {
+        const double truth = judged[k].name->is_true ? 1.0 : 0.0, own = judged[k].name->weight;
+        brier += own * std::pow(judged[k].probability - truth, 2) / all;
+        weight += own;
+        claimed += own * judged[k].probability;
+        came_true += own * truth;
+        if (weight < all / bins && k + 1 < judged.size()) continue;
+        error += std::abs(claimed - came_true) / all;
+        weight = claimed = came_true = 0.0;
+    }
+    return {error, brier};
+}
+
+void tell(const std::vector<Name>& names, const std::vector<Judged>& judged) {
+    const auto [error, brier] = errors_of(judged);
+    fmt::print(stderr, "{} names; families left out: calibration error {:.3f}, Brier {:.3f}\n", names.size(),
+               error, brier);
+    for (const auto& [kind, share] : share_of_kind) {
+        std::vector<Judged> here;
+        double came_true = 0.0, confident_wrong = 0.0;
+        for (const Judged& one : judged) {
+            if (one.name->kind != kind) continue;
+            here.push_back(one);
+            came_true += one.name->is_true ? 1.0 : 0.0;
+            confident_wrong += !one.name->is_true && one.probability >= 0.9 ? 1.0 : 0.0;
+        }
+        if (here.empty()) continue;
+        fmt::print(
+            stderr,
+            "  {:<10} share {:.2f}: {:>4} names, {:.3f} true, {} wrong with 0.9 or more, error {:.3f}\n",
+            kind, share, here.size(), came_true / static_cast<double>(here.size()), confident_wrong,
+            errors_of(here).first);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2) {
+        fmt::print(stderr, "usage: calibrate SELF-CHECK.json... > gap/calibration.h\n");
+        return 2;
+    }
+    std::vector<Name> names;
+    std::vector<std::string> sources;
+    for (const std::string& file : std::vector<std::string>(argv + 1, argv + argc)) {
+        std::ifstream stream(file);
+        const Json self_check = Json::parse(stream);
+        const std::vector<Name> here = names_of(self_check);
+        names.insert(names.end(), here.begin(), here.end());
+        sources.push_back(fmt::format(
+            "seed {}, {} cases of {}, commit {}", self_check.at("options").at("seed").get<std::uint64_t>(),
+            self_check.at("cases").size(),
+            fmt::join(self_check.at("options").at("kinds").get<std::vector<std::string>>(), ", "),
+            self_check.at("commit").get<std::string>()));
+    }
+    weigh(names);
+    tell(names, judged_by_others(names));
+    const Coefficients all = fitted(names);
+    fmt::print(R"(#pragma once
+// Coefficients of the probability of a name (gap/standing.h), written by `./run calibrate` from self-checks:
+//
+//     {}
+#include <array>
+
+namespace fidservo::gap {{
+
+inline constexpr double calibrated_offset = {:.3f};
+inline constexpr std::array calibrated_coefficients{{
+)",
+               fmt::join(sources, "\n//     "), all.offset);
+    for (std::size_t k = 0; k < feature_count; ++k)
+        fmt::print("    {:.3f},  // {}\n", all.of_feature[k], gap::feature_names[k]);
+    fmt::print("}};\n\n}}  // namespace fidservo::gap\n");
+    return 0;
+}

@@ -1,0 +1,135 @@
+#include "gap/standing.h"
+
+#include "gap/calibration.h"
+#include "gap/gap_size.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+namespace fidservo::gap {
+namespace {
+
+/// The stage that a block is of; camera and plate are both of the view.
+std::string_view stage_of(std::string_view block) {
+    const std::string_view stage = block.substr(0, block.find('.'));
+    return stage == "plate" ? "camera" : stage;
+}
+
+/// See Support::agreement.
+double agreement_with(const std::optional<Remainder>& whole, const Selection& selection,
+                      const Choice& choice) {
+    constexpr double agrees = 1.0, is_not_known = 0.5, contradicts = 0.0;
+    if (!whole || whole->depends_on.empty()) return is_not_known;
+    const auto is_accused = [&](const Choice& named) {
+        return named.candidate->effect->block == whole->block;
+    };
+    if (stage_of(whole->block) != stage_of(choice.candidate->effect->block)) return is_not_known;
+    return std::ranges::any_of(selection.choices, is_accused) ? agrees : contradicts;
+}
+
+bool is_at_bound(const plant::EffectSetting& setting) {
+    const std::span<const plant::EffectParameter> parameters = setting.effect->parameters;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+        const double value = setting.values[k];
+        if (!parameters[k].is_choice && value != parameters[k].vanishing &&
+            (value == parameters[k].low || value == parameters[k].high))
+            return true;
+    }
+    return false;
+}
+
+/// Of the size that differs most, over what it is away from none.
+double halves_apart(const Candidate& candidate, const plant::EffectSetting& one,
+                    const plant::EffectSetting& other) {
+    double most = 0.0;
+    for (const std::size_t k : candidate.sizes) {
+        const double none = candidate.effect->parameters[k].vanishing;
+        const double mean = 0.5 * (std::abs(one.values[k] - none) + std::abs(other.values[k] - none));
+        if (mean > 0.0) most = std::max(most, std::abs(one.values[k] - other.values[k]) / mean);
+    }
+    return most;
+}
+
+/// What is left, and what would be without one of them, in that of its signals in which it matters most.
+struct OwnFloors {
+    double left = 1.0, without = 1.0;
+};
+
+using Floors = std::array<double, signal_count>;
+
+OwnFloors own_floors(const Floors& left, const Floors& without, const SignalFlags& taught) {
+    OwnFloors most;
+    for (std::size_t s = 0; s < signal_count; ++s)
+        if (taught[s] && without[s] / left[s] >= most.without / most.left) most = {left[s], without[s]};
+    return most;
+}
+
+/// The weight of what has it, or what these recordings cannot tell from it.
+double weight_of_name(const Choice& choice, const ChoiceWeights& weights) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < choice.alternatives.size(); ++k) {
+        const Candidate* candidate = choice.alternatives[k].candidate;
+        if (candidate->class_name == choice.candidate->class_name ||
+            std::ranges::find(choice.ties, candidate) != choice.ties.end())
+            sum += weights.of_alternatives[k];
+    }
+    return std::min(1.0, sum);
+}
+
+}  // namespace
+
+Features features_of(const Support& support) {
+    constexpr double most_logit = 7.0, least_share = 1e-4, least_apart = 1e-3;
+    const double odds = support.weight / std::max(1.0 - support.weight, 1e-300);
+    return {std::clamp(std::log(std::max(odds, 1e-300)), -most_logit, most_logit),
+            -std::log(support.left_floors),
+            std::log(support.without_floors / support.left_floors),
+            -std::log(std::max(support.gap_left, least_share)),
+            -std::log(support.names),
+            -std::log(std::max(support.halves_apart, least_apart)),
+            support.agreement,
+            support.is_at_bound ? 0.0 : 1.0};
+}
+
+double calibrated_probability(const Support& support) {
+    const Features features = features_of(support);
+    double log_odds = calibrated_offset;
+    for (std::size_t k = 0; k < features.size(); ++k) log_odds += calibrated_coefficients[k] * features[k];
+    return 1.0 / (1.0 + std::exp(-log_odds));
+}
+
+std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
+                              const std::vector<ChoiceWeights>& weights,
+                              const std::optional<Remainder>& whole) {
+    const std::vector<Window>& windows = evidence.windows();
+    const CrossFit& explained = selection.steps.back();
+    const TotalGap gap =
+        total_gap(signal_gaps(evidence, selection.steps.front().mean_squares, explained.mean_squares));
+    const Floors left = typical_floors(windows, explained.mean_squares);
+    std::vector<Support> all;
+    for (std::size_t k = 0; k < selection.choices.size(); ++k) {
+        const Choice& choice = selection.choices[k];
+        const CrossFit& left_out =
+            choice.left_out.mean_squares.empty() ? selection.steps.front() : choice.left_out;
+        const Floors without = typical_floors(windows, left_out.mean_squares);
+        const OwnFloors own = own_floors(left, without, teachers_of(*choice.candidate->effect));
+        all.push_back(
+            {.weight = weight_of_name(choice, weights[k]),
+             .left_floors = own.left,
+             .without_floors = own.without,
+             .gap_without =
+                 total_gap(signal_gaps(evidence, left_out.mean_squares, left_out.mean_squares)).after,
+             .gap_left = 1.0 - gap.removed(),
+             .names = static_cast<double>(selection.choices.size()),
+             .agreement = agreement_with(whole, selection, choice),
+             .halves_apart =
+                 halves_apart(*choice.candidate, explained.of_half[0][k], explained.of_half[1][k]),
+             .is_at_bound = std::ranges::any_of(
+                 explained.of_half, [&](const Hypothesis& half) { return is_at_bound(half[k]); })});
+    }
+    return all;
+}
+
+}  // namespace fidservo::gap
