@@ -1,5 +1,6 @@
 #include "gap/diagnose.h"
 
+#include "gap/accusation.h"
 #include "gap/gap_size.h"
 #include "gap/model_weights.h"
 #include "gap/remainder.h"
@@ -239,14 +240,15 @@ void accuse_what_is_left(const Selection& selection, const std::optional<Remaind
 
 /// What the search has found, with what it is worth.
 Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tried, Selection selection,
-                     double tail) {
+                     const DiagnosisOptions& options) {
+    const double tail = options.selection.search.tail;
     Diagnosis diagnosis;
     const std::ptrdiff_t left_out = leave_out_unpredictable(evidence, selection);
     const CrossFit& explained = selection.steps.back();
     std::optional<Remainder> whole;
     if (!selection.choices.empty()) whole = remainder_of(evidence, selection.steps.front(), tail);
     say_what_is_named(evidence, selection, fit_to_all(evidence, explained), whole, diagnosis);
-    diagnosis.unexplained = remainder_of(evidence, explained, tail);
+    diagnosis.unexplained = remainder_of(evidence, explained, tail, options.matters);
     if (!diagnosis.unexplained && mean_probability(diagnosis.effects) <= 0.5) diagnosis.unexplained = whole;
     diagnosis.verdict = verdict_of(selection, diagnosis.unexplained.has_value());
     if (diagnosis.unexplained) accuse_what_is_left(selection, whole, diagnosis);
@@ -265,8 +267,7 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
 
 /// The same without another prediction: values as one half gives them, uncertain by how far the other one is
 /// from it.
-Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection) {
-    constexpr double at_the_floor = 1.1;
+Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, const SignalLimits& matters) {
     Diagnosis diagnosis;
     const Hypothesis& hypothesis = selection.steps.back().of_half[0];
     Eigen::Index parameters = 0;
@@ -275,8 +276,26 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection) {
     const Fit fitted{
         .hypothesis = hypothesis, .loss = 0.0, .covariance = Eigen::MatrixXd::Zero(parameters, parameters)};
     say_what_is_named(evidence, selection, fitted, {}, diagnosis);
-    diagnosis.verdict = verdict_of(selection, diagnosis.gap.after > at_the_floor);
+    const bool something_is_left = std::ranges::any_of(diagnosis.signals, [&](const SignalGap& signal) {
+        return signal.after > least_floors * signal.floor &&
+               signal.discrepancy > matters[index_of(signal.signal)];
+    });
+    diagnosis.verdict = verdict_of(selection, something_is_left);
     return diagnosis;
+}
+
+/// Signals whose discrepancy is no gap by what the user says.
+void add_what_does_not_matter(const SignalLimits& matters, Diagnosis& diagnosis) {
+    for (const SignalGap& signal : diagnosis.signals) {
+        const double limit = matters[index_of(signal.signal)];
+        if (limit <= 0.0 || signal.after <= least_floors * signal.floor || signal.discrepancy > limit)
+            continue;
+        diagnosis.notes.push_back(fmt::format(
+            "{}: {:.3g} {} r.m.s. remain that no effect explains, not more than the {:.3g} {} that "
+            "matter",
+            name_of(signal.signal), signal.discrepancy, unit_of(signal.signal), limit,
+            unit_of(signal.signal)));
+    }
 }
 
 }  // namespace
@@ -287,12 +306,13 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
     Diagnosis diagnosis;
     Ended ended = selection.ended;
     try {
-        diagnosis = worked_out(evidence, tried, selection, options.selection.search.tail);
+        diagnosis = worked_out(evidence, tried, selection, options);
     } catch (const BudgetEnded& end) {
         ended = end.how();
-        diagnosis = as_it_stands(evidence, selection);
+        diagnosis = as_it_stands(evidence, selection, options.matters);
     }
     diagnosis.ended = ended;
+    add_what_does_not_matter(options.matters, diagnosis);
     return diagnosis;
 }
 

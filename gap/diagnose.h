@@ -11,6 +11,9 @@ namespace fidservo::gap {
 struct DiagnosisOptions {
     std::vector<std::string> only;     ///< effects to try; empty: all
     std::vector<std::string> without;  ///< effects to leave out, with all of their class
+    /// What may be left of a signal that no effect explains without its being called a gap, in the signal's
+    /// unit. It never changes what is found, nor how large the discrepancy is said to be.
+    SignalLimits matters = {};
     SelectionOptions selection;
 };
 

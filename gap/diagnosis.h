@@ -2,6 +2,7 @@
 // What a diagnosis says: the fields of the file that `diagnose --json` writes, and what its report draws.
 #include "gap/evidence.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@ namespace fidservo::gap {
 
 enum class Verdict { no_gap, explained, partly_explained, unexplained };
 std::string_view name_of(Verdict verdict);
+
+/// A size for each signal, in its unit.
+using SignalLimits = std::array<double, signal_count>;
 
 /// R.m.s. over held-out windows, in the signal's unit.
 struct SignalGap {

@@ -153,7 +153,8 @@ Remainder remainder_of_signal(const SignalGap& gap, const Pattern& pattern, cons
 
 }  // namespace
 
-std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail) {
+std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail,
+                                      const SignalLimits& matters) {
     const std::vector<std::uint8_t> half = halves(evidence);
     const Errors errors = held_out_errors(evidence, explained, half);
     std::vector<SignalGap> gaps = signal_gaps(evidence, explained.mean_squares, explained.mean_squares);
@@ -163,7 +164,7 @@ std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& 
     std::ranges::sort(gaps, std::greater{},
                       [&](const SignalGap& gap) { return std::pair(gap.signal == suspect, floors(gap)); });
     for (const SignalGap& gap : gaps) {
-        if (floors(gap) < least_floors) continue;
+        if (floors(gap) < least_floors || gap.discrepancy <= matters[index_of(gap.signal)]) continue;
         if (gap.signal == Signal::tag && tags_are_innocent(pattern)) continue;
         // Where a gap is beyond doubt, what it likely depends on says more than nothing.
         const bool is_clear = floors(gap) >= clear_floors;

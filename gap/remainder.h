@@ -11,6 +11,8 @@ namespace fidservo::gap {
 /// judged on the other. Empty where it predicts
 /// nothing beyond chance, unless what is left is more than 1.25 floors: a gap whose cause depends on
 /// something else.
-std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail);
+/// @param matters  signals whose discrepancy is no larger are passed over
+std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail,
+                                      const SignalLimits& matters = {});
 
 }  // namespace fidservo::gap

@@ -174,20 +174,28 @@ Chain with_everything(const Chain& chain, Search::Together together) {
     return with_together(std::move(rest), std::move(together));
 }
 
-/// A chain with what is needed of everything in place of its smooth effects, and of those that have a shape
-/// of their own, one after the other, as long as the Hall reading stays off its floor and each is no chance.
-/// @param whole  is better each time that it is changed
-void begin_with_everything(const Search& search, const Chain& chain, Chain& whole) {
+/// A chain with what is needed of everything in place of its smooth effects, if that is more than it has.
+Chain with_all_that_is_smooth(const Search& search, const Chain& chain) {
     Chain all = with_everything(chain, search.everything_beside(chain.fitted));
-    if (all.choices.size() > chain.choices.size()) whole = std::move(all);
-    while (is_off(search, whole, Signal::hall)) {
+    return all.choices.size() > chain.choices.size() ? all : chain;
+}
+
+bool is_view_or_wire_off(const Search& search, const Chain& chain) {
+    return is_off(search, chain, Signal::hall) || is_off(search, chain, Signal::tag);
+}
+
+/// A chain with further effects that have a shape of their own, one after the other and each time with all
+/// that is smooth, as long as Hall reading or tags stay off their floors and each is no chance.
+/// @param chain  is better each time that it is changed
+void add_shapes(const Search& search, Chain& chain) {
+    while (is_view_or_wire_off(search, chain)) {
         std::optional<Chain> best;
-        for (Search::Together& together : search.shaped_beside(whole.fitted)) {
-            Chain longer = with_everything(whole, std::move(together));
+        for (Search::Together& together : search.shaped_beside(chain.fitted)) {
+            Chain longer = with_everything(chain, std::move(together));
             if (!best || longer.fitted.loss < best->fitted.loss) best = std::move(longer);
         }
-        if (!best || !is_better(search, *best, whole)) return;
-        whole = *std::move(best);
+        if (!best || !is_better(search, *best, chain)) return;
+        chain = *std::move(best);
     }
 }
 
@@ -215,8 +223,8 @@ void add_tried(std::vector<Trial>& alone, std::vector<Trial> later) {
 /// Whether one effect alone, fitted from afar, explains a signal nearly as well as a whole chain does.
 bool one_nearly_does(Search& search, const Chain& chain, const Chain& whole, std::vector<Trial>* alone) {
     constexpr double nearly = 0.9;  // of what the whole gains
-    std::vector<Trial> trials =
-        search.try_all(chain.fitted, chain.candidates(), {.scatters = false, .refines = false});
+    std::vector<Trial> trials = search.try_all(
+        chain.fitted, chain.candidates(), {.fits = 4, .leaders = 2, .scatters = false, .refines = false});
     const bool does =
         has_leader(trials) && trials.front().gain > nearly * (chain.fitted.loss - whole.fitted.loss);
     add_tried(*alone, std::move(trials));
@@ -247,17 +255,28 @@ bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal,
     return do_better;
 }
 
+/// Small causes of wire, sensors and view are many more often than one that does what they do: where more are
+/// needed together than could be found one by one, they stand.
+/// @param all  the chain with all that is smooth
+/// @return whether they do
+bool explain_by_many(const Search& search, Chain& chain, const Chain& all) {
+    if (all.choices.size() <= chain.choices.size() + most_one_by_one || !is_better(search, all, chain))
+        return false;
+    chain = all;
+    return true;
+}
+
 /// What moves the wire has causes that stand in for each other: all of them are looked at together.
-bool explain_hall_at_once(Search& search, Chain& chain, std::vector<Trial>* alone) {
+/// @param all  the chain with all that is smooth
+bool explain_hall_at_once(Search& search, Chain& chain, Chain all, std::vector<Trial>* alone) {
     if (!is_off(search, chain, Signal::hall)) return false;
-    Chain whole = chain;
     try {
-        begin_with_everything(search, chain, whole);
+        add_shapes(search, all);
     } catch (const BudgetEnded&) {
-        chain = std::move(whole);
+        chain = std::move(all);
         throw;
     }
-    return explain_by_one_or(search, chain, std::move(whole), Signal::hall, alone);
+    return explain_by_one_or(search, chain, std::move(all), Signal::hall, alone);
 }
 
 /// What moves the carriage adds up in the balance of its forces.
@@ -286,8 +305,8 @@ bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
     search.limit(false);
     search.look_for_causes_in(all_signals, 1.0);
     if (!is_off(search, chain, Signal::hall)) return is_paired;
-    Chain whole = chain;
-    begin_with_everything(search, chain, whole);
+    Chain whole = with_all_that_is_smooth(search, chain);
+    add_shapes(search, whole);
     if (is_better(search, whole, chain)) chain = std::move(whole);
     return is_paired;
 }
@@ -368,8 +387,15 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     Chain chain{{}, search.nothing()};
     selection.steps.push_back(chain.fitted);
     try {
+        Chain smooth = is_view_or_wire_off(search, chain) ? with_all_that_is_smooth(search, chain) : chain;
+        const bool are_many = explain_by_many(search, chain, smooth);
         const bool is_balanced = explain_carriage_at_once(search, chain, &selection.alone);
-        const bool is_known = explain_hall_at_once(search, chain, &selection.alone);
+        if (are_many)
+            smooth = chain;
+        else if (is_balanced)
+            smooth = with_all_that_is_smooth(search, chain);
+        const bool is_known =
+            explain_hall_at_once(search, chain, std::move(smooth), &selection.alone) || are_many;
         bool is_paired = is_known || is_balanced;
         if (!is_known) is_paired = explain_hall(search, chain, &selection.alone) || is_paired;
         const std::size_t most_effects = chain.choices.size() + options.most_effects;

@@ -9,6 +9,7 @@
 #include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
 #include "src/diagnose/frame_looks.h"
+#include "src/diagnose/matters.h"
 #include "src/diagnose/next_experiment.h"
 #include "src/diagnose/report.h"
 #include "src/diagnose/search_progress.h"
@@ -36,7 +37,7 @@ namespace {
 struct DiagnoseOptions {
     std::vector<std::filesystem::path> recordings;
     std::filesystem::path rig_file;
-    std::vector<std::string> only, without;
+    std::vector<std::string> only, without, matters;
     std::filesystem::path json, report, write_rig;
     SelfCheckRequest self_check;
 };
@@ -69,6 +70,7 @@ Read read_recordings(const std::vector<std::filesystem::path>& paths) {
 int check_itself(const DiagnoseOptions& options) {
     if (!options.recordings.empty()) throw InputError("--self-check: it makes its own recordings; give none");
     if (!options.without.empty()) throw InputError("--self-check: it withholds effects itself; no --without");
+    if (!options.matters.empty()) throw InputError("--self-check: it judges by the floor; no --matters");
     if (!options.report.empty() || !options.write_rig.empty())
         throw InputError("--self-check: writes --json only, no --report and no --write-rig");
     return run_self_check(options.self_check, options.rig_file, options.only, options.json);
@@ -83,7 +85,7 @@ void keep_memory() {
 #endif
 }
 
-int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig) {
+int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const gap::SignalLimits& matters) {
     const auto start = std::chrono::steady_clock::now();
     Read read = read_recordings(options.recordings);
     const double gone_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -91,7 +93,8 @@ int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig) {
     const auto budget = std::make_shared<const gap::Budget>(limit.search_s - gone_s, limit.whole_s - gone_s,
                                                             interrupt_requested);
     const gap::Evidence evidence(rig, diagnose::thinned(std::move(read.recordings), read.notes), budget);
-    gap::DiagnosisOptions how{.only = options.only, .without = options.without, .selection = {}};
+    gap::DiagnosisOptions how{
+        .only = options.only, .without = options.without, .matters = matters, .selection = {}};
     diagnose::SearchProgress progress(limit.whole_s);
     how.selection.search.tell = [&](std::string_view what) { progress.tell(what); };
     gap::Diagnosis diagnosis = gap::diagnose(evidence, how);
@@ -126,8 +129,9 @@ int run_diagnose(const DiagnoseOptions& options) {
     demand_new_file("--report", options.report);
     demand_new_file("--write-rig", options.write_rig);
     const Rig rig = load_rig(options.rig_file);
+    const gap::SignalLimits matters = diagnose::what_matters(options.matters, rig);
     try {
-        return diagnose_recordings(options, rig);
+        return diagnose_recordings(options, rig, matters);
     } catch (const gap::BudgetEnded& end) {
         const bool by_user = end.how() == gap::Ended::interrupted;
         fmt::print("{}: nothing was predicted by then, nothing was written\n",
@@ -157,6 +161,13 @@ void add_diagnose(CLI::App& app, int& exit_code) {
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("A,B,..");
+    command
+        ->add_option(
+            "--matters", options->matters,
+            "What may stay unexplained of a signal without being called a gap: encoder=20um,tag=0.1px")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("SIGNAL=VALUE,..");
     command->add_option("--json", options->json, "New file for the whole diagnosis")->type_name("FILE");
     command->add_option("--report", options->report, "New file for the report")->type_name("FILE.html");
     command->add_option("--write-rig", options->write_rig, "New rig file that states the effects found")

@@ -119,8 +119,9 @@ std::string describe(const gap::Diagnosis& diagnosis) {
     text +=
         fmt::format("gap: {:.3g} floors before, {:.4g} after\n", diagnosis.gap.before, diagnosis.gap.after);
     for (const gap::SignalGap& signal : diagnosis.signals)
-        text += fmt::format("  {:<14} {:>9.4g} -> {:>8.4g} {} (floor {:.3g})\n", gap::name_of(signal.signal),
-                            signal.before, signal.after, gap::unit_of(signal.signal), signal.floor);
+        text += fmt::format("  {:<14} {:>9.4g} -> {:>8.4g} {} (floor {:.3g}; {:.3g} unexplained)\n",
+                            gap::name_of(signal.signal), signal.before, signal.after,
+                            gap::unit_of(signal.signal), signal.floor, signal.discrepancy);
     for (const gap::FoundEffect& effect : diagnosis.effects) text += described(effect);
     if (diagnosis.unexplained) text += "unexplained: " + diagnosis.unexplained->text + "\n";
     if (diagnosis.next_experiment) text += "next: " + diagnosis.next_experiment->text + "\n";

@@ -63,12 +63,12 @@ std::string trust_html(const gap::Diagnosis& diagnosis, const Rig& rig) {
     std::vector<std::string> sizes;
     for (const gap::SignalGap& signal : diagnosis.signals)
         if (size_class(signal.after / signal.floor) > 0)
-            sizes.push_back(fmt::format("{} in the {}", shown_size(rig, signal.signal, signal.after),
-                                        signal_words(signal.signal)));
+            sizes.push_back(
+                fmt::format("{} in the {} (before: {})", shown_size(rig, signal.signal, signal.after),
+                            signal_words(signal.signal), shown_size(rig, signal.signal, signal.before)));
     if (sizes.empty()) return "";
-    return fmt::format(
-        "<p>Until the cause is found, expect the simulator to be wrong by {} (r.m.s. within a second).</p>\n",
-        escaped(enumerated(sizes)));
+    return fmt::format("<p>Until the cause is found, predictions over one second are off by {}, r.m.s.</p>\n",
+                       escaped(enumerated(sizes)));
 }
 
 std::string remainder_html(const gap::Remainder& remainder) {

@@ -89,18 +89,22 @@ std::string method_html(const gap::Evidence& evidence, const gap::Diagnosis& dia
     std::string rows;
     for (const gap::SignalGap& signal : diagnosis.signals)
         rows += fmt::format(
-            "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+            "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
+            "class=\"n\">{}</td></tr>\n",
             escaped(capitalised(std::string(signal_words(signal.signal)))),
             escaped(shown_size(evidence.rig(), signal.signal, signal.before)),
             escaped(shown_size(evidence.rig(), signal.signal, signal.after)),
+            escaped(shown_size(evidence.rig(), signal.signal, signal.discrepancy)),
             escaped(shown_size(evidence.rig(), signal.signal, signal.floor)));
     return fmt::format(
                "<div class=\"scroll\"><table class=\"data\"><thead><tr><th>Signal</th><th "
-               "class=\"n\">Before</th><th class=\"n\">After</th><th "
+               "class=\"n\">Before</th><th class=\"n\">After</th><th class=\"n\">Unexplained</th><th "
                "class=\"n\">Floor</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
                rows) +
            "<p class=\"caption\">R.m.s. of prediction minus recording on windows of 1 s, each begun from the "
-           "100 ms before it, on recordings that the parameters were not fitted to. The floor of a signal is "
+           "100 ms before it, on recordings that the parameters were not fitted to. Unexplained is what "
+           "noise "
+           "does not account for of what is left. The floor of a signal is "
            "its noise at rest and its rounding step, root of the sum of squares; that of a controller's "
            "command is set to 0.1 mV or the file's digits. The total gap is the r.m.s. of the signals' "
            "errors in floors; removed = 1 \u2212 (after\u00b2 \u2212 1) / (before\u00b2 \u2212 1).</p>\n";

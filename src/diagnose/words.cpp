@@ -32,10 +32,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 13> blocks{{
     {"controller", "the controllers"},
 }};
 
-double hall_um_per_lsb(const HallParameters& hall) {
-    return 1000.0 * hall_lsb_V(hall) / hall_slope_V_per_mm(hall, hall.centre_mm);
-}
-
 /// "10" and its exponent as superscript digits.
 std::string power_of_ten(int exponent) {
     constexpr std::array<std::string_view, 10> digits{"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
@@ -132,6 +128,10 @@ std::string shown_size(const Rig& rig, gap::Signal signal, double own_unit) {
     const double size = own_unit * display.per_own_unit;
     if (size < least_shown) return fmt::format("< {} {}", least_shown, display.unit);
     return fmt::format("{} {}", three_digits(size), display.unit);
+}
+
+double hall_um_per_lsb(const HallParameters& hall) {
+    return 1000.0 * hall_lsb_V(hall) / hall_slope_V_per_mm(hall, hall.centre_mm);
 }
 
 std::string platform_motion(const Rig& rig, double hall_lsb) {

@@ -6,8 +6,9 @@
 #include <string_view>
 
 namespace fidservo {
+struct HallParameters;
 struct Rig;
-}
+}  // namespace fidservo
 
 namespace fidservo::diagnose {
 
@@ -55,6 +56,9 @@ DisplayUnit display_unit(const Rig& rig, gap::Signal signal, double largest);
 
 /// A size in its display unit: "12.5 um".
 std::string shown_size(const Rig& rig, gap::Signal signal, double own_unit);
+
+/// What the platform moves by while the Hall reading changes by one, in the middle of its range.
+double hall_um_per_lsb(const HallParameters& hall);
 
 /// The motion of the platform that a size of the Hall reading stands for in the middle of the range, "25 um".
 /// Demands a micro stage.

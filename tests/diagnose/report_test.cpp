@@ -157,7 +157,9 @@ TEST(DiagnosisReport, Unexplained_SaysWhereAndWhatItDependsOn) {
     EXPECT_THAT(html, HasSubstr("the Hall sensor, dependent on contraction; no known effect explains it"));
     EXPECT_THAT(html, HasSubstr("Hall: 23.4 adc r.m.s. remain."));
     EXPECT_THAT(html, HasSubstr("<figure class=\"dependence named\">"));
-    EXPECT_THAT(html, HasSubstr("expect the simulator to be wrong by 23.4 LSB in the Hall reading"));
+    EXPECT_THAT(
+        html,
+        HasSubstr("predictions over one second are off by 23.4 LSB in the Hall reading (before: 23.4 LSB)"));
 }
 
 TEST(DiagnosisReport, RigWithCarriageAlone_SpeaksOfNothingElse) {
