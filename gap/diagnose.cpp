@@ -1,6 +1,7 @@
 #include "gap/diagnose.h"
 
 #include "gap/accusation.h"
+#include "gap/correlated.h"
 #include "gap/gap_size.h"
 #include "gap/model_weights.h"
 #include "gap/remainder.h"
@@ -247,7 +248,8 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     const CrossFit& explained = selection.steps.back();
     std::optional<Remainder> whole;
     if (!selection.choices.empty()) whole = remainder_of(evidence, selection.steps.front(), tail);
-    say_what_is_named(evidence, selection, fit_to_all(evidence, explained), whole, diagnosis);
+    const Fit fitted = fit_to_all(evidence, explained);
+    say_what_is_named(evidence, selection, fitted, whole, diagnosis);
     diagnosis.unexplained = remainder_of(evidence, explained, tail, options.matters);
     if (!diagnosis.unexplained && mean_probability(diagnosis.effects) <= 0.5) diagnosis.unexplained = whole;
     diagnosis.verdict = verdict_of(selection, diagnosis.unexplained.has_value());
@@ -256,7 +258,9 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
         const std::string wanting = what_is_wanting(evidence, selection);
         if (!wanting.empty()) diagnosis.unexplained->text += "; " + wanting;
     }
-    diagnosis.notes = undecided(evidence, tried, selection);
+    diagnosis.notes = correlated_parameters(fitted);
+    for (std::string& note : undecided(evidence, tried, selection))
+        diagnosis.notes.push_back(std::move(note));
     if (left_out > 0)
         diagnosis.notes.push_back(
             fmt::format("encoder: {} of its windows are not judged: where within a count the carriage stood "

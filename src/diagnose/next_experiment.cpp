@@ -20,7 +20,7 @@ namespace fidservo::diagnose {
 namespace {
 
 constexpr double longest_s = 30.0;
-/// Loss that decides: a thousandth of the odds of a chance, exp(-7), at a value a window (gap/posterior.h).
+/// Loss that decides: odds of a thousand to one, exp(7), where a window counts as one value.
 constexpr double decisive = 7.0;
 
 struct Pair {
