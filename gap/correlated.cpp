@@ -45,6 +45,7 @@ std::vector<std::string> correlated_parameters(const Fit& fitted) {
     std::ranges::stable_sort(pairs, std::greater{},
                              [](const Pair& pair) { return std::abs(pair.correlation); });
     std::vector<std::string> lines;
+    lines.reserve(pairs.size());
     for (const Pair& pair : pairs)
         lines.push_back(
             fmt::format("{} {} and {} {} are known only together (correlation {:.3f}): more of the one is "

@@ -4,6 +4,7 @@
 #include "gap/fit.h"
 #include "gap/force_balance.h"
 #include "gap/minimum_norm.h"
+#include "gap/predictive_density.h"
 #include "gap/score.h"
 #include "gap/shape_screening.h"
 
@@ -13,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <mutex>
+#include <set>
 #include <utility>
 
 namespace fidservo::gap {
@@ -159,26 +161,71 @@ struct Sizes {
     }
 };
 
-/// Those candidates that remain when what is worth least is taken away, one after the other.
-std::vector<std::size_t> kept(std::span<const Candidate* const> candidates, const Fit& fitted) {
+/// How much more than where noise is all that is left a candidate has to be worth: as many times as the
+/// windows that teach it are fewer independent ones, where something is left that they share.
+class Demand {
+  public:
+    /// Where noise is taken for all that is left.
+    Demand() { times_.fill(1.0); }
+
+    /// @param errors  in the windows wanted, by everything
+    Demand(const Evidence& evidence, const Wanted& wanted, const Errors& errors) : Demand() {
+        const std::vector<Window>& windows = evidence.windows();
+        std::vector<double> squares = mean_squares(windows, errors);
+        std::array<std::set<std::size_t>, signal_count> runs;
+        std::array<double, signal_count> count{}, expected{};
+        for (std::size_t w = 0; w < windows.size(); ++w) {
+            if (wanted[w] == 0) squares[w] = std::numeric_limits<double>::quiet_NaN();
+            if (std::isnan(squares[w])) continue;
+            const std::size_t signal = index_of(windows[w].signal);
+            runs[signal].insert(windows[w].run);
+            count[signal] += 1.0;
+            expected[signal] += windows[w].expected_square;
+        }
+        const Discrepancy left = discrepancy_of(windows, squares);
+        for (std::size_t s = 0; s < signal_count; ++s)
+            if (count[s] > 0.0)
+                times_[s] = 1.0 / independent_share(count[s] / static_cast<double>(runs[s].size()),
+                                                    expected[s] / count[s], left[s]);
+    }
+
+    /// Of the signal that tells most of it.
+    double worth_of(const Candidate& candidate) const {
+        const SignalFlags teachers = teachers_of(*candidate.effect);
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t s = 0; s < signal_count; ++s)
+            if (teachers[s]) least = std::min(least, times_[s]);
+        return least_worth * (std::isfinite(least) ? least : 1.0);
+    }
+
+  private:
+    std::array<double, signal_count> times_{};
+};
+
+/// Those candidates that remain when what is worth least, over what is demanded of it, is taken away, one
+/// after the other.
+std::vector<std::size_t> kept(std::span<const Candidate* const> candidates, const Fit& fitted,
+                              const Demand& demand) {
     const Sizes sizes(candidates, fitted);
     std::vector<std::size_t> rest(candidates.size()), left_out;
     for (std::size_t c = 0; c < rest.size(); ++c) rest[c] = c;
     double lost = 0.0;
     while (!rest.empty()) {
-        double least = std::numeric_limits<double>::infinity();
+        double least = std::numeric_limits<double>::infinity(), lost_with_it = lost;
         std::size_t at = 0;
         for (std::size_t k = 0; k < rest.size(); ++k) {
             std::vector<std::size_t> without = left_out;
             without.push_back(rest[k]);
             const double worth = sizes.worth(without, fitted.curvature_covariance);
-            if (worth < least) {
-                least = worth;
+            const double share = (worth - lost) / demand.worth_of(*candidates[rest[k]]);
+            if (share < least) {
+                least = share;
+                lost_with_it = worth;
                 at = k;
             }
         }
-        if (least - lost >= least_worth) break;
-        lost = std::max(lost, least);
+        if (least >= 1.0) break;
+        lost = std::max(lost, lost_with_it);
         left_out.push_back(rest[at]);
         rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(at));
     }
@@ -261,9 +308,10 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
         fit_half(0, sizes, most_iterations);
         chosen.settings = fitted[0].hypothesis;
     };
+    Demand demand;
     const auto prune = [&](int most_iterations) {
         while (!chosen.candidates.empty()) {
-            const std::vector<std::size_t> rest = kept(chosen.candidates, fitted[0]);
+            const std::vector<std::size_t> rest = kept(chosen.candidates, fitted[0], demand);
             const bool is_all = rest.size() == chosen.candidates.size();
             chosen.keep(rest);
             if (is_all || rest.empty()) break;
@@ -272,7 +320,9 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
     };
     double sizes = expected_sizes;
     std::vector<double> worth;
-    for (const int most_iterations : iterations)
+    for (const int most_iterations : iterations) {
+        if (most_iterations == iterations.back())
+            demand = Demand(evidence, wanted[0], predict[0](chosen.settings));
         for (bool is_all = false; !is_all && !chosen.candidates.empty(); sizes = 0.0) {
             fit_first(sizes, most_iterations);
             prune(most_iterations);
@@ -284,11 +334,12 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
             worth.clear();
             for (std::size_t c = 0; c < here.size(); ++c) {
                 worth.push_back(here[c] + there[c]);
-                if (std::min(here[c], there[c]) >= least_worth) rest.push_back(c);
+                if (std::min(here[c], there[c]) >= demand.worth_of(*chosen.candidates[c])) rest.push_back(c);
             }
             is_all = rest.size() == here.size();
             chosen.keep(rest);
         }
+    }
     if (chosen.candidates.empty()) return {};
     return {chosen.candidates, {fitted[0].hypothesis, fitted[1].hypothesis}, std::move(worth)};
 }

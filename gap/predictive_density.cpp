@@ -53,13 +53,12 @@ Discrepancy likeliest(std::span<const Window> windows, std::span<const double> m
     return levels;
 }
 
-/// How many independent windows each of a recording's windows of a signal counts as.
+}  // namespace
+
 double independent_share(double windows, double expected_square, double discrepancy) {
     const double connected = discrepancy * discrepancy / (expected_square + discrepancy * discrepancy);
     return 1.0 / (1.0 + (windows - 1.0) * connected);
 }
-
-}  // namespace
 
 Discrepancy discrepancy_of(std::span<const Window> windows, std::span<const double> mean_squares) {
     return likeliest(windows, mean_squares, Wanted(windows.size(), 1));

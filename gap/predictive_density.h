@@ -33,6 +33,9 @@ using Discrepancy = std::array<double, signal_count>;
 /// @param mean_squares  S_w of all windows; NaN: not judged
 Discrepancy discrepancy_of(std::span<const Window> windows, std::span<const double> mean_squares);
 
+/// As how many independent windows n windows of a recording count, each: 1 / (1 + (n - 1) rho).
+double independent_share(double windows, double expected_square, double discrepancy);
+
 /// log p of each recording, up to a constant that all explanations of these windows share; 0 for recordings
 /// of which nothing is counted.
 /// @param mean_squares  S_w of all windows under the explanation

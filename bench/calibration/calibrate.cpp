@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <exception>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -193,16 +195,10 @@ void tell(const std::vector<Name>& names, const std::vector<Judged>& judged) {
     }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    if (argc < 2) {
-        fmt::print(stderr, "usage: calibrate SELF-CHECK.json... > gap/calibration.h\n");
-        return 2;
-    }
+void calibrate(const std::vector<std::string>& files) {
     std::vector<Name> names;
     std::vector<std::string> sources;
-    for (const std::string& file : std::vector<std::string>(argv + 1, argv + argc)) {
+    for (const std::string& file : files) {
         std::ifstream stream(file);
         const Json self_check = Json::parse(stream);
         const std::vector<Name> here = names_of(self_check);
@@ -231,5 +227,20 @@ inline constexpr std::array calibrated_coefficients{{
     for (std::size_t k = 0; k < feature_count; ++k)
         fmt::print("    {:.3f},  // {}\n", all.of_feature[k], gap::feature_names[k]);
     fmt::print("}};\n\n}}  // namespace fidservo::gap\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2) {
+        std::fputs("usage: calibrate SELF-CHECK.json... > gap/calibration.h\n", stderr);
+        return 2;
+    }
+    try {
+        calibrate({argv + 1, argv + argc});
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "calibrate: %s\n", error.what());
+        return 2;
+    }
     return 0;
 }

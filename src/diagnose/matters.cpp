@@ -61,6 +61,7 @@ double in_own_unit(const std::string& argument, gap::Signal signal, const Rig& r
     const std::vector<Unit> units = units_of(signal, rig);
     const auto fail = [&] {
         std::vector<std::string_view> names;
+        names.reserve(units.size());
         for (const Unit& unit : units) names.push_back(unit.name);
         return InputError(
             fmt::format("--matters: {}: {}=VALUE, or VALUE with its unit behind it, above 0, is expected; "
