@@ -13,6 +13,7 @@ struct Choice {
     double loss_without = 0.0;                ///< of what it was tried beside, alone
     std::vector<Trial> alternatives = {};     ///< everything that was tried in its place, itself first
     std::vector<const Candidate*> ties = {};  ///< of these, what does as well
+    double gap_alone = 1.0;  ///< that it would make beside the rig file, in floors; 1: not worked out
     CrossFit left_out = {};  ///< the whole explanation without it, fitted anew; empty: not worked out
 };
 

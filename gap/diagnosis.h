@@ -40,7 +40,7 @@ struct Support {
     /// What is left of that of the signals which teach it in which it matters most (typical_floors).
     double left_floors = 1.0;
     double without_floors = 1.0;  ///< the same without it
-    double gap_without = 1.0;     ///< the whole gap without it, in floors
+    double gap_alone = 1.0;       ///< the gap that it alone would make beside the rig file, in floors
     double gap_left = 0.0;        ///< share of the whole gap that all names together leave
     double names = 1.0;           ///< how many effects are named
     /// Whether the whole gap, analysed without names, accuses a block that is named: 1; one of the same stage
@@ -93,7 +93,7 @@ struct Diagnosis {
     Verdict verdict = Verdict::no_gap;
     std::vector<SignalGap> signals;
     std::vector<BlockProbability> where;  ///< most likely first
-    std::vector<FoundEffect> effects;     ///< that first whose lack leaves the largest gap
+    std::vector<FoundEffect> effects;     ///< that first which alone would make the largest gap
     std::vector<TriedEffect> candidates;  ///< most likely first
     TotalGap gap{1.0, 1.0};
     std::optional<Remainder> unexplained;

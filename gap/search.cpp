@@ -362,8 +362,15 @@ SignalFlags Search::far_off(const CrossFit& fitted, double floors) const {
     return above(fitter_.excess(fitted.mean_squares), floors * floors - 1.0);
 }
 
-double Search::gap_floors(const CrossFit& fitted) const {
-    return total_gap(signal_gaps(fitter_.evidence(), fitted.mean_squares, fitted.mean_squares)).after;
+double Search::gap_alone(const plant::EffectSetting& setting) const {
+    const Evidence& evidence = fitter_.evidence();
+    const Wanted wanted = only_of(evidence.windows(), everything(evidence), reached_by({setting}));
+    const Errors nothing = evidence.errors({}, wanted);
+    Errors change = evidence.errors({setting}, wanted);
+    for (std::size_t k = 0; k < change.size(); ++k) change[k] -= nothing[k];
+    std::vector<double> squares = mean_squares(evidence.windows(), change);
+    for (std::size_t w = 0; w < squares.size(); ++w) squares[w] = wanted[w] == 0 ? 1.0 : 1.0 + squares[w];
+    return total_gap(signal_gaps(evidence, squares, squares)).after;
 }
 
 bool Search::is_at_floor(const CrossFit& fitted) const {

@@ -186,8 +186,9 @@ class Search {
     /// Signals at some floors and more.
     SignalFlags far_off(const CrossFit& fitted, double floors = 3.0) const;
 
-    /// Of all signals together, r.m.s., in floors (gap/gap_size.h).
-    double gap_floors(const CrossFit& fitted) const;
+    /// How large a gap a setting alone would make beside the rig file, over all signals, in floors
+    /// (gap/gap_size.h): by what the predictions change with it.
+    double gap_alone(const plant::EffectSetting& setting) const;
 
     /// Whether every signal is at its floor: nothing is left for another effect to explain.
     bool is_at_floor(const CrossFit& fitted) const;

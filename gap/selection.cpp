@@ -232,15 +232,15 @@ bool one_nearly_does(Search& search, const Chain& chain, const Chain& whole, std
 }
 
 /// A signal that is off its floor is explained by one effect, or by those that a whole chain has found at
-/// once where these do better. Many that bring it to its floor need no comparison.
+/// once where these do better. Many that were needed together need no comparison.
 /// @return whether these do
 bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal, std::vector<Trial>* alone) {
-    if (whole.choices.size() <= chain.choices.size()) return false;
+    if (whole.choices.size() <= chain.choices.size() || !is_better(search, whole, chain)) return false;
     const bool are_many = whole.choices.size() > chain.choices.size() + most_one_by_one;
     Chain one = chain;
     try {
         search.look_for_causes_in(only(signal), 1.0);
-        if (!(are_many && !is_off(search, whole, signal)) && one_nearly_does(search, chain, whole, alone)) {
+        if (!are_many && one_nearly_does(search, chain, whole, alone)) {
             const Growth growth{.most_effects = chain.choices.size() + 1, .in_pairs = false};
             grow(search, one, growth, alone);
         }
@@ -336,14 +336,13 @@ CrossFit left_out_of(const Search& search, const Chain& chain, std::size_t left_
     return rest;
 }
 
-/// The chain with what each of its effects leaves when it is left out; that first which leaves the largest
-/// gap.
-Chain largest_first(const Search& search, Chain chain) {
+/// Puts that first which alone would make the largest gap.
+void put_largest_first(const Search& search, Chain& chain) {
     const std::size_t count = chain.choices.size();
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t k = 0; k < count; ++k) {
-        chain.choices[k].left_out = left_out_of(search, chain, k);
-        order.emplace_back(search.gap_floors(chain.choices[k].left_out), k);
+        chain.choices[k].gap_alone = search.gap_alone(chain.fitted.of_half[0][k]);
+        order.emplace_back(chain.choices[k].gap_alone, k);
     }
     std::ranges::stable_sort(order, std::greater{}, &std::pair<double, std::size_t>::first);
     const auto in_order = [&](auto& values) {
@@ -353,7 +352,6 @@ Chain largest_first(const Search& search, Chain chain) {
     };
     in_order(chain.choices);
     for (Hypothesis& hypothesis : chain.fitted.of_half) in_order(hypothesis);
-    return chain;
 }
 
 /// The first `count` effects of a chain alone.
@@ -419,11 +417,13 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     try {
         if (search.is_at_floor(chain.fitted)) selection.limits = limits_in(chain);
-        Chain sorted = largest_first(search, nameable(search, chain));
+        chain = nameable(search, chain);
+        put_largest_first(search, chain);
+        for (std::size_t k = 0; k < chain.choices.size(); ++k)
+            chain.choices[k].left_out = left_out_of(search, chain, k);
         std::vector<CrossFit> steps;
-        for (std::size_t k = 1; k < sorted.choices.size(); ++k) steps.push_back(first_of(search, sorted, k));
+        for (std::size_t k = 1; k < chain.choices.size(); ++k) steps.push_back(first_of(search, chain, k));
         selection.steps.insert(selection.steps.end(), steps.begin(), steps.end());
-        chain = std::move(sorted);
     } catch (const BudgetEnded& ended) {
         selection.ended = ended.how();
         // What each effect is worth by itself was not worked out.

@@ -10,7 +10,7 @@
 namespace fidservo::gap {
 
 struct Selection {
-    std::vector<Choice> choices;  ///< that first whose lack leaves the largest gap
+    std::vector<Choice> choices;  ///< that first which alone would make the largest gap
     std::vector<CrossFit> steps;  ///< with the first 0, 1, 2 ... of them
     std::vector<Trial> alone;     ///< what was tried first, alone, best first
     /// What was taken in and must not be named, Candidate::is_limit, where it left nothing.

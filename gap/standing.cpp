@@ -115,19 +115,17 @@ std::vector<Support> supports(const Evidence& evidence, const Selection& selecti
             choice.left_out.mean_squares.empty() ? selection.steps.front() : choice.left_out;
         const Floors without = typical_floors(windows, left_out.mean_squares);
         const OwnFloors own = own_floors(left, without, teachers_of(*choice.candidate->effect));
-        all.push_back(
-            {.weight = weight_of_name(choice, weights[k]),
-             .left_floors = own.left,
-             .without_floors = own.without,
-             .gap_without =
-                 total_gap(signal_gaps(evidence, left_out.mean_squares, left_out.mean_squares)).after,
-             .gap_left = 1.0 - gap.removed(),
-             .names = static_cast<double>(selection.choices.size()),
-             .agreement = agreement_with(whole, selection, choice),
-             .halves_apart =
-                 halves_apart(*choice.candidate, explained.of_half[0][k], explained.of_half[1][k]),
-             .is_at_bound = std::ranges::any_of(
-                 explained.of_half, [&](const Hypothesis& half) { return is_at_bound(half[k]); })});
+        all.push_back({.weight = weight_of_name(choice, weights[k]),
+                       .left_floors = own.left,
+                       .without_floors = own.without,
+                       .gap_alone = choice.gap_alone,
+                       .gap_left = 1.0 - gap.removed(),
+                       .names = static_cast<double>(selection.choices.size()),
+                       .agreement = agreement_with(whole, selection, choice),
+                       .halves_apart =
+                           halves_apart(*choice.candidate, explained.of_half[0][k], explained.of_half[1][k]),
+                       .is_at_bound = std::ranges::any_of(
+                           explained.of_half, [&](const Hypothesis& half) { return is_at_bound(half[k]); })});
     }
     return all;
 }

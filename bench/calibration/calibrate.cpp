@@ -46,7 +46,6 @@ gap::Support support_of(const Json& json) {
     return {.weight = json.at("weight"),
             .left_floors = json.at("left_floors"),
             .without_floors = json.at("without_floors"),
-            .gap_without = json.at("gap_without"),
             .gap_left = json.at("gap_left"),
             .names = json.at("names"),
             .agreement = json.at("agreement"),

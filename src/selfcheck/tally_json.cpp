@@ -39,7 +39,7 @@ Json support_json(const gap::Support& support) {
     return {{"weight", number(support.weight)},
             {"left_floors", number(support.left_floors)},
             {"without_floors", number(support.without_floors)},
-            {"gap_without", number(support.gap_without)},
+            {"gap_alone", number(support.gap_alone)},
             {"gap_left", number(support.gap_left)},
             {"names", support.names},
             {"halves_apart", number(support.halves_apart)},
