@@ -231,10 +231,13 @@ void accuse_what_is_left(const Selection& selection, const std::optional<Remaind
                          Diagnosis& diagnosis) {
     Remainder& left = *diagnosis.unexplained;
     const double in_names = mean_probability(diagnosis.effects);
-    if (selection.choices.empty())
+    if (selection.choices.empty()) {
         left.block = block_of_nameless(selection, left);
-    else if (whole && in_names <= 0.5)
-        left.block = whole->block;  // the names stand in for something else
+    } else if (in_names <= 0.5) {
+        if (whole) left.block = whole->block;  // the names stand in for something else
+        if (std::ranges::find(diagnosis.where, left.block, &BlockProbability::block) == diagnosis.where.end())
+            diagnosis.where.insert(diagnosis.where.begin(), {left.block, 0.0});
+    }
     accuse(diagnosis.where, left.block,
            (1.0 - in_names) * (selection.choices.empty() ? certainty_of(left) : 1.0));
 }

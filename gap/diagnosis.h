@@ -43,8 +43,8 @@ struct Support {
     double gap_alone = 1.0;       ///< the gap that it alone would make beside the rig file, in floors
     double gap_left = 0.0;        ///< share of the whole gap that all names together leave
     double names = 1.0;           ///< how many effects are named
-    /// Whether the whole gap, analysed without names, accuses a block that is named: 1; one of the same stage
-    /// or of the view that is not: 0; neither: 0.5.
+    /// Whether the whole gap, analysed without names, accuses a block that is named: 1; whether it depends on
+    /// one thing alone that accuses another block of the same stage, or of the view: 0; neither: 0.5.
     double agreement = 0.5;
     /// By how much its size differs from one half of the windows to the other, over its mean.
     double halves_apart = 0.0;

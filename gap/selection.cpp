@@ -220,39 +220,53 @@ void add_tried(std::vector<Trial>& alone, std::vector<Trial> later) {
     std::ranges::stable_sort(alone, std::greater{}, &Trial::gain);
 }
 
-/// Whether one effect alone, fitted from afar, explains a signal nearly as well as a whole chain does.
-bool one_nearly_does(Search& search, const Chain& chain, const Chain& whole, std::vector<Trial>* alone) {
-    constexpr double nearly = 0.9;  // of what the whole gains
-    std::vector<Trial> trials = search.try_all(
-        chain.fitted, chain.candidates(), {.fits = 4, .leaders = 2, .scatters = false, .refines = false});
-    const bool does =
-        has_leader(trials) && trials.front().gain > nearly * (chain.fitted.loss - whole.fitted.loss);
-    add_tried(*alone, std::move(trials));
-    return does;
+/// Whether a whole chain is another one with the first of those that were tried beside it.
+bool adds_the_first_of(const Chain& whole, const Chain& chain, const std::vector<Trial>& trials) {
+    std::vector<const Candidate*> expected = chain.candidates();
+    expected.push_back(trials.front().candidate);
+    return whole.candidates() == expected;
 }
 
 /// A signal that is off its floor is explained by one effect, or by those that a whole chain has found at
-/// once where these do better. Many that were needed together need no comparison.
-/// @return whether these do
+/// once where these do better. Many that were needed together need no comparison; an effect that both ways
+/// come to, and that leaves nothing, no closer fit.
+/// @return whether the whole stands
 bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal, std::vector<Trial>* alone) {
+    constexpr double nearly = 0.9;  // of what the whole gains
     if (whole.choices.size() <= chain.choices.size() || !is_better(search, whole, chain)) return false;
-    const bool are_many = whole.choices.size() > chain.choices.size() + most_one_by_one;
+    const auto take_whole = [&] {
+        chain = std::move(whole);
+        return true;
+    };
+    if (whole.choices.size() > chain.choices.size() + most_one_by_one) return take_whole();
+    const auto look_everywhere_again = [&] {
+        search.limit(false);
+        search.look_for_causes_in(all_signals, 1.0);
+    };
     Chain one = chain;
     try {
         search.look_for_causes_in(only(signal), 1.0);
-        if (!are_many && one_nearly_does(search, chain, whole, alone)) {
-            const Growth growth{.most_effects = chain.choices.size() + 1, .in_pairs = false};
-            grow(search, one, growth, alone);
+        std::vector<Trial> trials =
+            search.try_all(chain.fitted, chain.candidates(), {.scatters = false, .refines = false});
+        add_tried(*alone, trials);
+        const double gain = chain.fitted.loss - whole.fitted.loss;
+        if (has_leader(trials) && adds_the_first_of(whole, chain, trials) && !is_off(search, whole, signal)) {
+            trials.front().fitted = whole.fitted;
+            trials.front().gain = gain;
+            chain = grown(search, std::move(chain), std::move(trials));
+            look_everywhere_again();
+            return true;
         }
-        search.limit(false);
-        search.look_for_causes_in(all_signals, 1.0);
+        if (has_leader(trials) && trials.front().gain > nearly * gain)
+            grow(search, one, {.most_effects = chain.choices.size() + 1, .in_pairs = false}, alone);
+        look_everywhere_again();
     } catch (...) {
-        chain = std::move(whole);
+        take_whole();
         throw;
     }
-    const bool do_better = one.choices.size() == chain.choices.size() || is_better(search, whole, one);
-    chain = do_better ? std::move(whole) : std::move(one);
-    return do_better;
+    if (one.choices.size() == chain.choices.size() || is_better(search, whole, one)) return take_whole();
+    chain = std::move(one);
+    return false;
 }
 
 /// Small causes of wire, sensors and view are many more often than one that does what they do: where more are

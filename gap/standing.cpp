@@ -26,7 +26,8 @@ double agreement_with(const std::optional<Remainder>& whole, const Selection& se
         return named.candidate->effect->block == whole->block;
     };
     if (stage_of(whole->block) != stage_of(choice.candidate->effect->block)) return is_not_known;
-    return std::ranges::any_of(selection.choices, is_accused) ? agrees : contradicts;
+    if (std::ranges::any_of(selection.choices, is_accused)) return agrees;
+    return whole->depends_on.size() == 1 ? contradicts : is_not_known;
 }
 
 bool is_at_bound(const plant::EffectSetting& setting) {
@@ -89,7 +90,7 @@ Features features_of(const Support& support) {
             -std::log(std::max(support.gap_left, least_share)),
             -std::log(support.names),
             -std::log(std::max(support.halves_apart, least_apart)),
-            support.agreement,
+            std::max(support.agreement, 0.5),
             support.is_at_bound ? 0.0 : 1.0};
 }
 
@@ -97,7 +98,9 @@ double calibrated_probability(const Support& support) {
     const Features features = features_of(support);
     double log_odds = calibrated_offset;
     for (std::size_t k = 0; k < features.size(); ++k) log_odds += calibrated_coefficients[k] * features[k];
-    return 1.0 / (1.0 + std::exp(-log_odds));
+    const double probability = 1.0 / (1.0 + std::exp(-log_odds));
+    constexpr double share_of_two = 0.5;
+    return support.agreement == 0.0 ? share_of_two * probability : probability;
 }
 
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,

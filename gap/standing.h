@@ -31,10 +31,12 @@ using Features = std::array<double, feature_names.size()>;
 ///   log_gap_left   -log of the share of the whole gap that is left, 1e-4 at least
 ///   log_names      -log of how many are named
 ///   halves_agree   -log of how far its size differs between halves, 1e-3 at least
-///   agreement      0, 0.5 or 1
+///   agreement      0.5 or 1
 ///   inside_bounds  0 where a value is at its bound, otherwise 1
 Features features_of(const Support& support);
 
+/// The regression's; where the analysis without names contradicts, half of it: two accounts of the same data,
+/// neither of which leaves anything to tell them apart by, share the probability.
 double calibrated_probability(const Support& support);
 
 /// Of each choice of a selection.

@@ -53,12 +53,17 @@ gap::Support support_of(const Json& json) {
             .is_at_bound = json.at("at_bound")};
 }
 
+/// Without those that the analysis without names contradicts, which share their probability with what it
+/// accuses.
 std::vector<Name> names_of(const Json& self_check) {
     std::vector<Name> names;
     for (const Json& one : self_check.at("cases"))
-        for (const Json& found : one.at("found"))
-            names.push_back({one.at("kind"), found.at("class"),
-                             gap::features_of(support_of(found.at("support"))), found.at("true")});
+        for (const Json& found : one.at("found")) {
+            const gap::Support support = support_of(found.at("support"));
+            if (support.agreement > 0.0)
+                names.push_back(
+                    {one.at("kind"), found.at("class"), gap::features_of(support), found.at("true")});
+        }
     return names;
 }
 
