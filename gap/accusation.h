@@ -26,9 +26,6 @@ struct Pattern {
 
 Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, const Errors& errors);
 
-/// A remainder below this is not worth a finding, whatever its significance.
-inline constexpr double least_floors = 1.1;
-
 /// The sensor whose false reading would leave the pattern: encoder or hall.
 std::optional<Signal> false_sensor(const Pattern& pattern);
 

@@ -1,6 +1,5 @@
 #include "gap/diagnose.h"
 
-#include "gap/accusation.h"
 #include "gap/correlated.h"
 #include "gap/gap_size.h"
 #include "gap/model_weights.h"

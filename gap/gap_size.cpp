@@ -61,9 +61,13 @@ std::vector<SignalGap> signal_gaps(const Evidence& evidence, std::span<const dou
         if (sums.values[s] == 0.0) continue;
         const auto signal = static_cast<Signal>(s);
         const double floor = evidence.floor(signal), square_left = sums.after[s] / sums.values[s];
-        gaps.push_back({signal, floor * std::sqrt(sums.before[s] / sums.values[s]),
-                        floor * std::sqrt(square_left), floor,
-                        floor * std::sqrt(std::max(0.0, square_left - sums.expected[s] / sums.values[s]))});
+        const double expected = sums.expected[s] / sums.values[s];
+        const bool is_off = square_left > least_floors * least_floors * expected;
+        gaps.push_back({.signal = signal,
+                        .before = floor * std::sqrt(sums.before[s] / sums.values[s]),
+                        .after = floor * std::sqrt(square_left),
+                        .floor = floor,
+                        .discrepancy = is_off ? floor * std::sqrt(square_left - expected) : 0.0});
     }
     return gaps;
 }

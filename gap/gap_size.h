@@ -16,6 +16,10 @@
 
 namespace fidservo::gap {
 
+/// A remainder below this is not worth a finding, whatever its significance.
+inline constexpr double least_floors = 1.1;
+
+/// The discrepancy is 0 where what is left is below least_floors of what noise leaves.
 std::vector<SignalGap> signal_gaps(const Evidence& evidence, std::span<const double> before,
                                    std::span<const double> after);
 

@@ -164,7 +164,8 @@ std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& 
     std::ranges::sort(gaps, std::greater{},
                       [&](const SignalGap& gap) { return std::pair(gap.signal == suspect, floors(gap)); });
     for (const SignalGap& gap : gaps) {
-        if (floors(gap) < least_floors || gap.discrepancy <= matters[index_of(gap.signal)]) continue;
+        const double limit = matters[index_of(gap.signal)];
+        if (floors(gap) < least_floors || (limit > 0.0 && gap.discrepancy <= limit)) continue;
         if (gap.signal == Signal::tag && tags_are_innocent(pattern)) continue;
         // Where a gap is beyond doubt, what it likely depends on says more than nothing.
         const bool is_clear = floors(gap) >= clear_floors;
