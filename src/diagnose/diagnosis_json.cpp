@@ -23,18 +23,6 @@ Json number(double value) {
     return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);  // unlike stod, takes what is nearly 0
 }
 
-Json json_of(const gap::Support& support) {
-    return {{"weight", number(support.weight)},
-            {"left_floors", number(support.left_floors)},
-            {"without_floors", number(support.without_floors)},
-            {"gap_alone", number(support.gap_alone)},
-            {"gap_left", number(support.gap_left)},
-            {"names", support.names},
-            {"halves_apart", number(support.halves_apart)},
-            {"agreement", support.agreement},
-            {"at_bound", support.is_at_bound}};
-}
-
 Json json_of(const gap::FoundEffect& effect) {
     Json parameters = Json::array();
     for (const gap::FittedParameter& parameter : effect.parameters)
@@ -45,7 +33,7 @@ Json json_of(const gap::FoundEffect& effect) {
     return {{"effect", effect.effect},
             {"block", effect.block},
             {"probability", number(effect.probability)},
-            {"support", json_of(effect.support)},
+            {"support", support_json(effect.support)},
             {"parameters", parameters},
             {"indistinguishable_from", effect.indistinguishable_from},
             {"gap_removed", number(effect.gap_removed)},
@@ -77,6 +65,18 @@ std::string described(const gap::FoundEffect& effect) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json support_json(const gap::Support& support) {
+    return {{"weight", number(support.weight)},
+            {"left_floors", number(support.left_floors)},
+            {"without_floors", number(support.without_floors)},
+            {"gap_alone", number(support.gap_alone)},
+            {"gap_left", number(support.gap_left)},
+            {"names", support.names},
+            {"halves_apart", number(support.halves_apart)},
+            {"agreement", support.agreement},
+            {"at_bound", support.is_at_bound}};
+}
 
 std::string diagnosis_json(const gap::Diagnosis& diagnosis) {
     Json signals = Json::array(), where = Json::array(), effects = Json::array(), tried = Json::array();

@@ -4,7 +4,12 @@
 #include <filesystem>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace fidservo {
+
+/// What speaks for a name: the numbers of docs/diagnosis.md.
+nlohmann::ordered_json support_json(const gap::Support& support);
 
 /// The file of `diagnose --json`: format fidservo-diagnosis/1.
 std::string diagnosis_json(const gap::Diagnosis& diagnosis);

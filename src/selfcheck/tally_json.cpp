@@ -2,6 +2,7 @@
 
 #include "core/result.h"
 #include "src/commit.h"
+#include "src/diagnose/diagnosis_json.h"
 
 #include <cmath>
 
@@ -33,18 +34,6 @@ Json json_of(const TrueEffect& effect) {
             {"size", number(effect.size)},
             {"expected_floors", number(effect.expected_floors)},
             {"gap_floors", number(effect.gap_floors)}};
-}
-
-Json support_json(const gap::Support& support) {
-    return {{"weight", number(support.weight)},
-            {"left_floors", number(support.left_floors)},
-            {"without_floors", number(support.without_floors)},
-            {"gap_alone", number(support.gap_alone)},
-            {"gap_left", number(support.gap_left)},
-            {"names", support.names},
-            {"halves_apart", number(support.halves_apart)},
-            {"agreement", support.agreement},
-            {"at_bound", support.is_at_bound}};
 }
 
 Json json_of(const NamedEffect& named) {
