@@ -1,9 +1,12 @@
 // All smooth candidates at once, of wire and view beside what is known of the carriage.
 #include "gap/everything.h"
 #include "gap/search.h"
+#include "gap/shape_screening.h"
 
 #include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace fidservo::gap {
 namespace {
@@ -55,6 +58,7 @@ Search::Together Search::needed_of(const EverythingBeside& all) const {
 }
 
 Search::Together Search::everything_beside(const CrossFit& base) const {
+    if (options_.tell) options_.tell("all that is smooth at once");
     return needed_of(everything_of(base));
 }
 
@@ -64,7 +68,13 @@ std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) const 
     std::vector<Together> found;
     for (const plant::EffectSetting& shape :
          promising_shapes(fitter_.evidence(), all.candidates, all.beside[0], all.begun, wanted)) {
+        if (options_.tell) options_.tell(fmt::format("{} with all that is smooth", shape.effect->name));
+        // What stood in for it may hold a fit back: sizes begin from nothing.
         EverythingBeside with = all;
+        std::erase_if(with.begun, [&](const plant::EffectSetting& setting) {
+            const auto candidate = std::ranges::find(all.candidates, setting.effect, &Candidate::effect);
+            return !has_a_shape(**candidate);
+        });
         with.begun.push_back(shape);
         found.push_back(needed_of(with));
     }

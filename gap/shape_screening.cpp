@@ -68,14 +68,13 @@ class Surrounding {
         left_ = products_with(errors_);
     }
 
-    /// Gain and size of a further column, of which one typical size is expected to be a few.
-    std::pair<double, double> gain_and_size(const Errors& column, double expected_sizes) const {
+    /// Slope and curvature of the loss along a further column, of which a few typical sizes are expected,
+    /// with everything else at its best.
+    std::pair<double, double> slope_and_curvature(const Errors& column, double expected_sizes) const {
         const Eigen::VectorXd shared = products_with(column);
-        const double gradient = weights_.product(column, errors_) - shared.dot(inverse_ * left_);
-        const double curvature = weights_.product(column, column) + 1.0 / (expected_sizes * expected_sizes) -
-                                 shared.dot(inverse_ * shared);
-        if (!(curvature > 0.0)) return {0.0, 0.0};
-        return {0.5 * gradient * gradient / curvature, -gradient / curvature};
+        return {weights_.product(column, errors_) - shared.dot(inverse_ * left_),
+                weights_.product(column, column) + 1.0 / (expected_sizes * expected_sizes) -
+                    shared.dot(inverse_ * shared)};
     }
 
   private:
@@ -92,6 +91,18 @@ class Surrounding {
     Eigen::MatrixXd inverse_;
     Eigen::VectorXd left_;
 };
+
+/// The nearest number of typical sizes that a rig can have.
+double within_bounds(const Candidate& candidate, const std::vector<double>& shape, double typical_sizes) {
+    for (const std::size_t k : candidate.sizes) {
+        const plant::EffectParameter& parameter = candidate.effect->parameters[k];
+        const double typical = shape[k] - parameter.vanishing;
+        const auto [low, high] = std::minmax({(parameter.low - parameter.vanishing) / typical,
+                                              (parameter.high - parameter.vanishing) / typical});
+        typical_sizes = std::clamp(typical_sizes, low, high);
+    }
+    return typical_sizes;
+}
 
 }  // namespace
 
@@ -141,9 +152,11 @@ std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<con
         if (column.empty()) return;
         for (std::size_t i = 0; i < column.size(); ++i)
             column[i] = (column[i] - errors[i]) / static_cast<float>(step);
-        const auto [gain, size] = surrounding.gain_and_size(column, expected_sizes);
+        const auto [slope_of_loss, curvature] = surrounding.slope_and_curvature(column, expected_sizes);
+        if (!(curvature > 0.0)) return;
+        const double size = within_bounds(*attempt.candidate, *attempt.shape, -slope_of_loss / curvature);
         attempt.found.setting = of_size(*attempt.candidate, *attempt.shape, size);
-        attempt.found.gain = gain;
+        attempt.found.gain = -size * (slope_of_loss + 0.5 * curvature * size);
     });
     std::vector<ScreenedShape> best;
     for (const Candidate* candidate : candidates) {

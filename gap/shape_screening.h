@@ -6,7 +6,7 @@
 // without a fit, from the normal equations of the windows weighted as their loss is (gap/fit.h):
 //
 //     H = J' W J + P,  x = -H^-1 J' W e,   h = c' W c + p - c' W J H^-1 J' W c,   g = c' W (e + J x)
-//     gain = g^2 / (2 h) at y = -g / h
+//     gain = g^2 / (2 h) at y = -g / h,  or less where that is beyond a bound
 //
 // P and p expect sizes of a few typical ones. Source: orthogonal forward regression, Chen, Billings, Luo,
 // International Journal of Control 50, 1989.

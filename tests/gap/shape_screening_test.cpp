@@ -76,6 +76,25 @@ TEST(ShapeScreening, FindsTheShapeAndTheSize_ThatAreThere_BesideWhatElseMayChang
     EXPECT_NEAR(typical_sizes(found.front().setting), 0.3, 0.01);
 }
 
+TEST(ShapeScreening, WhatCouldOnlyBeThereTheOtherWay_PromisesNothing) {
+    const plant::Effect& mass = *plant::find_effect("second_thermal_mass");
+    std::vector<double> typical;
+    for (const plant::EffectParameter& parameter : mass.parameters) typical.push_back(parameter.typical);
+    const Candidate shaped = candidate_of("second_thermal_mass", {typical});
+    const plant::EffectSetting there = of_size(shaped, typical, 0.3);
+    // The recording lacks what the effect, which cannot be negative, would add.
+    const auto predict = [&](const Hypothesis& hypothesis) {
+        Errors errors = errors_of(hypothesis, there, 0.0);
+        const Errors twice = errors_of({there}, there, 0.0), once = errors_of({}, there, 0.0);
+        for (std::size_t k = 0; k < errors.size(); ++k) errors[k] += 2.0F * (twice[k] - once[k]);
+        return errors;
+    };
+    const std::vector<Window> all = testing::equal_windows(windows, values);
+    for (const ScreenedShape& shape :
+         screened_shapes(predict, all, Wanted(windows, 1), {}, std::array{&shaped}, 1e3, 1e3))
+        EXPECT_LE(shape.gain, 0.0);
+}
+
 TEST(ShapeScreening, WhatTheOthersExplain_PromisesNothing) {
     const plant::Effect& mass = *plant::find_effect("second_thermal_mass");
     std::vector<double> typical;
