@@ -41,6 +41,7 @@ struct Support {
     double left_floors = 1.0;
     double without_floors = 1.0;  ///< the same without it
     double gap_alone = 1.0;       ///< the gap that it alone would make beside the rig file, in floors
+    double gap_after = 1.0;       ///< the whole gap that all names together leave, in floors
     double gap_left = 0.0;        ///< share of the whole gap that all names together leave
     double names = 1.0;           ///< how many effects are named
     /// Whether the whole gap, analysed without names, accuses a block that is named: 1; whether it depends on

@@ -82,13 +82,15 @@ double weight_of_name(const Choice& choice, const ChoiceWeights& weights) {
 }  // namespace
 
 Features features_of(const Support& support) {
-    constexpr double most_logit = 7.0, least_share = 1e-4, least_apart = 1e-3;
+    constexpr double most_logit = 7.0, least_share = 1e-4, least_apart = 1e-3, least_floors_off = 0.15,
+                     most_floors_off = 3.0;
+    const double discrepancy = std::sqrt(std::max(0.0, std::pow(support.gap_after, 2) - 1.0));
     const double odds = support.weight / std::max(1.0 - support.weight, 1e-300);
     return {std::clamp(std::log(std::max(odds, 1e-300)), -most_logit, most_logit),
-            -std::log(support.left_floors),
+            -std::log(std::clamp(discrepancy, least_floors_off, most_floors_off)),
             std::log(support.without_floors / support.left_floors),
             -std::log(std::max(support.gap_left, least_share)),
-            -std::log(support.names),
+            std::log(support.names),
             -std::log(std::max(support.halves_apart, least_apart)),
             std::max(support.agreement, 0.5),
             support.is_at_bound ? 0.0 : 1.0};
@@ -122,6 +124,7 @@ std::vector<Support> supports(const Evidence& evidence, const Selection& selecti
                        .left_floors = own.left,
                        .without_floors = own.without,
                        .gap_alone = choice.gap_alone,
+                       .gap_after = gap.after,
                        .gap_left = 1.0 - gap.removed(),
                        .names = static_cast<double>(selection.choices.size()),
                        .agreement = agreement_with(whole, selection, choice),

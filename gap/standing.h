@@ -19,17 +19,19 @@
 namespace fidservo::gap {
 
 /// What the regression is linear in.
-inline constexpr std::array<std::string_view, 8> feature_names{"weight_logit", "log_left",     "log_gain",
-                                                               "log_gap_left", "log_names",    "halves_agree",
-                                                               "agreement",    "inside_bounds"};
+inline constexpr std::array<std::string_view, 8> feature_names{
+    "weight_logit", "log_discrepancy", "log_gain",  "log_gap_left",
+    "log_names",    "halves_agree",    "agreement", "inside_bounds"};
 using Features = std::array<double, feature_names.size()>;
 
 /// x_k of a name, each larger the more speaks for it; logarithms natural:
 ///   weight_logit   log(w / (1 - w)) of the weight, -7 .. 7
-///   log_left       -log of the floors left in the signals that teach it
-///   log_gain       log of the floors without it over those left
+///   log_discrepancy  -log of what the whole gap that is left exceeds the floor by, sqrt(g^2 - 1), 0.15 to 3
+///                  floors: how much further off a machine stays says no more, as the floor is its sensors'
+///                  and not its model's
+///   log_gain       log of the floors without it over those left, in the signals that teach it
 ///   log_gap_left   -log of the share of the whole gap that is left, 1e-4 at least
-///   log_names      -log of how many are named
+///   log_names      log of how many are named: many small ones stand in for another one less often
 ///   halves_agree   -log of how far its size differs between halves, 1e-3 at least
 ///   agreement      0.5 or 1
 ///   inside_bounds  0 where a value is at its bound, otherwise 1

@@ -42,10 +42,11 @@ struct Name {
     double weight = 1.0;
 };
 
-gap::Support support_of(const Json& json) {
+gap::Support support_of(const Json& json, double gap_after) {
     return {.weight = json.at("weight"),
             .left_floors = json.at("left_floors"),
             .without_floors = json.at("without_floors"),
+            .gap_after = gap_after,
             .gap_left = json.at("gap_left"),
             .names = json.at("names"),
             .agreement = json.at("agreement"),
@@ -59,7 +60,7 @@ std::vector<Name> names_of(const Json& self_check) {
     std::vector<Name> names;
     for (const Json& one : self_check.at("cases"))
         for (const Json& found : one.at("found")) {
-            const gap::Support support = support_of(found.at("support"));
+            const gap::Support support = support_of(found.at("support"), one.at("gap").at("after"));
             if (support.agreement > 0.0)
                 names.push_back(
                     {one.at("kind"), found.at("class"), gap::features_of(support), found.at("true")});

@@ -71,6 +71,7 @@ nlohmann::ordered_json support_json(const gap::Support& support) {
             {"left_floors", number(support.left_floors)},
             {"without_floors", number(support.without_floors)},
             {"gap_alone", number(support.gap_alone)},
+            {"gap_after", number(support.gap_after)},
             {"gap_left", number(support.gap_left)},
             {"names", support.names},
             {"halves_apart", number(support.halves_apart)},

@@ -21,7 +21,7 @@ struct NamedEffect {
     std::string effect, class_name;
     bool is_true;  ///< the set that it stands for holds an effect of the case
     double probability;
-    gap::Support support;
+    gap::Support support = {};
     double gap_before,
         gap_after;  ///< over all signals, in floors: without it, with those before it; and with it
 };

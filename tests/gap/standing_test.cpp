@@ -15,6 +15,7 @@ const Support some{.weight = 0.8,
                    .left_floors = 2.0,
                    .without_floors = 10.0,
                    .gap_alone = 10.0,
+                   .gap_after = 2.0,
                    .gap_left = 0.1,
                    .names = 2.0,
                    .agreement = 0.5,
@@ -23,10 +24,10 @@ const Support some{.weight = 0.8,
 TEST(Standing, FeaturesAreTheLogarithmsThatTheySay) {
     const Features features = features_of(some);
     EXPECT_NEAR(features[0], std::log(4.0), 1e-12);
-    EXPECT_NEAR(features[1], -std::log(2.0), 1e-12);
+    EXPECT_NEAR(features[1], -0.5 * std::log(3.0), 1e-12);
     EXPECT_NEAR(features[2], std::log(5.0), 1e-12);
     EXPECT_NEAR(features[3], std::log(10.0), 1e-12);
-    EXPECT_NEAR(features[4], -std::log(2.0), 1e-12);
+    EXPECT_NEAR(features[4], std::log(2.0), 1e-12);
     EXPECT_NEAR(features[5], std::log(10.0), 1e-12);
     EXPECT_EQ(features[6], 0.5);
     EXPECT_EQ(features[7], 1.0);
@@ -40,10 +41,10 @@ TEST(Standing, ProbabilityNeverFallsWithWhatSpeaksForAName) {
     };
     const double before = calibrated_probability(some);
     EXPECT_GT(at([](Support& support) { support.weight = 0.99; }), before);
-    EXPECT_GE(at([](Support& support) { support.left_floors = 1.0; }), before);
+    EXPECT_GE(at([](Support& support) { support.gap_after = 1.0; }), before);
     EXPECT_GE(at([](Support& support) { support.without_floors = 100.0; }), before);
     EXPECT_GE(at([](Support& support) { support.gap_left = 0.01; }), before);
-    EXPECT_GE(at([](Support& support) { support.names = 1.0; }), before);
+    EXPECT_GE(at([](Support& support) { support.names = 8.0; }), before);
     EXPECT_GE(at([](Support& support) { support.halves_apart = 0.01; }), before);
     EXPECT_GE(at([](Support& support) { support.agreement = 1.0; }), before);
     EXPECT_LE(at([](Support& support) { support.is_at_bound = true; }), before);
