@@ -293,11 +293,36 @@ bool explain_hall_at_once(Search& search, Chain& chain, Chain all, std::vector<T
     return explain_by_one_or(search, chain, std::move(all), Signal::hall, alone);
 }
 
-/// What moves the carriage adds up in the balance of its forces.
-bool explain_carriage_at_once(Search& search, Chain& chain, std::vector<Trial>* alone) {
-    return is_off(search, chain, Signal::encoder) &&
-           explain_by_one_or(search, chain, with_together(chain, search.forces_beside(chain.fitted)),
-                             Signal::encoder, alone);
+/// A chain with what another one has of the carriage instead of its own.
+Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& other) {
+    Chain merged;
+    const auto add = [&](const Chain& from, bool of_carriage) {
+        for (std::size_t k = 0; k < from.choices.size(); ++k) {
+            if (moves_carriage(*from.choices[k].candidate->effect) != of_carriage) continue;
+            merged.choices.push_back(from.choices[k]);
+            for (std::size_t side = 0; side < 2; ++side)
+                merged.fitted.of_half[side].push_back(from.fitted.of_half[side][k]);
+        }
+    };
+    add(chain, false);
+    add(other, true);
+    search.judge(merged.fitted);
+    return merged;
+}
+
+/// What moves the carriage adds up in the balance of its forces. What balances them and leaves the encoder
+/// off its floor stands for the time being.
+/// @param aside  that, where it does
+/// @return whether what balances them brings the encoder to its floor
+bool explain_carriage_at_once(Search& search, Chain& chain, std::optional<Chain>& aside,
+                              std::vector<Trial>* alone) {
+    if (!is_off(search, chain, Signal::encoder)) return false;
+    Chain whole = with_together(chain, search.forces_beside(chain.fitted));
+    if (!is_off(search, whole, Signal::encoder))
+        return explain_by_one_or(search, chain, std::move(whole), Signal::encoder, alone);
+    if (whole.choices.size() > chain.choices.size() && is_better(search, whole, chain))
+        aside = chain = std::move(whole);
+    return false;
 }
 
 /// Where many do not explain the Hall reading at once, they are looked for one by one, and once more together
@@ -397,27 +422,31 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     Search search(evidence, candidates, options.search);
     Selection selection;
     Chain chain{{}, search.nothing()};
+    std::optional<Chain> by_forces;
     selection.steps.push_back(chain.fitted);
     try {
         Chain smooth = is_view_or_wire_off(search, chain) ? with_all_that_is_smooth(search, chain) : chain;
         const bool are_many = explain_by_many(search, chain, smooth);
-        const bool is_balanced = explain_carriage_at_once(search, chain, &selection.alone);
+        const bool is_balanced = explain_carriage_at_once(search, chain, by_forces, &selection.alone);
         if (are_many)
             smooth = chain;
-        else if (is_balanced)
+        else if (is_balanced || by_forces)
             smooth = with_all_that_is_smooth(search, chain);
         const bool is_known =
             explain_hall_at_once(search, chain, std::move(smooth), &selection.alone) || are_many;
         bool is_paired = is_known || is_balanced;
         if (!is_known) is_paired = explain_hall(search, chain, &selection.alone) || is_paired;
+        if (by_forces) {
+            by_forces = chain;
+            chain = with_carriage_of(search, chain, {});
+        }
         const std::size_t most_effects = chain.choices.size() + options.most_effects;
         std::vector<Trial> tried;
         const Growth growth{.most_effects = most_effects, .in_pairs = !is_balanced};
         is_paired = grow(search, chain, growth, &tried) || is_paired;
         add_tried(selection.alone, std::move(tried));
         search.limit(true);
-        const bool are_pairs_known = is_balanced && is_off(search, chain, Signal::encoder);
-        if (!are_pairs_known && (!is_paired || !search.leaves_little(chain.fitted)))
+        if (!is_paired || !search.leaves_little(chain.fitted))
             is_paired = pair_up(search, chain, most_effects) || is_paired;
         // Of many, each was asked whether it is needed when they were fitted together.
         if (!is_long(chain) && exchange(search, chain, is_paired)) grow(search, chain, growth, nullptr);
@@ -428,6 +457,14 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     }
     evidence.budget().end_search();
     search.limit(false);
+    if (by_forces && is_off(search, chain, Signal::encoder)) {
+        try {
+            by_forces = with_carriage_of(search, chain, *by_forces);
+        } catch (const BudgetEnded& ended) {
+            selection.ended = ended.how();  // it stands as it was found
+        }
+        if (is_better(search, *by_forces, chain)) chain = *std::move(by_forces);
+    }
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     try {
         if (search.is_at_floor(chain.fitted)) selection.limits = limits_in(chain);
