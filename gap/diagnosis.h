@@ -47,7 +47,7 @@ struct Support {
     /// Whether the whole gap, analysed without names, accuses a block that is named: 1; whether it depends on
     /// one thing alone that accuses another block of the same stage, or of the view: 0; neither: 0.5.
     double agreement = 0.5;
-    /// By how much its size differs from one half of the windows to the other, over its mean.
+    /// By how much its sizes differ from one half of the windows to the other, over their mean.
     double halves_apart = 0.0;
     bool is_at_bound = false;  ///< whether a value has gone as far from what is usual as it may
 };

@@ -41,16 +41,17 @@ bool is_at_bound(const plant::EffectSetting& setting) {
     return false;
 }
 
-/// Of the size that differs most, over what it is away from none.
+/// Of all its sizes together, in typical ones, over what they are away from none.
 double halves_apart(const Candidate& candidate, const plant::EffectSetting& one,
                     const plant::EffectSetting& other) {
-    double most = 0.0;
+    double difference = 0.0, size = 0.0;
     for (const std::size_t k : candidate.sizes) {
-        const double none = candidate.effect->parameters[k].vanishing;
-        const double mean = 0.5 * (std::abs(one.values[k] - none) + std::abs(other.values[k] - none));
-        if (mean > 0.0) most = std::max(most, std::abs(one.values[k] - other.values[k]) / mean);
+        const plant::EffectParameter& parameter = candidate.effect->parameters[k];
+        const double typical = parameter.typical - parameter.vanishing;
+        difference += std::pow((one.values[k] - other.values[k]) / typical, 2);
+        size += std::pow((0.5 * (one.values[k] + other.values[k]) - parameter.vanishing) / typical, 2);
     }
-    return most;
+    return size > 0.0 ? std::sqrt(difference / size) : 0.0;
 }
 
 /// What is left, and what would be without one of them, in that of its signals in which it matters most.
