@@ -69,6 +69,12 @@ class Comparisons {
     std::vector<double*> of_others_;
 };
 
+/// Whether a trial was judged wherever the others were: what was given up early was judged on some windows
+/// only.
+bool is_judged(const Trial& trial) {
+    return trial.is_leader && !trial.fitted.mean_squares.empty();
+}
+
 /// Where what is left without an effect was not worked out, only by how much the loss rises.
 std::vector<double> spread_evenly(double loss, std::size_t recordings) {
     return std::vector(recordings, -loss / static_cast<double>(recordings));
@@ -113,7 +119,7 @@ ChoiceWeights weights_of(const Evidence& evidence, const Choice& choice, std::sp
     for (std::size_t k = 1; k < choice.alternatives.size(); ++k) {
         const Trial& other = choice.alternatives[k];
         const bool contains_it = is_limit_of(choice.candidate->effect->name, other.candidate->effect->name);
-        if (!other.fitted.mean_squares.empty() && !contains_it)
+        if (is_judged(other) && !contains_it)
             comparisons.add(
                 log_ratios(evidence, other.fitted.mean_squares, itself.mean_squares, explained, shared),
                 &weights.of_alternatives[k]);
@@ -131,7 +137,7 @@ std::vector<double> weights_of_trials(const Evidence& evidence, const std::vecto
         evidence.windows(), best == trials.end() ? nothing.mean_squares : best->fitted.mean_squares);
     Comparisons comparisons(evidence.recordings().size());
     for (std::size_t k = 0; k < trials.size(); ++k)
-        if (!trials[k].fitted.mean_squares.empty())
+        if (is_judged(trials[k]))
             comparisons.add(log_ratios(evidence, trials[k].fitted.mean_squares, nothing.mean_squares,
                                        nothing.mean_squares, shared),
                             &weights[k]);

@@ -21,7 +21,7 @@ std::vector<double> model_weights(std::span<const std::vector<double>> log_densi
 /// Of an explanation and what it becomes where one of its effects is left out or exchanged.
 struct ChoiceWeights {
     double without = 0.0;                 ///< of the rest alone
-    std::vector<double> of_alternatives;  ///< as Choice::alternatives; 0 for what was not fitted
+    std::vector<double> of_alternatives;  ///< as Choice::alternatives; 0 for what was given up early
 };
 
 /// @param choice     of the explanation's. An alternative is judged beside what it was tried beside, and

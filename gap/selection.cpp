@@ -250,7 +250,8 @@ bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal,
             search.try_all(chain.fitted, chain.candidates(), {.scatters = false, .refines = false});
         add_tried(*alone, trials);
         const double gain = chain.fitted.loss - whole.fitted.loss;
-        if (has_leader(trials) && adds_the_first_of(whole, chain, trials) && !is_off(search, whole, signal)) {
+        if (has_leader(trials) && is_smooth(*trials.front().candidate) &&
+            adds_the_first_of(whole, chain, trials) && !is_off(search, whole, signal)) {
             trials.front().fitted = whole.fitted;
             trials.front().gain = gain;
             chain = grown(search, std::move(chain), std::move(trials));
