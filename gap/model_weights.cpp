@@ -131,8 +131,7 @@ ChoiceWeights weights_of(const Evidence& evidence, const Choice& choice, std::sp
 std::vector<double> weights_of_trials(const Evidence& evidence, const std::vector<Trial>& trials,
                                       const CrossFit& nothing) {
     std::vector<double> weights(trials.size(), 0.0);
-    const auto best =
-        std::ranges::find_if(trials, [](const Trial& trial) { return !trial.fitted.mean_squares.empty(); });
+    const auto best = std::ranges::find_if(trials, is_judged);
     const Discrepancy shared = discrepancy_of(
         evidence.windows(), best == trials.end() ? nothing.mean_squares : best->fitted.mean_squares);
     Comparisons comparisons(evidence.recordings().size());

@@ -228,8 +228,8 @@ bool adds_the_first_of(const Chain& whole, const Chain& chain, const std::vector
 }
 
 /// A signal that is off its floor is explained by one effect, or by those that a whole chain has found at
-/// once where these do better. Many that were needed together need no comparison; an effect that both ways
-/// come to, and that leaves nothing, no closer fit.
+/// once where these do better. Many that were needed together need no comparison; a smooth effect that both
+/// ways come to, and that leaves nothing, no closer fit.
 /// @return whether the whole stands
 bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal, std::vector<Trial>* alone) {
     constexpr double nearly = 0.9;  // of what the whole gains
