@@ -41,15 +41,18 @@ bool is_at_bound(const plant::EffectSetting& setting) {
     return false;
 }
 
-/// Of all its sizes together, in typical ones, over what they are away from none.
+/// Of all its sizes together, in typical ones or, of what has none, in their ranges, over what they are away
+/// from none.
 double halves_apart(const Candidate& candidate, const plant::EffectSetting& one,
                     const plant::EffectSetting& other) {
     double difference = 0.0, size = 0.0;
     for (const std::size_t k : candidate.sizes) {
         const plant::EffectParameter& parameter = candidate.effect->parameters[k];
-        const double typical = parameter.typical - parameter.vanishing;
-        difference += std::pow((one.values[k] - other.values[k]) / typical, 2);
-        size += std::pow((0.5 * (one.values[k] + other.values[k]) - parameter.vanishing) / typical, 2);
+        const bool has_typical_size = parameter.typical != parameter.vanishing;
+        const double scale =
+            has_typical_size ? parameter.typical - parameter.vanishing : parameter.high - parameter.low;
+        difference += std::pow((one.values[k] - other.values[k]) / scale, 2);
+        size += std::pow((0.5 * (one.values[k] + other.values[k]) - parameter.vanishing) / scale, 2);
     }
     return size > 0.0 ? std::sqrt(difference / size) : 0.0;
 }
