@@ -13,16 +13,15 @@
 
 namespace fidservo::gap {
 
-inline constexpr double calibrated_offset = -4.545;
+inline constexpr double calibrated_offset = -4.560;
 inline constexpr std::array calibrated_coefficients{
-    0.144,  // weight_logit
-    1.007,  // log_discrepancy
-    0.191,  // log_gain
-    0.258,  // log_gap_left
-    1.007,  // log_names
-    0.306,  // halves_agree
+    0.155,  // weight_logit
+    1.005,  // log_discrepancy
+    0.190,  // log_gain
+    0.257,  // log_gap_left
+    0.991,  // log_names
+    0.297,  // halves_agree
     0.000,  // agreement
-    0.000,  // inside_bounds
 };
 
 }  // namespace fidservo::gap

@@ -96,8 +96,7 @@ Features features_of(const Support& support) {
             -std::log(std::max(support.gap_left, least_share)),
             std::log(support.names),
             -std::log(std::max(support.halves_apart, least_apart)),
-            std::max(support.agreement, 0.5),
-            support.is_at_bound ? 0.0 : 1.0};
+            std::max(support.agreement, 0.5)};
 }
 
 double calibrated_probability(const Support& support) {
@@ -106,7 +105,8 @@ double calibrated_probability(const Support& support) {
     for (std::size_t k = 0; k < features.size(); ++k) log_odds += calibrated_coefficients[k] * features[k];
     const double probability = 1.0 / (1.0 + std::exp(-log_odds));
     constexpr double share_of_two = 0.5;
-    return support.agreement == 0.0 ? share_of_two * probability : probability;
+    const bool is_contested = support.agreement == 0.0 || support.is_at_bound;
+    return is_contested ? share_of_two * probability : probability;
 }
 
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,

@@ -19,9 +19,8 @@
 namespace fidservo::gap {
 
 /// What the regression is linear in.
-inline constexpr std::array<std::string_view, 8> feature_names{
-    "weight_logit", "log_discrepancy", "log_gain",  "log_gap_left",
-    "log_names",    "halves_agree",    "agreement", "inside_bounds"};
+inline constexpr std::array<std::string_view, 7> feature_names{
+    "weight_logit", "log_discrepancy", "log_gain", "log_gap_left", "log_names", "halves_agree", "agreement"};
 using Features = std::array<double, feature_names.size()>;
 
 /// x_k of a name, each larger the more speaks for it; logarithms natural:
@@ -34,11 +33,10 @@ using Features = std::array<double, feature_names.size()>;
 ///   log_names      log of how many are named: many small ones stand in for another one less often
 ///   halves_agree   -log of how far its size differs between halves, 1e-3 at least
 ///   agreement      0.5 or 1
-///   inside_bounds  0 where a value is at its bound, otherwise 1
 Features features_of(const Support& support);
 
-/// The regression's; where the analysis without names contradicts, half of it: two accounts of the same data,
-/// neither of which leaves anything to tell them apart by, share the probability.
+/// The regression's, or half of it where there is another account of the same data beside the name: where the
+/// analysis without names contradicts it, or where the data want more of it than a rig can have.
 double calibrated_probability(const Support& support);
 
 /// Of each choice of a selection.
