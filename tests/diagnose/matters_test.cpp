@@ -21,7 +21,7 @@ using gap::Signal;
 using ::testing::HasSubstr;
 
 TEST(WhatMatters, IsReadInTheSignalsUnit) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const gap::SignalLimits limits =
         what_matters({"encoder=20um", "tag=0.1px", "hall=2.5", "macro_command=3mV"}, rig);
     EXPECT_NEAR(limits[index_of(Signal::encoder)], 0.020 / rig.macro.encoder_resolution_mm, 1e-12);
@@ -34,7 +34,7 @@ TEST(WhatMatters, IsReadInTheSignalsUnit) {
 }
 
 TEST(WhatMatters, AnythingElse_IsRefusedWithWhatIsAllowed) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const auto refused = [&](const std::vector<std::string>& arguments, const std::string& what) {
         try {
             what_matters(arguments, rig);
