@@ -231,11 +231,10 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     selection.steps.push_back(chain.fitted);
     try {
         const AtOnce at_once = explain_at_once(search, chain, by_forces, selection.alone);
-        const bool is_balanced = at_once.is_balanced;
         bool is_paired = at_once.is_paired;
         const std::size_t most_effects = chain.choices.size() + options.most_effects;
         std::vector<Trial> tried;
-        const Growth growth{.most_effects = most_effects, .in_pairs = !is_balanced};
+        const Growth growth{.most_effects = most_effects, .in_pairs = !at_once.is_balanced};
         is_paired = grow(search, chain, growth, &tried) || is_paired;
         add_tried(selection.alone, std::move(tried));
         search.limit(true);

@@ -99,11 +99,15 @@ Features features_of(const Support& support) {
             std::max(support.agreement, 0.5)};
 }
 
+double logistic_probability(const Features& features, double offset, const Features& coefficients) {
+    double log_odds = offset;
+    for (std::size_t k = 0; k < features.size(); ++k) log_odds += coefficients[k] * features[k];
+    return 1.0 / (1.0 + std::exp(-log_odds));
+}
+
 double calibrated_probability(const Support& support) {
-    const Features features = features_of(support);
-    double log_odds = calibrated_offset;
-    for (std::size_t k = 0; k < features.size(); ++k) log_odds += calibrated_coefficients[k] * features[k];
-    const double probability = 1.0 / (1.0 + std::exp(-log_odds));
+    const double probability =
+        logistic_probability(features_of(support), calibrated_offset, calibrated_coefficients);
     constexpr double share_of_two = 0.5;
     const bool is_contested = support.agreement == 0.0 || support.is_at_bound;
     return is_contested ? share_of_two * probability : probability;

@@ -35,8 +35,12 @@ using Features = std::array<double, feature_names.size()>;
 ///   agreement      0.5 or 1
 Features features_of(const Support& support);
 
-/// The regression's, or half of it where there is another account of the same data beside the name: where the
-/// analysis without names contradicts it, or where the data want more of it than a rig can have.
+/// Of a regression with such an offset and coefficients.
+double logistic_probability(const Features& features, double offset, const Features& coefficients);
+
+/// The calibrated regression's, or half of it where there is another account of the same data beside the
+/// name: where the analysis without names contradicts it, or where the data want more of it than a rig can
+/// have.
 double calibrated_probability(const Support& support);
 
 /// Of each choice of a selection.

@@ -4,6 +4,7 @@
 // A name counts by the share of its kind of case below, whatever the number of names in it, so that rigs with
 // many causes do not outvote the others.
 #include "gap/standing.h"
+#include "src/selfcheck/score.h"
 
 #include <algorithm>
 #include <array>
@@ -77,13 +78,7 @@ void weigh(std::vector<Name>& names) {
 
 struct Coefficients {
     double offset = 0.0;
-    std::array<double, feature_count> of_feature{};
-
-    double probability(const gap::Features& features) const {
-        double log_odds = offset;
-        for (std::size_t k = 0; k < feature_count; ++k) log_odds += of_feature[k] * features[k];
-        return 1.0 / (1.0 + std::exp(-log_odds));
-    }
+    gap::Features of_feature{};
 };
 
 /// Penalised likelihood, c_k expected within 1 / sqrt(ridge) of 0: Newton's method over those coefficients
@@ -153,7 +148,9 @@ std::vector<Judged> judged_by_others(const std::vector<Name>& names) {
             if (!is_of_fold(name)) others.push_back(name);
         const Coefficients coefficients = fitted(others);
         for (const Name& name : names)
-            if (is_of_fold(name)) judged.push_back({&name, coefficients.probability(name.features)});
+            if (is_of_fold(name))
+                judged.push_back({&name, gap::logistic_probability(name.features, coefficients.offset,
+                                                                   coefficients.of_feature)});
     }
     return judged;
 }
@@ -188,14 +185,14 @@ void tell(const std::vector<Name>& names, const std::vector<Judged>& judged) {
             if (one.name->kind != kind) continue;
             here.push_back(one);
             came_true += one.name->is_true ? 1.0 : 0.0;
-            confident_wrong += !one.name->is_true && one.probability >= 0.9 ? 1.0 : 0.0;
+            confident_wrong += !one.name->is_true && one.probability >= selfcheck::confident ? 1.0 : 0.0;
         }
         if (here.empty()) continue;
         fmt::print(
             stderr,
-            "  {:<10} share {:.2f}: {:>4} names, {:.3f} true, {} wrong with 0.9 or more, error {:.3f}\n",
-            kind, share, here.size(), came_true / static_cast<double>(here.size()), confident_wrong,
-            errors_of(here).first);
+            "  {:<10} share {:.2f}: {:>4} names, {:.3f} true, {} wrong with {} or more, error {:.3f}\n", kind,
+            share, here.size(), came_true / static_cast<double>(here.size()), confident_wrong,
+            selfcheck::confident, errors_of(here).first);
     }
 }
 
