@@ -11,7 +11,7 @@ namespace fidservo::calib {
 namespace {
 
 TEST(ActuatorTuning, ActuatorThatDiffersFromItsFile_IsRecovered) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     plant::PlantParameters physics = plant::plant_parameters(rig);
     physics.micro->stroke_factor = 0.95;
     physics.micro->heater.ambient_degC += 8.0;
@@ -30,7 +30,7 @@ TEST(ActuatorTuning, ActuatorThatDiffersFromItsFile_IsRecovered) {
 }
 
 TEST(ActuatorTuning, WireThatStaysCold_IsRefused) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const Sweep sweep = make_sweep(plant::plant_parameters(rig), 5, 0.0, 0.2);
     const auto tuning =
         tune_actuator(nominal_micro_model(*rig.micro), rig.tick_s, sweep.true_position_mm, sweep.command_V);

@@ -29,7 +29,7 @@ TEST(HallMap, SensorThatDiffersFromItsFile_IsRecoveredOverTheTravel) {
     for (const double gain : {0.95, 1.0, 1.02}) {
         for (const double delay_s : {0.0, 0.03}) {
             SCOPED_TRACE(::testing::Message() << "seed 7, gain " << gain << ", delay " << delay_s << " s");
-            const Rig rig = reference_rig();
+            const Rig& rig = reference_rig();
             plant::PlantParameters physics = plant::plant_parameters(rig);
             physics.micro->hall.span_V *= gain;
             const Sweep sweep = make_sweep(physics, 7, delay_s);
@@ -45,7 +45,7 @@ TEST(HallMap, SensorThatDiffersFromItsFile_IsRecoveredOverTheTravel) {
 }
 
 TEST(HallMap, StandardErrorOfTheScale_IsTrue) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     double squares = 0.0;
     constexpr int n = 40;
     for (int seed = 1; seed <= n; ++seed) {
@@ -59,7 +59,7 @@ TEST(HallMap, StandardErrorOfTheScale_IsTrue) {
 }
 
 TEST(HallMap, PlatformThatHardlyMoves_IsRefused) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const Sweep sweep = make_sweep(plant::plant_parameters(rig), 3, 0.0, 0.2);
     const auto map = fit_hall_map(rig.micro->hall, sweep.hall, sweep.sights, exposure_s, rest_ticks);
     ASSERT_FALSE(map);
@@ -67,7 +67,7 @@ TEST(HallMap, PlatformThatHardlyMoves_IsRefused) {
 }
 
 TEST(HallMap, TooFewFrames_AreRefused) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     Sweep sweep = make_sweep(plant::plant_parameters(rig), 3);
     sweep.sights.resize(11);
     EXPECT_EQ(fit_hall_map(rig.micro->hall, sweep.hall, sweep.sights, exposure_s, rest_ticks).error().reason,

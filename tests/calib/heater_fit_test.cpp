@@ -54,7 +54,7 @@ std::array<double, heater_numbers> numbers_of(const HeaterParameters& heater) {
 }
 
 TEST(HeaterFit, StepsOfTheIndependentModel_GiveBackItsHeater) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const auto fit = fit_heater(nominal_micro_model(*rig.micro),
                                 {step_responses(rig, another_heater(), {1.5, 1.6, 1.7, 1.8}, 1)});
     ASSERT_TRUE(fit) << fit.error().text;
@@ -70,7 +70,7 @@ TEST(HeaterFit, StepsOfTheIndependentModel_GiveBackItsHeater) {
 }
 
 TEST(HeaterFit, OneVoltageOnly_CannotSeparateOnsetAndGain) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const auto fit = fit_heater(nominal_micro_model(*rig.micro), {step_responses(rig, {}, {1.55, 1.55}, 2)});
     ASSERT_TRUE(fit) << fit.error().text;
     ASSERT_FALSE(fit->refused.empty());
@@ -83,14 +83,14 @@ TEST(HeaterFit, OneVoltageOnly_CannotSeparateOnsetAndGain) {
 }
 
 TEST(HeaterFit, PlatformThatRests_IsRefused) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const auto fit = fit_heater(nominal_micro_model(*rig.micro), {step_responses(rig, {}, {1.0}, 2)});
     ASSERT_FALSE(fit);
     EXPECT_EQ(fit.error().reason, Reason::not_identifiable);
 }
 
 TEST(SlowHeaterFit, StandardErrors_AreTrue) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     std::array<double, heater_numbers> squares{};
     constexpr int n = 16;
     for (std::uint64_t seed = 1; seed <= n; ++seed) {
@@ -143,7 +143,7 @@ TEST(HeaterFit, Campaigns_GiveTheRigsNumbersFromAWrongStart) {
 }
 
 TEST(InferredTemperature, FollowsTheWireWhereItMoves) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const MicroModel model = nominal_micro_model(*rig.micro);
     const HeaterRun run = step_responses(rig, {}, {1.5, 1.6}, 3);
     const std::vector<double> truth = predict_temperature(model.heater, run);

@@ -16,7 +16,7 @@ HomingParams homing_params(const Rig& rig) {
 }
 
 TEST(Homing, FromAnywhere_FindsTheEndStop) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const plant::StagePlant stage = plant::make_stage_plant(rig);
     for (const double start_mm : {0.0, 0.013, 1.7, 83.021, 200.0}) {
         SCOPED_TRACE(start_mm);
@@ -37,7 +37,7 @@ TEST(Homing, FromAnywhere_FindsTheEndStop) {
 }
 
 TEST(Homing, CarriageThatNeverStops_GivesUpWithTheMotorOff) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const HomingParams params = homing_params(rig);
     HomingState homing;
     std::int64_t count = 0;

@@ -29,7 +29,7 @@ TEST(NonlinearPd, LargeError_IsSaturated) {
 
 /// Reference-rig.md: within one count of a 50 mm step in 0.4 s, two counts of overshoot at most.
 TEST(NonlinearPd, FiftyMillimetreStepOnThePlant_SettlesAsPublished) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const plant::StagePlant stage = plant::make_stage_plant(rig);
     for (double sub_count = 0.0; sub_count < 1.0; sub_count += 0.1) {
         SCOPED_TRACE(::testing::Message() << "start within the count: " << sub_count);
@@ -60,7 +60,7 @@ TEST(Pid, OneTick_FollowsTheEquation) {
 /// The published benchmark: without a friction inverse the carriage sticks while the integral ramps, breaks
 /// away, overshoots and sticks again.
 TEST(Pid, OnThePlant_FallsIntoAStickSlipLimitCycle) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const plant::StagePlant stage = plant::make_stage_plant(rig);
     for (const double step_count : {400.0, 777.0, 1000.0}) {
         SCOPED_TRACE(step_count);

@@ -73,7 +73,7 @@ class Bench {
 };
 
 TEST(Positioner, RandomTargetsOverThePlate_EndWithinToleranceAndStay) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const PositionerParams params = positioner_params(rig);
     Bench bench(rig, 1, 20.0);
     PositionerState state = positioner_start(params);
@@ -125,13 +125,13 @@ double unrest_mm(const Rig& rig, bool published_pi_alone) {
 }
 
 TEST(MicroController, ReversingSteps_EndTheHuntingOfThePublishedPi) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     EXPECT_GT(unrest_mm(rig, true), 0.020);
     EXPECT_LT(unrest_mm(rig, false), 0.001);
 }
 
 TEST(Positioner, MicroStageMovesOnlyAfterTheMacroStageHasSettled) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const PositionerParams params = positioner_params(rig);
     Bench bench(rig, 2, 20.0);
     PositionerState state = positioner_start(params);
@@ -152,7 +152,7 @@ TEST(Positioner, MicroStageMovesOnlyAfterTheMacroStageHasSettled) {
 }
 
 TEST(Positioner, FramesExposedBeforeTheRest_AreNotUsed) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const PositionerParams params = positioner_params(rig);
     PositionerState state = positioner_start(params);
     positioner_begin(params, state, 0.5, anywhere);
@@ -168,7 +168,7 @@ TEST(Positioner, FramesExposedBeforeTheRest_AreNotUsed) {
 }
 
 TEST(Positioner, FramesThatDisagree_NeverConfirmARest) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const PositionerParams params = positioner_params(rig);
     PositionerState state = positioner_start(params);
     positioner_begin(params, state, 0.5, anywhere);
@@ -222,7 +222,7 @@ TEST(Positioner, LooksOfKnownNoise_ClaimWhatTheyAreWrongBy) {
 }
 
 TEST(Positioner, NoTagInView_FailsWithinItsTime) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const PositionerParams params = positioner_params(rig);
     PositionerState state = positioner_start(params);
     positioner_begin(params, state, 0.5, anywhere);

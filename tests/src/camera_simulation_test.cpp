@@ -116,7 +116,7 @@ TEST(ClockSkew, SkewedClock_StampsTrueTimesTimesItsRate) {
 }
 
 TEST(FilmedRecording, Folder_HasTheFramesAndWhatIsFoundInThem) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const fidservo::testing::TemporaryFolder folder;
     const auto effects = settings({"camera_latency:delay_ms=7"});
     Experiment experiment = heating();
@@ -137,7 +137,7 @@ TEST(FilmedRecording, Folder_HasTheFramesAndWhatIsFoundInThem) {
 }
 
 TEST(FilmedRecording, StageRows_AreThoseWithoutFrames) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     Experiment experiment = heating();
     experiment.duration_s = 0.1;
     const Recording plain = simulate(rig, {}, experiment, "a", 3);

@@ -25,7 +25,7 @@ std::string text_of(const Recording& recording) {
 }
 
 TEST(Simulate, EveryExperiment_LastsAsLongAsInTheSharedCampaigns) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const std::pair<std::string_view, std::size_t> ticks[] = {
         {"rest", 4000},         {"macro-pulses", 12600},   {"macro-sweep", 12000}, {"macro-square", 16000},
         {"micro-steps", 35000}, {"micro-triangle", 32000}, {"micro-servo", 30000}, {"integrated", 40000}};
@@ -34,13 +34,13 @@ TEST(Simulate, EveryExperiment_LastsAsLongAsInTheSharedCampaigns) {
 }
 
 TEST(Simulate, SameSeed_GivesTheSameBytesAndAnotherSeedDoesNot) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     EXPECT_TRUE(text_of(run(rig, "macro-square", 5)) == text_of(run(rig, "macro-square", 5)));
     EXPECT_FALSE(text_of(run(rig, "macro-square", 5)) == text_of(run(rig, "macro-square", 6)));
 }
 
 TEST(Simulate, MacroSquare_ReachesItsSetpointsWithinTwoCounts) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const Recording recording = run(rig, "macro-square", 5);
     for (std::size_t k = 1999; k < recording.rows.size(); k += 2000) {
         const StageRow& row = recording.rows[k];
@@ -51,7 +51,7 @@ TEST(Simulate, MacroSquare_ReachesItsSetpointsWithinTwoCounts) {
 }
 
 TEST(Simulate, FramesAtRest_ShowTheNearestTagWithTheRigsCornerNoise) {
-    const Rig rig = reference_rig();
+    const Rig& rig = reference_rig();
     const Recording recording = run(rig, "rest", 5);
     ASSERT_EQ(recording.detections.size(), 200u);
     EXPECT_EQ(recording.detections.front().time_ns, 3'300'000);
