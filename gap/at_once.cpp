@@ -102,7 +102,7 @@ bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal,
             return true;
         }
         if (has_leader(trials) && trials.front().gain > nearly * gain)
-            grow(search, one, {.most_effects = chain.choices.size() + 1, .in_pairs = false}, alone);
+            grow(search, one, {.most_effects = chain.choices.size() + 1, .scans = false}, alone);
         look_everywhere_again();
     } catch (...) {
         take_whole();
@@ -124,17 +124,19 @@ bool explain_by_many(const Search& search, Chain& chain, const Chain& all) {
     return true;
 }
 
-/// What moves the wire has causes that stand in for each other: all of them are looked at together.
+/// What moves the wire, or what is seen, has causes that stand in for each other: all of them are looked at
+/// together.
 /// @param all  the chain with all that is smooth
-bool explain_hall_at_once(Search& search, Chain& chain, Chain all, std::vector<Trial>* alone) {
-    if (!is_off(search, chain, Signal::hall)) return false;
+bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, std::vector<Trial>* alone) {
+    if (!is_view_or_wire_off(search, chain)) return false;
+    const Signal signal = is_off(search, chain, Signal::hall) ? Signal::hall : Signal::tag;
     try {
         add_shapes(search, all);
     } catch (const BudgetEnded&) {
         chain = std::move(all);
         throw;
     }
-    return explain_by_one_or(search, chain, std::move(all), Signal::hall, alone);
+    return explain_by_one_or(search, chain, std::move(all), signal, alone);
 }
 
 /// What moves the carriage adds up in the balance of its forces. What balances them and leaves the encoder
@@ -156,25 +158,25 @@ bool explain_carriage_at_once(Search& search, Chain& chain, std::optional<Chain>
 /// with what that has found. The wire is searched apart from the carriage; where both are off, each has its
 /// share of the effort.
 /// @param alone  what was tried first
-/// @return whether a pair took the place of something
+/// @return whether several were taken in at a time
 bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
     constexpr double equal_share = 0.5;
     if (!is_off(search, chain, Signal::hall)) return false;
-    bool is_paired = false;
+    bool are_several = false;
     const bool is_carriage_off = is_off(search, chain, Signal::encoder);
     search.look_for_causes_in(only(Signal::hall), is_carriage_off ? equal_share : 1.0);
     try {
-        is_paired = grow(search, chain, {.most_effects = chain.choices.size() + most_one_by_one}, alone);
+        are_several = grow(search, chain, {.most_effects = chain.choices.size() + most_one_by_one}, alone);
     } catch (const SearchExhausted&) {
         if (search.over()) throw;
     }
     search.limit(false);
     search.look_for_causes_in(all_signals, 1.0);
-    if (!is_off(search, chain, Signal::hall)) return is_paired;
+    if (!is_off(search, chain, Signal::hall)) return are_several;
     Chain whole = with_all_that_is_smooth(search, chain);
     add_shapes(search, whole);
     if (is_better(search, whole, chain)) chain = std::move(whole);
-    return is_paired;
+    return are_several;
 }
 
 }  // namespace
@@ -194,7 +196,8 @@ Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& ot
     Chain merged;
     const auto add = [&](const Chain& from, bool of_carriage) {
         for (std::size_t k = 0; k < from.choices.size(); ++k) {
-            if (moves_carriage(*from.choices[k].candidate->effect) != of_carriage) continue;
+            const bool is_of_carriage = from.choices[k].candidate->effect->part == plant::Part::carriage;
+            if (is_of_carriage != of_carriage) continue;
             merged.choices.push_back(from.choices[k]);
             for (std::size_t side = 0; side < 2; ++side)
                 merged.fitted.of_half[side].push_back(from.fitted.of_half[side][k]);
@@ -214,14 +217,14 @@ AtOnce explain_at_once(Search& search, Chain& chain, std::optional<Chain>& aside
         smooth = chain;
     else if (is_balanced || aside)
         smooth = with_all_that_is_smooth(search, chain);
-    const bool is_known = explain_hall_at_once(search, chain, std::move(smooth), &alone) || are_many;
-    bool is_paired = is_known || is_balanced;
-    if (!is_known) is_paired = explain_hall(search, chain, &alone) || is_paired;
+    const bool is_known = explain_view_and_wire_at_once(search, chain, std::move(smooth), &alone) || are_many;
+    bool are_several = is_known || is_balanced;
+    if (!is_known) are_several = explain_hall(search, chain, &alone) || are_several;
     if (aside) {
         aside = chain;
         chain = with_carriage_of(search, chain, {});
     }
-    return {is_balanced, is_paired};
+    return {is_balanced, are_several};
 }
 
 }  // namespace fidservo::gap

@@ -9,7 +9,7 @@ namespace fidservo::gap {
 
 struct AtOnce {
     bool is_balanced;  ///< what balances the carriage's forces brings the encoder to its floor and stands
-    bool is_paired;    ///< more than one effect was taken in at a time
+    bool are_several;  ///< more than one effect was taken in at a time
 };
 
 /// Explains view and wire by all that is smooth, the carriage by what balances its forces, and what is left

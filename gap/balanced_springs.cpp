@@ -18,7 +18,11 @@ Fit best_balanced(const BalanceFit& balanced, std::span<const Hypothesis> starts
 }  // namespace
 
 bool is_spring(const plant::Effect& effect) {
-    return effect.block == "macro.mechanics" && effect.parameters.front().unit == "V/mm";
+    const auto has = [&](plant::Role role) {
+        return std::ranges::find(effect.parameters, role, &plant::EffectParameter::role) !=
+               effect.parameters.end();
+    };
+    return has(plant::Role::place) && !has(plant::Role::width);
 }
 
 std::vector<plant::EffectSetting> richer_forms(const plant::EffectSetting& plain) {

@@ -19,8 +19,7 @@ struct Refinement {
     std::vector<double> values;
 };
 
-/// An effect as a family of hypotheses. Of its parameters, those whose vanishing value is not their typical
-/// one say how large it is; the others say what shape it has.
+/// An effect as a family of hypotheses.
 struct Candidate {
     const plant::Effect* effect;
     std::vector<std::size_t> sizes;           ///< parameters that say how large; one at least
@@ -61,12 +60,12 @@ bool is_of_wire(const Candidate& candidate);
 std::string_view class_of(std::string_view effect);
 
 /// Whether an effect is what a richer one comes to where what sets that apart vanishes.
-bool is_limit_of(std::string_view plainer, std::string_view richer);
+bool is_limit_of(const plant::Effect& plainer, const plant::Effect& richer);
 
-/// A plainer effect that does roughly what a richer one does of which it is the limit.
+/// The limit of a richer effect that does roughly what that does.
+/// @param richer  has a limit
 /// @param rail  in whose middle a spring pulls as the constant force does
-plant::EffectSetting plain_form(const plant::EffectSetting& richer, const plant::Effect& plainer,
-                                const MacroParameters& rail);
+plant::EffectSetting plain_form(const plant::EffectSetting& richer, const MacroParameters& rail);
 
 /// A richer effect along its shapes, as large as its limit and with what they share; none where its first
 /// parameter does not say how large the limit is, or where it has many shapes.

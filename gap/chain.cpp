@@ -25,7 +25,7 @@ std::vector<const Candidate*> only_in(const Chain& one, const Chain& other) {
 bool refines(const Chain& richer, const Chain& plainer) {
     const auto more = only_in(richer, plainer), less = only_in(plainer, richer);
     return more.size() == 1 && less.size() == 1 &&
-           is_limit_of(less.front()->effect->name, more.front()->effect->name);
+           is_limit_of(*less.front()->effect, *more.front()->effect);
 }
 
 }  // namespace

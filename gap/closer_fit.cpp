@@ -25,7 +25,8 @@ bool vanishes_on_a_half(const Trial& trial) {
 
 /// Whether its effect displaces what the camera sees, by up to the end of a count.
 bool moves_tags(const Candidate& candidate) {
-    return candidate.effect->block == "macro.encoder" || candidate.effect->block.starts_with("camera.");
+    const plant::Part part = candidate.effect->part;
+    return part == plant::Part::encoder || plant::is_of_camera(part);
 }
 
 /// Shares of a signal's excess that have to be cleared.
@@ -172,6 +173,21 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
                         double share_of_effort) const {
     if (options_.tell) options_.tell(fmt::format("{} closer", contender.trial.candidate->effect->name));
     CloserFit(*this, base, contender, scatters, share_of_effort * options_.most_effort).run();
+}
+
+CrossFit Search::closer(const CrossFit& base, CrossFit whole, const Candidate& last) const {
+    constexpr double share_of_effort = 0.5;
+    CrossFit rest = base;
+    for (std::size_t side = 0; side < 2; ++side)
+        rest.of_half[side].assign(whole.of_half[side].begin(), whole.of_half[side].end() - 1);
+    Finding finding;
+    Contender contender{{.candidate = &last, .gain = base.loss - whole.loss, .fitted = std::move(whole)},
+                        coupled_with(rest.of_half[0], *last.effect),
+                        &finding};
+    for (std::size_t side = 0; side < 2; ++side)
+        finding.fitted[side] = contender.part(contender.trial.fitted.of_half[side]);
+    fit_closer(rest, contender, true, share_of_effort);
+    return std::move(contender.trial.fitted);
 }
 
 }  // namespace fidservo::gap

@@ -32,7 +32,7 @@ Places coupled_through(const Hypothesis& hypothesis, SignalFlags signals) {
 }  // namespace
 
 bool moves_carriage(const plant::Effect& effect) {
-    return effect.block.starts_with("macro.");
+    return effect.part == plant::Part::carriage || effect.part == plant::Part::encoder;
 }
 
 Hypothesis moving_carriage(Hypothesis hypothesis) {
@@ -49,8 +49,7 @@ SignalFlags only(Signal signal) {
 
 SignalFlags teachers_of(const plant::Effect& effect) {
     SignalFlags teach = flags_of(reach_of(effect));
-    if (effect.block.starts_with("macro.") && effect.block != "macro.encoder")
-        teach[index_of(Signal::tag)] = false;
+    if (effect.part == plant::Part::carriage) teach[index_of(Signal::tag)] = false;
     if (teach[index_of(Signal::image)]) teach[index_of(Signal::tag)] = false;
     return teach;
 }

@@ -52,7 +52,7 @@ std::vector<FittedParameter> parameters_of(const plant::EffectSetting& setting,
         const plant::EffectParameter& parameter = setting.effect->parameters[k];
         const Eigen::Index at = first + static_cast<Eigen::Index>(k);
         if (parameter.is_negligible(setting.values[k]) ||
-            (parameter.is_choice && !parameter.is_unusual(setting.values[k])))
+            (parameter.is_choice() && !parameter.is_unusual(setting.values[k])))
             continue;
         const double apart = 0.5 * (halves[0].values[k] - halves[1].values[k]);
         parameters.push_back({std::string(parameter.name), std::string(parameter.unit), setting.values[k],
@@ -171,7 +171,7 @@ double certainty_of(const Remainder& missing) {
 std::string block_of_nameless(const Selection& selection, const Remainder& remainder) {
     const auto is_of_richer = [&](const Candidate* limit) {
         return std::ranges::all_of(selection.alone, [&](const Trial& trial) {
-            return !is_limit_of(limit->effect->name, trial.candidate->effect->name) ||
+            return !is_limit_of(*limit->effect, *trial.candidate->effect) ||
                    trial.candidate->effect->block == limit->effect->block;
         });
     };

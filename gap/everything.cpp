@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <set>
@@ -273,9 +274,8 @@ Chosen begun_with(std::span<const Candidate* const> candidates, const Hypothesis
 
 bool is_smooth(const Candidate& candidate) {
     const SignalFlags teachers = teachers_of(*candidate.effect);
-    SignalFlags others = teachers;
-    others[index_of(Signal::hall)] = others[index_of(Signal::tag)] = false;
-    return others == SignalFlags{} && !candidate.wave && !candidate.patch && !candidate.is_limit;
+    const bool is_taught_smoothly = teachers[index_of(Signal::hall)] || teachers[index_of(Signal::tag)];
+    return is_taught_smoothly && !candidate.is_limit;
 }
 
 bool is_smooth_of_carriage(const Candidate& candidate) {
@@ -345,7 +345,8 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
 }
 
 Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,
-                            const Hypothesis& beside, const Hypothesis& begun, const Wanted& wanted) {
+                            std::span<const plant::EffectSetting> waves, const Hypothesis& beside,
+                            const Hypothesis& begun, const Wanted& wanted) {
     constexpr double share_of_best = 0.5;
     const Predict predict = [&](const Hypothesis& settings) {
         Hypothesis whole = beside;
@@ -354,15 +355,20 @@ Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate*
     };
     const Chosen others = begun_with(candidates, begun);
     std::vector<const Candidate*> shaped;
-    for (const Candidate* candidate : candidates)
-        if (std::ranges::find(others.candidates, candidate) == others.candidates.end())
-            shaped.push_back(candidate);
+    std::vector<GridPoint> grid;
+    for (const Candidate* candidate : candidates) {
+        if (std::ranges::find(others.candidates, candidate) != others.candidates.end()) continue;
+        if (!candidate->wave) shaped.push_back(candidate);
+        for (const plant::EffectSetting& wave : waves)
+            if (wave.effect == candidate->effect) grid.push_back({candidate, wave.values});
+    }
+    std::ranges::move(grid_of(shaped), std::back_inserter(grid));
     const Errors errors = predict(others.settings);
     const double square = median_square(evidence, errors, windows_off(evidence, wanted, errors));
     Hypothesis best;
     double most = 0.0;
     for (const ScreenedShape& shape : screened_shapes(predict, evidence.windows(), wanted, others.settings,
-                                                      shaped, std::sqrt(1.0 + square), expected_sizes)) {
+                                                      grid, std::sqrt(1.0 + square), expected_sizes)) {
         most = std::max(most, shape.gain);
         if (shape.gain >= share_of_best * most) best.push_back(shape.setting);
     }

@@ -28,8 +28,8 @@ struct NeededCandidates {
     std::vector<double> worth;          ///< of each, on both halves: loss that it saves beside the others
 };
 
-/// Whether a candidate's predictions change smoothly with its sizes: of the wire, the Hall sensor and the
-/// view, without place or period; and nothing that shows in the carriage.
+/// Whether what the Hall reading or the tags tell of a candidate changes smoothly with its sizes: of the wire,
+/// the sensors and the view. A false scale of the encoder hides within its counts and shows in the tags.
 bool is_smooth(const Candidate& candidate);
 
 /// The same of a carriage that is predicted nearly right: without play, place or period, and what does not
@@ -49,8 +49,10 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
 /// Of those candidates that have a shape of their own and are not begun, the settings which promise most
 /// beside everything else (gap/shape_screening.h), best first: one a candidate, and none that promises less
 /// than half of the best.
+/// @param waves  along the rail, whose periods no grid has
 /// @param beside, wanted  of the first half; otherwise as above
 Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,
-                            const Hypothesis& beside, const Hypothesis& begun, const Wanted& wanted);
+                            std::span<const plant::EffectSetting> waves, const Hypothesis& beside,
+                            const Hypothesis& begun, const Wanted& wanted);
 
 }  // namespace fidservo::gap

@@ -118,7 +118,7 @@ ChoiceWeights weights_of(const Evidence& evidence, const Choice& choice, std::sp
     const CrossFit& itself = choice.alternatives.front().fitted;
     for (std::size_t k = 1; k < choice.alternatives.size(); ++k) {
         const Trial& other = choice.alternatives[k];
-        const bool contains_it = is_limit_of(choice.candidate->effect->name, other.candidate->effect->name);
+        const bool contains_it = is_limit_of(*choice.candidate->effect, *other.candidate->effect);
         if (is_judged(other) && !contains_it)
             comparisons.add(
                 log_ratios(evidence, other.fitted.mean_squares, itself.mean_squares, explained, shared),

@@ -12,7 +12,7 @@ struct PatchParameters {
     std::size_t level, centre, width;
 };
 
-/// Of an effect that has one size, in V, and as shapes in mm a place, which may be negative, and a width.
+/// Of an effect that has a width along the rail, and with it a size and a place.
 std::optional<PatchParameters> patch_of(const plant::Effect& effect);
 
 }  // namespace fidservo::gap

@@ -76,11 +76,33 @@ class PlatformColumns {
     std::size_t size_ = 0;
 };
 
-/// What an effect does to the errors.
-Errors tangent(const Evidence& evidence, std::string_view effect, double value) {
+/// A small change of the wire, of whose tangents columns are multiples.
+constexpr plant::Effect change_of_wire(void (*apply)(plant::PlantParameters& plant,
+                                                     std::span<const double> values)) {
+    return {.name = "",
+            .block = "micro.heater",
+            .part = plant::Part::wire,
+            .text = "",
+            .source = "",
+            .parameters = {},
+            .apply = apply};
+}
+constexpr plant::Effect a_degree_warmer = change_of_wire(
+    [](plant::PlantParameters& plant, std::span<const double>) { plant.micro->heater.ambient_degC += 1.0; });
+constexpr plant::Effect a_hundredth_longer = change_of_wire(
+    [](plant::PlantParameters& plant, std::span<const double>) { plant.micro->stroke_factor *= 1.01; });
+/// To so many hundredths of its heat.
+template <int percent>
+constexpr plant::Effect heated_by = change_of_wire([](plant::PlantParameters& plant,
+                                                      std::span<const double>) {
+    plant.micro->heater.gain_degC_per_V *= 0.01 * percent;
+});
+
+/// What a change does to the errors.
+Errors tangent(const Evidence& evidence, const plant::Effect& change) {
     const Wanted wanted = everything(evidence);
     Errors without = evidence.errors({}, wanted);
-    const Errors with = evidence.errors({{plant::find_effect(effect), {value}}}, wanted);
+    const Errors with = evidence.errors({{&change, {}}}, wanted);
     for (std::size_t k = 0; k < without.size() && k < with.size(); ++k) without[k] = with[k] - without[k];
     return without;
 }
@@ -118,8 +140,8 @@ Surrogate platform_surrogate(const Evidence& evidence) {
     Surrogate surrogate{Signal::hall, {}, {}};
     std::vector<Column>& columns = surrogate.columns;
     const double tick_s = evidence.rig().tick_s;
-    const Errors warmth = tangent(evidence, "ambient_temperature", 1.0);
-    const Errors stroke = tangent(evidence, "stroke_change", 1.01);
+    const Errors warmth = tangent(evidence, a_degree_warmer);
+    const Errors stroke = tangent(evidence, a_hundredth_longer);
     const auto add_hats = [&](Dependence group, std::size_t count, const Errors* by,
                               const std::function<double(const Row&)>& quantity) {
         const std::vector<double> knots = knots_by_share(make.all(quantity), count);
@@ -135,14 +157,17 @@ Surrogate platform_surrogate(const Evidence& evidence) {
     add_hats(Dependence::warmth_over_time, 6, &warmth, [](const Row& at) { return at.time_s; });
     add_hats(Dependence::temperature, 8, &warmth, [](const Row& at) { return at.temperature_degC; });
     // Where heat is far off, the wire ends up elsewhere on its loops than any slope says.
-    for (const double factor : {0.75, 0.85, 1.15}) {
+    const auto add_heated_by = [&](const plant::Effect& change, double factor) {
         constexpr double about_a_degree = 0.02;
-        const Errors far_off = tangent(evidence, "heater_gain", factor);
+        const Errors far_off = tangent(evidence, change);
         columns.push_back(
             make.of(Dependence::temperature, [&](const Window& window, std::size_t k, const Row&) {
                 return about_a_degree / std::abs(factor - 1.0) * far_off[window.begin + k];
             }));
-    }
+    };
+    add_heated_by(heated_by<75>, 0.75);
+    add_heated_by(heated_by<85>, 0.85);
+    add_heated_by(heated_by<115>, 1.15);
     add_hats(Dependence::command, 8, &warmth, [](const Row& at) { return at.command_V; });
     for (const double memory_s : {0.2, 0.6, 2.0, 6.0, 20.0}) {
         const auto remembered = of_each_run(evidence, [&](std::size_t run) {

@@ -16,8 +16,8 @@ double scale_of(const plant::EffectSetting& setting, std::size_t which) {
         const double period_mm = std::max(setting.values[which], parameter.low);
         return period_mm * period_mm / (2.0 * std::numbers::pi * reach_mm);
     }
-    if (parameter.vanishing != parameter.typical) return std::abs(parameter.typical - parameter.vanishing);
-    if (parameter.unit == "rad" || parameter.typical == 0.0 || parameter.low < 0.0)
+    if (parameter.is_size()) return std::abs(parameter.usual() - parameter.vanishing);
+    if (parameter.role == plant::Role::phase || parameter.typical == 0.0 || parameter.low < 0.0)
         return share_of_range * (parameter.high - parameter.low);
     return share_of_value * std::abs(parameter.typical);
 }

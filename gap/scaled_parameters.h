@@ -22,13 +22,11 @@ class ScaledParameters {
 
     /// Whether nothing changes with it there: an effect is without it, or it is a choice.
     bool is_level(std::size_t k) const {
-        return all_[k]->is_choice || all_[k]->is_negligible(values[k] * scale(k));
+        return all_[k]->is_choice() || all_[k]->is_negligible(values[k] * scale(k));
     }
 
     /// Whether it says how large an effect is.
-    bool is_size(std::size_t k) const {
-        return all_[k]->vanishing != all_[k]->typical && !all_[k]->is_choice;
-    }
+    bool is_size(std::size_t k) const { return all_[k]->is_size(); }
 
     /// By how many typical sizes a value is from where its effect vanishes; 0 of what is no size.
     double typical_sizes(std::size_t k, double scaled) const {

@@ -3,7 +3,6 @@
 #include "gap/candidate.h"
 #include "gap/cross_fit.h"
 #include "gap/everything.h"
-#include "gap/force_pairs.h"
 #include "gap/search_memory.h"
 
 #include <cstddef>
@@ -24,12 +23,6 @@ struct Trial {
     double gain = 0.0;       ///< loss saved in the held-out windows
     bool is_leader = false;  ///< fitted on both halves; otherwise on the first, judged on some of the second
     CrossFit fitted = {};
-};
-
-/// Two candidates that were added to a hypothesis at once; in it they are the last ones, in this order.
-struct Pair {
-    const Candidate *first, *second;
-    CrossFit fitted;
 };
 
 /// How many candidates of those that promise most a step fits, and how many of these on both halves.
@@ -118,33 +111,6 @@ class Search {
     /// prediction was possible: the plant refuses it, or the search was stopped.
     std::optional<CrossFit> with(const CrossFit& base, const Candidate& candidate);
 
-    /// Of the pairs that balance the forces of a carriage best (gap/force_pairs.h), added to a base, the one
-    /// that predicts the first half best; fitted on both.
-    /// @param only_needed  of pairs of which one alone does not balance them nearly as well
-    /// @param loss_to_beat  what loses more, once it is fitted, is not followed any further
-    std::optional<Pair> balanced_pair(const CrossFit& base, std::span<const Candidate* const> added,
-                                      bool only_needed, double loss_to_beat);
-
-    /// Whether a candidate balances them best alone, as well as any two.
-    bool balances_alone(const CrossFit& base, std::span<const Candidate* const> added,
-                        const Candidate& candidate);
-
-    /// The same of all pairs of simple effects of the carriage that the balance does not show both, from
-    /// typical sizes on: beside what one of the two has been taken for alone, the other may promise nothing,
-    /// and no slope leads out of there.
-    std::optional<Pair> best_pair(const CrossFit& base, std::span<const Candidate* const> added);
-
-    /// What balances the forces of a carriage best alone, beside a base, with a weak wave of force
-    /// (gap/wave_scan.h); both fitted on both halves. None where the wave itself does, or nothing.
-    std::optional<Pair> scanned_pair(const CrossFit& base, std::span<const Candidate* const> added);
-
-    /// The same of the pairs of the wire that promise most (gap/pair_sight.h).
-    std::optional<Pair> wire_pair(const CrossFit& base, std::span<const Candidate* const> added);
-
-    /// The same of a ripple of the encoder, as the readings show it, with another effect of the encoder: what
-    /// a false scale leaves hides it. None where the two promise little.
-    std::optional<Pair> encoder_pair(const CrossFit& base, std::span<const Candidate* const> added);
-
     /// Takes over from a whole, which is the base and a candidate at a place, what it has found for that one:
     /// try_all beside this base then fits only what promises about as much.
     void remember(const CrossFit& base, const Candidate& candidate, const CrossFit& whole, std::size_t at);
@@ -209,32 +175,10 @@ class Search {
     struct EverythingBeside;
     EverythingBeside everything_of(const CrossFit& base) const;
     Together needed_of(const EverythingBeside& all) const;
+    /// Of the encoder, as its errors show them.
+    Hypothesis waves_of_reading(const CrossFit& base, std::span<const Candidate* const> candidates) const;
     Together balanced_beside(const CrossFit& base) const;
-    struct PairAttempt;
     class CloserFit;
-    PairAttempt attempt(const CrossFit& base, const Candidate& first, const Candidate& second,
-                        Hypothesis settings) const;
-    /// At the typical sizes of both, of both signs.
-    void add_typical(const CrossFit& base, const Candidate& first, const Candidate& second,
-                     std::vector<PairAttempt>& attempts) const;
-    /// Whether a carriage that is followed with both, as they balance its forces, comes out far better than
-    /// with the one that balances them nearly as well alone: noise hides in the balance what it shows.
-    bool moves_as_a_pair(const CrossFit& base, const ForcePair& pair) const;
-    /// @param only_needed  pairs that the balance or the carriage's way needs
-    std::vector<PairAttempt> by_force(const CrossFit& base, std::vector<const Candidate*> candidates,
-                                      bool only_needed);
-    /// Pairs of those candidates that the balance shows. The last ones are kept.
-    const std::vector<ForcePair>& force_pairs(const CrossFit& base, std::vector<const Candidate*> candidates);
-    std::vector<PairAttempt> by_typical_sizes(const CrossFit& base,
-                                              std::vector<const Candidate*> candidates) const;
-    std::vector<PairAttempt> by_sight(const CrossFit& base, std::vector<const Candidate*> candidates) const;
-    /// At what promises most beside the ripples that the readings show.
-    void add_beside_ripple(const CrossFit& base, const Candidate& other, const Candidate& ripple,
-                           std::vector<PairAttempt>& attempts) const;
-    /// On both halves, from such a start of the first one.
-    void fit_pair(const CrossFit& base, Pair& pair, const Hypothesis& start) const;
-    std::optional<Pair> best_of(const CrossFit& base, std::vector<PairAttempt> attempts,
-                                double loss_to_beat = std::numeric_limits<double>::infinity());
     /// By those encoder windows of the first half that are far off without a wave (gap/wave_scan.h). None
     /// where the predicted carriage never runs away, as a weak wave shows by nothing else, and none of a
     /// carriage on a belt, whose predictions are too dear.
@@ -282,8 +226,6 @@ class Search {
     /// ends nothing is lost.
     void refine(const CrossFit& base, std::span<Contender> all, std::span<Contender> leaders,
                 const Effort& effort) const;
-    /// The pair with an effect's limit in its place, where it does no worse than by chance.
-    Pair in_plain_form(const CrossFit& base, Pair pair) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                  double step_scales) const;
     /// A wave, from the best of many values.
@@ -332,11 +274,6 @@ class Search {
     std::optional<Ended> over_;  ///< how the budget ended
     CrossFitter fitter_;
     SearchMemory memory_;
-    struct {
-        Hypothesis base;
-        std::vector<const Candidate*> candidates;
-        std::vector<ForcePair> pairs;
-    } last_balance_;
     SignalExcess first_excess_;  ///< where nothing is known
     int trials_ = 0;
 };

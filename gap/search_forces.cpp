@@ -32,7 +32,7 @@ std::vector<plant::EffectSetting> with_refinements(const plant::EffectSetting& s
         for (const double value : refinement.values) add(refinement.parameter, value);
     for (std::size_t k = 0; k < setting.values.size(); ++k) {
         const plant::EffectParameter& parameter = setting.effect->parameters[k];
-        if (parameter.is_choice)
+        if (parameter.is_choice())
             add(k, parameter.is_high(setting.values[k]) ? parameter.low : parameter.high);
     }
     return all;
@@ -66,8 +66,8 @@ std::vector<const Candidate*> smooth_beside(const BalancedModel& model,
     for (const Candidate& candidate : candidates) {
         const auto is_a_form = [&](const Candidate* other) {
             return other->class_name == candidate.class_name ||
-                   is_limit_of(other->effect->name, candidate.effect->name) ||
-                   is_limit_of(candidate.effect->name, other->effect->name);
+                   is_limit_of(*other->effect, *candidate.effect) ||
+                   is_limit_of(*candidate.effect, *other->effect);
         };
         if (is_smooth_of_carriage(candidate) && std::ranges::none_of(all, is_a_form))
             all.push_back(&candidate);

@@ -2,6 +2,8 @@
 #include "gap/everything.h"
 #include "gap/search.h"
 #include "gap/shape_screening.h"
+#include "gap/starts.h"
+#include "gap/wave_starts.h"
 
 #include <algorithm>
 #include <utility>
@@ -62,12 +64,28 @@ Search::Together Search::everything_beside(const CrossFit& base) const {
     return needed_of(everything_of(base));
 }
 
+Hypothesis Search::waves_of_reading(const CrossFit& base,
+                                    std::span<const Candidate* const> candidates) const {
+    Hypothesis waves;
+    const Evidence& evidence = fitter_.evidence();
+    for (const Candidate* candidate : candidates) {
+        if (!candidate->wave || !off(base)[index_of(Signal::encoder)]) continue;
+        const Hypothesis& known = base.of_half[0];
+        const Wanted wanted = only_of(evidence.windows(), fitter_.half(0), only(Signal::encoder));
+        for (const PositionPeriod& period :
+             periods_along_rail(evidence, known, evidence.errors(known, wanted)))
+            waves.push_back(wave_at(*candidate, period));
+    }
+    return waves;
+}
+
 std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) const {
     const EverythingBeside all = everything_of(base);
     const Wanted wanted = only_of(fitter_.evidence().windows(), all.wanted[0], off(base));
     std::vector<Together> found;
     for (const plant::EffectSetting& shape :
-         promising_shapes(fitter_.evidence(), all.candidates, all.beside[0], all.begun, wanted)) {
+         promising_shapes(fitter_.evidence(), all.candidates, waves_of_reading(base, all.candidates),
+                          all.beside[0], all.begun, wanted)) {
         if (options_.tell) options_.tell(fmt::format("{} with all that is smooth", shape.effect->name));
         // What stood in for it may hold a fit back: sizes begin from nothing.
         EverythingBeside with = all;

@@ -14,7 +14,7 @@ namespace {
 /// Whether another effect explains better in the place of one: a plainer form of it unless the richer one's
 /// gain is no chance.
 bool replaces(const Search& search, const Trial& other, const Chain& chain, std::size_t at) {
-    if (is_limit_of(other.candidate->effect->name, chain.choices[at].candidate->effect->name))
+    if (is_limit_of(*other.candidate->effect, *chain.choices[at].candidate->effect))
         return !search.is_real(other.fitted, chain.fitted);
     return other.fitted.loss < chain.fitted.loss - least_gain;
 }
@@ -83,7 +83,7 @@ bool exchange(Search& search, Chain& chain, bool changed) {
     return changed;
 }
 
-/// Whether a pair explains what nothing was taken in for: two wrong effects fit most things a little, and by
+/// Whether two effects explain what nothing was taken in for: two wrong ones fit most things a little, and by
 /// little more than chance.
 bool explains(const Search& search, const CrossFit& without, const CrossFit& with) {
     constexpr double most = 0.9, times_chance = 2.0;
@@ -96,32 +96,23 @@ bool explains(const Search& search, const CrossFit& without, const CrossFit& wit
 /// Where nothing was taken in, two effects may hide each other: what promises a little is tried as the first
 /// of a pair.
 /// @return whether anything changed
-bool pair_up(Search& search, Chain& chain, std::size_t most_effects) {
+bool begin_otherwise(Search& search, Chain& chain, std::size_t most_effects) {
     constexpr Effort effort{.fits = 3, .leaders = 1};
     const SignalFlags off = search.off(chain.fitted);
     if (off == SignalFlags{}) return false;
-    constexpr double all_but_nothing = 0.999;
     const Chain rest = rest_of(search, chain, off);
     if (!has_room_for_two(rest, most_effects)) return false;
     const bool from_nothing = chain.choices.size() == rest.choices.size();
     bool changed = false;
-    const auto leaves_nothing_after = [&](bool has_changed) {
-        changed = changed || has_changed;
-        return has_changed && search.is_at_floor(chain.fitted);
-    };
-    const auto take_in = [&](std::optional<Pair> pair) {
-        return take_in_pair(search, chain, rest, std::move(pair), all_but_nothing, false);
-    };
-    if (leaves_nothing_after(take_in(search.encoder_pair(rest.fitted, rest.candidates())))) return true;
-    if (leaves_nothing_after(balance(search, chain, most_effects, false))) return true;
-    if (leaves_nothing_after(take_in(search.best_pair(rest.fitted, rest.candidates())))) return true;
     const std::size_t most_first = from_nothing ? 6 : 3;
     std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates(), {.scatters = false});
     if (!from_nothing && has_leader(singles)) {
         Chain one = grown(search, rest, singles);
-        const bool is_closer = is_better(search, one, chain);
-        if (is_closer) chain = std::move(one);
-        if (leaves_nothing_after(is_closer)) return true;
+        if (is_better(search, one, chain)) {
+            chain = std::move(one);
+            changed = true;
+            if (search.is_at_floor(chain.fitted)) return true;
+        }
     }
     if (from_nothing) std::ranges::stable_sort(singles, std::greater{}, &Trial::promised);
     std::vector<std::string> classes;
@@ -231,17 +222,17 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     selection.steps.push_back(chain.fitted);
     try {
         const AtOnce at_once = explain_at_once(search, chain, by_forces, selection.alone);
-        bool is_paired = at_once.is_paired;
+        bool are_several = at_once.are_several;
         const std::size_t most_effects = chain.choices.size() + options.most_effects;
         std::vector<Trial> tried;
-        const Growth growth{.most_effects = most_effects, .in_pairs = !at_once.is_balanced};
-        is_paired = grow(search, chain, growth, &tried) || is_paired;
+        const Growth growth{.most_effects = most_effects, .scans = !at_once.is_balanced};
+        are_several = grow(search, chain, growth, &tried) || are_several;
         add_tried(selection.alone, std::move(tried));
         search.limit(true);
-        if (!is_paired || !search.leaves_little(chain.fitted))
-            is_paired = pair_up(search, chain, most_effects) || is_paired;
+        if (!are_several || !search.leaves_little(chain.fitted))
+            are_several = begin_otherwise(search, chain, most_effects) || are_several;
         // Of many, each was asked whether it is needed when they were fitted together.
-        if (!is_long(chain) && exchange(search, chain, is_paired)) grow(search, chain, growth, nullptr);
+        if (!is_long(chain) && exchange(search, chain, are_several)) grow(search, chain, growth, nullptr);
     } catch (const SearchExhausted&) {
         selection.ended = search.over().value_or(Ended::budget);
     } catch (const BudgetEnded& ended) {

@@ -110,7 +110,7 @@ bool has_a_shape(const Candidate& candidate) {
     const auto& parameters = candidate.effect->parameters;
     for (std::size_t k = 0; k < parameters.size(); ++k) {
         const bool is_size = std::ranges::find(candidate.sizes, k) != candidate.sizes.end();
-        if (!is_size && !parameters[k].is_choice && parameters[k].negligible == 0.0) return true;
+        if (!is_size && !parameters[k].is_choice() && parameters[k].negligible == 0.0) return true;
     }
     return false;
 }
@@ -126,47 +126,43 @@ plant::EffectSetting of_size(const Candidate& candidate, const std::vector<doubl
     return setting;
 }
 
+std::vector<GridPoint> grid_of(std::span<const Candidate* const> candidates) {
+    std::vector<GridPoint> grid;
+    for (const Candidate* candidate : candidates)
+        for (const std::vector<double>& shape : candidate->shapes) grid.push_back({candidate, shape});
+    return grid;
+}
+
 std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<const Window> windows,
                                            const Wanted& counted, const Hypothesis& others,
-                                           std::span<const Candidate* const> candidates, double scale_floors,
+                                           std::span<const GridPoint> grid, double scale_floors,
                                            double expected_sizes) {
     constexpr double step = 0.05;  // typical sizes: small for the errors to change evenly, above what rounds
     const Errors errors = predict(others);
     if (errors.empty()) return {};
     const Weights weights(windows, counted, errors, scale_floors);
     const Surrounding surrounding(predict, others, errors, weights, expected_sizes);
-    struct Attempt {
-        const Candidate* candidate;
-        const std::vector<double>* shape;
-        ScreenedShape found;
-    };
-    std::vector<Attempt> attempts;
-    for (const Candidate* candidate : candidates)
-        for (const std::vector<double>& shape : candidate->shapes)
-            attempts.push_back({candidate, &shape, {candidate, {}, 0.0}});
-    parallel_for(attempts.size(), [&](std::size_t k) {
-        Attempt& attempt = attempts[k];
+    std::vector<ScreenedShape> screened(grid.size());
+    parallel_for(grid.size(), [&](std::size_t k) {
+        const auto& [candidate, shape] = grid[k];
+        screened[k] = {candidate, {}, 0.0};
         Hypothesis with = others;
-        with.push_back(of_size(*attempt.candidate, *attempt.shape, step));
+        with.push_back(of_size(*candidate, shape, step));
         Errors column = predict(with);
         if (column.empty()) return;
         for (std::size_t i = 0; i < column.size(); ++i)
             column[i] = (column[i] - errors[i]) / static_cast<float>(step);
         const auto [slope_of_loss, curvature] = surrounding.slope_and_curvature(column, expected_sizes);
         if (!(curvature > 0.0)) return;
-        const double size = within_bounds(*attempt.candidate, *attempt.shape, -slope_of_loss / curvature);
-        attempt.found.setting = of_size(*attempt.candidate, *attempt.shape, size);
-        attempt.found.gain = -size * (slope_of_loss + 0.5 * curvature * size);
+        const double size = within_bounds(*candidate, shape, -slope_of_loss / curvature);
+        screened[k].setting = of_size(*candidate, shape, size);
+        screened[k].gain = -size * (slope_of_loss + 0.5 * curvature * size);
     });
+    std::ranges::stable_sort(screened, std::greater{}, &ScreenedShape::gain);
     std::vector<ScreenedShape> best;
-    for (const Candidate* candidate : candidates) {
-        const Attempt* most = nullptr;
-        for (const Attempt& attempt : attempts)
-            if (attempt.candidate == candidate && (most == nullptr || attempt.found.gain > most->found.gain))
-                most = &attempt;
-        if (most != nullptr && most->found.gain > 0.0) best.push_back(most->found);
-    }
-    std::ranges::stable_sort(best, std::greater{}, &ScreenedShape::gain);
+    for (ScreenedShape& one : screened)
+        if (one.gain > 0.0 && std::ranges::find(best, one.candidate, &ScreenedShape::candidate) == best.end())
+            best.push_back(std::move(one));
     return best;
 }
 

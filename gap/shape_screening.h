@@ -18,6 +18,15 @@
 
 namespace fidservo::gap {
 
+/// A candidate at a point of its grid, as large as it says.
+struct GridPoint {
+    const Candidate* candidate;
+    std::vector<double> shape;
+};
+
+/// All points of their grids.
+std::vector<GridPoint> grid_of(std::span<const Candidate* const> candidates);
+
 /// A setting to begin a fit from.
 struct ScreenedShape {
     const Candidate* candidate;
@@ -32,14 +41,14 @@ bool has_a_shape(const Candidate& candidate);
 plant::EffectSetting of_size(const Candidate& candidate, const std::vector<double>& shape,
                              double typical_sizes);
 
-/// Of each candidate the shape that gains most, best first.
+/// Of each candidate the point that gains most, best first.
 /// @param predict   errors with some settings beside what is known
 /// @param windows, counted  of which the loss is
 /// @param others    settings that may change their sizes and shapes freely
 /// @param scale_floors, expected_sizes  as FitOptions
 std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<const Window> windows,
                                            const Wanted& counted, const Hypothesis& others,
-                                           std::span<const Candidate* const> candidates, double scale_floors,
+                                           std::span<const GridPoint> grid, double scale_floors,
                                            double expected_sizes);
 
 }  // namespace fidservo::gap

@@ -34,7 +34,7 @@ bool is_at_bound(const plant::EffectSetting& setting) {
     const std::span<const plant::EffectParameter> parameters = setting.effect->parameters;
     for (std::size_t k = 0; k < parameters.size(); ++k) {
         const double value = setting.values[k];
-        if (!parameters[k].is_choice && value != parameters[k].vanishing &&
+        if (!parameters[k].is_choice() && value != parameters[k].vanishing &&
             (value == parameters[k].low || value == parameters[k].high))
             return true;
     }

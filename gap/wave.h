@@ -13,7 +13,7 @@ struct WaveParameters {
     bool is_force;  ///< else a reading is off
 };
 
-/// Of an effect periodic in position: it has a size, a phase, and its only shape in mm is the period.
+/// Of an effect that has a period, and with it a size and a phase.
 std::optional<WaveParameters> wave_of(const plant::Effect& effect);
 
 /// The phase with which a wave of another period is in step with the first in the middle of the rail: along

@@ -17,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect airflow{
     .name = "airflow",
     .block = "micro.heater",
+    .part = Part::wire,
     .text = "Moving air changes the cooling: the cooling time constant is factor * nominal.",
     .source =
         "Incropera, DeWitt, Fundamentals of Heat and Mass Transfer: forced convection, tau = m c / (h A)",

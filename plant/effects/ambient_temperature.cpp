@@ -17,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect ambient_temperature{
     .name = "ambient_temperature",
     .block = "micro.heater",
+    .part = Part::wire,
     .text = "The room is warmer or colder than nominal: Ta = nominal + shift. The wire starts at Ta.",
     .source = "Newton's law of cooling",
     .parameters = parameters,

@@ -17,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect backlash{
     .name = "backlash",
     .block = "macro.mechanics",
+    .part = Part::carriage,
     .text =
         "Play between motor and carriage: after a turn the carriage stays, held by friction, until the motor "
         "has "

@@ -4,11 +4,16 @@ namespace fidservo::plant::effects {
 
 namespace {
 
+/// What a stretch does grows with it only as long as the carriage swings on the belt with about the same
+/// frequency.
+constexpr double stretches_um_per_V[] = {200.0, 800.0};
+
 constexpr EffectParameter parameters[] = {
-    {"stretch_um_per_V", "um/V", 0.0, 5000.0, 0.0, 50.0,
-     "stretch per volt of force; below 0.1 the belt counts as stiff"},
-    {"damping_ratio", "", 0.0, 2.0, 0.05, 0.05, "of the swing of motor and carriage"},
-    {"motor_share", "", 0.1, 0.9, 0.5, 0.5, "of the moving mass; the rest is the carriage"},
+    parameter::size({"stretch_um_per_V", "um/V", 0.0, 5000.0, 0.0, 50.0,
+                     "stretch per volt of force; below 0.1 the belt counts as stiff"},
+                    stretches_um_per_V),
+    parameter::shape({"damping_ratio", "", 0.0, 2.0, 0.05, 0.05, "of the swing of motor and carriage"}),
+    parameter::shape({"motor_share", "", 0.1, 0.9, 0.5, 0.5, "of the moving mass; the rest is the carriage"}),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -20,6 +25,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect belt_compliance{
     .name = "belt_compliance",
     .block = "macro.mechanics",
+    .part = Part::carriage,
     .text =
         "The belt stretches: motor (share m of the mass, voltage and back-EMF) and carriage (friction, "
         "encoder) are "

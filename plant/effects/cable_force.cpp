@@ -2,12 +2,16 @@
 
 namespace fidservo::plant::effects {
 
+extern const Effect drive_offset;
+
 namespace {
 
 constexpr EffectParameter parameters[] = {
     {"stiffness_V_per_mm", "V/mm", 0.0, 0.05, 0.0, 0.002, "of the spring"},
-    {"centre_mm", "mm", -1000.0, 1000.0, 100.0, 100.0, "where the harness does not pull"},
-    {"hardening", "", 0.0, 20.0, 0.0, 0.0, "by how much more it pulls per mm, 100 mm from there", 0.1},
+    parameter::with_role(
+        {"centre_mm", "mm", -1000.0, 1000.0, 100.0, 100.0, "where the harness does not pull"}, Role::place),
+    parameter::optional(
+        {"hardening", "", 0.0, 20.0, 0.0, 0.0, "by how much more it pulls per mm, 100 mm from there"}, 0.1),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -16,11 +20,16 @@ void apply(PlantParameters& plant, std::span<const double> values) {
     plant.axis.standing.cable_hardening = parameters[2].acting(values[2]);
 }
 
+double pull_in_the_middle(std::span<const double> values, double middle_mm) {
+    return values[0] * (values[1] - middle_mm);
+}
+
 }  // namespace
 
 extern constexpr Effect cable_force{
     .name = "cable_force",
     .block = "macro.mechanics",
+    .part = Part::carriage,
     .text =
         "The cable harness pulls like a spring that may harden: w = u - k d (1 + hardening (d / 100 mm)^2), "
         "d = y - y0, before the dead zone, which holds it while the carriage stands.",
@@ -28,6 +37,7 @@ extern constexpr Effect cable_force{
     .parameters = parameters,
     .apply = apply,
     .needs_place = true,
+    .plainer = {&drive_offset, pull_in_the_middle},  // of a long spring
 };
 
 }  // namespace fidservo::plant::effects

@@ -18,6 +18,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect camera_latency{
     .name = "camera_latency",
     .block = "camera.timing",
+    .part = Part::view,
     .text =
         "Frame times are late by a constant: a frame whose exposure is centred at t is stamped t + delay, "
         "and arrives that much later.",

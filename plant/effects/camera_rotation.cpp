@@ -20,6 +20,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect camera_rotation{
     .name = "camera_rotation",
     .block = "camera.geometry",
+    .part = Part::view,
     .text =
         "The camera is turned about its optical axis: the picture is turned by the angle about the "
         "principal point.",

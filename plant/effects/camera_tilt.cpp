@@ -6,12 +6,15 @@ namespace fidservo::plant::effects {
 
 namespace {
 
+constexpr double heights[] = {1.0, 0.0};
+
 constexpr EffectParameter parameters[] = {
     {"about_u_deg", "deg", -10.0, 10.0, 0.0, 0.5,
      "part of the rotation vector along the image's rows; right-handed, z towards the plate"},
     {"about_v_deg", "deg", -10.0, 10.0, 0.0, 0.5, "part along its columns"},
-    {"axis_height", "", 0.0, 1.25, 0.0, 0.0,
-     "of what it turns about, over the plate: 0 in the plate, 1 at the camera's centre"},
+    parameter::shape({"axis_height", "", 0.0, 1.25, 0.0, 0.0,
+                      "of what it turns about, over the plate: 0 in the plate, 1 at the camera's centre"},
+                     heights),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -25,6 +28,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect camera_tilt{
     .name = "camera_tilt",
     .block = "camera.geometry",
+    .part = Part::view,
     .text =
         "The camera is turned about an axis parallel to the image plane, so that one side of the plate is "
         "nearer: P' = e + R (P - e - d), e = (0, 0, Z), then the pinhole. About an axis in the plate it "

@@ -18,6 +18,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect clock_skew{
     .name = "clock_skew",
     .block = "camera.timing",
+    .part = Part::view,
     .text =
         "The camera's clock runs at another rate, c(t) = (1 + skew) t: it takes its frames by it and "
         "stamps them with it. A frame stamped c was exposed at c / (1 + skew).",

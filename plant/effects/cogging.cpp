@@ -6,10 +6,13 @@ namespace {
 
 constexpr EffectParameter parameters[] = {
     {"amplitude_V", "V", 0.0, 2.0, 0.0, 0.1, "of the force"},
-    {"period_mm", "mm", 0.1, 200.0, 5.0, 5.0, "on the rail"},
-    {"phase_rad", "rad", -6.2831853072, 6.2831853072, 0.0, 0.0, "at the left end"},
-    {"second_sine", "", -1.0, 1.0, 0.0, 0.0, "of the second harmonic, per amplitude", 0.001},
-    {"second_cosine", "", -1.0, 1.0, 0.0, 0.0, "the same, a quarter of its wave on", 0.001},
+    parameter::with_role({"period_mm", "mm", 0.1, 200.0, 5.0, 5.0, "on the rail"}, Role::period),
+    parameter::with_role({"phase_rad", "rad", -6.2831853072, 6.2831853072, 0.0, 0.0, "at the left end"},
+                         Role::phase),
+    parameter::optional({"second_sine", "", -1.0, 1.0, 0.0, 0.0, "of the second harmonic, per amplitude"},
+                        0.001),
+    parameter::optional({"second_cosine", "", -1.0, 1.0, 0.0, 0.0, "the same, a quarter of its wave on"},
+                        0.001),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -26,6 +29,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect cogging{
     .name = "cogging",
     .block = "macro.mechanics",
+    .part = Part::carriage,
     .text =
         "A force periodic in position (detent torque of the motor): w = u + A sin(2 pi y / p + phase), "
         "perhaps with a second harmonic, before the dead zone, which holds it while the carriage stands.",

@@ -10,14 +10,9 @@ constexpr EffectParameter parameters[] = {
     {"dead_zone_share", "", 0.0, 1.0, 0.0, 0.5,
      "of the dead zone, that acts on the motion instead: it brakes a coasting carriage"},
     creep_speed,
-    {.name = "only_coasting",
-     .unit = "",
-     .low = 0.0,
-     .high = 1.0,
-     .vanishing = 0.0,
-     .typical = 0.0,
-     .meaning = "1: that share brakes while the drive has no voltage for motion, and stays in the dead zone",
-     .is_choice = true},
+    parameter::choice(
+        "only_coasting", 0.0,
+        "1: that share brakes while the drive has no voltage for motion, and stays in the dead zone"),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -40,6 +35,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect coulomb_friction{
     .name = "coulomb_friction",
     .block = "macro.friction",
+    .part = Part::carriage,
     .text =
         "Dry friction on the motion: F = Fc sgn(v), tau dv/dt = K (V - F) - v. It brakes a coasting carriage "
         "to a "

@@ -8,15 +8,10 @@ namespace fidservo::plant::effects {
 
 /// What creeps more slowly than the least, half a count a second, is stiff to follow and moves less than is
 /// seen.
-inline constexpr EffectParameter creep_speed{
-    "creep_mm_per_s",
-    "mm/s",
-    0.0,
-    5.0,
-    0.0,
-    0.0,
-    "below which it lets the carriage creep; less than 0.03, half a count a second: it holds it at rest",
-    0.03};
+inline constexpr EffectParameter creep_speed = parameter::optional(
+    {"creep_mm_per_s", "mm/s", 0.0, 5.0, 0.0, 0.0,
+     "below which it lets the carriage creep; less than 0.03, half a count a second: it holds it at rest"},
+    0.03);
 
 /// There is one contact: of several effects the one that creeps fastest decides.
 inline void let_creep(Friction& friction, double creep_mm_per_s) {

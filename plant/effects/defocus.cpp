@@ -19,6 +19,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect defocus{
     .name = "defocus",
     .block = "camera.image",
+    .part = Part::image,
     .text = "The plate is out of focus: a Gaussian blur in addition, sigma^2 = nominal^2 + blur^2.",
     .source = "Pentland, A new sense for depth of field, IEEE Trans. PAMI 9(4), 1987: defocus as a Gaussian",
     .parameters = parameters,

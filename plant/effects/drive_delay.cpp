@@ -17,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect drive_delay{
     .name = "drive_delay",
     .block = "macro.drive",
+    .part = Part::carriage,
     .text = "The drive acts late, by any time: w(t) = u(t - delay).",
     .source = "Ljung, System Identification, 2nd ed., 1999: dead time, not rounded to ticks",
     .parameters = parameters,

@@ -17,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect drive_gain{
     .name = "drive_gain",
     .block = "macro.drive",
+    .part = Part::carriage,
     .text = "The amplifier's voltage differs by a factor g: w = g u, before the dead zone.",
     .source = "gain error of a linear amplifier",
     .parameters = parameters,

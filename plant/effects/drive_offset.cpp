@@ -17,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect drive_offset{
     .name = "drive_offset",
     .block = "macro.drive",
+    .part = Part::carriage,
     .text =
         "A constant force b on the carriage, in volts (tilted rail, asymmetric drive): w = u + b, before the "
         "dead zone, which holds it while the carriage stands.",

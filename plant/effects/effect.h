@@ -20,6 +20,44 @@
 
 namespace fidservo::plant {
 
+/// The part of the rig that an effect changes. By it a diagnosis knows which signals show the effect.
+enum class Part {
+    carriage,  ///< how it moves: drive, friction, mechanics
+    encoder,   ///< how the carriage is read
+    wire,      ///< heater and hysteresis
+    platform,  ///< how it swings on its flexure
+    hall,      ///< how the platform is read
+    view,      ///< where the camera sees what, and when
+    shutter,   ///< when it sees each row: the shape of a tag that moves
+    exposure,  ///< over how long: where a tag that moves is seen, and its looks
+    image,     ///< the looks alone
+};
+
+constexpr bool is_of_platform(Part part) {
+    return part == Part::wire || part == Part::platform || part == Part::hall;
+}
+
+/// Whether only who has the frames themselves can see it.
+constexpr bool is_of_frames(Part part) {
+    return part == Part::shutter || part == Part::exposure || part == Part::image;
+}
+
+constexpr bool is_of_camera(Part part) {
+    return part == Part::view || is_of_frames(part);
+}
+
+/// What a parameter says of its effect.
+enum class Role {
+    size,      ///< how much of it there is: without it at the vanishing value
+    shape,     ///< what it is like
+    optional,  ///< of what it may be without
+    choice,    ///< which of two ways
+    place,     ///< where on the rail
+    width,     ///< over how much of the rail
+    period,    ///< of a wave along the rail
+    phase,     ///< of that wave at the left end of the rail
+};
+
 struct EffectParameter {
     std::string_view name;  ///< with its unit, e.g. "shift_degC"
     std::string_view unit;  ///< empty for a pure number
@@ -28,30 +66,77 @@ struct EffectParameter {
     double vanishing;  ///< without effect, exactly; of what only shapes the effect, the typical value
     double typical;    ///< where none is given
     std::string_view meaning;
-    /// Of what an effect may be without: values this near to the vanishing one count as that, which is then
-    /// also its typical one. 0: it has no such parameter.
+    Role role = Role::size;
+    /// From which a search may begin; empty: from the typical value, or anywhere on the rail.
+    std::span<const double> starts = {};
+    /// Of an optional one: values this near to the vanishing one count as that.
     double negligible = 0.0;
-    bool is_choice = false;  ///< only its bounds are meant: the nearer one
 
+    bool is_size() const { return role == Role::size; }
+    bool is_choice() const { return role == Role::choice; }
     bool is_high(double value) const { return value - low > high - value; }
     /// Whether it is a choice of what is not the vanishing value.
-    bool is_unusual(double value) const { return is_choice && is_high(value) != is_high(vanishing); }
+    bool is_unusual(double value) const { return is_choice() && is_high(value) != is_high(vanishing); }
     bool is_negligible(double value) const { return std::abs(value - vanishing) < negligible; }
     /// The value that acts.
     double acting(double value) const { return is_negligible(value) ? vanishing : value; }
+    /// Of a size: the typical one or, of what is typically absent, a quarter of the largest.
+    double usual() const { return typical != vanishing ? typical : vanishing + 0.25 * (high - vanishing); }
+};
+
+namespace parameter {
+
+/// Parameters as an effect's file lists them; what is in no such form is a size.
+constexpr EffectParameter with_role(EffectParameter of, Role role, std::span<const double> starts = {}) {
+    of.role = role;
+    of.starts = starts;
+    return of;
+}
+constexpr EffectParameter size(EffectParameter of, std::span<const double> starts) {
+    return with_role(of, Role::size, starts);
+}
+constexpr EffectParameter shape(EffectParameter of, std::span<const double> starts = {}) {
+    return with_role(of, Role::shape, starts);
+}
+/// @param negligible  see EffectParameter
+constexpr EffectParameter optional(EffectParameter of, double negligible,
+                                   std::span<const double> starts = {}) {
+    of.negligible = negligible;
+    return with_role(of, Role::optional, starts);
+}
+/// Between 0 and 1.
+/// @param usual  of the two, which is the vanishing and typical value
+constexpr EffectParameter choice(std::string_view name, double usual, std::string_view meaning) {
+    return {name, "", 0.0, 1.0, usual, usual, meaning, Role::choice};
+}
+
+}  // namespace parameter
+
+struct Effect;
+
+/// The plainer effect that an effect comes to where what sets it apart vanishes.
+struct PlainerForm {
+    const Effect* effect = nullptr;  ///< none: it comes to none
+    /// Its size that does roughly the same; nullptr: the richer one's first parameter.
+    /// @param middle_mm  of the rail
+    double (*size)(std::span<const double> richer, double middle_mm) = nullptr;
 };
 
 struct Effect {
     std::string_view name;
     std::string_view block;  ///< e.g. "macro.drive"
-    std::string_view text;   ///< what it is, for people, with its equation
+    Part part;
+    std::string_view text;  ///< what it is, for people, with its equation
     std::string_view source;
     std::span<const EffectParameter> parameters;
-    /// One value per parameter, within bounds; the part that the block names exists.
+    /// One value per parameter, within bounds; the part exists.
     void (*apply)(PlantParameters& plant, std::span<const double> values);
     /// Whether it acts at a place on the rail that its parameters state, so that only who knows where the
     /// carriage is can find it. What repeats along the rail does not: its phase counts from anywhere.
     bool needs_place = false;
+    PlainerForm plainer = {};
+    /// Another effect that no recording can tell it from.
+    const Effect* same_as = nullptr;
 };
 
 /// An effect with the values of its parameters, in its order.

@@ -6,8 +6,9 @@ namespace {
 
 constexpr EffectParameter parameters[] = {
     {"amplitude_um", "um", 0.0, 1000.0, 0.0, 50.0, "of the error"},
-    {"period_mm", "mm", 0.1, 200.0, 5.0, 5.0, "on the rail"},
-    {"phase_rad", "rad", -6.2831853072, 6.2831853072, 0.0, 0.0, "at the left end"},
+    parameter::with_role({"period_mm", "mm", 0.1, 200.0, 5.0, 5.0, "on the rail"}, Role::period),
+    parameter::with_role({"phase_rad", "rad", -6.2831853072, 6.2831853072, 0.0, 0.0, "at the left end"},
+                         Role::phase),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -22,6 +23,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect encoder_ripple{
     .name = "encoder_ripple",
     .block = "macro.encoder",
+    .part = Part::encoder,
     .text = "A reading error periodic in position: it reads y + A sin(2 pi y / p + phase).",
     .source =
         "Linear encoders' subdivisional and graduation error, e.g. Merry, van de Molengraft, Steinbuch, "

@@ -4,8 +4,11 @@ namespace fidservo::plant::effects {
 
 namespace {
 
+/// It hides within the counts up to where the carriage has gone too far for that.
+constexpr double factors[] = {1.01, 1.001, 0.999};
+
 constexpr EffectParameter parameters[] = {
-    {"factor", "", 0.8, 1.25, 1.0, 1.01, "length of a count per nominal length"},
+    parameter::size({"factor", "", 0.8, 1.25, 1.0, 1.01, "length of a count per nominal length"}, factors),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -17,6 +20,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect encoder_scale{
     .name = "encoder_scale",
     .block = "macro.encoder",
+    .part = Part::encoder,
     .text = "Counts are not the nominal length: resolution = factor * nominal.",
     .source = "Linear encoders' scale error, e.g. ISO 230-2",
     .parameters = parameters,

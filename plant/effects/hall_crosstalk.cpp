@@ -7,7 +7,8 @@ namespace {
 constexpr EffectParameter parameters[] = {
     {"leak_mV_per_V", "mV/V", -50.0, 50.0, 0.0, 4.0,
      "voltage on the sensor's line per volt of the macro drive"},
-    {"lag_ms", "ms", 0.0, 50.0, 0.0, 0.0, "time constant with which it follows the drive", 0.2},
+    parameter::optional(
+        {"lag_ms", "ms", 0.0, 50.0, 0.0, 0.0, "time constant with which it follows the drive"}, 0.2),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -21,6 +22,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect hall_crosstalk{
     .name = "hall_crosstalk",
     .block = "micro.hall",
+    .part = Part::hall,
     .text =
         "The macro drive's voltage u leaks into the reading: V = nominal V + leak u, u as it stood on "
         "the drive up to the sampling instant, or as a filter on the sensor's line lets it through.",

@@ -4,9 +4,13 @@ namespace fidservo::plant::effects {
 
 namespace {
 
+/// It settles within a run or never.
+constexpr double settlings_per_s[] = {0.0, 0.1};
+
 constexpr EffectParameter parameters[] = {
     {"rate_mV_per_s", "mV/s", -20.0, 20.0, 0.0, 1.0, "of the sensor's zero, from the start of the run"},
-    {"settling_per_s", "1/s", 0.0, 2.0, 0.0, 0.0, "rate at which it settles", 0.01},
+    parameter::optional({"settling_per_s", "1/s", 0.0, 2.0, 0.0, 0.0, "rate at which it settles"}, 0.01,
+                        settlings_per_s),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -21,6 +25,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect hall_drift{
     .name = "hall_drift",
     .block = "micro.hall",
+    .part = Part::hall,
     .text =
         "The sensor's zero moves with time: V = nominal V + rate t, t from the start of the run, up "
         "to 1 V either way. Where it settles as a sensor warms up, rate (1 - exp(-settling t)) / settling.",

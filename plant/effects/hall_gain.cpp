@@ -6,14 +6,7 @@ namespace {
 
 constexpr EffectParameter parameters[] = {
     {"factor", "", 0.5, 1.5, 1.0, 1.02, "slope per nominal slope"},
-    {.name = "about_mid",
-     .unit = "",
-     .low = 0.0,
-     .high = 1.0,
-     .vanishing = 1.0,
-     .typical = 1.0,
-     .meaning = "1: about the middle voltage; 0: about 0 V",
-     .is_choice = true},
+    parameter::choice("about_mid", 1.0, "1: about the middle voltage; 0: about 0 V"),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -29,6 +22,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect hall_gain{
     .name = "hall_gain",
     .block = "micro.hall",
+    .part = Part::hall,
     .text =
         "The sensor's slope differs by a factor: V = mid + factor * (nominal V - mid). "
         "Or the whole voltage does, V = factor * nominal V, as of a ratiometric sensor whose supply is "

@@ -6,14 +6,7 @@ namespace {
 
 constexpr EffectParameter parameters[] = {
     {"cubic_shift", "", -0.3, 0.3, 0.0, 0.03, "added to the curve's cubic coefficient"},
-    {.name = "ends_stay",
-     .unit = "",
-     .low = 0.0,
-     .high = 1.0,
-     .vanishing = 1.0,
-     .typical = 1.0,
-     .meaning = "1: the ends of the range stay; 0: the slope in its middle",
-     .is_choice = true},
+    parameter::choice("ends_stay", 1.0, "1: the ends of the range stay; 0: the slope in its middle"),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -29,6 +22,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect hall_nonlinearity{
     .name = "hall_nonlinearity",
     .block = "micro.hall",
+    .part = Part::hall,
     .text =
         "The sensor's curve is more or less S-shaped: V = mid + span s (1 + (nominal cubic + shift) (1 - "
         "s^2)); centre and ends of the range stay. Or V = nominal V - span shift s^3: centre and slope there "

@@ -6,7 +6,8 @@ namespace {
 
 constexpr EffectParameter parameters[] = {
     {"offset_V", "V", -1.0, 1.0, 0.0, 0.02, "voltage above nominal"},
-    {"shift_um", "um", -2000.0, 2000.0, 0.0, 0.0, "by which the magnet sits towards contraction", 2.0},
+    parameter::optional(
+        {"shift_um", "um", -2000.0, 2000.0, 0.0, 0.0, "by which the magnet sits towards contraction"}, 2.0),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -19,6 +20,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect hall_offset{
     .name = "hall_offset",
     .block = "micro.hall",
+    .part = Part::hall,
     .text = "The sensor's zero differs: V = nominal V of x + shift, + offset.",
     .source = "Ramsden, Hall-Effect Sensors, 2nd ed., 2006: quiescent output voltage",
     .parameters = parameters,

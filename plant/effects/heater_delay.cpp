@@ -18,6 +18,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect heater_delay{
     .name = "heater_delay",
     .block = "micro.heater",
+    .part = Part::wire,
     .text =
         "The heater acts late: the voltage on it at t is the command of t - delay; before the first "
         "command, 0.",

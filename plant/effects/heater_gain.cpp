@@ -17,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect heater_gain{
     .name = "heater_gain",
     .block = "micro.heater",
+    .part = Part::wire,
     .text = "The electrical power differs by a factor: phi = factor * nominal phi.",
     .source = "Joule heating with another wire resistance or supply",
     .parameters = parameters,

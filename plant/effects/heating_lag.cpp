@@ -17,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect heating_lag{
     .name = "heating_lag",
     .block = "micro.heater",
+    .part = Part::wire,
     .text =
         "The wire heats more slowly or faster: the heating time constant is factor * nominal; where "
         "it settles and how it cools stay.",

@@ -17,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect lens_distortion{
     .name = "lens_distortion",
     .block = "camera.geometry",
+    .part = Part::view,
     .text =
         "Radial distortion: a point at r (in focal lengths from the optical axis) is seen at r (1 + "
         "k1 r^2).",

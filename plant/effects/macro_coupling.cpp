@@ -1,14 +1,30 @@
 #include "plant/effects/effect.h"
 
+#include <array>
+
 namespace fidservo::plant::effects {
 
 namespace {
 
+/// Neighbours lie half the width of a resonance of damping ratio 0.07 apart.
+constexpr std::array frequencies_Hz = [] {
+    constexpr double ratio = 1.15;
+    std::array<double, 27> frequencies{};
+    double frequency_Hz = 5.0;
+    for (double& each : frequencies) {
+        each = frequency_Hz;
+        frequency_Hz *= ratio;
+    }
+    return frequencies;
+}();
+constexpr double damping_ratios[] = {0.02, 0.1};
+
 constexpr EffectParameter parameters[] = {
     {"gain", "", -2.0, 2.0, 0.0, 0.5,
      "share of the carriage's acceleration that deflects the platform; negative: forwards, as on a lever"},
-    {"frequency_Hz", "Hz", 5.0, 200.0, 30.0, 30.0, "undamped resonance of the platform"},
-    {"damping_ratio", "", 0.001, 0.9, 0.05, 0.05, "1: no oscillation"},
+    parameter::shape({"frequency_Hz", "Hz", 5.0, 200.0, 30.0, 30.0, "undamped resonance of the platform"},
+                     frequencies_Hz),
+    parameter::shape({"damping_ratio", "", 0.001, 0.9, 0.05, 0.05, "1: no oscillation"}, damping_ratios),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -20,6 +36,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect macro_coupling{
     .name = "macro_coupling",
     .block = "micro.mechanics",
+    .part = Part::platform,
     .text =
         "The carriage's acceleration a swings the flexure platform: d2z/dt2 + 2 zeta w dz/dt + w^2 z "
         "= -gain a, w = 2 pi frequency; z adds to the platform's position, for the Hall sensor and "

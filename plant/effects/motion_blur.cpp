@@ -18,6 +18,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect motion_blur{
     .name = "motion_blur",
     .block = "camera.image",
+    .part = Part::exposure,
     .text =
         "Frames are exposed for longer, at the same brightness: what moves is the mean over its way "
         "during the exposure.",

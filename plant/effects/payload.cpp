@@ -17,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect payload{
     .name = "payload",
     .block = "macro.mechanics",
+    .part = Part::carriage,
     .text =
         "More or less moving mass m: the time constant m / (damping) differs by a factor, the gain does not.",
     .source = "Newton's law for the motor's first-order velocity model",

@@ -17,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect pixel_scale{
     .name = "pixel_scale",
     .block = "camera.geometry",
+    .part = Part::view,
     .text =
         "Focal length or distance differs: lengths in the image are factor * nominal, about the "
         "principal point.",

@@ -4,21 +4,20 @@
 
 namespace fidservo::plant::effects {
 
+extern const Effect coulomb_friction;
+
 namespace {
+
+constexpr double distances_um[] = {10.0, 50.0, 250.0};
 
 constexpr EffectParameter parameters[] = {
     {"level_V", "V", 0.0, 3.0, 0.0, 0.1, "friction once it slides"},
-    {"distance_um", "um", 0.1, 1000.0, 50.0, 50.0, "way over which the bristles bend"},
-    {"damping_V_s_per_mm", "V s/mm", 0.0, 0.05, 0.0, 0.0,
-     "of the bristles, at most 50 ms of their stiffness"},
-    {.name = "springs",
-     .unit = "",
-     .low = 0.0,
-     .high = 1.0,
-     .vanishing = 0.0,
-     .typical = 0.0,
-     .meaning = "1: bristles are springs until they slide; 0: they give way from the first on",
-     .is_choice = true},
+    parameter::shape({"distance_um", "um", 0.1, 1000.0, 50.0, 50.0, "way over which the bristles bend"},
+                     distances_um),
+    parameter::shape({"damping_V_s_per_mm", "V s/mm", 0.0, 0.05, 0.0, 0.0,
+                      "of the bristles, at most 50 ms of their stiffness"}),
+    parameter::choice("springs", 0.0,
+                      "1: bristles are springs until they slide; 0: they give way from the first on"),
 };
 
 /// Their relaxation time is bounded, or a level that vanishes would leave the damping.
@@ -37,6 +36,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect presliding{
     .name = "presliding",
     .block = "macro.friction",
+    .part = Part::carriage,
     .text =
         "Elastic micro-motion before break-away: bristles of bend z carry all dry friction g, "
         "F = Fc z + c1 dz/dt d, dz/dt = (v - |v| z Fc / g) / d, where Fc is this level plus other Coulomb "
@@ -47,6 +47,7 @@ extern constexpr Effect presliding{
         "40(3), 1995; Dupont et al., ibid. 47(5), 2002: without drift",
     .parameters = parameters,
     .apply = apply,
+    .plainer = {&coulomb_friction},  // of stiff bristles
 };
 
 }  // namespace fidservo::plant::effects

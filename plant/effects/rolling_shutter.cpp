@@ -19,6 +19,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect rolling_shutter{
     .name = "rolling_shutter",
     .block = "camera.image",
+    .part = Part::shutter,
     .text =
         "Rows are exposed one after the other: row v at t + readout (v / (height - 1) - 1/2), t the "
         "frame's time. What moves is sheared.",

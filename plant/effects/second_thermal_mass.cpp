@@ -6,23 +6,27 @@ namespace fidservo::plant::effects {
 
 namespace {
 
+constexpr double taus_s[] = {8.0, 40.0}, all_or_nothing[] = {1.0, 0.0};
+
 constexpr EffectParameter parameters[] = {
     {"conductance", "", 0.0, 5.0, 0.0, 0.25, "from the wire to the mass, per that to the room"},
-    {"mass_tau_s", "s", 1.0, 1000.0, 20.0, 20.0, "the mass's heat capacity over that conductance"},
-    {"taken", "", 0.0, 20.0, 1.0, 1.0,
-     "what the mass takes per what it gives back; 1: it loses heat to the wire only; 0: it is the wire's "
-     "surroundings"},
-    {"heating", "", 1.0, 2.6, 1.0, 1.0, "conductance while the wire heats, per that while it cools", 0.02},
-    {"diffusion_s", "s", 0.0, 10.0, 0.0, 0.0,
-     "the mass's length^2 over its diffusivity; 0: of one temperature", 0.25},
-    {.name = "source",
-     .unit = "",
-     .low = 0.0,
-     .high = 1.0,
-     .vanishing = 0.0,
-     .typical = 0.0,
-     .meaning = "1: what it gives back and has not taken heats the wire; 0: it warms the wire's surroundings",
-     .is_choice = true},
+    parameter::shape(
+        {"mass_tau_s", "s", 1.0, 1000.0, 20.0, 20.0, "the mass's heat capacity over that conductance"},
+        taus_s),
+    parameter::shape(
+        {"taken", "", 0.0, 20.0, 1.0, 1.0,
+         "what the mass takes per what it gives back; 1: it loses heat to the wire only; 0: it is the wire's "
+         "surroundings"},
+        all_or_nothing),
+    parameter::optional(
+        {"heating", "", 1.0, 2.6, 1.0, 1.0, "conductance while the wire heats, per that while it cools"},
+        0.02),
+    parameter::optional({"diffusion_s", "s", 0.0, 10.0, 0.0, 0.0,
+                         "the mass's length^2 over its diffusivity; 0: of one temperature"},
+                        0.25),
+    parameter::choice(
+        "source", 0.0,
+        "1: what it gives back and has not taken heats the wire; 0: it warms the wire's surroundings"),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -40,6 +44,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect second_thermal_mass{
     .name = "second_thermal_mass",
     .block = "micro.heater",
+    .part = Part::wire,
     .text =
         "Plates or the mount store heat and slow the cooling later on. With q, m the rise of wire and "
         "mass above the room: dq/dt = (phi - q) / tau - conductance / tau_c (q - m), mass_tau dm/dt = "

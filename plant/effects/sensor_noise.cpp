@@ -22,6 +22,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect sensor_noise{
     .name = "sensor_noise",
     .block = "camera.image",
+    .part = Part::image,
     .text =
         "The sensor is noisier: read noise^2 = nominal^2 + read_noise^2 electrons, and each pixel has "
         "its own fixed gain 1 + gain_spread z.",

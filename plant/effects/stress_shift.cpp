@@ -2,6 +2,8 @@
 
 namespace fidservo::plant::effects {
 
+extern const Effect ambient_temperature;
+
 namespace {
 
 constexpr EffectParameter parameters[] = {
@@ -17,6 +19,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect stress_shift{
     .name = "stress_shift",
     .block = "micro.hysteresis",
+    .part = Part::wire,
     .text =
         "Load on the wire moves its transformation temperatures by (load stress - nominal stress) / "
         "C, C some 7 MPa/degC for NiTi: x = f(T - shift). A warmer room does the same with the other "
@@ -26,6 +29,7 @@ extern constexpr Effect stress_shift{
         "Metallkunde 70, 1979; Otsuka, Wayman (eds.), Shape Memory Materials, 1998, ch. 1",
     .parameters = parameters,
     .apply = apply,
+    .same_as = &ambient_temperature,  // both move the wire's temperature against the table by a constant
 };
 
 }  // namespace fidservo::plant::effects

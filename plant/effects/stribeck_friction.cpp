@@ -2,13 +2,19 @@
 
 namespace fidservo::plant::effects {
 
+extern const Effect coulomb_friction;
+
 namespace {
+
+constexpr double speeds_mm_per_s[] = {4.8, 24.0};
 
 constexpr EffectParameter parameters[] = {
     {"level_V", "V", 0.0, 3.0, 0.0, 0.2, "friction at the lowest speeds beyond that at high speed"},
-    {"speed_mm_per_s", "mm/s", 0.5, 300.0, 12.0, 12.0, "at which it has fallen to 1/e"},
+    parameter::shape({"speed_mm_per_s", "mm/s", 0.5, 300.0, 12.0, 12.0, "at which it has fallen to 1/e"},
+                     speeds_mm_per_s),
     creep_speed,
-    {"exponent", "", 1.0, 3.0, 1.0, 1.0, "of the speed: 1 falls as an exponential, 2 as a bell", 0.02},
+    parameter::optional(
+        {"exponent", "", 1.0, 3.0, 1.0, 1.0, "of the speed: 1 falls as an exponential, 2 as a bell"}, 0.02),
 };
 
 void apply(PlantParameters& plant, std::span<const double> values) {
@@ -24,6 +30,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect stribeck_friction{
     .name = "stribeck_friction",
     .block = "macro.friction",
+    .part = Part::carriage,
     .text =
         "Friction rises towards low speed: F = Fs exp(-(|v| / vs)^n) sgn(v), which holds a carriage at rest "
         "while |V| "
@@ -33,6 +40,7 @@ extern constexpr Effect stribeck_friction{
         "30(7), 1994: other exponents; Andersson et al., Tribology Int. 40, 2007: tanh",
     .parameters = parameters,
     .apply = apply,
+    .plainer = {&coulomb_friction},  // of one that does not fall with speed
 };
 
 }  // namespace fidservo::plant::effects

@@ -17,6 +17,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect stroke_change{
     .name = "stroke_change",
     .block = "micro.hysteresis",
+    .part = Part::wire,
     .text = "The actuator's stroke differs by a factor: x = factor * f of the table.",
     .source =
         "Lagoudas, Shape Memory Alloys, 2008: transformation strain varies with training, load and fatigue",

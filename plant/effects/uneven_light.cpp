@@ -20,6 +20,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect uneven_light{
     .name = "uneven_light",
     .block = "camera.image",
+    .part = Part::image,
     .text =
         "The light falls off across the image: L = (1 + gradient . (x, y)) (1 - vignetting (x^2 + "
         "y^2) / 2), x and y from -1 to 1 across the image; gradient and vignetting add to the nominal "

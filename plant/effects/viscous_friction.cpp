@@ -19,6 +19,7 @@ void apply(PlantParameters& plant, std::span<const double> values) {
 extern constexpr Effect viscous_friction{
     .name = "viscous_friction",
     .block = "macro.friction",
+    .part = Part::carriage,
     .text =
         "Damping beyond the nominal: tau dv/dt = K (V - c v) - v, which is an axis with both K and tau "
         "divided by 1 + K c.",

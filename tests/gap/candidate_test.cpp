@@ -21,9 +21,10 @@ using namespace gap;
 using testing::effects;
 
 TEST(PlainForm, OfARicherEffect_HasAboutItsSize) {
-    const auto plain = [](std::string_view richer, const char* plainer) {
-        return plain_form(effects({richer}).front(), *plant::find_effect(plainer), reference_rig().macro)
-            .values.front();
+    const auto plain = [](std::string_view richer, std::string_view plainer) {
+        const plant::EffectSetting form = plain_form(effects({richer}).front(), reference_rig().macro);
+        EXPECT_EQ(form.effect->name, plainer);
+        return form.values.front();
     };
     EXPECT_DOUBLE_EQ(plain("presliding:level_V=0.2", "coulomb_friction"), 0.2);
     EXPECT_DOUBLE_EQ(plain("stribeck_friction:level_V=0.3", "coulomb_friction"), 0.3);
@@ -70,9 +71,12 @@ TEST(Candidates, OfARigWithoutAMicroStage_AreNoneOfIt) {
 }
 
 TEST(PlainForm, IsThatOfALimitOnly) {
-    EXPECT_TRUE(is_limit_of("drive_offset", "cable_force"));
-    EXPECT_FALSE(is_limit_of("cable_force", "drive_offset"));
-    EXPECT_FALSE(is_limit_of("drive_gain", "cable_force"));
+    const auto is_limit = [](std::string_view plainer, std::string_view richer) {
+        return is_limit_of(*plant::find_effect(plainer), *plant::find_effect(richer));
+    };
+    EXPECT_TRUE(is_limit("drive_offset", "cable_force"));
+    EXPECT_FALSE(is_limit("cable_force", "drive_offset"));
+    EXPECT_FALSE(is_limit("drive_gain", "cable_force"));
 }
 
 TEST(Refinements, AreWhatAnEffectMayBeWithoutAndCountAsNoParameter) {
@@ -97,7 +101,8 @@ TEST(Refinements, AreWhatAnEffectMayBeWithoutAndCountAsNoParameter) {
             }
         }
         EXPECT_EQ(names, refined) << name;
-        const auto choices = std::ranges::count_if(effect.parameters, &plant::EffectParameter::is_choice);
+        const auto choices = std::ranges::count_if(
+            effect.parameters, [](const plant::EffectParameter& parameter) { return parameter.is_choice(); });
         EXPECT_EQ(unrefined_parameters(effect) + refined.size() + static_cast<std::size_t>(choices),
                   effect.parameters.size())
             << name;

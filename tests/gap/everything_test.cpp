@@ -81,16 +81,12 @@ TEST(Everything, WhatIsFarOff_ForAnotherReason_IsLeftToOthers) {
     EXPECT_TRUE(needed_of(evidence).names.empty());
 }
 
-TEST(Everything, IsOfWireSensorAndView_NotOfTheCarriage_NorOfPlaces) {
+TEST(Everything, IsOfWireSensorsAndView_NotOfTheCarriage) {
     const Evidence evidence = wire_campaign({});
     for (const Candidate& candidate : candidates(evidence, {}, {})) {
-        const std::string_view block = candidate.effect->block;
-        if (block.starts_with("macro.") || candidate.wave) {
-            EXPECT_FALSE(is_smooth(candidate)) << candidate.effect->name;
-        }
-        if (block.starts_with("micro.h") && !candidate.is_limit) {
-            EXPECT_TRUE(is_smooth(candidate)) << candidate.effect->name;
-        }
+        const plant::Part part = candidate.effect->part;
+        EXPECT_EQ(is_smooth(candidate), part != plant::Part::carriage && !candidate.is_limit)
+            << candidate.effect->name;
     }
 }
 

@@ -70,7 +70,7 @@ TEST(ShapeScreening, FindsTheShapeAndTheSize_ThatAreThere_BesideWhatElseMayChang
     const std::vector<Window> all = testing::equal_windows(windows, values);
     const auto found =
         screened_shapes([&](const Hypothesis& hypothesis) { return errors_of(hypothesis, truth, 0.7); }, all,
-                        Wanted(windows, 1), others, std::array{&shaped}, 1e3, 1e3);
+                        Wanted(windows, 1), others, grid_of(std::array{&shaped}), 1e3, 1e3);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found.front().setting.values[1], 8.0);
     EXPECT_NEAR(typical_sizes(found.front().setting), 0.3, 0.01);
@@ -91,7 +91,7 @@ TEST(ShapeScreening, WhatCouldOnlyBeThereTheOtherWay_PromisesNothing) {
     };
     const std::vector<Window> all = testing::equal_windows(windows, values);
     for (const ScreenedShape& shape :
-         screened_shapes(predict, all, Wanted(windows, 1), {}, std::array{&shaped}, 1e3, 1e3))
+         screened_shapes(predict, all, Wanted(windows, 1), {}, grid_of(std::array{&shaped}), 1e3, 1e3))
         EXPECT_LE(shape.gain, 0.0);
 }
 
@@ -106,7 +106,7 @@ TEST(ShapeScreening, WhatTheOthersExplain_PromisesNothing) {
     const std::vector<Window> all = testing::equal_windows(windows, values);
     const auto found =
         screened_shapes([&](const Hypothesis& hypothesis) { return errors_of(hypothesis, none, 0.7); }, all,
-                        Wanted(windows, 1), others, std::array{&shaped}, 1e3, 1e3);
+                        Wanted(windows, 1), others, grid_of(std::array{&shaped}), 1e3, 1e3);
     for (const ScreenedShape& shape : found) EXPECT_LT(shape.gain, 1e-3);
 }
 
