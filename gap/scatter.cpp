@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,13 +17,41 @@ namespace {
 
 using Moves = std::vector<double>;
 
-/// A wave or a spring and what is drawn of it, as moves from where it is.
-class Drawn {
+/// How large an effect that is no wave and no spring is, as moves from where it is.
+class DrawnSizes {
   public:
-    explicit Drawn(const plant::EffectSetting& start)
+    explicit DrawnSizes(const plant::EffectSetting& start) : start_(start) {
+        for (std::size_t k = 0; k < start.values.size(); ++k)
+            if (start.effect->parameters[k].is_size()) sizes_.push_back(k);
+    }
+
+    Moves deviations() const {
+        constexpr double shares = 0.1;
+        return Moves(sizes_.size(), shares);
+    }
+
+    plant::EffectSetting at(std::span<const double> moves) const {
+        plant::EffectSetting there = start_;
+        for (std::size_t j = 0; j < sizes_.size(); ++j) {
+            const plant::EffectParameter& parameter = start_.effect->parameters[sizes_[j]];
+            const double size = start_.values[sizes_[j]] - parameter.vanishing;
+            there.values[sizes_[j]] =
+                std::clamp(parameter.vanishing + size * std::exp(moves[j]), parameter.low, parameter.high);
+        }
+        return there;
+    }
+
+  private:
+    const plant::EffectSetting& start_;
+    std::vector<std::size_t> sizes_;
+};
+
+/// A wave or a spring and what is drawn of it, as moves from where it is.
+class DrawnForce {
+  public:
+    explicit DrawnForce(const plant::EffectSetting& start)
         : start_(start), wave_(wave_of(*start.effect)), refinements_(refinements_of(*start.effect)) {}
 
-    /// Of the first generation.
     Moves deviations() const {
         constexpr double size_shares = 0.35, phase_rad = 0.35, waves_per_mm = 0.175 / 200.0,
                          harmonic_shares = 0.105, centre_mm = 20.0, hardening_shares = 0.5,
@@ -36,7 +65,7 @@ class Drawn {
         return deviations;
     }
 
-    plant::EffectSetting at(const Moves& moves) const {
+    plant::EffectSetting at(std::span<const double> moves) const {
         plant::EffectSetting there = start_;
         const auto set = [&](std::size_t k, double value) {
             there.values[k] =
@@ -65,6 +94,49 @@ class Drawn {
     const plant::EffectSetting& start_;
     std::optional<WaveParameters> wave_;
     std::vector<Refinement> refinements_;
+};
+
+/// The settings at some places of a hypothesis.
+class Drawn {
+  public:
+    Drawn(const Hypothesis& start, const Places& places) : start_(start) {
+        for (const std::size_t place : places)
+            if (wave_of(*start[place].effect) || is_spring(*start[place].effect))
+                forces_.emplace_back(place, start[place]);
+            else
+                sizes_.emplace_back(place, start[place]);
+    }
+
+    /// Of the first generation.
+    Moves deviations() const {
+        Moves all;
+        for_each([&](std::size_t, const auto& drawn) {
+            const Moves deviations = drawn.deviations();
+            all.insert(all.end(), deviations.begin(), deviations.end());
+        });
+        return all;
+    }
+
+    Hypothesis at(std::span<const double> moves) const {
+        Hypothesis there = start_;
+        for_each([&](std::size_t place, const auto& drawn) {
+            const std::size_t count = drawn.deviations().size();
+            there[place] = drawn.at(moves.first(count));
+            moves = moves.subspan(count);
+        });
+        return there;
+    }
+
+  private:
+    template <class Do>
+    void for_each(const Do& with) const {
+        for (const auto& [place, drawn] : forces_) with(place, drawn);
+        for (const auto& [place, drawn] : sizes_) with(place, drawn);
+    }
+
+    const Hypothesis& start_;
+    std::vector<std::pair<std::size_t, DrawnForce>> forces_;
+    std::vector<std::pair<std::size_t, DrawnSizes>> sizes_;
 };
 
 struct Draw {
@@ -115,31 +187,28 @@ bool has_valleys(const Candidate& candidate) {
 }
 
 Fit scatter(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
-            const Hypothesis& start, std::size_t place) {
+            const Hypothesis& start, const Places& places, double spread) {
     constexpr int generations = 8;
     constexpr std::size_t draws = 30, best_of_all = 8;
-    const Drawn drawn(start[place]);
-    const auto at = [&](const Moves& moves) {
-        Hypothesis there = start;
-        there[place] = drawn.at(moves);
-        return there;
-    };
-    Elite elite(drawn.deviations());
+    const Drawn drawn(start, places);
+    Moves deviations = drawn.deviations();
+    for (double& deviation : deviations) deviation *= spread;
+    Elite elite(std::move(deviations));
     std::vector<Draw> best{
         {Moves(drawn.deviations().size(), 0.0), total_loss(windows, counted, predict(start))}};
-    NoiseStream noise(1, "wave");
+    NoiseStream noise(1, "scatter");
     for (int generation = 0; generation < generations; ++generation) {
         std::vector<Draw> fresh(draws);
         for (Draw& draw : fresh) draw.moves = elite.drawn(noise);
         parallel_for(draws, [&](std::size_t k) {
-            fresh[k].loss = total_loss(windows, counted, predict(at(fresh[k].moves)));
+            fresh[k].loss = total_loss(windows, counted, predict(drawn.at(fresh[k].moves)));
         });
         std::ranges::move(fresh, std::back_inserter(best));
         std::ranges::stable_sort(best, {}, &Draw::loss);
         best.resize(best_of_all);
         elite.learn(best);
     }
-    return {at(best.front().moves), best.front().loss, {}};
+    return {drawn.at(best.front().moves), best.front().loss, {}};
 }
 
 }  // namespace fidservo::gap

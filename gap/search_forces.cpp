@@ -1,7 +1,10 @@
 // An explanation of the carriage from where its forces balance.
 #include "gap/everything.h"
 #include "gap/force_regression.h"
+#include "gap/halves.h"
 #include "gap/parallel.h"
+#include "gap/polish.h"
+#include "gap/scatter.h"
 #include "gap/score.h"
 #include "gap/search.h"
 
@@ -15,7 +18,7 @@ namespace fidservo::gap {
 namespace {
 
 /// Of the effort of a search, after which what balances the forces is given up.
-constexpr double share_for_forces = 0.3;
+constexpr double share_for_forces = 0.5;
 
 std::size_t place_of_least(const std::vector<double>& values) {
     return static_cast<std::size_t>(std::ranges::min_element(values) - values.begin());
@@ -38,9 +41,10 @@ std::vector<plant::EffectSetting> with_refinements(const plant::EffectSetting& s
     return all;
 }
 
-/// A model as it is, and with one of its effects in another form: richer, or refined. The balance does not
-/// see how a carriage stands.
-std::vector<BalancedModel> forms_of(const BalancedModel& model, const std::vector<Candidate>& candidates) {
+/// A model as it is, and with one of its effects in another form: plainer, richer, or refined. The balance
+/// does not see how a carriage stands.
+std::vector<BalancedModel> forms_of(const BalancedModel& model, const std::vector<Candidate>& candidates,
+                                    const MacroParameters& rail) {
     std::vector<BalancedModel> forms{model};
     for (std::size_t at = 0; at < model.settings.size(); ++at) {
         const auto add = [&](const Candidate& candidate, const plant::EffectSetting& plain) {
@@ -51,10 +55,12 @@ std::vector<BalancedModel> forms_of(const BalancedModel& model, const std::vecto
             }
         };
         add(*model.candidates[at], model.settings[at]);
-        for (const Candidate& richer : candidates)
-            if (std::ranges::find(model.candidates, &richer) == model.candidates.end())
-                for (const plant::EffectSetting& form : rich_forms(model.settings[at], richer))
-                    add(richer, form);
+        for (const Candidate& other : candidates) {
+            if (std::ranges::find(model.candidates, &other) != model.candidates.end()) continue;
+            for (const plant::EffectSetting& form : rich_forms(model.settings[at], other)) add(other, form);
+            if (is_limit_of(*other.effect, *model.candidates[at]->effect) && !other.is_limit)
+                add(other, plain_form(model.settings[at], rail));
+        }
     }
     return forms;
 }
@@ -80,12 +86,11 @@ std::vector<const Candidate*> smooth_beside(const BalancedModel& model,
 class FollowedHalf {
   public:
     FollowedHalf(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted, double most_effort)
-        : evidence_(evidence), wanted_(wanted), predict_([&, most_effort](const auto& settings) {
-              if (evidence.effort() > most_effort) return Errors{};
-              Hypothesis whole = known;
-              whole.insert(whole.end(), settings.begin(), settings.end());
-              return evidence.errors(whole, wanted);
-          }) {}
+        : evidence_(evidence),
+          known_(known),
+          wanted_(wanted),
+          most_effort_(most_effort),
+          predict_(predictor(wanted)) {}
 
     double loss(const Hypothesis& settings) const {
         return total_loss(evidence_.windows(), wanted_, predict_(settings));
@@ -99,6 +104,18 @@ class FollowedHalf {
 
     Fit fitted(const Hypothesis& settings) const {
         return fit(predict_, evidence_.windows(), wanted_, settings);
+    }
+
+    /// The best of many drawn around some settings: forces along the rail have many small valleys.
+    /// @param windows  that are looked at
+    Hypothesis scattered(const Hypothesis& settings, std::size_t windows) const {
+        constexpr double spread = 0.25;  // the balance tells much more than a guess
+        Places all(settings.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        const std::vector<Window>& from = evidence_.windows();
+        const Wanted telling = instructive(from, wanted_, mean_squares(from, predict_(settings)), windows);
+        const Fit drawn = scatter(predictor(telling), from, telling, settings, all, spread);
+        return polish(predictor(telling), from, telling, drawn.hypothesis, all).hypothesis;
     }
 
     /// The first of some forms of a model, fitted; or another one that follows the carriage better, by more
@@ -135,8 +152,19 @@ class FollowedHalf {
     }
 
   private:
+    Predict predictor(const Wanted& wanted) const {
+        return [this, &wanted](const Hypothesis& settings) {
+            if (evidence_.effort() > most_effort_) return Errors{};
+            Hypothesis whole = known_;
+            whole.insert(whole.end(), settings.begin(), settings.end());
+            return evidence_.errors(whole, wanted);
+        };
+    }
+
     const Evidence& evidence_;
+    const Hypothesis& known_;
     const Wanted& wanted_;
+    double most_effort_;
     Predict predict_;
 };
 
@@ -152,6 +180,7 @@ Search::Together Search::forces_beside(const CrossFit& base) {
 }
 
 Search::Together Search::balanced_beside(const CrossFit& base) const {
+    constexpr int most_rounds = 4;
     const Evidence& evidence = fitter_.evidence();
     std::vector<const Candidate*> all;
     for (const Candidate& candidate : candidates_) all.push_back(&candidate);
@@ -164,14 +193,31 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
     const double most_effort = evidence.effort() + share_for_forces * options_.most_effort;
     const FollowedHalf first(evidence, base.of_half[0], wanted[0], most_effort),
         second(evidence, base.of_half[1], wanted[1], most_effort);
-    const BalancedModel model =
-        first.best_form(forms_of(models[place_of_least(first.losses(models))], candidates_), options_.tail);
+    const BalancedModel model = first.best_form(
+        forms_of(models[place_of_least(first.losses(models))], candidates_, evidence.rig().macro),
+        options_.tail);
     NeededCandidates itself{model.candidates,
                             {model.settings, second.fitted(model.settings).hypothesis},
                             first.worth(model.settings)};
     if (evidence.effort() > most_effort) return {{}, {}, base};
-    const Together alone = together(base.of_half, std::move(itself));
+    const bool is_in_valleys = std::ranges::any_of(
+        itself.candidates, [](const Candidate* candidate) { return has_valleys(*candidate); });
+    Together alone = together(base.of_half, itself);
     if (!off(alone.fitted)[index_of(Signal::encoder)]) return alone;
+    for (int round = 0; is_in_valleys && round < most_rounds; ++round) {
+        // The other half may have come to a deeper valley.
+        const std::array<Hypothesis, 2> found = itself.of_half;
+        const auto scattered = [&](const FollowedHalf& half, const Hypothesis& own, const Hypothesis& other) {
+            return half.scattered(half.loss(other) < half.loss(own) ? other : own, options_.windows);
+        };
+        itself.of_half = {scattered(first, found[0], found[1]), scattered(second, found[1], found[0])};
+        if (evidence.effort() > most_effort) break;
+        itself.worth = first.worth(itself.of_half[0]);
+        const Together drawn = together(base.of_half, itself);
+        if (!(drawn.fitted.loss < alone.fitted.loss)) break;
+        alone = drawn;
+        if (!off(alone.fitted)[index_of(Signal::encoder)]) return alone;
+    }
     try {
         const Together whole =
             together(base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_),

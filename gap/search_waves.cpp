@@ -97,7 +97,7 @@ Search::Contender Search::scattered(const CrossFit& base, const Contender& conte
         const Wanted wanted =
             fitter_.instructive_of(side, contender.teachers(), contender.trial.fitted.mean_squares);
         there.trial.fitted.of_half[side] =
-            scatter(fitter_.predictor(wanted), windows, wanted, of_half[side], place).hypothesis;
+            scatter(fitter_.predictor(wanted), windows, wanted, of_half[side], {place}).hypothesis;
     });
     const std::array<Hypothesis, 2> drawn = there.trial.fitted.of_half;
     parallel_for(2, [&](std::size_t side) {

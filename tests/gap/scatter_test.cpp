@@ -36,7 +36,7 @@ TEST(Scatter, Spring_IsFoundWhereNoSlopeLeads) {
                        (hardening - truth[0].values[2]) / 1.0);
         return Errors{static_cast<float>(100.0 * (std::floor(4.0 * away) / 4.0 + 0.01 * away))};
     };
-    const Fit found = scatter(predict, windows, {1}, start, 0);
+    const Fit found = scatter(predict, windows, {1}, start, {0});
     EXPECT_NEAR(found.hypothesis[0].values[0], 0.002, 2e-4);
     EXPECT_NEAR(found.hypothesis[0].values[1], 90.0, 4.0);
     EXPECT_NEAR(found.hypothesis[0].values[2], 2.0, 0.5);
@@ -101,7 +101,7 @@ TEST(Scatter, WaveThatDecidesWaysAlone_IsFoundFromWhereAFewAreRight) {
             phase_in_step(truth.values[2] + 0.2 * noise.normal(), truth.values[1], beside.values[1]);
         beside.values[3] += 0.06 * noise.normal();
         beside.values[4] += 0.06 * noise.normal();
-        const Fit found = scatter(predict, windows, counted, {beside}, 0);
+        const Fit found = scatter(predict, windows, counted, {beside}, {0});
         wrong_at_start += wrong_ways({beside});
         wrong_at_end += wrong_ways(found.hypothesis);
         close += wrong_ways(found.hypothesis) <= 4 ? 1 : 0;
