@@ -168,6 +168,15 @@ class FollowedHalf {
     Predict predict_;
 };
 
+/// Both halves, each scattered from what follows it better: the other one may have come to a deeper valley.
+std::array<Hypothesis, 2> drawn_around(const FollowedHalf& first, const FollowedHalf& second,
+                                       const std::array<Hypothesis, 2>& settings, std::size_t windows) {
+    const auto of = [&](const FollowedHalf& half, const Hypothesis& own, const Hypothesis& other) {
+        return half.scattered(half.loss(other) < half.loss(own) ? other : own, windows);
+    };
+    return {of(first, settings[0], settings[1]), of(second, settings[1], settings[0])};
+}
+
 }  // namespace
 
 Search::Together Search::forces_beside(const CrossFit& base) {
@@ -200,32 +209,35 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
                             {model.settings, second.fitted(model.settings).hypothesis},
                             first.worth(model.settings)};
     if (evidence.effort() > most_effort) return {{}, {}, base};
-    const bool is_in_valleys = std::ranges::any_of(
-        itself.candidates, [](const Candidate* candidate) { return has_valleys(*candidate); });
-    Together alone = together(base.of_half, itself);
-    if (!off(alone.fitted)[index_of(Signal::encoder)]) return alone;
-    for (int round = 0; is_in_valleys && round < most_rounds; ++round) {
-        // The other half may have come to a deeper valley.
-        const std::array<Hypothesis, 2> found = itself.of_half;
-        const auto scattered = [&](const FollowedHalf& half, const Hypothesis& own, const Hypothesis& other) {
-            return half.scattered(half.loss(other) < half.loss(own) ? other : own, options_.windows);
-        };
-        itself.of_half = {scattered(first, found[0], found[1]), scattered(second, found[1], found[0])};
-        if (evidence.effort() > most_effort) break;
-        itself.worth = first.worth(itself.of_half[0]);
-        const Together drawn = together(base.of_half, itself);
-        if (!(drawn.fitted.loss < alone.fitted.loss)) break;
-        alone = drawn;
-        if (!off(alone.fitted)[index_of(Signal::encoder)]) return alone;
-    }
+    Together best = together(base.of_half, itself);
+    double drawn_loss = best.fitted.loss;
+    const auto is_off = [&] { return off(best.fitted)[index_of(Signal::encoder)]; };
+    const auto keep_better = [&](Together other) {
+        if (!(other.fitted.loss < best.fitted.loss)) return false;
+        best = std::move(other);
+        return true;
+    };
     try {
-        const Together whole =
-            together(base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_),
-                                                        base.of_half, model.settings, wanted));
-        return whole.fitted.loss < alone.fitted.loss ? whole : alone;
+        if (is_off())
+            keep_better(
+                together(base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_),
+                                                            base.of_half, model.settings, wanted)));
+        const bool is_in_valleys = std::ranges::any_of(
+            itself.candidates, [](const Candidate* candidate) { return has_valleys(*candidate); });
+        for (int round = 0; is_in_valleys && is_off() && round < most_rounds; ++round) {
+            itself.of_half = drawn_around(first, second, itself.of_half, options_.windows);
+            if (evidence.effort() > most_effort) break;
+            itself.worth = first.worth(itself.of_half[0]);
+            const double before = drawn_loss;
+            Together drawn = together(base.of_half, itself);
+            drawn_loss = drawn.fitted.loss;
+            keep_better(std::move(drawn));
+            if (!(drawn_loss < before)) break;
+        }
     } catch (const BudgetEnded&) {
-        return alone;
+        return best;
     }
+    return best;
 }
 
 }  // namespace fidservo::gap

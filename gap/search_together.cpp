@@ -13,14 +13,24 @@
 namespace fidservo::gap {
 namespace {
 
-/// One smooth candidate of each class, that which a hypothesis has if it has one.
-std::vector<const Candidate*> smooth_ones(const std::vector<Candidate>& all, const Hypothesis& known) {
+/// Those signals that the Hall reading and the tags are of, as far as there are windows of them.
+SignalFlags smooth_signals(std::span<const Window> windows) {
+    SignalFlags signals{};
+    for (const Window& window : windows)
+        if (window.signal == Signal::hall || window.signal == Signal::tag)
+            signals[index_of(window.signal)] = true;
+    return signals;
+}
+
+/// One smooth candidate of each class that meets some signals, that which a hypothesis has if it has one.
+std::vector<const Candidate*> smooth_ones(const std::vector<Candidate>& all, const Hypothesis& known,
+                                          const SignalFlags& signals) {
     const auto is_known = [&](const Candidate& candidate) {
         return std::ranges::find(known, candidate.effect, &plant::EffectSetting::effect) != known.end();
     };
     std::vector<const Candidate*> found;
     for (const Candidate& candidate : all) {
-        if (!is_smooth(candidate)) continue;
+        if (!is_smooth(candidate) || !meet(teachers_of(*candidate.effect), signals)) continue;
         const auto same = std::ranges::find(found, candidate.class_name, &Candidate::class_name);
         if (same == found.end())
             found.push_back(&candidate);
@@ -41,8 +51,9 @@ struct Search::EverythingBeside {
 };
 
 Search::EverythingBeside Search::everything_of(const CrossFit& base) const {
-    constexpr SignalFlags smooth{false, true, true, false, false, false};
-    EverythingBeside everything{smooth_ones(candidates_, base.of_half[0]), base.of_half, base.of_half[0], {}};
+    const SignalFlags smooth = smooth_signals(fitter_.evidence().windows());
+    EverythingBeside everything{
+        smooth_ones(candidates_, base.of_half[0], smooth), base.of_half, base.of_half[0], {}};
     const auto is_among = [&](const plant::EffectSetting& setting) {
         return std::ranges::find(everything.candidates, setting.effect, &Candidate::effect) !=
                everything.candidates.end();

@@ -12,6 +12,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace fidservo {
@@ -50,6 +51,26 @@ TEST(Diagnosis, EffectIsNamedAmongItsLikes_WithItsValueWithinItsError) {
     EXPECT_GT(damping.std, 0.0);
     EXPECT_GT(diagnosis.gap.removed(), 0.99);
     EXPECT_LT(diagnosis.gap.after, 1.1);
+}
+
+TEST(Diagnosis, OfAnAxisAlone_TakesNothingFromWhatItDoesNotHave) {
+    std::vector<Recording> recordings = recordings_of(
+        effects({"drive_gain:factor=0.95", "coulomb_friction:level_V=0.2"}), {"macro-sweep", "macro-pulses"});
+    for (Recording& recording : recordings) {
+        recording.detections.clear();
+        recording.columns.hall = recording.columns.micro_command = recording.columns.micro_setpoint = false;
+        for (StageRow& row : recording.rows)
+            row.hall_adc = row.micro_command_V = row.micro_setpoint_mm = not_in_force;
+    }
+    Rig rig = reference_rig();
+    rig.micro.reset();
+    rig.camera.reset();
+    const Evidence evidence(rig, std::move(recordings));
+    const Diagnosis diagnosis = diagnose(
+        evidence,
+        {.only = {"drive_gain", "coulomb_friction", "encoder_scale"}, .without = {}, .selection = {}});
+    EXPECT_THAT(names(diagnosis), ::testing::UnorderedElementsAre("drive_gain", "coulomb_friction"));
+    EXPECT_EQ(diagnosis.verdict, Verdict::explained);
 }
 
 TEST(Diagnosis, EffectThatIsWithheld_LeavesWhatNothingExplains) {
