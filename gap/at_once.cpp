@@ -60,6 +60,26 @@ void add_shapes(const Search& search, Chain& chain) {
     }
 }
 
+/// Adds those choices of a chain, with their settings, whose effects are wanted.
+template <class Wants>
+void add_choices(Chain& to, const Chain& from, const Wants& wants) {
+    for (std::size_t k = 0; k < from.choices.size(); ++k) {
+        if (!wants(*from.choices[k].candidate->effect)) continue;
+        to.choices.push_back(from.choices[k]);
+        for (std::size_t side = 0; side < 2; ++side)
+            to.fitted.of_half[side].push_back(from.fitted.of_half[side][k]);
+    }
+}
+
+/// A chain with nothing of how the carriage moves. How it is read, tags tell as well.
+Chain without_carriage(const Search& search, const Chain& chain) {
+    Chain rest;
+    add_choices(rest, chain,
+                [](const plant::Effect& effect) { return effect.part != plant::Part::carriage; });
+    search.judge(rest.fitted);
+    return rest;
+}
+
 /// What explains a signal at once, of more effects than this, needs no search.
 constexpr std::size_t most_one_by_one = 2;
 
@@ -194,17 +214,8 @@ void add_tried(std::vector<Trial>& alone, std::vector<Trial> later) {
 
 Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& other) {
     Chain merged;
-    const auto add = [&](const Chain& from, bool of_carriage) {
-        for (std::size_t k = 0; k < from.choices.size(); ++k) {
-            const bool is_of_carriage = from.choices[k].candidate->effect->part == plant::Part::carriage;
-            if (is_of_carriage != of_carriage) continue;
-            merged.choices.push_back(from.choices[k]);
-            for (std::size_t side = 0; side < 2; ++side)
-                merged.fitted.of_half[side].push_back(from.fitted.of_half[side][k]);
-        }
-    };
-    add(chain, false);
-    add(other, true);
+    add_choices(merged, chain, [](const plant::Effect& effect) { return !moves_carriage(effect); });
+    add_choices(merged, other, moves_carriage);
     search.judge(merged.fitted);
     return merged;
 }
@@ -222,7 +233,7 @@ AtOnce explain_at_once(Search& search, Chain& chain, std::optional<Chain>& aside
     if (!is_known) are_several = explain_hall(search, chain, &alone) || are_several;
     if (aside) {
         aside = chain;
-        chain = with_carriage_of(search, chain, {});
+        chain = without_carriage(search, chain);
     }
     return {is_balanced, are_several};
 }

@@ -21,7 +21,7 @@ struct AtOnce {
 /// @param alone  what was tried alone; what is tried here is added
 AtOnce explain_at_once(Search& search, Chain& chain, std::optional<Chain>& aside, std::vector<Trial>& alone);
 
-/// A chain with what another one has of the carriage instead of its own.
+/// A chain with what another one has of the carriage and its encoder instead of its own.
 Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& other);
 
 /// Adds what was tried later for signals of which nothing was tried before; best first.
