@@ -152,4 +152,9 @@ std::string_view accused_block(const Pattern& pattern, Signal signal, std::optio
     return "controller";
 }
 
+Stage stage_of(std::string_view block) {
+    if (block.starts_with("macro.")) return Stage::macro;
+    return block.starts_with("micro.") ? Stage::micro : Stage::camera;
+}
+
 }  // namespace fidservo::gap

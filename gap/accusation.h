@@ -32,6 +32,11 @@ std::optional<Signal> false_sensor(const Pattern& pattern);
 /// Whether the tags are off only because the carriage's place between two counts is.
 bool tags_are_innocent(const Pattern& pattern);
 
+/// What a block is of: the carriage, the platform on it, or what is seen from there.
+enum class Stage { macro, micro, camera };
+
+Stage stage_of(std::string_view block);
+
 /// @param signal  that is furthest from its floor, or of the false sensor
 /// @param dependence  what its errors depend on first, if anything was found
 std::string_view accused_block(const Pattern& pattern, Signal signal, std::optional<Dependence> dependence);

@@ -24,8 +24,7 @@ std::vector<const Candidate*> only_in(const Chain& one, const Chain& other) {
 /// Whether a chain is another one with a richer effect in the place of its limit.
 bool refines(const Chain& richer, const Chain& plainer) {
     const auto more = only_in(richer, plainer), less = only_in(plainer, richer);
-    return more.size() == 1 && less.size() == 1 &&
-           is_limit_of(*less.front()->effect, *more.front()->effect);
+    return more.size() == 1 && less.size() == 1 && is_limit_of(*less.front()->effect, *more.front()->effect);
 }
 
 }  // namespace

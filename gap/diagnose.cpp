@@ -1,5 +1,7 @@
 #include "gap/diagnose.h"
 
+#include "core/input_error.h"
+#include "gap/accusation.h"
 #include "gap/correlated.h"
 #include "gap/gap_size.h"
 #include "gap/model_weights.h"
@@ -161,8 +163,7 @@ std::vector<BlockProbability> blocks_of(const Selection& selection, const std::v
 /// nothing that was found, any of them may be it.
 double certainty_of(const Remainder& missing) {
     constexpr double any_of_them = 0.5;
-    const bool is_of_a_stage = missing.block.starts_with("macro.") || missing.block.starts_with("micro.");
-    return is_of_a_stage && missing.depends_on.empty() ? any_of_them : 1.0;
+    return stage_of(missing.block) != Stage::camera && missing.depends_on.empty() ? any_of_them : 1.0;
 }
 
 /// Where nothing is named, what nearly was: an effect that must not be named left nothing, so that it is what
@@ -177,11 +178,11 @@ std::string block_of_nameless(const Selection& selection, const Remainder& remai
     };
     const auto limit = std::ranges::find_if(selection.limits, is_of_richer);
     if (limit != selection.limits.end()) return std::string((*limit)->effect->block);
-    if (!remainder.depends_on.empty() || !remainder.block.starts_with("macro.") || selection.alone.empty())
-        return remainder.block;
+    const bool is_of_carriage = stage_of(remainder.block) == Stage::macro;
+    if (!remainder.depends_on.empty() || !is_of_carriage || selection.alone.empty()) return remainder.block;
     const Trial& best = *std::ranges::max_element(selection.alone, {}, &Trial::gain);
-    const std::string_view block = best.candidate->effect->block;
-    return best.gain > least_gain && block.starts_with("macro.") ? std::string(block) : remainder.block;
+    const plant::Effect& effect = *best.candidate->effect;
+    return best.gain > least_gain && moves_carriage(effect) ? std::string(effect.block) : remainder.block;
 }
 
 /// Leaves out what nobody can predict. Returns how many windows of the encoder that is.
@@ -307,6 +308,10 @@ void add_what_does_not_matter(const SignalLimits& matters, Diagnosis& diagnosis)
 }  // namespace
 
 Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
+    if (evidence.windows().empty())
+        throw InputError(
+            "recordings: nothing in them can be judged; allowed: half a second of commands and readings "
+            "without a gap");
     const std::vector<Candidate> tried = candidates(evidence, options.only, options.without);
     const Selection selection = select(evidence, tried, options.selection);
     Diagnosis diagnosis;

@@ -17,8 +17,8 @@ struct DiagnosisOptions {
     SelectionOptions selection;
 };
 
-/// Where the evidence's budget ends before all is done, the best until then. Throws BudgetEnded where that is
-/// before anything was predicted.
+/// Where the evidence's budget ends before all is done, the best until then. Throws InputError where nothing
+/// in the recordings can be judged; throws BudgetEnded where that is before anything was predicted.
 Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options = {});
 
 }  // namespace fidservo::gap

@@ -28,8 +28,9 @@ struct NeededCandidates {
     std::vector<double> worth;          ///< of each, on both halves: loss that it saves beside the others
 };
 
-/// Whether what the Hall reading or the tags tell of a candidate changes smoothly with its sizes: of the wire,
-/// the sensors and the view. A false scale of the encoder hides within its counts and shows in the tags.
+/// Whether what the Hall reading or the tags tell of a candidate changes smoothly with its sizes: of the
+/// wire, the sensors and the view. A false scale of the encoder hides within its counts and shows in the
+/// tags.
 bool is_smooth(const Candidate& candidate);
 
 /// The same of a carriage that is predicted nearly right: without play, place or period, and what does not

@@ -80,7 +80,7 @@ class PlatformColumns {
 constexpr plant::Effect change_of_wire(void (*apply)(plant::PlantParameters& plant,
                                                      std::span<const double> values)) {
     return {.name = "",
-            .block = "micro.heater",
+            .block = "",
             .part = plant::Part::wire,
             .text = "",
             .source = "",

@@ -259,8 +259,7 @@ std::size_t Search::simplest(std::span<const Contender> leaders) const {
     const plant::Effect& explained = *first.candidate->effect;
     const auto does_as_well = [&](const Trial& plainer) {
         return ties(first.fitted, plainer.fitted) || !meet(off(plainer.fitted), teachers_of(explained)) ||
-               (is_limit_of(*plainer.candidate->effect, explained) &&
-                !is_real(plainer.fitted, first.fitted));
+               (is_limit_of(*plainer.candidate->effect, explained) && !is_real(plainer.fitted, first.fitted));
     };
     const auto is_plainer = [](const Candidate& one, const Candidate& other) {
         return is_limit_of(*one.effect, *other.effect) ||

@@ -17,8 +17,7 @@ void Search::fit_plain_form(const CrossFit& base, const Contender& richer, Conte
     found.finding = &finding;
     parallel_for(2, [&](std::size_t side) {
         Hypothesis start = richer.trial.fitted.of_half[side];
-        start.back() =
-            plain_form(start.back(), fitter_.evidence().rig().macro);
+        start.back() = plain_form(start.back(), fitter_.evidence().rig().macro);
         found.trial.fitted.of_half[side] =
             fitter_.fit_places(side, start, plain.fitted_places(base), base.mean_squares).hypothesis;
         finding.fitted[side] = found.part(found.trial.fitted.of_half[side]);
@@ -74,8 +73,7 @@ std::span<Search::Contender> Search::with_limits(const CrossFit& base, std::span
                                                  std::size_t leaders) const {
     const Contender best = all.front();
     return with_fitted(all, leaders, [&](Contender& plain) {
-        if (!is_limit_of(*plain.trial.candidate->effect, *best.trial.candidate->effect))
-            return false;
+        if (!is_limit_of(*plain.trial.candidate->effect, *best.trial.candidate->effect)) return false;
         fit_plain_form(base, best, plain);
         return true;
     });
@@ -86,8 +84,7 @@ std::span<Search::Contender> Search::with_richer(const CrossFit& base, std::span
     const Contender best = all.front();
     if (!meet(off(best.trial.fitted), best.teachers())) return all.first(leaders);
     return with_fitted(all, leaders, [&](Contender& richer) {
-        if (!is_limit_of(*best.trial.candidate->effect, *richer.trial.candidate->effect))
-            return false;
+        if (!is_limit_of(*best.trial.candidate->effect, *richer.trial.candidate->effect)) return false;
         fit_rich_form(base, best, richer);
         return true;
     });

@@ -1,5 +1,6 @@
 #include "gap/standing.h"
 
+#include "gap/accusation.h"
 #include "gap/calibration.h"
 #include "gap/gap_size.h"
 
@@ -10,12 +11,6 @@
 
 namespace fidservo::gap {
 namespace {
-
-/// The stage that a block is of; camera and plate are both of the view.
-std::string_view stage_of(std::string_view block) {
-    const std::string_view stage = block.substr(0, block.find('.'));
-    return stage == "plate" ? "camera" : stage;
-}
 
 /// See Support::agreement.
 double agreement_with(const std::optional<Remainder>& whole, const Selection& selection,

@@ -68,10 +68,9 @@ constinit const std::array catalogue{
 };
 
 /// Whether the rig has the part that a block belongs to.
-bool has_part(const PlantParameters& plant, std::string_view block) {
-    if (block.starts_with("micro.")) return plant.micro.has_value();
-    if (block.starts_with("camera.")) return plant.camera.has_value();
-    return true;
+bool has_part(const PlantParameters& plant, Part part) {
+    if (is_of_platform(part)) return plant.micro.has_value();
+    return !is_of_camera(part) || plant.camera.has_value();
 }
 
 }  // namespace
@@ -104,7 +103,7 @@ void apply_effects(PlantParameters& plant, std::span<const EffectSetting> effect
         const auto earlier = effects.first(k);
         if (std::ranges::any_of(earlier, [&](const EffectSetting& other) { return other.effect == &effect; }))
             throw InputError("--effect: " + std::string(effect.name) + ": an effect can be given once only");
-        if (!has_part(plant, effect.block))
+        if (!has_part(plant, effect.part))
             throw InputError("--effect: " + std::string(effect.name) + ": the rig has no " +
                              std::string(effect.block.substr(0, effect.block.find('.'))) +
                              " part for it to act on");

@@ -199,6 +199,23 @@ Findings tests_that_are_not_there(const SourceFile& document, const std::vector<
     return findings;
 }
 
+Findings effects_asked_for(const SourceFile& file, const std::vector<SourceFile>& house) {
+    if (!file.path.starts_with("gap/") || file.path == "gap/accusation.cpp") return {};
+    static const std::regex literal(R"re("([a-z_.]+)")re"), name(R"re(\.name = "([a-z_]+)")re"),
+        block(R"re((?:macro|micro|camera)\.[a-z]*)re"), unit(R"re(((?:\.|->|::)unit (?:==|!=)))re");
+    std::set<std::string> effects;
+    for (const SourceFile& other : house)
+        if (other.path.starts_with("plant/effects/"))
+            for (const std::string& effect : matches(other.text, name)) effects.insert(effect);
+    Findings findings;
+    for (const std::string& text : matches(file.text, literal))
+        if (effects.contains(text) || std::regex_match(text, block))
+            findings.push_back(finding(file, text, "an effect says what it does in its own file"));
+    for (const std::string& text : matches(file.text, unit))
+        findings.push_back(finding(file, text, "a parameter says its role in its effect's file"));
+    return findings;
+}
+
 Findings notes_to_self(const SourceFile& file) {
     static const std::regex pattern(R"re(((?:\b(?:TO)(?:DO)\b|\b(?:FIX)(?:ME)\b|\bXX(?:X)\b|#if[ ]0\b)))re");
     Findings findings;

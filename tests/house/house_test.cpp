@@ -95,6 +95,15 @@ TEST(House, Documents_NameTestsThatAreThere) {
         EXPECT_THAT(tests_that_are_not_there(document, house()), IsEmpty());
 }
 
+TEST(House, ADiagnosis_AsksForNoEffectByItsNameBlockOrUnit) {
+    const std::vector<SourceFile> one{{"plant/effects/a.cpp", "    .name = \"hall_gain\",\n"}};
+    EXPECT_THAT(effects_asked_for({"gap/a.cpp", "if (effect.name == \"hall_gain\")"}, one), SizeIs(1));
+    EXPECT_THAT(effects_asked_for({"gap/a.cpp", "block.starts_with(\"macro.\")"}, one), SizeIs(1));
+    EXPECT_THAT(effects_asked_for({"gap/a.cpp", "if (parameter.unit == \"mm\")"}, one), SizeIs(1));
+    EXPECT_THAT(effects_asked_for({"src/a.cpp", "if (effect.name == \"hall_gain\")"}, one), IsEmpty());
+    EXPECT_THAT(in_the_house([](const auto& file) { return effects_asked_for(file, house()); }), IsEmpty());
+}
+
 TEST(House, Files_HoldNoNotesToSelf) {
     EXPECT_THAT(notes_to_self({"core/a.cpp", std::string("// TO") + "DO: later"}), Not(IsEmpty()));
     EXPECT_THAT(in_the_house(notes_to_self), IsEmpty());
