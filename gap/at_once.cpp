@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 namespace fidservo::gap {
@@ -27,11 +28,16 @@ bool is_off(const Search& search, const Chain& chain, Signal signal) {
     return search.off(chain.fitted)[index_of(signal)];
 }
 
-/// A chain with what was found of everything in place of its smooth effects.
+/// A chain with what was found of everything in place of those of its effects that were fitted again.
 Chain with_everything(const Chain& chain, Search::Together together) {
+    const auto stays = [&](const Choice& choice) {
+        const Hypothesis& found = together.fitted.of_half[0];
+        return std::ranges::find(found, choice.candidate->effect, &plant::EffectSetting::effect) !=
+                   found.end() &&
+               std::ranges::find(together.candidates, choice.candidate) == together.candidates.end();
+    };
     Chain rest;
-    for (const Choice& choice : chain.choices)
-        if (!is_smooth(*choice.candidate)) rest.choices.push_back(choice);
+    std::ranges::copy_if(chain.choices, std::back_inserter(rest.choices), stays);
     return with_together(std::move(rest), std::move(together));
 }
 

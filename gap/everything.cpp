@@ -77,28 +77,34 @@ class Incremental {
 /// A fit is near where half of the windows that were off at its start are at less than this mean square.
 constexpr double near_square = 2.0;
 
-/// The windows by which it is told how far off a fit still is: those of the first of carriage, wire and tags
-/// that is fitted, of which predictions are off at the start; what stands still is predicted by anything.
-/// Where a carriage is not yet known, tags are off for another reason.
-Wanted windows_off(const Evidence& evidence, const Wanted& wanted, const Errors& errors) {
-    const std::vector<Window>& windows = evidence.windows();
-    const std::vector<double> squares = mean_squares(windows, errors);
-    for (const Signal signal : {Signal::encoder, Signal::hall, Signal::tag}) {
-        Wanted leading = only_of(windows, wanted, only(signal));
-        if (std::ranges::none_of(leading, [](auto flag) { return flag != 0; })) continue;
-        for (std::size_t w = 0; w < windows.size(); ++w)
-            if (!(squares[w] > near_square)) leading[w] = 0;
-        return leading;
-    }
-    return Wanted(windows.size(), 0);
-}
-
-double median_square(const Evidence& evidence, const Errors& errors, const Wanted& leading) {
-    const std::vector<double> all = mean_squares(evidence.windows(), errors);
+double median_square(const std::vector<double>& all, const Wanted& leading) {
     std::vector<double> squares;
     for (std::size_t w = 0; w < all.size(); ++w)
         if (leading[w] != 0 && !std::isnan(all[w])) squares.push_back(all[w]);
     return squares.empty() ? 0.0 : median_of(std::move(squares));
+}
+
+double median_square(const Evidence& evidence, const Errors& errors, const Wanted& leading) {
+    return median_square(mean_squares(evidence.windows(), errors), leading);
+}
+
+/// The windows by which it is told how far off a fit still is: of the signal that is furthest off, those of
+/// which predictions are off at the start; what stands still is predicted by anything.
+Wanted windows_off(const Evidence& evidence, const Wanted& wanted, const Errors& errors) {
+    const std::vector<Window>& windows = evidence.windows();
+    const std::vector<double> squares = mean_squares(windows, errors);
+    Wanted furthest(windows.size(), 0);
+    double most = 0.0;
+    for (const Signal signal : {Signal::encoder, Signal::hall, Signal::tag}) {
+        Wanted leading = only_of(windows, wanted, only(signal));
+        for (std::size_t w = 0; w < windows.size(); ++w)
+            if (!(squares[w] > near_square)) leading[w] = 0;
+        const double square = median_square(squares, leading);
+        if (square <= most) continue;
+        most = square;
+        furthest = std::move(leading);
+    }
+    return furthest;
 }
 
 /// From wherever it begins to where nothing gets better, at levels that follow what is left.
@@ -287,7 +293,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
                                       const std::array<Wanted, 2>& wanted) {
     // Most of what is not needed shows before values are known closely.
-    constexpr std::array iterations{4, 15};
+    constexpr int at_first = 4, then = 15;
     std::array<Incremental, 2> incremental{Incremental(evidence, beside[0], wanted[0]),
                                            Incremental(evidence, beside[1], wanted[1])};
     const std::array<Predict, 2> predict{std::ref(incremental[0]), std::ref(incremental[1])};
@@ -309,38 +315,36 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
         chosen.settings = fitted[0].hypothesis;
     };
     Demand demand;
-    const auto prune = [&](int most_iterations) {
-        while (!chosen.candidates.empty()) {
-            const std::vector<std::size_t> rest = kept(chosen.candidates, fitted[0], demand);
-            const bool is_all = rest.size() == chosen.candidates.size();
-            chosen.keep(rest);
-            if (is_all || rest.empty()) break;
-            fit_first(0.0, most_iterations);
-        }
+    /// Whether anything was taken away.
+    const auto prune = [&] {
+        const std::vector<std::size_t> rest = kept(chosen.candidates, fitted[0], demand);
+        const bool is_less = rest.size() < chosen.candidates.size();
+        chosen.keep(rest);
+        return is_less;
     };
-    double sizes = expected_sizes;
-    std::vector<double> worth;
-    for (const int most_iterations : iterations) {
-        if (most_iterations == iterations.back())
-            demand = Demand(evidence, wanted[0], predict[0](chosen.settings));
-        for (bool is_all = false; !is_all && !chosen.candidates.empty(); sizes = 0.0) {
-            fit_first(sizes, most_iterations);
-            prune(most_iterations);
-            if (chosen.candidates.empty()) break;
-            fit_half(1, 0.0, most_iterations);
-            const std::vector<double> here = worth_of_each(chosen.candidates, fitted[0]),
-                                      there = worth_of_each(chosen.candidates, fitted[1]);
-            std::vector<std::size_t> rest;
-            worth.clear();
-            for (std::size_t c = 0; c < here.size(); ++c) {
-                worth.push_back(here[c] + there[c]);
-                if (std::min(here[c], there[c]) >= demand.worth_of(*chosen.candidates[c])) rest.push_back(c);
-            }
-            is_all = rest.size() == here.size();
-            chosen.keep(rest);
-        }
-    }
+    fit_first(expected_sizes, at_first);
+    prune();
     if (chosen.candidates.empty()) return {};
+    demand = Demand(evidence, wanted[0], predict[0](chosen.settings));
+    std::vector<double> worth;
+    for (bool is_all = false; !is_all;) {
+        do {
+            fit_first(0.0, then);
+        } while (prune() && !chosen.candidates.empty());
+        if (chosen.candidates.empty()) return {};
+        fit_half(1, 0.0, then);
+        const std::vector<double> here = worth_of_each(chosen.candidates, fitted[0]),
+                                  there = worth_of_each(chosen.candidates, fitted[1]);
+        std::vector<std::size_t> rest;
+        worth.clear();
+        for (std::size_t c = 0; c < here.size(); ++c) {
+            worth.push_back(here[c] + there[c]);
+            if (std::min(here[c], there[c]) >= demand.worth_of(*chosen.candidates[c])) rest.push_back(c);
+        }
+        is_all = rest.size() == here.size();
+        chosen.keep(rest);
+        if (chosen.candidates.empty()) return {};
+    }
     return {chosen.candidates, {fitted[0].hypothesis, fitted[1].hypothesis}, std::move(worth)};
 }
 
@@ -348,6 +352,7 @@ Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate*
                             std::span<const plant::EffectSetting> waves, const Hypothesis& beside,
                             const Hypothesis& begun, const Wanted& wanted) {
     constexpr double share_of_best = 0.5;
+    constexpr double worth_a_fit = 0.2;  // of the loss, of a wave: errors show one of many periods by chance
     const Predict predict = [&](const Hypothesis& settings) {
         Hypothesis whole = beside;
         whole.insert(whole.end(), settings.begin(), settings.end());
@@ -365,10 +370,12 @@ Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate*
     std::ranges::move(grid_of(shaped), std::back_inserter(grid));
     const Errors errors = predict(others.settings);
     const double square = median_square(evidence, errors, windows_off(evidence, wanted, errors));
+    const double enough_for_a_wave = worth_a_fit * total_loss(evidence.windows(), wanted, errors);
     Hypothesis best;
     double most = 0.0;
     for (const ScreenedShape& shape : screened_shapes(predict, evidence.windows(), wanted, others.settings,
                                                       grid, std::sqrt(1.0 + square), expected_sizes)) {
+        if (shape.candidate->wave && shape.gain < enough_for_a_wave) continue;
         most = std::max(most, shape.gain);
         if (shape.gain >= share_of_best * most) best.push_back(shape.setting);
     }

@@ -173,7 +173,8 @@ class Search {
   private:
     Together together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const;
     struct EverythingBeside;
-    EverythingBeside everything_of(const CrossFit& base) const;
+    /// @param of_tags_alone  only what the Hall reading does not tell of, the rest as it is known
+    EverythingBeside everything_of(const CrossFit& base, bool of_tags_alone = false) const;
     Together needed_of(const EverythingBeside& all) const;
     /// Of the encoder, as its errors show them.
     Hypothesis waves_of_reading(const CrossFit& base, std::span<const Candidate* const> candidates) const;

@@ -18,7 +18,7 @@ namespace fidservo::gap {
 namespace {
 
 /// Of the effort of a search, after which what balances the forces is given up.
-constexpr double share_for_forces = 0.5;
+constexpr double share_for_forces = 0.3;
 
 std::size_t place_of_least(const std::vector<double>& values) {
     return static_cast<std::size_t>(std::ranges::min_element(values) - values.begin());
@@ -190,6 +190,7 @@ Search::Together Search::forces_beside(const CrossFit& base) {
 
 Search::Together Search::balanced_beside(const CrossFit& base) const {
     constexpr int most_rounds = 4;
+    constexpr std::size_t most_drawn = 3;  // effects; of more, a generation says too little
     const Evidence& evidence = fitter_.evidence();
     std::vector<const Candidate*> all;
     for (const Candidate& candidate : candidates_) all.push_back(&candidate);
@@ -222,8 +223,10 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
             keep_better(
                 together(base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_),
                                                             base.of_half, model.settings, wanted)));
-        const bool is_in_valleys = std::ranges::any_of(
-            itself.candidates, [](const Candidate* candidate) { return has_valleys(*candidate); });
+        const bool is_in_valleys = itself.candidates.size() <= most_drawn &&
+                                   std::ranges::any_of(itself.candidates, [](const Candidate* candidate) {
+                                       return has_valleys(*candidate);
+                                   });
         for (int round = 0; is_in_valleys && is_off() && round < most_rounds; ++round) {
             itself.of_half = drawn_around(first, second, itself.of_half, options_.windows);
             if (evidence.effort() > most_effort) break;

@@ -40,6 +40,11 @@ std::vector<const Candidate*> smooth_ones(const std::vector<Candidate>& all, con
     return found;
 }
 
+/// Of what both tell, the Hall reading tells more.
+bool is_told_by_hall(const Candidate* candidate) {
+    return teachers_of(*candidate->effect)[index_of(Signal::hall)];
+}
+
 }  // namespace
 
 /// What everything is fitted to, and beside what.
@@ -50,10 +55,14 @@ struct Search::EverythingBeside {
     std::array<Wanted, 2> wanted;
 };
 
-Search::EverythingBeside Search::everything_of(const CrossFit& base) const {
-    const SignalFlags smooth = smooth_signals(fitter_.evidence().windows());
+Search::EverythingBeside Search::everything_of(const CrossFit& base, bool of_tags_alone) const {
+    SignalFlags smooth = smooth_signals(fitter_.evidence().windows());
     EverythingBeside everything{
         smooth_ones(candidates_, base.of_half[0], smooth), base.of_half, base.of_half[0], {}};
+    if (of_tags_alone) {
+        std::erase_if(everything.candidates, is_told_by_hall);
+        smooth = only(Signal::tag);
+    }
     const auto is_among = [&](const plant::EffectSetting& setting) {
         return std::ranges::find(everything.candidates, setting.effect, &Candidate::effect) !=
                everything.candidates.end();
@@ -98,11 +107,13 @@ std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) const 
          promising_shapes(fitter_.evidence(), all.candidates, waves_of_reading(base, all.candidates),
                           all.beside[0], all.begun, wanted)) {
         if (options_.tell) options_.tell(fmt::format("{} with all that is smooth", shape.effect->name));
+        const auto candidate_of = [&](const plant::EffectSetting& setting) {
+            return *std::ranges::find(all.candidates, setting.effect, &Candidate::effect);
+        };
+        EverythingBeside with = everything_of(base, !is_told_by_hall(candidate_of(shape)));
         // What stood in for it may hold a fit back: sizes begin from nothing.
-        EverythingBeside with = all;
         std::erase_if(with.begun, [&](const plant::EffectSetting& setting) {
-            const auto candidate = std::ranges::find(all.candidates, setting.effect, &Candidate::effect);
-            return !has_a_shape(**candidate);
+            return !has_a_shape(*candidate_of(setting));
         });
         with.begun.push_back(shape);
         found.push_back(needed_of(with));
