@@ -120,6 +120,7 @@ Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wa
         start = fit(predict, evidence.windows(), wanted, start,
                     {.most_iterations = iterations_a_level,
                      .tolerance = tolerance,
+                     .keeps_slopes = true,
                      .scale_floors = std::sqrt(1.0 + square),
                      .expected_sizes = sizes})
                     .hypothesis;
@@ -135,6 +136,7 @@ Fit fitted_closely(const Evidence& evidence, const Predict& predict, const Wante
                 .tolerance = tolerance,
                 .least_improvement = hardly_worth,
                 .with_covariance = true,
+                .keeps_slopes = true,
                 .scale_floors = scale_floors,
                 .expected_sizes = sizes});
 }

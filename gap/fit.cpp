@@ -46,14 +46,15 @@ class Linearised : public ceres::EvaluationCallback {
             condense({});
         }
         if (!with_derivatives || has_derivatives_ || errors.empty()) return;
-        std::vector<Errors> by_parameter(parameters_.size());
-        parallel_for(parameters_.size(), [&](std::size_t k) {
-            by_parameter[k] = slope(predict_, parameters_, k, errors, options_.step_scales);
-        });
-        condense(by_parameter);
-        for (std::size_t k = 0; k < parameters_.size(); ++k)
-            if (is_held(k)) let_go(k);
-        has_derivatives_ = true;
+        if (!(options_.keeps_slopes && correct_slopes())) find_slopes();
+        use_slopes();
+    }
+
+    /// Slopes as differences show them at this very point.
+    void differentiate() {
+        if (errors.empty() || is_exact_) return;
+        find_slopes();
+        use_slopes();
     }
 
     /// What is minimised.
@@ -74,6 +75,63 @@ class Linearised : public ceres::EvaluationCallback {
     std::vector<WindowProducts> condensed;  ///< of the windows counted
 
   private:
+    void find_slopes() {
+        slopes_.resize(parameters_.size());
+        parallel_for(parameters_.size(), [&](std::size_t k) {
+            slopes_[k] = slope(predict_, parameters_, k, errors, options_.step_scales);
+        });
+        is_exact_ = true;
+    }
+
+    /// Corrects the slopes of the last point by what the errors have changed from there.
+    /// @return whether they predicted it
+    bool correct_slopes() {
+        constexpr double well = 0.1;  // of the squares of the change, that they have missed
+        if (slopes_.empty()) return false;
+        std::vector<float> step(values_.size());
+        double way = 0.0;
+        for (std::size_t k = 0; k < step.size(); ++k) {
+            step[k] = static_cast<float>(values_[k] - values_of_slopes_[k]);
+            way += static_cast<double>(step[k]) * step[k];
+        }
+        if (!(way > 0.0)) return false;
+        Errors missed(errors.size(), 0.0F);
+        double missed_squares = 0.0, changed_squares = 0.0;
+        for (const std::size_t w : counted_)
+            for (std::size_t row = windows_[w].begin; row < windows_[w].end; ++row) {
+                const float change = errors[row] - errors_of_slopes_[row];
+                float expected = 0.0F;
+                for (std::size_t k = 0; k < step.size(); ++k)
+                    if (std::isfinite(slopes_[k][row])) expected += slopes_[k][row] * step[k];
+                if (!std::isfinite(change)) continue;
+                missed[row] = change - expected;
+                missed_squares += static_cast<double>(missed[row]) * missed[row];
+                changed_squares += static_cast<double>(change) * change;
+            }
+        if (missed_squares > well * changed_squares) return false;
+        parallel_for(step.size(), [&](std::size_t k) {
+            const float share = step[k] / static_cast<float>(way);
+            for (const std::size_t w : counted_)
+                for (std::size_t row = windows_[w].begin; row < windows_[w].end; ++row)
+                    slopes_[k][row] += share * missed[row];
+        });
+        is_exact_ = false;
+        return true;
+    }
+
+    void use_slopes() {
+        condense(slopes_);
+        for (std::size_t k = 0; k < parameters_.size(); ++k)
+            if (is_held(k)) let_go(k);
+        has_derivatives_ = true;
+        if (!options_.keeps_slopes) {
+            slopes_.clear();
+            return;
+        }
+        values_of_slopes_ = values_;
+        errors_of_slopes_ = errors;
+    }
+
     void condense(const std::vector<Errors>& by_parameter) {
         condensed.assign(counted_.size(), {});
         if (errors.empty()) return;
@@ -125,7 +183,10 @@ class Linearised : public ceres::EvaluationCallback {
     FitOptions options_;
     std::vector<std::size_t> counted_;
     std::vector<double> values_;  ///< that errors are of
-    bool has_derivatives_ = false;
+    bool has_derivatives_ = false, is_exact_ = false;
+    std::vector<Errors> slopes_;  ///< by parameter
+    std::vector<double> values_of_slopes_;
+    Errors errors_of_slopes_;
 };
 
 /// A window as one residual a parameter and one more, which have the inner products of all of its values over
@@ -283,6 +344,7 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
     }
     if (!options.with_covariance) return result;
     linearised.PrepareForEvaluation(true, true);
+    linearised.differentiate();
     find_covariances(linearised, parameters, options, result);
     return result;
 }

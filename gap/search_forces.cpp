@@ -214,9 +214,7 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
     double drawn_loss = best.fitted.loss;
     const auto is_off = [&] { return off(best.fitted)[index_of(Signal::encoder)]; };
     const auto keep_better = [&](Together other) {
-        if (!(other.fitted.loss < best.fitted.loss)) return false;
-        best = std::move(other);
-        return true;
+        if (other.fitted.loss < best.fitted.loss) best = std::move(other);
     };
     try {
         if (is_off())

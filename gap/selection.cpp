@@ -146,6 +146,26 @@ bool is_long(const Chain& chain) {
     return chain.choices.size() > most_short;
 }
 
+/// What balances the forces of a carriage and leaves it off is a beginning: what is best beside it is taken
+/// in, and each effect is put to the test, with half of the effort.
+/// @return whether the encoder comes to its floor
+bool goes_on_to_the_floor(Search& search, Chain& chain) {
+    constexpr double half = 0.5;
+    constexpr std::size_t most_added = 2;
+    const Growth growth{.most_effects = chain.choices.size() + most_added, .scans = false};
+    search.look_for_causes_in(only(Signal::encoder), half);
+    search.limit(true);
+    try {
+        grow(search, chain, growth, nullptr);
+        if (!is_long(chain)) exchange(search, chain, false);
+    } catch (const SearchExhausted&) {
+        if (search.over()) throw;
+    }
+    search.limit(false);
+    search.look_for_causes_in(all_signals, 1.0);
+    return !search.off(chain.fitted)[index_of(Signal::encoder)];
+}
+
 std::vector<const Candidate*> limits_in(const Chain& chain) {
     std::vector<const Candidate*> limits;
     for (const Choice& choice : chain.choices)
@@ -223,6 +243,11 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     try {
         const AtOnce at_once = explain_at_once(search, chain, by_forces, selection.alone);
         bool are_several = at_once.are_several;
+        if (by_forces && goes_on_to_the_floor(search, *by_forces)) {
+            chain = *std::move(by_forces);
+            by_forces.reset();
+            are_several = true;
+        }
         const std::size_t most_effects = chain.choices.size() + options.most_effects;
         std::vector<Trial> tried;
         const Growth growth{.most_effects = most_effects, .scans = !at_once.is_balanced};

@@ -5,6 +5,7 @@
 #include "plant/effects/catalogue.h"
 #include "tests/gap/equal_windows.h"
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -106,6 +107,37 @@ TEST(Fit, ExpectedSizes_BringBackWhatTheWindowsDoNotTell) {
 
 // With a value at the start and none in a window there is a problem without a block, which once kept the
 // loss.
+/// Errors that bend a little with two sizes.
+TEST(Fit, SlopesThatAreKept_LeadToTheSameValues_WithFewerPredictions) {
+    const auto fit_counting = [](bool keeps_slopes, int& predictions) {
+        std::atomic<int> count = 0;
+        const Predict predict = [&](const Hypothesis& hypothesis) {
+            ++count;
+            Errors errors(windows_count * values);
+            const double gain = hypothesis[0].values[0] - 1.03, offset_V = hypothesis[1].values[0] - 0.05;
+            for (std::size_t k = 0; k < errors.size(); ++k) {
+                const double t = 0.05 * static_cast<double>(k);
+                errors[k] = static_cast<float>(2e3 * gain * (1.0 + 3.0 * gain) * std::sin(t) +
+                                               1e3 * offset_V * (1.0 + offset_V) * std::cos(0.3 * t));
+            }
+            return errors;
+        };
+        const Fit found =
+            fit(predict, windows, Wanted(windows_count, 1),
+                {plant::parse_effect("drive_gain:factor=1"), plant::parse_effect("drive_offset:offset_V=0")},
+                {.most_iterations = 30, .tolerance = 1e-8, .keeps_slopes = keeps_slopes});
+        predictions = count;
+        return found.hypothesis;
+    };
+    int with_all = 0, with_some = 0;
+    const Hypothesis all = fit_counting(false, with_all), some = fit_counting(true, with_some);
+    for (const Hypothesis& found : {all, some}) {
+        EXPECT_NEAR(found[0].values[0], 1.03, 1e-5);
+        EXPECT_NEAR(found[1].values[0], 0.05, 1e-4);
+    }
+    EXPECT_LT(with_some, with_all);
+}
+
 TEST(Fit, WindowsWithoutAValue_GiveTheStartBack) {
     const Predict knows_nothing = [](const Hypothesis&) {
         return Errors(windows_count * values, std::numeric_limits<float>::quiet_NaN());
