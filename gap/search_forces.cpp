@@ -189,7 +189,16 @@ Search::Together Search::forces_beside(const CrossFit& base) {
 }
 
 Search::Together Search::balanced_beside(const CrossFit& base) const {
+    const auto settings_of_model = [&](const Together& found) {
+        std::array<Hypothesis, 2> settings = found.fitted.of_half;
+        for (std::size_t side = 0; side < 2; ++side)
+            settings[side].erase(
+                settings[side].begin(),
+                settings[side].begin() + static_cast<std::ptrdiff_t>(base.of_half[side].size()));
+        return settings;
+    };
     constexpr int most_rounds = 4;
+    constexpr double share_explained = 0.9;
     constexpr std::size_t most_drawn = 3;  // effects; of more, a generation says too little
     const Evidence& evidence = fitter_.evidence();
     std::vector<const Candidate*> all;
@@ -211,34 +220,30 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
                             first.worth(model.settings)};
     if (evidence.effort() > most_effort) return {{}, {}, base};
     Together best = together(base.of_half, itself);
-    double drawn_loss = best.fitted.loss;
     const auto is_off = [&] { return off(best.fitted)[index_of(Signal::encoder)]; };
-    const auto keep_better = [&](Together other) {
-        if (other.fitted.loss < best.fitted.loss) best = std::move(other);
-    };
+    const bool is_in_valleys = itself.candidates.size() <= most_drawn &&
+                               std::ranges::any_of(itself.candidates, [](const Candidate* candidate) {
+                                   return has_valleys(*candidate);
+                               });
     try {
-        if (is_off())
-            keep_better(
-                together(base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_),
-                                                            base.of_half, model.settings, wanted)));
-        const bool is_in_valleys = itself.candidates.size() <= most_drawn &&
-                                   std::ranges::any_of(itself.candidates, [](const Candidate* candidate) {
-                                       return has_valleys(*candidate);
-                                   });
         for (int round = 0; is_in_valleys && is_off() && round < most_rounds; ++round) {
-            itself.of_half = drawn_around(first, second, itself.of_half, options_.windows);
+            itself.of_half = drawn_around(first, second, settings_of_model(best), options_.windows);
             if (evidence.effort() > most_effort) break;
             itself.worth = first.worth(itself.of_half[0]);
-            const double before = drawn_loss;
             Together drawn = together(base.of_half, itself);
-            drawn_loss = drawn.fitted.loss;
-            keep_better(std::move(drawn));
-            if (!(drawn_loss < before)) break;
+            if (!(drawn.fitted.loss < best.fitted.loss)) break;
+            best = std::move(drawn);
         }
+        if (!is_off()) return best;
+        Together whole =
+            together(base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_),
+                                                        base.of_half, settings_of_model(best)[0], wanted));
+        // Many that leave most of it stand in for something else.
+        const bool explains = nearly_clears(base, whole.fitted, share_explained);
+        return explains && is_no_chance(best.fitted, whole.fitted) ? whole : best;
     } catch (const BudgetEnded&) {
         return best;
     }
-    return best;
 }
 
 }  // namespace fidservo::gap
