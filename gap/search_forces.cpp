@@ -240,7 +240,7 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
                                                         base.of_half, settings_of_model(best)[0], wanted));
         // Many that leave most of it stand in for something else.
         const bool explains = nearly_clears(base, whole.fitted, share_explained);
-        return explains && is_no_chance(best.fitted, whole.fitted) ? whole : best;
+        return explains && whole.fitted.loss < best.fitted.loss ? whole : best;
     } catch (const BudgetEnded&) {
         return best;
     }
