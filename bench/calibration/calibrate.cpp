@@ -1,7 +1,7 @@
 // Fits the coefficients of a name's probability (gap/standing.h) to self-checks, and judges them on families
 // of effects that were left out of the fit: calibrate SELF-CHECK.json... > gap/calibration.h
 //
-// A name counts by the number of cases of its kind below, whatever the number of names in it, so that rigs with
+// A name counts by the share of its kind of case below, whatever the number of names in it, so that rigs with
 // many causes do not outvote the others.
 #include "gap/standing.h"
 #include "src/selfcheck/score.h"
@@ -31,11 +31,10 @@ using Json = nlohmann::json;
 
 constexpr std::size_t feature_count = gap::feature_names.size();
 
-/// What diagnoses are expected to be about, in cases: a quarter of them rigs with one deviation or two, a
-/// sixth with one that the catalogue lacks, and more than half real machines, which have many.
-const std::map<std::string, double> cases_of_kind{{"one", 50},       {"two", 50},    {"withheld", 50},
-                                                  {"unlisted", 50},  {"three", 130}, {"messy", 130},
-                                                  {"messy-none", 130}};
+/// What diagnoses are expected to be about.
+const std::map<std::string, double> share_of_kind{{"one", 0.3},        {"two", 0.2},   {"withheld", 0.15},
+                                                  {"unlisted", 0.1},   {"three", 0.1}, {"messy", 0.1},
+                                                  {"messy-none", 0.05}};
 
 struct Name {
     std::string kind, family;
@@ -73,7 +72,7 @@ void weigh(std::vector<Name>& names) {
     std::map<std::string, double> count;
     for (const Name& name : names) count[name.kind] += 1.0;
     double sum = 0.0;
-    for (Name& name : names) sum += name.weight = cases_of_kind.at(name.kind) / count[name.kind];
+    for (Name& name : names) sum += name.weight = share_of_kind.at(name.kind) / count[name.kind];
     for (Name& name : names) name.weight *= static_cast<double>(names.size()) / sum;
 }
 
@@ -179,7 +178,7 @@ void tell(const std::vector<Name>& names, const std::vector<Judged>& judged) {
     const auto [error, brier] = errors_of(judged);
     fmt::print(stderr, "{} names; families left out: calibration error {:.3f}, Brier {:.3f}\n", names.size(),
                error, brier);
-    for (const auto& [kind, cases] : cases_of_kind) {
+    for (const auto& [kind, share] : share_of_kind) {
         std::vector<Judged> here;
         double came_true = 0.0, confident_wrong = 0.0;
         for (const Judged& one : judged) {
@@ -191,8 +190,8 @@ void tell(const std::vector<Name>& names, const std::vector<Judged>& judged) {
         if (here.empty()) continue;
         fmt::print(
             stderr,
-            "  {:<10} weight {:>3}: {:>4} names, {:.3f} true, {} wrong with {} or more, error {:.3f}\n", kind,
-            cases, here.size(), came_true / static_cast<double>(here.size()), confident_wrong,
+            "  {:<10} share {:.2f}: {:>4} names, {:.3f} true, {} wrong with {} or more, error {:.3f}\n", kind,
+            share, here.size(), came_true / static_cast<double>(here.size()), confident_wrong,
             selfcheck::confident, errors_of(here).first);
     }
 }
