@@ -35,9 +35,9 @@ struct FitOptions {
     double tolerance = 1e-4;  ///< of the loss, and of parameters if less, relative, at which a fit ends
     /// Loss by which an iteration has to improve for another one to follow; 0: as the tolerance says.
     double least_improvement = 0.0;
-    bool with_covariance = false;     ///< costs a prediction a parameter
-    /// Whether slopes are kept while they predict what a step changes, and are corrected by it (Broyden, Math.
-    /// Comp. 19, 1965): of predictions that change smoothly.
+    bool with_covariance = false;  ///< costs a prediction a parameter
+    /// Whether slopes are kept while they predict what a step changes, and are corrected by it (Broyden,
+    /// Math. Comp. 19, 1965): of predictions that change smoothly.
     bool keeps_slopes = false;
     double step_scales = usual_step;  ///< of differences
     /// Errors up to this many floors count as noise: the loss is 1/2 a^2 log(1 + S_w / a^2) with this a. A
