@@ -36,6 +36,7 @@ std::vector<double> grid_of(const plant::EffectParameter& parameter, const Trave
     if (parameter.role != plant::Role::place) return {parameter.typical};
     constexpr int places = 12;
     std::vector<double> grid;
+    grid.reserve(places);
     for (int k = 0; k < places; ++k)
         grid.push_back(std::clamp(range.low_mm + (range.high_mm - range.low_mm) * (k + 0.5) / places,
                                   parameter.low, parameter.high));

@@ -1,4 +1,5 @@
 // An explanation of the carriage from where its forces balance.
+#include "core/rig.h"
 #include "gap/everything.h"
 #include "gap/force_regression.h"
 #include "gap/halves.h"

@@ -244,8 +244,7 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
         const AtOnce at_once = explain_at_once(search, chain, by_forces, selection.alone);
         bool are_several = at_once.are_several;
         if (by_forces && goes_on_to_the_floor(search, *by_forces)) {
-            chain = *std::move(by_forces);
-            by_forces.reset();
+            chain = *std::exchange(by_forces, std::nullopt);
             are_several = true;
         }
         const std::size_t most_effects = chain.choices.size() + options.most_effects;
