@@ -156,6 +156,11 @@ bool goes_on_to_the_floor(Search& search, Chain& chain) {
     search.look_for_causes_in(only(Signal::encoder), half);
     search.limit(true);
     try {
+        const Candidate& last = *chain.choices.back().candidate;
+        if (!is_long(chain) && moves_carriage(*last.effect)) {
+            CrossFit closer = search.closer(search.nothing(), chain.fitted, last);
+            if (closer.loss < chain.fitted.loss) chain.fitted = std::move(closer);
+        }
         grow(search, chain, growth, nullptr);
         if (!is_long(chain)) exchange(search, chain, false);
     } catch (const SearchExhausted&) {
