@@ -1,4 +1,5 @@
 // What a diagnosis says that it cannot decide.
+#include "core/input_error.h"
 #include "core/random.h"
 #include "gap/diagnose.h"
 #include "src/simulation/experiments.h"
@@ -44,14 +45,11 @@ TEST(Undecided, MovingCarriage_ShowsItsFrictionButNotTheWire) {
     EXPECT_THAT(diagnosis.notes, Contains(HasSubstr("airflow")));
 }
 
-TEST(Undecided, RecordingShorterThanAWindow_IsSaidToDecideNothing) {
+TEST(Undecided, RecordingShorterThanAWindow_IsRefused) {
     Recording recording = simulated(effects({"drive_gain:factor=0.8"}), "macro-pulses", 3);
     recording.rows.resize(80);
     recording.detections.clear();
-    const Diagnosis diagnosis = diagnose(Evidence(reference_rig(), {recording}));
-    EXPECT_THAT(diagnosis.signals, IsEmpty());
-    for (const std::string signal : {"encoder: ", "hall: ", "tag: "})
-        EXPECT_THAT(diagnosis.notes, Contains(AllOf(StartsWith(signal), HasSubstr("cannot be decided"))));
+    EXPECT_THROW(diagnose(Evidence(reference_rig(), {recording})), InputError);
 }
 
 TEST(Undecided, ShortRecording_NamesAGuessAsSuch) {
