@@ -210,6 +210,7 @@ TEST(HeaterFitToTemperature, RealSpring_IsPredictedOnTheHalfItWasNotFittedTo) {
 
 TEST(CorruptSamples, SpikesAreFound_StepsRampsAndPulsesAreNot) {
     std::vector<double> command;
+    command.reserve(400);
     for (int k = 0; k < 400; ++k)
         command.push_back(k < 100 ? 0.0 : k < 200 ? 5.0 : k < 300 ? 0.1 * (k - 200) : 0.0);
     for (int k = 330; k < 334; ++k) command[static_cast<std::size_t>(k)] = 8.0;
