@@ -2,6 +2,7 @@
 
 #include "gap/at_once.h"
 #include "gap/growth.h"
+#include "gap/scatter.h"
 
 #include <algorithm>
 #include <functional>
@@ -157,7 +158,7 @@ bool goes_on_to_the_floor(Search& search, Chain& chain) {
     search.limit(true);
     try {
         const Candidate& last = *chain.choices.back().candidate;
-        if (!is_long(chain) && moves_carriage(*last.effect)) {
+        if (!is_long(chain) && moves_carriage(*last.effect) && !has_valleys(last)) {
             CrossFit closer = search.closer(search.nothing(), chain.fitted, last);
             if (closer.loss < chain.fitted.loss) chain.fitted = std::move(closer);
         }
