@@ -15,9 +15,8 @@ struct AtOnce {
 /// Explains view and wire by all that is smooth, the carriage by what balances its forces, and what is left
 /// of Hall reading and tags by effects with a shape of their own; each of them by one effect where that does
 /// as well.
-/// @param aside  where what balances the forces leaves the encoder off its floor: the whole with it. The
-/// chain
-///               then knows nothing of the carriage, so that the search for it begins anew
+/// @param aside  the whole with what balances the forces, where that leaves the encoder off its floor: the
+///               chain then knows nothing of how the carriage moves, so that a search for it may begin anew
 /// @param alone  what was tried alone; what is tried here is added
 AtOnce explain_at_once(Search& search, Chain& chain, std::optional<Chain>& aside, std::vector<Trial>& alone);
 

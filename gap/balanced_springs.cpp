@@ -15,16 +15,8 @@ Fit best_balanced(const BalanceFit& balanced, std::span<const Hypothesis> starts
     return *std::ranges::min_element(fits, {}, &Fit::loss);
 }
 
-}  // namespace
-
-bool is_spring(const plant::Effect& effect) {
-    const auto has = [&](plant::Role role) {
-        return std::ranges::find(effect.parameters, role, &plant::EffectParameter::role) !=
-               effect.parameters.end();
-    };
-    return has(plant::Role::place) && !has(plant::Role::width);
-}
-
+/// A spring with each of the parameters that it may be without, at any of their values, as strong as it is
+/// and with less of the pull nearby, which its hardening then adds to.
 std::vector<plant::EffectSetting> richer_forms(const plant::EffectSetting& plain) {
     constexpr double nearby = 0.3;
     std::vector<plant::EffectSetting> forms;
@@ -32,11 +24,16 @@ std::vector<plant::EffectSetting> richer_forms(const plant::EffectSetting& plain
         for (const double value : refinement.values) {
             forms.push_back(plain);
             forms.back().values[refinement.parameter] = value;
-            if (!is_spring(*plain.effect)) continue;
             forms.push_back(forms.back());
             forms.back().values.front() *= nearby;
         }
     return forms;
+}
+
+}  // namespace
+
+bool is_spring(const plant::Effect& effect) {
+    return effect.place_of(plant::Role::place) && !effect.place_of(plant::Role::width);
 }
 
 std::vector<plant::EffectSetting> balanced_springs(const Evidence& evidence, const Wanted& wanted,

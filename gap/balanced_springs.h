@@ -10,10 +10,6 @@ namespace fidservo::gap {
 /// Whether an effect pulls in proportion to a way along the rail.
 bool is_spring(const plant::Effect& effect);
 
-/// With each of the parameters that it may be without, at any of their values, to begin fits of the balance
-/// with: of a spring also with less of the pull nearby, which its hardening then adds to.
-std::vector<plant::EffectSetting> richer_forms(const plant::EffectSetting& plain);
-
 /// As it is without the parameters that it may be without, and with one of them: where friction lets a
 /// carriage go by jumps, no slope leads from one that does not harden to one that does.
 /// @param wanted  windows of the encoder that are looked at

@@ -72,10 +72,6 @@ bool is_in(std::span<const std::string> list, std::string_view name) {
 
 }  // namespace
 
-bool is_of_wire(const Candidate& candidate) {
-    return candidate.effect->part == plant::Part::wire;
-}
-
 std::string_view class_of(std::string_view effect) {
     const plant::Effect* const known = plant::find_effect(effect);
     return known != nullptr && known->same_as != nullptr ? known->same_as->name : effect;

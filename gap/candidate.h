@@ -53,9 +53,6 @@ bool knows_places(const Evidence& evidence);
 std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std::string> only,
                                   std::span<const std::string> without);
 
-/// Whether it is of what moves the wire, of which one cause stands in for two.
-bool is_of_wire(const Candidate& candidate);
-
 /// The class of an effect.
 std::string_view class_of(std::string_view effect);
 

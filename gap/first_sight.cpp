@@ -47,21 +47,7 @@ Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen
     return sum;
 }
 
-}  // namespace
-
-plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>& shape,
-                           const Eigen::VectorXd& shares) {
-    std::vector<double> values = shape;
-    for (std::size_t k = 0; k < candidate.sizes.size(); ++k) {
-        const std::size_t at = candidate.sizes[k];
-        const plant::EffectParameter& parameter = candidate.effect->parameters[at];
-        values[at] = std::clamp(
-            parameter.vanishing + shares(static_cast<Eigen::Index>(k)) * (shape[at] - parameter.vanishing),
-            parameter.low, parameter.high);
-    }
-    return {candidate.effect, std::move(values)};
-}
-
+/// Shares of some changes that make the errors smallest, weighted by the loss at the base.
 Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& counted, const Errors& base,
                             const std::vector<Errors>& changes) {
     const auto width = static_cast<Eigen::Index>(changes.size());
@@ -89,6 +75,21 @@ Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& count
     }
     const Eigen::MatrixXd full = normal.selfadjointView<Eigen::Lower>();
     return minimum_norm_solution(full, right);
+}
+
+}  // namespace
+
+plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>& shape,
+                           const Eigen::VectorXd& shares) {
+    std::vector<double> values = shape;
+    for (std::size_t k = 0; k < candidate.sizes.size(); ++k) {
+        const std::size_t at = candidate.sizes[k];
+        const plant::EffectParameter& parameter = candidate.effect->parameters[at];
+        values[at] = std::clamp(
+            parameter.vanishing + shares(static_cast<Eigen::Index>(k)) * (shape[at] - parameter.vanishing),
+            parameter.low, parameter.high);
+    }
+    return {candidate.effect, std::move(values)};
 }
 
 Surroundings surroundings(const Predict& predict, std::span<const Window> windows, const Wanted& counted,

@@ -29,10 +29,6 @@ Surroundings surroundings(const Predict& predict, std::span<const Window> window
 plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>& shape,
                            const Eigen::VectorXd& shares);
 
-/// Shares of some changes that make the errors smallest, weighted by the loss at the base.
-Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& counted, const Errors& base,
-                            const std::vector<Errors>& changes);
-
 struct Promise {
     Hypothesis start;  ///< the settings that may move, then the candidate
     double gain;       ///< loss that it saves over the base, in the windows counted and predicted

@@ -6,6 +6,7 @@
 #include "gap/wave_starts.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -86,16 +87,16 @@ Search::Together Search::everything_beside(const CrossFit& base) const {
 
 Hypothesis Search::waves_of_reading(const CrossFit& base,
                                     std::span<const Candidate* const> candidates) const {
-    Hypothesis waves;
+    std::vector<const Candidate*> of_waves;
+    std::ranges::copy_if(candidates, std::back_inserter(of_waves),
+                         [](const Candidate* candidate) { return candidate->wave.has_value(); });
+    if (of_waves.empty() || !off(base)[index_of(Signal::encoder)]) return {};
     const Evidence& evidence = fitter_.evidence();
-    for (const Candidate* candidate : candidates) {
-        if (!candidate->wave || !off(base)[index_of(Signal::encoder)]) continue;
-        const Hypothesis& known = base.of_half[0];
-        const Wanted wanted = only_of(evidence.windows(), fitter_.half(0), only(Signal::encoder));
-        for (const PositionPeriod& period :
-             periods_along_rail(evidence, known, evidence.errors(known, wanted)))
-            waves.push_back(wave_at(*candidate, period));
-    }
+    const Hypothesis& known = base.of_half[0];
+    const Wanted wanted = only_of(evidence.windows(), fitter_.half(0), only(Signal::encoder));
+    Hypothesis waves;
+    for (const PositionPeriod& period : periods_along_rail(evidence, known, evidence.errors(known, wanted)))
+        for (const Candidate* candidate : of_waves) waves.push_back(wave_at(*candidate, period));
     return waves;
 }
 

@@ -107,12 +107,9 @@ double within_bounds(const Candidate& candidate, const std::vector<double>& shap
 }  // namespace
 
 bool has_a_shape(const Candidate& candidate) {
-    const auto& parameters = candidate.effect->parameters;
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-        const bool is_size = std::ranges::find(candidate.sizes, k) != candidate.sizes.end();
-        if (!is_size && !parameters[k].is_choice() && parameters[k].negligible == 0.0) return true;
-    }
-    return false;
+    return std::ranges::any_of(candidate.effect->parameters, [](const plant::EffectParameter& parameter) {
+        return !parameter.is_size() && !parameter.is_choice() && parameter.role != plant::Role::optional;
+    });
 }
 
 plant::EffectSetting of_size(const Candidate& candidate, const std::vector<double>& shape,

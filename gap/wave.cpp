@@ -1,20 +1,15 @@
 #include "gap/wave.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace fidservo::gap {
 
 std::optional<WaveParameters> wave_of(const plant::Effect& effect) {
-    const auto place_of = [&](plant::Role role) {
-        const auto found = std::ranges::find(effect.parameters, role, &plant::EffectParameter::role);
-        return static_cast<std::size_t>(found - effect.parameters.begin());
-    };
-    const WaveParameters wave{place_of(plant::Role::size), place_of(plant::Role::period),
-                              place_of(plant::Role::phase), effect.part == plant::Part::carriage};
-    if (wave.period == effect.parameters.size()) return {};
-    return wave;
+    const auto size = effect.place_of(plant::Role::size), period = effect.place_of(plant::Role::period),
+               phase = effect.place_of(plant::Role::phase);
+    if (!size || !period || !phase) return {};
+    return WaveParameters{*size, *period, *phase, effect.part == plant::Part::carriage};
 }
 
 double phase_in_step(double phase_rad, double from_period_mm, double to_period_mm) {

@@ -67,7 +67,7 @@ constinit const std::array catalogue{
     &effects::rolling_shutter,
 };
 
-/// Whether the rig has the part that a block belongs to.
+/// Whether the rig has what a part belongs to.
 bool has_part(const PlantParameters& plant, Part part) {
     if (is_of_platform(part)) return plant.micro.has_value();
     return !is_of_camera(part) || plant.camera.has_value();

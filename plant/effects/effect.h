@@ -14,6 +14,8 @@
 #include "plant/stage_plant.h"
 
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -137,6 +139,13 @@ struct Effect {
     PlainerForm plainer = {};
     /// Another effect that no recording can tell it from.
     const Effect* same_as = nullptr;
+
+    /// The first of its parameters that has a role; none where it has no such parameter.
+    std::optional<std::size_t> place_of(Role role) const {
+        for (std::size_t k = 0; k < parameters.size(); ++k)
+            if (parameters[k].role == role) return k;
+        return {};
+    }
 };
 
 /// An effect with the values of its parameters, in its order.
