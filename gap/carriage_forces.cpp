@@ -148,7 +148,7 @@ void CarriageForces::find_weights(const Rig& rig, double floor_mm, std::size_t h
 
 Column CarriageForces::column(int group, const std::vector<double>& weights,
                               const std::function<double(const SlidingRow&)>& quantity) const {
-    budget_.check();
+    budget_->check();
     std::vector<double> values(rows_.size());
     std::ranges::transform(rows_, values.begin(), quantity);
     Column column{group, std::vector<float>(lacking_.size(), 0.0F)};

@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -87,7 +88,7 @@ class CarriageForces {
 
     static double reading_mm(const SlidingRow& row) { return row.reading_mm; }
 
-    const Budget& budget_;
+    std::shared_ptr<const Budget> budget_;
     std::vector<double> of_force_, of_reading_;          ///< a support's weights, row by row, for V and mm
     std::vector<double> of_velocity_, of_acceleration_;  ///< for mm
     std::vector<SlidingRow> rows_;                       ///< of stretches that slide, one after the other

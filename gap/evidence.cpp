@@ -274,8 +274,8 @@ Evidence::Evidence(Evidence&&) noexcept = default;
 const Rig& Evidence::rig() const {
     return parts_->rig;
 }
-const Budget& Evidence::budget() const {
-    return *parts_->budget;
+const std::shared_ptr<const Budget>& Evidence::budget() const {
+    return parts_->budget;
 }
 const std::vector<Recording>& Evidence::recordings() const {
     return parts_->recordings;

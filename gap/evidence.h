@@ -117,7 +117,7 @@ class Evidence {
     Evidence(Evidence&&) noexcept;
 
     const Rig& rig() const;
-    const Budget& budget() const;
+    const std::shared_ptr<const Budget>& budget() const;
     const std::vector<Recording>& recordings() const;
     /// By run, then by signal, then by time.
     const std::vector<Window>& windows() const;

@@ -92,7 +92,7 @@ std::vector<FrictionPatch> strongest_patches(const Evidence& evidence, const Err
     std::vector<FrictionPatch> all;
     for (const double width_mm : widths_mm)
         for (double centre_mm = places.low_mm; centre_mm <= places.high_mm; centre_mm += width_mm) {
-            evidence.budget().check();
+            evidence.budget()->check();
             all.push_back(fit.at(centre_mm, width_mm));
         }
     return apart(std::move(all));

@@ -114,7 +114,7 @@ class Periodogram {
     }
 
     PositionPeriod at(double per_mm) {
-        evidence_.budget().check();
+        evidence_.budget()->check();
         waves_.set(per_mm);
         Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
         Eigen::Vector4d right = Eigen::Vector4d::Zero();

@@ -268,7 +268,7 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     } catch (const BudgetEnded& ended) {
         selection.ended = ended.how();
     }
-    evidence.budget().end_search();
+    evidence.budget()->end_search();
     search.limit(false);
     if (by_forces && search.off(chain.fitted)[index_of(Signal::encoder)]) {
         try {

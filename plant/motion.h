@@ -28,7 +28,8 @@ class Motion {
           p_(axis.parameters),
           standing_(p_.standing),
           turns_matter_(axis.has_friction || p_.play_mm > 0.0),
-          dry_is_coulomb_(p_.friction.stribeck_V == 0.0 && p_.friction.patch.level_V == 0.0),
+          dry_is_coulomb_(p_.friction.stribeck_V == 0.0 && p_.friction.patch.level_V == 0.0 &&
+                          p_.friction.coasting_V == 0.0),
           drive_V_(drive_V),
           x_(start),
           bend_(bend) {}
@@ -158,7 +159,8 @@ class Motion {
     /// and what creeps slides or is nothing.
     bool is_straight(const State& x) const {
         const Friction& friction = p_.friction;
-        return (!axis_.has_bristles || bend_ == direction_) && !friction.patch.reaches(x[place]) &&
+        return (!axis_.has_bristles || (bend_ == direction_ && friction.coasting_V == 0.0)) &&
+               !friction.patch.reaches(x[place]) &&
                (axis_.has_bristles || (friction.coulomb_V == 0.0 && friction.coasting_V == 0.0) ||
                 slides(friction, std::max(0.0, direction_ * x[speed])));
     }
@@ -210,11 +212,25 @@ class Motion {
         const auto slack_of = [&](const Reached& there) {
             return std::min(slack(there.end), to_sliding_mm - direction_ * (there.end[place] - x_[place]));
         };
-        Reached there = reach(longest_s);
-        if (slack_of(there) < 0.0)
+        const bool is_free = swings_freely(motion);
+        Reached there = reach(is_free ? longest_s : std::min(longest_s, motion.until_second_turn_s()));
+        if (is_free)
+            direction_ = there.end[speed] < 0.0 ? -1.0 : 1.0;
+        else if (slack_of(there) < 0.0)
             there = step_to_event(std::min(slack(x_), to_sliding_mm), there, reach, slack_of);
         settle(there.end);
         return there.duration_s;
+    }
+
+    /// Whether nothing changes however often the carriage turns: bristles never slide, and what else acts is
+    /// the same both ways. Stiff springs let it turn many times a tick.
+    bool swings_freely(const SpringMotion& motion) const {
+        const Friction& friction = p_.friction;
+        if (p_.play_mm > 0.0 || friction.left_V_s_per_mm != friction.right_V_s_per_mm) return false;
+        const double unbent_mm = x_[place] - friction.bristle_mm * bend_;
+        const auto [low_mm, high_mm] = motion.range_mm();
+        return x_[place] + low_mm > std::max(unbent_mm - friction.bristle_mm, axis_.driven_low_mm) &&
+               x_[place] + high_mm < std::min(unbent_mm + friction.bristle_mm, axis_.driven_high_mm);
     }
 
     SpringMotion spring_motion() const {

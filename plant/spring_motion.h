@@ -6,7 +6,12 @@
 // With c = b / 2 and s = c^2 - k, C = cosh(sqrt(s) t), S = sinh(sqrt(s) t) / sqrt(s), both real for any s,
 //
 //     y = a / k + exp(-c t) (-a / k C + (v0 - c a / k) S),     v = exp(-c t) (v0 C + (a - c v0) S)
+//
+// The energy v^2 / 2 + k (y - a / k)^2 / 2 never grows, so that y stays within
+// a / k +- sqrt((a / k)^2 + v0^2 / k).
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 namespace fidservo::plant {
@@ -32,6 +37,19 @@ struct SpringMotion {
         const double decay = std::exp(-c * time_s), rest_mm = start_mm_per_s2 / stiffness_per_s2;
         return {rest_mm + decay * (-rest_mm * cosine + (start_mm_per_s - c * rest_mm) * sine),
                 decay * (start_mm_per_s * cosine + (start_mm_per_s2 - c * start_mm_per_s) * sine)};
+    }
+
+    /// It turns round at most once in such a time, in s: half a period.
+    double until_second_turn_s() const {
+        const double c = 0.5 * damping_per_s, s = c * c - stiffness_per_s2;
+        return s < 0.0 ? std::numbers::pi / std::sqrt(-s) : std::numeric_limits<double>::infinity();
+    }
+
+    /// Between which y, in mm, it stays for ever.
+    std::pair<double, double> range_mm() const {
+        const double rest_mm = start_mm_per_s2 / stiffness_per_s2;
+        const double farthest_mm = std::hypot(rest_mm, start_mm_per_s / std::sqrt(stiffness_per_s2));
+        return {rest_mm - farthest_mm, rest_mm + farthest_mm};
     }
 };
 

@@ -167,7 +167,8 @@ TEST_F(SlowSharedCase, MotorOfOthers_IsAnsweredInTime_WithFrictionAmongWhatItCan
     EXPECT_NE(std::ranges::find(named, "coulomb_friction"), named.end()) << first.dump(2);
 }
 
-TEST_F(SharedCase, MotorOfOthers_SignalEndsItWithTheBestUntilThen) {
+/// Slow, because what sanitizers slow down is over before it says what it does.
+TEST_F(SlowSharedCase, MotorOfOthers_SignalEndsItWithTheBestUntilThen) {
     find("19-motor-of-others");
     if (IsSkipped()) return;
     const std::filesystem::path json = out_ / "diagnosis.json";

@@ -1,4 +1,6 @@
+#include "core/dead_zone.h"
 #include "core/macro_parameters.h"
+#include "plant/spring_motion.h"
 #include "tests/plant/effects/effect_rig.h"
 
 #include <algorithm>
@@ -212,6 +214,64 @@ TEST(Presliding, OfSprings_IsElasticUntilItSlides) {
             }
             ASSERT_NEAR(state.position_mm, y, 2e-3) << "tick " << k << ", damping " << damping_V_s_per_mm;
         }
+    }
+}
+
+/// By hand, in steps of 2 us. Springs that were bent further while it coasted give way when the drive is
+/// back.
+TEST(Presliding, OfSpringsBesideFrictionOfCoasting_IsElasticUntilItSlides) {
+    const std::vector effects{
+        parse_effect("presliding:level_V=0.1,distance_um=200,springs=1"),
+        parse_effect("coulomb_friction:level_V=0,dead_zone_share=0.05,only_coasting=1")};
+    const MacroAxis axis = endless_axis_with(effects, true);
+    const DeadZone& zone = axis.parameters.dead_zone;
+    const double coasting_V = axis.parameters.friction.coasting_V;
+    ASSERT_GT(coasting_V, 0.0);
+    MacroAxisState state = start(axis, 0.0);
+    constexpr double step_s = 2e-6;
+    constexpr int steps_per_tick = 500;
+    const double tau_s = axis.parameters.time_constant_s;
+    double y = 0.0, v = 0.0, bend = 0.0;
+    for (int k = 0; k < 800; ++k) {
+        const double command_V = 1.6 * zone.threshold_V * std::sin(0.03 * k);
+        advance(axis, state, command_V);
+        const DeadZoneBranch branch = dead_zone_branch(zone, command_V);
+        const double drive_V = dead_zone_V(zone, branch, command_V, axis.parameters.dead_zone_on_motion);
+        const double limit = 1.0 + (branch == DeadZoneBranch::inside ? coasting_V / 0.1 : 0.0);
+        for (int i = 0; i < steps_per_tick; ++i) {
+            const double direction = v < 0.0 ? -1.0 : 1.0, way = step_s * std::abs(v) / 0.2;
+            const double before = direction * bend;
+            bend =
+                direction * (before <= limit ? std::min(limit, before + way) : std::max(limit, before - way));
+            v += step_s * (gain * (drive_V - 0.1 * bend) - v) / tau_s;
+            y += step_s * v;
+        }
+        ASSERT_NEAR(state.position_mm, y, 2e-3) << "tick " << k;
+    }
+}
+
+/// Within a tick it would swing back.
+TEST(Presliding, OfStiffSprings_SlidesWhereItIsFast) {
+    const MacroAxis axis = endless_axis_with("presliding:level_V=0.1,distance_um=0.1,springs=1");
+    const MacroAxis rigid = endless_axis_with("coulomb_friction:level_V=0.1");
+    MacroAxisState state = start(axis, 0.0), slid = state;
+    state.velocity_mm_per_s = slid.velocity_mm_per_s = 25.0;
+    EXPECT_NEAR(after(axis, state, 0.0, 100).position_mm, after(rigid, slid, 0.0, 100).position_mm, 1e-3);
+}
+
+/// It turns several times a tick.
+TEST(Presliding, OfStiffSprings_SwingsAsADampedOscillatorDoes) {
+    constexpr double level_V = 0.1, distance_mm = 1e-4, tick_s = 1e-3;
+    const MacroAxis axis = endless_axis_with("presliding:level_V=0.1,distance_um=0.1,springs=1");
+    const double tau_s = axis.parameters.time_constant_s;
+    MacroAxisState state = start(axis, 0.0);
+    state.velocity_mm_per_s = 0.2;
+    const SpringMotion swing{0.0, gain * level_V / (distance_mm * tau_s), 1.0 / tau_s, 0.2};
+    for (int k = 1; k <= 200; ++k) {
+        advance(axis, state, 0.0);
+        const auto [way_mm, mm_per_s] = swing.after(tick_s * k);
+        ASSERT_NEAR(state.position_mm, way_mm, 1e-9) << "tick " << k;
+        ASSERT_NEAR(state.velocity_mm_per_s, mm_per_s, 1e-5) << "tick " << k;
     }
 }
 
