@@ -1,14 +1,14 @@
 #include "gap/diagnose.h"
 
 #include "core/input_error.h"
-#include "gap/accusation.h"
-#include "gap/correlated.h"
-#include "gap/gap_size.h"
-#include "gap/model_weights.h"
-#include "gap/remainder.h"
-#include "gap/standing.h"
-#include "gap/undecided.h"
-#include "gap/unpredictable.h"
+#include "gap/fit/gap_size.h"
+#include "gap/residuals/accusation.h"
+#include "gap/residuals/remainder.h"
+#include "gap/verdict/correlated.h"
+#include "gap/verdict/model_weights.h"
+#include "gap/verdict/standing.h"
+#include "gap/verdict/undecided.h"
+#include "gap/verdict/unpredictable.h"
 #include "plant/effects/catalogue.h"
 
 #include <algorithm>

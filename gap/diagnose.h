@@ -1,7 +1,7 @@
 #pragma once
 // From recordings to a diagnosis.
 #include "gap/diagnosis.h"
-#include "gap/selection.h"
+#include "gap/search/selection.h"
 
 #include <string>
 #include <vector>

@@ -35,7 +35,7 @@ struct FittedParameter {
 /// What speaks for a name.
 struct Support {
     /// Of the explanations that were tried in its place, the weight of those that have it, or what these
-    /// recordings cannot tell from it (gap/model_weights.h).
+    /// recordings cannot tell from it (gap/verdict/model_weights.h).
     double weight = 0.0;
     /// What is left of that of the signals which teach it in which it matters most (typical_floors).
     double left_floors = 1.0;

@@ -3,10 +3,10 @@
 #include "core/demand.h"
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "gap/coupling.h"
+#include "gap/candidates/coupling.h"
+#include "gap/evidence/parallel.h"
 #include "gap/evidence_parts.h"
-#include "gap/parallel.h"
-#include "gap/wire_path.h"
+#include "gap/residuals/wire_path.h"
 #include "plant/effects/catalogue.h"
 
 #include <algorithm>

@@ -52,7 +52,7 @@ using Hypothesis = std::vector<plant::EffectSetting>;
 /// u and v of a tag's four corners.
 inline constexpr std::size_t corner_values = 8;
 
-/// What is predicted of a tag's appearance (gap/image_link.h).
+/// What is predicted of a tag's appearance (gap/links/image_link.h).
 inline constexpr std::size_t image_values = 10;
 
 /// A stretch of one recording over which one signal is predicted from the state at its start.
@@ -76,12 +76,12 @@ struct Window {
 /// error is what lies beyond half a count; a recording at rest thus counts less than a floor.
 ///
 /// A detection's eight corner coordinates are turned so that the first value lies along the stage's motion in
-/// the image; the other seven do not move with it (gap/tag_link.h). Their floor is the corner noise,
+/// the image; the other seven do not move with it (gap/links/tag_link.h). Their floor is the corner noise,
 /// floor(Signal::tag). The first value's own floor also holds what is uncertain of the camera's position.
 ///
-/// Images: logarithms of ratios, each over its own floor (gap/image_link.h).
+/// Images: logarithms of ratios, each over its own floor (gap/links/image_link.h).
 ///
-/// Commands: gap/controller_link.h. They are near 0 under the truth.
+/// Commands: gap/links/controller_link.h. They are near 0 under the truth.
 using Errors = std::vector<float>;
 
 /// What moved the rig while it was predicted, row by row of a recording: what errors may depend on. All from
@@ -124,10 +124,10 @@ class Evidence {
     /// In the signal's unit; 1 for images, whose errors have none. NaN for signals that no window has.
     double floor(Signal signal) const;
     const std::vector<Omission>& omissions() const;
-    /// Whether it is known where on the rail the carriage is in a recording (gap/power_on.h).
+    /// Whether it is known where on the rail the carriage is in a recording (gap/links/power_on.h).
     bool knows_places(std::size_t run) const;
     const Course& course(std::size_t run) const;
-    /// One of a recording's detections, in the order of Window::first_detection (gap/tag_link.h).
+    /// One of a recording's detections, in the order of Window::first_detection (gap/links/tag_link.h).
     const TagSighting& sighting(std::size_t run, std::size_t detection) const;
 
     /// Whether the Hall reading depends on what the carriage does, and so on all that moves the carriage.

@@ -2,11 +2,11 @@
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "gap/clear_detections.h"
-#include "gap/noise_floor.h"
-#include "gap/plate_tag.h"
-#include "gap/wire_memory.h"
-#include "gap/wire_start.h"
+#include "gap/evidence/clear_detections.h"
+#include "gap/evidence/noise_floor.h"
+#include "gap/evidence/plate_tag.h"
+#include "gap/links/wire_memory.h"
+#include "gap/links/wire_start.h"
 
 #include <algorithm>
 #include <cmath>

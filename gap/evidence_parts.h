@@ -1,18 +1,18 @@
 #pragma once
 // What Evidence holds: every recording prepared for every stretch of the signal chain.
 #include "core/rig.h"
-#include "gap/carriage_link.h"
-#include "gap/clear_detections.h"
-#include "gap/controller_link.h"
 #include "gap/evidence.h"
-#include "gap/hall_range.h"
-#include "gap/hall_smoothing.h"
-#include "gap/image_link.h"
-#include "gap/late_ticks.h"
-#include "gap/platform_link.h"
-#include "gap/power_on.h"
-#include "gap/shutter.h"
-#include "gap/tag_link.h"
+#include "gap/evidence/clear_detections.h"
+#include "gap/evidence/hall_range.h"
+#include "gap/evidence/late_ticks.h"
+#include "gap/links/carriage_link.h"
+#include "gap/links/controller_link.h"
+#include "gap/links/hall_smoothing.h"
+#include "gap/links/image_link.h"
+#include "gap/links/platform_link.h"
+#include "gap/links/power_on.h"
+#include "gap/links/shutter.h"
+#include "gap/links/tag_link.h"
 
 #include <array>
 #include <atomic>

@@ -1,7 +1,9 @@
 #pragma once
 // One step of the explicit Runge-Kutta pair of order 5 and 4 of Dormand and Prince, J. Comput. Appl. Math. 6
 // (1980), Table 2.
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -40,6 +42,12 @@ RungeKuttaStep<size> dormand_prince_step(const Rate& rate, const std::array<doub
         error[i] = h * (71.0 / 57600.0 * k1[i] - 71.0 / 16695.0 * k3[i] + 71.0 / 1920.0 * k4[i] -
                         17253.0 / 339200.0 * k5[i] + 22.0 / 525.0 * k6[i] - 1.0 / 40.0 * k7[i]);
     return {end, error};
+}
+
+/// The share of a step of such an error, in tolerances, that would keep within them: 0.1 to 5.
+inline double fitting_share(double error) {
+    constexpr double safety = 0.9, most = 5.0, of_most = 1.8e-4;  // (safety / most)^5
+    return error < of_most ? most : std::max(safety * std::pow(error, -0.2), 0.1);
 }
 
 }  // namespace fidservo::plant

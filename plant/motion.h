@@ -79,11 +79,11 @@ class Motion {
             return longest_s;
         }
         while (!(error <= 1.0) && step.duration_s > shortest_step_s) {
-            step = step_from(first,
-                             step.duration_s * (std::isfinite(error) ? std::min(fitting(error), 0.9) : 0.1));
+            step = step_from(
+                first, step.duration_s * (std::isfinite(error) ? std::min(fitting_share(error), 0.9) : 0.1));
             error = error_of(step);
         }
-        trial_s_ = step.duration_s * (error <= 1.0 ? std::max(fitting(error), 0.5) : 5.0);
+        trial_s_ = step.duration_s * (error <= 1.0 ? std::max(fitting_share(error), 0.5) : 5.0);
         if (slack(step.end) < 0.0)
             step = step_to_event(
                 slack(x_), step, [&](double h) { return step_from(first, h); },
@@ -270,12 +270,6 @@ class Motion {
     Step step_from(const State& first, double h) {
         ++steps_.integrated;
         return {dormand_prince_step([this](const State& x) { return rate(x); }, x_, first, h), h};
-    }
-
-    /// The share of a step of such an error, in tolerances, that would keep within them: 0.1 to 5.
-    static double fitting(double error) {
-        constexpr double safety = 0.9, most = 5.0, of_most = 1.8e-4;  // (safety / most)^5
-        return error < of_most ? most : std::max(safety * std::pow(error, -0.2), 0.1);
     }
 
     double standing_V(const State& x) const { return standing_.volts(x[place]); }

@@ -1,10 +1,10 @@
-// Fits the coefficients of a name's probability (gap/standing.h) to self-checks, and judges them on families
-// of effects that were left out of the fit: calibrate SELF-CHECK.json... > gap/calibration.h
+// Fits the coefficients of a name's probability (gap/verdict/standing.h) to self-checks, and judges them on
+// families of effects that were left out of the fit: calibrate SELF-CHECK.json... > gap/verdict/calibration.h
 //
 // A name counts by the share of its kind of case below, whatever the number of names in it, so that rigs with
 // many causes do not outvote the others.
-#include "gap/standing.h"
-#include "src/selfcheck/score.h"
+#include "gap/verdict/standing.h"
+#include "src/selfcheck/tally/score.h"
 
 #include <algorithm>
 #include <array>
@@ -55,15 +55,12 @@ gap::Support support_of(const Json& json, double gap_after) {
             .is_at_bound = json.at("at_bound")};
 }
 
-/// Without those that are contested, which share their probability (gap/standing.h).
 std::vector<Name> names_of(const Json& self_check) {
     std::vector<Name> names;
     for (const Json& one : self_check.at("cases"))
         for (const Json& found : one.at("found")) {
             const gap::Support support = support_of(found.at("support"), one.at("gap").at("after"));
-            if (support.agreement > 0.0 && !support.is_at_bound)
-                names.push_back(
-                    {one.at("kind"), found.at("class"), gap::features_of(support), found.at("true")});
+            names.push_back({one.at("kind"), found.at("class"), gap::features_of(support), found.at("true")});
         }
     return names;
 }
@@ -214,7 +211,7 @@ void calibrate(const std::vector<std::string>& files) {
     tell(names, judged_by_others(names));
     const Coefficients all = fitted(names);
     fmt::print(R"(#pragma once
-// Coefficients of the probability of a name (gap/standing.h), written by `./run calibrate` from self-checks:
+// Coefficients of the probability of a name (gap/verdict/standing.h), written by `./run calibrate` from self-checks:
 //
 //     {}
 #include <array>
@@ -234,7 +231,7 @@ inline constexpr std::array calibrated_coefficients{{
 
 int main(int argc, char** argv) {
     if (argc < 2) {
-        std::fputs("usage: calibrate SELF-CHECK.json... > gap/calibration.h\n", stderr);
+        std::fputs("usage: calibrate SELF-CHECK.json... > gap/verdict/calibration.h\n", stderr);
         return 2;
     }
     try {

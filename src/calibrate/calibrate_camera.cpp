@@ -1,7 +1,7 @@
 #include "src/calibrate/calibrate_camera.h"
 
-#include "calib/photon_transfer.h"
-#include "calib/target_images.h"
+#include "calib/camera/photon_transfer.h"
+#include "calib/camera/target_images.h"
 #include "core/input_error.h"
 #include "core/plumb_bob.h"
 #include "core/result.h"

@@ -1,6 +1,6 @@
 #pragma once
 // The command `calibrate camera`, behind its options.
-#include "calib/calibration_verdict.h"
+#include "calib/camera/calibration_verdict.h"
 #include "src/calibrate/camera_target.h"
 
 #include <filesystem>

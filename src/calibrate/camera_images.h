@@ -1,6 +1,6 @@
 #pragma once
 // The images that a camera is calibrated from.
-#include "calib/target_images.h"
+#include "calib/camera/target_images.h"
 #include "src/calibrate/camera_target.h"
 
 #include <filesystem>

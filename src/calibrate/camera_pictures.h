@@ -1,7 +1,7 @@
 #pragma once
 // Pictures of a calibration in the image plane, as plain SVG.
-#include "calib/calibration_verdict.h"
-#include "calib/camera_calibration.h"
+#include "calib/camera/calibration_verdict.h"
+#include "calib/camera/camera_calibration.h"
 
 #include <string>
 

@@ -1,8 +1,8 @@
 #pragma once
 // What a camera's calibration found, for people: a page and lines of text.
-#include "calib/calibration_verdict.h"
-#include "calib/camera_calibration.h"
-#include "calib/photon_transfer.h"
+#include "calib/camera/calibration_verdict.h"
+#include "calib/camera/camera_calibration.h"
+#include "calib/camera/photon_transfer.h"
 
 #include <optional>
 #include <string>

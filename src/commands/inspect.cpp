@@ -2,7 +2,7 @@
 #include "src/commands/commands.h"
 #include "src/commands/session_options.h"
 #include "src/inspect/inspection_run.h"
-#include "src/inspect/output.h"
+#include "src/inspect/measure/output.h"
 
 #include <memory>
 #include <string>

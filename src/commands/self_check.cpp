@@ -6,8 +6,8 @@
 #include "src/interrupt.h"
 #include "src/recording/durable_file.h"
 #include "src/selfcheck/self_check.h"
+#include "src/selfcheck/tally/tally_text.h"
 #include "src/selfcheck/tally_json.h"
-#include "src/selfcheck/tally_text.h"
 
 #include <cstdio>
 #include <map>

@@ -1,7 +1,7 @@
 #include "src/diagnose/frame_looks.h"
 
 #include "core/input_error.h"
-#include "gap/parallel.h"
+#include "gap/evidence/parallel.h"
 #include "src/replay/images.h"
 #include "vision/tag_appearance.h"
 

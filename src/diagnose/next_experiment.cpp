@@ -1,9 +1,9 @@
 #include "src/diagnose/next_experiment.h"
 
-#include "gap/fit.h"
-#include "gap/halves.h"
-#include "gap/parallel.h"
-#include "gap/score.h"
+#include "gap/evidence/halves.h"
+#include "gap/evidence/parallel.h"
+#include "gap/fit/fit.h"
+#include "gap/fit/score.h"
 #include "src/diagnose/words.h"
 #include "src/simulation/experiments.h"
 #include "src/simulation/simulate.h"

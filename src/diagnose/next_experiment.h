@@ -12,8 +12,8 @@ namespace fidservo::diagnose {
 
 /// Of the experiments that the rig can do in 30 s or less, the one that sets the causes found and their
 /// rivals furthest apart. Each is run in the simulator with each cause in turn; its rival is fitted to what
-/// that would record, and what the rival then lacks, in loss (gap/score.h), is how well the experiment tells
-/// them apart. The worst pair counts.
+/// that would record, and what the rival then lacks, in loss (gap/fit/score.h), is how well the experiment
+/// tells them apart. The worst pair counts.
 /// @return nothing where nothing is tied, or where no experiment would decide
 std::optional<gap::ProposedExperiment> next_experiment(const Rig& rig, const gap::Diagnosis& diagnosis);
 

@@ -1,4 +1,4 @@
-#include "calib/hall_curve.h"
+#include "calib/actuator/hall_curve.h"
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "src/config/plate_file.h"

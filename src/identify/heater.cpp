@@ -1,4 +1,4 @@
-#include "calib/heater_fit.h"
+#include "calib/actuator/heater_fit.h"
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/result.h"

@@ -1,5 +1,5 @@
-#include "calib/fod_curves.h"
-#include "calib/heater_fit.h"
+#include "calib/actuator/fod_curves.h"
+#include "calib/actuator/heater_fit.h"
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/result.h"

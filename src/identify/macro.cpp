@@ -1,5 +1,5 @@
-#include "calib/macro_force.h"
-#include "calib/macro_identification.h"
+#include "calib/axis/macro_force.h"
+#include "calib/axis/macro_identification.h"
 #include "core/input_error.h"
 #include "core/result.h"
 #include "core/rig.h"

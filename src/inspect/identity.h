@@ -1,7 +1,7 @@
 #pragma once
 // What a run depends on, as fingerprints.
 #include "src/inspect/journal.h"
-#include "src/inspect/recipe.h"
+#include "src/inspect/recipe/recipe.h"
 #include "src/session/session.h"
 
 namespace fidservo::inspect {

@@ -1,6 +1,6 @@
 #pragma once
 // A whole inspection, from the recipe to the report; or what is left of one that was killed.
-#include "src/inspect/results.h"
+#include "src/inspect/measure/results.h"
 #include "src/session/session.h"
 
 #include <filesystem>

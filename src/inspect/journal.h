@@ -1,7 +1,7 @@
 #pragma once
 // The memory of a run that may be killed at any moment: one JSON line for what began, one for each visit that
 // ended, each on the disk before the run goes on. A line that was cut short does not count.
-#include "src/inspect/results.h"
+#include "src/inspect/measure/results.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,8 +1,8 @@
 #pragma once
 // What the live page is told of an inspection.
-#include "src/inspect/recipe.h"
-#include "src/inspect/results.h"
-#include "src/inspect/schedule.h"
+#include "src/inspect/measure/results.h"
+#include "src/inspect/measure/schedule.h"
+#include "src/inspect/recipe/recipe.h"
 #include "src/live/live_feed.h"
 
 #include <memory>

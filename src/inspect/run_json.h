@@ -1,8 +1,8 @@
 #pragma once
 // The run in one file for scripts.
-#include "src/inspect/device_figures.h"
 #include "src/inspect/journal.h"
-#include "src/inspect/recipe.h"
+#include "src/inspect/recipe/recipe.h"
+#include "src/inspect/report/device_figures.h"
 
 #include <filesystem>
 

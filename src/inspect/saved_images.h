@@ -1,7 +1,7 @@
 #pragma once
 // `--camera images:DIR`: the images of an earlier run measured again, by today's recipe; nothing moves.
 #include "core/result.h"
-#include "src/inspect/site_measurement.h"
+#include "src/inspect/measure/site_measurement.h"
 
 #include <filesystem>
 #include <map>

@@ -1,6 +1,6 @@
 #pragma once
 // A visit as JSON, exactly: what is read back equals what was written, to the last bit.
-#include "src/inspect/results.h"
+#include "src/inspect/measure/results.h"
 
 #include <nlohmann/json_fwd.hpp>
 

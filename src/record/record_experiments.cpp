@@ -6,7 +6,7 @@
 #include "src/commands/commands.h"
 #include "src/commands/session_options.h"
 #include "src/config/rig_file.h"
-#include "src/inspect/output.h"
+#include "src/inspect/measure/output.h"
 #include "src/progress.h"
 #include "src/record/campaign_file.h"
 #include "src/record/on_rig.h"

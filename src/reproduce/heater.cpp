@@ -1,6 +1,6 @@
 // The heater: temperature inferred from position through the inverse hysteresis, then static gain, heating
 // and cooling (fig. 13 to 16).
-#include "calib/heater_fit.h"
+#include "calib/actuator/heater_fit.h"
 #include "core/input_error.h"
 #include "core/random.h"
 #include "core/rig.h"

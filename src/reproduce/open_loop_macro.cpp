@@ -1,6 +1,6 @@
 // The macro stage in open loop: identified as published, then predicted with the plain dead zone (eq. 5) and
 // with the modified one (eq. 7, fig. 9).
-#include "calib/macro_step_response.h"
+#include "calib/axis/macro_step_response.h"
 #include "core/input_error.h"
 #include "core/result.h"
 #include "core/rig.h"

@@ -1,6 +1,6 @@
 // The wire's hysteresis: a family of first-order descending curves from a kiln, the Preisach model that it
 // gives, and its validation on another temperature profile, forwards and inverted (fig. 12).
-#include "calib/fod_curves.h"
+#include "calib/actuator/fod_curves.h"
 #include "core/input_error.h"
 #include "core/random.h"
 #include "core/rig.h"

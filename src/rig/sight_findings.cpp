@@ -2,7 +2,7 @@
 #include "core/plate.h"
 #include "core/rig.h"
 #include "src/config/plate_file.h"
-#include "src/inspect/seen_box.h"
+#include "src/inspect/recipe/seen_box.h"
 #include "src/rig/finding.h"
 
 #include <algorithm>

@@ -6,11 +6,11 @@
 #include "src/diagnose/time_limit.h"
 #include "src/interrupt.h"
 #include "src/progress.h"
-#include "src/selfcheck/campaign.h"
-#include "src/selfcheck/case_draw.h"
-#include "src/selfcheck/crowded_draw.h"
-#include "src/selfcheck/filmed_campaign.h"
-#include "src/selfcheck/frames_draw.h"
+#include "src/selfcheck/draw/campaign.h"
+#include "src/selfcheck/draw/case_draw.h"
+#include "src/selfcheck/draw/crowded_draw.h"
+#include "src/selfcheck/draw/filmed_campaign.h"
+#include "src/selfcheck/draw/frames_draw.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 // The diagnosis judged on rigs whose effects are known: drawn, recorded on the independent model, diagnosed
 // without their labels, scored.
 #include "core/result.h"
-#include "gap/selection.h"
-#include "src/selfcheck/outcome.h"
+#include "gap/search/selection.h"
+#include "src/selfcheck/tally/outcome.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,6 +1,6 @@
 #pragma once
 #include "src/selfcheck/self_check.h"
-#include "src/selfcheck/tally.h"
+#include "src/selfcheck/tally/tally.h"
 
 #include <string>
 

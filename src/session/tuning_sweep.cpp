@@ -1,6 +1,6 @@
 #include "src/session/tuning_sweep.h"
 
-#include "calib/actuator_tuning.h"
+#include "calib/actuator/actuator_tuning.h"
 #include "core/micro_parameters.h"
 
 #include <spdlog/spdlog.h>

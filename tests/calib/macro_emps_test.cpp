@@ -1,6 +1,6 @@
 // A real drive, recorded by others (Janot, Gautier, Brunot, Data Set and Reference Models of EMPS, 2019).
-#include "calib/macro_force.h"
-#include "calib/macro_identification.h"
+#include "calib/axis/macro_force.h"
+#include "calib/axis/macro_identification.h"
 #include "core/rig.h"
 #include "src/config/rig_file.h"
 #include "src/recording/reader.h"

@@ -1,8 +1,8 @@
 // A lens and a mount from rendered images, and what they are good for: displacements in micrometres.
-#include "calib/calibration_verdict.h"
-#include "calib/camera_calibration.h"
-#include "calib/camera_mount.h"
-#include "calib/target_images.h"
+#include "calib/camera/calibration_verdict.h"
+#include "calib/camera/camera_calibration.h"
+#include "calib/camera/camera_mount.h"
+#include "calib/camera/target_images.h"
 #include "core/camera_parameters.h"
 #include "core/result.h"
 #include "plant/view/plate_view.h"

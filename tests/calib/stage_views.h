@@ -1,7 +1,7 @@
 #pragma once
 // Synthetic views of a row of tags by a camera of known mount, with noise of known covariance.
-#include "calib/pictured_corners.h"
-#include "calib/stage_map.h"
+#include "calib/camera/pictured_corners.h"
+#include "calib/camera/stage_map.h"
 #include "core/random.h"
 #include "vision/tag_choice.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 // Tags where core's projection puts them, with noise of known covariance: calibration's answers beforehand.
-#include "calib/target_view.h"
+#include "calib/camera/target_view.h"
 #include "core/camera_geometry.h"
 #include "core/random.h"
 #include "vision/quad.h"

@@ -1,6 +1,6 @@
 #include "src/diagnose/words.h"
 
-#include "gap/surrogate.h"
+#include "gap/residuals/surrogate.h"
 #include "plant/effects/catalogue.h"
 #include "src/diagnose/advice.h"
 #include "src/diagnose/verdict_words.h"

@@ -8,7 +8,7 @@
 #include "src/config/rig_file.h"
 #include "src/identify/text_table.h"
 #include "src/inspect/journal.h"
-#include "src/inspect/recipe.h"
+#include "src/inspect/recipe/recipe.h"
 #include "src/recording/reader.h"
 #include "src/simulation/experiment_file.h"
 #include "tests/inspect/small_recipe.h"

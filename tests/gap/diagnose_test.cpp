@@ -2,7 +2,7 @@
 #include "gap/diagnose.h"
 
 #include "core/rig.h"
-#include "gap/search.h"
+#include "gap/search/search.h"
 #include "tests/gap/effect_names.h"
 #include "tests/gap/simulated_campaign.h"
 

@@ -1,6 +1,6 @@
 // A real machine, by other people: the linear motor of Janot, Gautier and Brunot's EMPS data set.
 #include "core/rig.h"
-#include "gap/carriage_forces.h"
+#include "gap/balance/carriage_forces.h"
 #include "gap/diagnose.h"
 #include "src/config/rig_file.h"
 #include "tests/campaign.h"

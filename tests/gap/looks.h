@@ -15,7 +15,7 @@ namespace fidservo::testing {
 inline constexpr double looks_px_per_s = 375.0;
 
 /// A tag that moves evenly along u for a second, 50 frames of it, where it is seen and its looks by the
-/// formulas of gap/image_link.h, on the reference rig.
+/// formulas of gap/links/image_link.h, on the reference rig.
 inline Recording looks_in_even_motion(const plant::CameraDeviation& truth,
                                       double speed_px_per_s = looks_px_per_s) {
     constexpr double frame_s = 0.02;

@@ -1,8 +1,8 @@
 // A real wire, by other people: NiTi heated and cooled once under each of two loads. Its table is fitted to
 // one load, and the diagnosis is asked about the other.
-#include "calib/preisach_fit.h"
+#include "calib/actuator/preisach_fit.h"
 #include "core/rig.h"
-#include "gap/candidate.h"
+#include "gap/candidates/candidate.h"
 #include "gap/diagnose.h"
 #include "tests/reference_rig.h"
 #include "tests/shared_table.h"

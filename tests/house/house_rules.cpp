@@ -32,6 +32,14 @@ const std::map<std::string, Rooms>& arrows() {
     return allowed;
 }
 
+/// The rooms of the diagnosis, each of which may include those before it. What lies in gap/ itself is their
+/// door: the types that all of them speak of, and the diagnosis that calls them.
+const std::vector<std::string>& rooms_of_gap() {
+    static const std::vector<std::string> order{"gap/evidence", "gap/links",  "gap/candidates", "gap/fit",
+                                                "gap/balance",  "gap/search", "gap/residuals",  "gap/verdict"};
+    return order;
+}
+
 std::string room_of(const std::string& path) {
     return path.substr(0, path.find('/'));
 }
@@ -122,6 +130,21 @@ Findings forbidden_arrows(const SourceFile& file) {
     return findings;
 }
 
+Findings steps_up_in_gap(const SourceFile& file) {
+    const auto place_of = [](const std::string& path) {
+        return std::ranges::find(rooms_of_gap(), folder_of(path)) - rooms_of_gap().begin();
+    };
+    const std::string own = folder_of(file.path);
+    if (!own.starts_with("gap/")) return {};
+    if (std::ranges::find(rooms_of_gap(), own) == rooms_of_gap().end())
+        return {finding(file, own, "no room of the diagnosis that has a place among the others")};
+    Findings findings;
+    for (const auto& include : quoted_includes(file.text))
+        if (folder_of(include).starts_with("gap/") && place_of(include) > place_of(file.path))
+            findings.push_back(finding(file, "includes " + include, "which " + own + " must not see"));
+    return findings;
+}
+
 Findings includes_not_from_the_top(const SourceFile& file, const std::vector<SourceFile>& house) {
     Findings findings;
     for (const auto& include : quoted_includes(file.text)) {
@@ -200,7 +223,7 @@ Findings tests_that_are_not_there(const SourceFile& document, const std::vector<
 }
 
 Findings effects_asked_for(const SourceFile& file, const std::vector<SourceFile>& house) {
-    if (!file.path.starts_with("gap/") || file.path == "gap/accusation.cpp") return {};
+    if (!file.path.starts_with("gap/") || file.path == "gap/residuals/accusation.cpp") return {};
     static const std::regex literal(R"re("([a-z_.]+)")re"), name(R"re(\.name = "([a-z_]+)")re"),
         block(R"re((?:macro|micro|camera)\.[a-z]*)re"), unit(R"re(((?:\.|->|::)unit (?:==|!=)))re");
     std::set<std::string> effects;

@@ -20,6 +20,9 @@ std::vector<SourceFile> read_documents(const std::string& top);
 
 /// Includes that go against the arrows between rooms.
 Findings forbidden_arrows(const SourceFile& file);
+
+/// Includes of a room of the diagnosis that has its place after the file's own.
+Findings steps_up_in_gap(const SourceFile& file);
 /// Quoted includes that are not written from the top of the repository.
 Findings includes_not_from_the_top(const SourceFile& file, const std::vector<SourceFile>& house);
 /// Headers that show third-party types (Eigen, cv::Mat and tl::expected excepted) outside their own folder.
@@ -37,7 +40,7 @@ Findings wall_clocks(const SourceFile& file);
 /// Tests that a document names, `Suite.Thing_Condition_Expectation`, and that no test file has.
 Findings tests_that_are_not_there(const SourceFile& document, const std::vector<SourceFile>& house);
 /// A diagnosis that asks for an effect by its name, its block or a parameter's unit instead of for what the
-/// effect says of itself (plant/effects/effect.h). Which block errors accuse is in gap/accusation.cpp.
+/// effect says of itself (plant/effects/effect.h). Which block errors accuse is in gap/residuals/accusation.cpp.
 Findings effects_asked_for(const SourceFile& file, const std::vector<SourceFile>& house);
 /// Work that is left to somebody, and code that is switched off.
 Findings notes_to_self(const SourceFile& file);

@@ -46,6 +46,14 @@ TEST(House, Arrows_RunOneWay) {
     EXPECT_THAT(in_the_house(forbidden_arrows), IsEmpty());
 }
 
+TEST(House, RoomsOfTheDiagnosis_SeeThoseBeforeThem) {
+    EXPECT_THAT(steps_up_in_gap({"gap/fit/a.cpp", "#include \"gap/search/b.h\"\n"}), SizeIs(1));
+    EXPECT_THAT(steps_up_in_gap({"gap/search/a.cpp", "#include \"gap/fit/b.h\"\n"}), IsEmpty());
+    EXPECT_THAT(steps_up_in_gap({"gap/fit/a.cpp", "#include \"gap/evidence.h\"\n"}), IsEmpty());
+    EXPECT_THAT(steps_up_in_gap({"gap/attic/a.cpp", ""}), SizeIs(1));
+    EXPECT_THAT(in_the_house(steps_up_in_gap), IsEmpty());
+}
+
 TEST(House, Includes_AreWrittenFromTheTop) {
     const std::vector<SourceFile> two{{"vision/a.h", ""}, {"vision/b.cpp", "#include \"a.h\"\n"}};
     EXPECT_THAT(includes_not_from_the_top(two[1], two), SizeIs(1));

@@ -1,7 +1,7 @@
 // Inspection by a camera that is turned, tilted, distorting, on an oblique axis, and whose rig file says so.
 #include "core/rig.h"
 #include "src/inspect/inspection_run.h"
-#include "src/inspect/seen_box.h"
+#include "src/inspect/recipe/seen_box.h"
 #include "tests/src/temporary_folder.h"
 
 #include <map>

@@ -1,4 +1,4 @@
-#include "src/inspect/placement.h"
+#include "src/inspect/recipe/placement.h"
 
 #include "core/failure.h"
 #include "core/result.h"

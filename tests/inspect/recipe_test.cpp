@@ -1,4 +1,4 @@
-#include "src/inspect/recipe.h"
+#include "src/inspect/recipe/recipe.h"
 
 #include "core/input_error.h"
 #include "tests/inspect/small_recipe.h"

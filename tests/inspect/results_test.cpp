@@ -1,4 +1,4 @@
-#include "src/inspect/results.h"
+#include "src/inspect/measure/results.h"
 
 #include <gtest/gtest.h>
 

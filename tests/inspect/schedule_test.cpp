@@ -1,4 +1,4 @@
-#include "src/inspect/schedule.h"
+#include "src/inspect/measure/schedule.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // A recipe of two sites on a small rig, and the means to spoil it.
 #include "core/rig.h"
-#include "src/inspect/recipe.h"
+#include "src/inspect/recipe/recipe.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "src/selfcheck/binomial.h"
+#include "src/selfcheck/tally/binomial.h"
 
 #include <cmath>
 

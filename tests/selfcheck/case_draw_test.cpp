@@ -1,14 +1,14 @@
 // What the cases are made with: the same for the same seed, even over classes, and nowhere to be read in what
 // the diagnosis is given.
-#include "src/selfcheck/case_draw.h"
+#include "src/selfcheck/draw/case_draw.h"
 
 #include "core/rig.h"
-#include "gap/candidate.h"
+#include "gap/candidates/candidate.h"
 #include "plant/effects/catalogue.h"
 #include "src/config/rig_file.h"
-#include "src/selfcheck/campaign.h"
-#include "src/selfcheck/listed_effects.h"
-#include "src/selfcheck/unlisted_effects.h"
+#include "src/selfcheck/draw/campaign.h"
+#include "src/selfcheck/draw/listed_effects.h"
+#include "src/selfcheck/draw/unlisted_effects.h"
 
 #include <algorithm>
 #include <array>

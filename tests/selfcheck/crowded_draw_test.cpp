@@ -1,16 +1,16 @@
 // Rigs with many causes at once: what is drawn keeps to what was promised of it.
-#include "src/selfcheck/crowded_draw.h"
+#include "src/selfcheck/draw/crowded_draw.h"
 
 #include "core/rig.h"
-#include "gap/candidate.h"
-#include "gap/gap_size.h"
-#include "gap/score.h"
+#include "gap/candidates/candidate.h"
+#include "gap/fit/gap_size.h"
+#include "gap/fit/score.h"
 #include "plant/effects/catalogue.h"
 #include "src/config/rig_file.h"
-#include "src/selfcheck/campaign.h"
-#include "src/selfcheck/discrepancy_draw.h"
-#include "src/selfcheck/gap_alone.h"
-#include "src/selfcheck/other_formulas.h"
+#include "src/selfcheck/draw/campaign.h"
+#include "src/selfcheck/draw/discrepancy_draw.h"
+#include "src/selfcheck/draw/gap_alone.h"
+#include "src/selfcheck/draw/other_formulas.h"
 
 #include <algorithm>
 #include <cmath>

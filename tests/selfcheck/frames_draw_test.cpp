@@ -1,5 +1,5 @@
 // Cases with frames: the same for the same seed, even over the image's effects, and filmed as they are drawn.
-#include "src/selfcheck/frames_draw.h"
+#include "src/selfcheck/draw/frames_draw.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"

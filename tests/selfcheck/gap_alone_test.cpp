@@ -1,5 +1,5 @@
 // The search for a size that makes a gap, on gaps in closed form.
-#include "src/selfcheck/gap_alone.h"
+#include "src/selfcheck/draw/gap_alone.h"
 
 #include <cmath>
 

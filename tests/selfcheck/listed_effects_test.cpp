@@ -1,13 +1,13 @@
 // A label means what the catalogue means by it: a rig with a departure of the independent model is predicted
 // to the floor by the plant with the effect of that name.
-#include "src/selfcheck/listed_effects.h"
+#include "src/selfcheck/draw/listed_effects.h"
 
 #include "core/rig.h"
-#include "gap/gap_size.h"
-#include "gap/score.h"
+#include "gap/fit/gap_size.h"
+#include "gap/fit/score.h"
 #include "plant/effects/catalogue.h"
 #include "src/config/rig_file.h"
-#include "src/selfcheck/campaign.h"
+#include "src/selfcheck/draw/campaign.h"
 
 #include <algorithm>
 #include <array>

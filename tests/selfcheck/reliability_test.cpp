@@ -1,4 +1,4 @@
-#include "src/selfcheck/reliability.h"
+#include "src/selfcheck/tally/reliability.h"
 
 #include "core/random.h"
 

@@ -1,5 +1,5 @@
 // The scorer on diagnoses made by hand.
-#include "src/selfcheck/score.h"
+#include "src/selfcheck/tally/score.h"
 
 #include <cmath>
 

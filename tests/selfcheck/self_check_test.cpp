@@ -140,21 +140,12 @@ INSTANTIATE_TEST_SUITE_P(
         KnownCase{"SupplyOfTheHallSensor", 2075, 171, "hall_gain", is_all_right},
         KnownCase{"SensorThatWarmsUp", 2075, 9, "hall_drift", is_all_right},
         KnownCase{"TagsOfAnotherSize", 2028, 120, "tag_side", has_right_block},
-        // By the balance of forces: it shows nothing at first sight.
-        KnownCase{"WeakWave", 2081, 78, "cogging", is_followed_to_the_floor},
         // Its command shows as acceleration does: mass and belt together stand in for it.
         KnownCase{"LateCommandBesideAGain", 2081, 294, "drive_delay", is_all_right},
         // One half of the data ends in a valley beside that of the other half.
         KnownCase{"HardeningCableBesideASwing", 2081, 266, "macro_coupling", is_followed_to_the_floor},
-        // Fitted no further than from afar, a wave longer than the rail does better.
-        KnownCase{"HardeningCable", 2094, 361, "cable_force", is_followed_to_the_floor},
         // Found by a scan: which way the carriage goes is all that shows it.
         KnownCase{"WaveOfTwoMillivolts", 2101, 278, "cogging", is_followed_to_the_floor},
-        // Without a scan nothing is worth naming: the best single effect is a wave of another period.
-        KnownCase{"WaveThatNothingStandsInFor", 2101, 131, "cogging", is_followed_to_the_floor},
-        // A simplex has ended before it came to the bottom.
-        KnownCase{"WaveThatIsPolishedTwice", 2106, 67, "cogging", is_followed_to_the_floor},
-        KnownCase{"WaveOfThreeMillivoltsBesideAMass", 2104, 154, "cogging", is_all_right},
         KnownCase{"WeakWaveBesideAMass", 2094, 325, "payload", is_all_right},
         // Bristles that are withheld are friction and a mass, which leave nothing.
         KnownCase{"BristlesThatAreNotKnown", 2094, 190, "presliding", has_right_block_at_least},
@@ -174,7 +165,6 @@ INSTANTIATE_TEST_SUITE_P(
         // Under a false scale a ripple does more harm than good, though the readings show it.
         KnownCase{"RippleUnderAFalseScale", 2107, 81, "encoder_scale", is_followed_to_the_floor},
         // Withheld; a camera that turns about an axis far over it looks aside, and passes for it.
-        KnownCase{"ScaleAndNoTilt", 2110, 306, "encoder_scale", has_right_block},
         KnownCase{"ScaleAndNoTiltAboutAFarAxis", 2111, 107, "encoder_scale", has_right_block},
         // Explained by what Stribeck friction and bristles come to at a limit.
         KnownCase{"DryFrictionThatIsNotKnown", 2097, 367, "coulomb_friction", has_right_block}),

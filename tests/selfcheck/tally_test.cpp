@@ -1,8 +1,8 @@
 // What outcomes come to, by hand.
-#include "src/selfcheck/tally.h"
+#include "src/selfcheck/tally/tally.h"
 
+#include "src/selfcheck/tally/tally_text.h"
 #include "src/selfcheck/tally_json.h"
-#include "src/selfcheck/tally_text.h"
 
 #include <algorithm>
 #include <cmath>

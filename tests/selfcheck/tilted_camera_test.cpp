@@ -1,7 +1,7 @@
 // A camera may be askew about its mount, about the plate, about anything between: one effect, with the way of
 // its centre.
 #include "gap/diagnose.h"
-#include "src/selfcheck/campaign.h"
+#include "src/selfcheck/draw/campaign.h"
 #include "tests/reference_rig.h"
 
 #include <cmath>

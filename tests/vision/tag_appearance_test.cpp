@@ -1,5 +1,5 @@
 // Blur, brightness and noise of tags in rendered frames, against what they were rendered with. Limits are
-// what gap/image_link.h allows for.
+// what gap/links/image_link.h allows for.
 #include "vision/tag_appearance.h"
 
 #include "core/camera_parameters.h"

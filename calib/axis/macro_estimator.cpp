@@ -1,0 +1,304 @@
+#include "calib/axis/macro_estimator.h"
+
+#include "calib/rounding_likelihood.h"
+#include "core/demand.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+namespace fidservo::calib {
+
+namespace {
+
+constexpr double prior_width = 10.0;              // times what the data show
+constexpr double prior_log_time_constant = -2.3;  // 0.1 s, within a factor of e^3
+constexpr double prior_log_time_constant_std = 3.0;
+constexpr double least_encoder_noise_count = 0.05;
+
+/// Largest mean speed over 20 ms.
+double fastest(const std::vector<MacroWindow>& windows) {
+    double speed = 0.0;
+    for (const MacroWindow& window : windows) {
+        const auto span = std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(0.02 / window.tick_s)),
+                                                  1, window.position_mm.size() - 1);
+        for (std::size_t k = span; k < window.position_mm.size(); ++k)
+            speed = std::max(speed, std::abs(window.position_mm[k] - window.position_mm[k - span]) /
+                                        (static_cast<double>(span) * window.tick_s));
+    }
+    return speed;
+}
+
+double largest_command_V(const std::vector<MacroWindow>& windows) {
+    double size_V = 0.0;
+    for (const MacroWindow& window : windows)
+        for (const double u : window.command_V) size_V = std::max(size_V, std::abs(u));
+    return size_V;
+}
+
+/// End of the block of ticks that begins at `begin`: 50 ms on, then until the reading changes, because the
+/// error of rounding stays the same while the reading does.
+std::size_t end_of_block(const MacroWindow& window, std::size_t begin) {
+    constexpr double block_s = 0.05;
+    const auto least =
+        std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(block_s / window.tick_s)));
+    std::size_t end = std::min(begin + least, window.position_mm.size());
+    while (end < window.position_mm.size() && window.position_mm[end] == window.position_mm[end - 1]) ++end;
+    return end;
+}
+
+}  // namespace
+
+MacroVector vector_of(const MacroMotion& motion) {
+    return {motion.speed_mm_per_s, motion.slope_mm_per_s_per_V, motion.friction_mm_per_s, motion.offset_V,
+            std::log(motion.time_constant_s)};
+}
+
+MacroMotion with_parameters(MacroMotion motion, const MacroVector& parameters) {
+    motion.speed_mm_per_s = parameters[macro_index::speed];
+    motion.slope_mm_per_s_per_V = parameters[macro_index::slope];
+    motion.friction_mm_per_s = std::max(0.0, parameters[macro_index::friction]);
+    motion.offset_V = parameters[macro_index::offset];
+    motion.time_constant_s = std::exp(parameters[macro_index::log_time_constant]);
+    return motion;
+}
+
+/// A window's share of gradient and curvature; x is its start (position, velocity), 0 the parameters.
+struct MacroEstimator::Sums {
+    MacroMatrix curvature = MacroMatrix::Zero();
+    Eigen::Matrix<double, macro_parameter_count, 2> cross =
+        Eigen::Matrix<double, macro_parameter_count, 2>::Zero();
+    Eigen::Matrix2d start_curvature = Eigen::Matrix2d::Zero();
+    MacroVector gradient = MacroVector::Zero();
+    Eigen::Vector2d start_gradient = Eigen::Vector2d::Zero();
+};
+
+MacroEstimator::MacroEstimator(std::vector<MacroWindow> windows, double resolution_mm)
+    : windows_(std::move(windows)), resolution_mm_(resolution_mm) {
+    FIDSERVO_DEMAND(!windows_.empty() && resolution_mm > 0.0);
+    const double command_V = std::max(largest_command_V(windows_), 1e-3);
+    fastest_mm_per_s_ = std::max(fastest(windows_), resolution_mm);
+    const double slope_scale = fastest_mm_per_s_ / command_V;
+    const MacroVector scale{fastest_mm_per_s_, slope_scale, fastest_mm_per_s_, command_V, 1.0};
+    prior_std_ = prior_width * scale;
+    prior_std_[macro_index::log_time_constant] = prior_log_time_constant_std;
+    difference_ = 1e-4 * scale;
+}
+
+MacroPoint MacroEstimator::start_at(const MacroMotion& motion) const {
+    MacroPoint point{motion, {}, 1.0};
+    point.starts.reserve(windows_.size());
+    for (const MacroWindow& window : windows_) {
+        const std::size_t span = std::min<std::size_t>(10, window.position_mm.size() - 1);
+        point.starts.push_back({window.position_mm[0], (window.position_mm[span] - window.position_mm[0]) /
+                                                           (static_cast<double>(span) * window.tick_s)});
+    }
+    return point;
+}
+
+std::vector<double> MacroEstimator::predict(std::size_t w, const MacroMotion& motion,
+                                            const MacroMotionState& start) const {
+    const MacroWindow& window = windows_[w];
+    const MacroPropagation propagation(motion, window.tick_s);
+    std::vector<double> place_count(window.position_mm.size());
+    MacroMotionState state = start;
+    for (std::size_t k = 0; k < place_count.size(); ++k) {
+        place_count[k] = state.position_mm / resolution_mm_;
+        propagation.advance(state, window.command_V[k]);
+    }
+    return place_count;
+}
+
+double MacroEstimator::start_std_mm(const MacroPoint& point) const {
+    return resolution_mm_ * std::hypot(0.5, point.noise_count);
+}
+
+double MacroEstimator::start_loss(std::size_t w, const MacroPoint& point) const {
+    const double place = (point.starts[w].position_mm - windows_[w].position_mm[0]) / start_std_mm(point);
+    const double velocity = point.starts[w].velocity_mm_per_s / (prior_width * fastest_mm_per_s_);
+    return 0.5 * (place * place + velocity * velocity);
+}
+
+double MacroEstimator::loss(const MacroPoint& point) const {
+    MacroVector deviation = vector_of(point.motion);
+    deviation[macro_index::log_time_constant] -= prior_log_time_constant;
+    double total = 0.5 * deviation.cwiseQuotient(prior_std_).squaredNorm();
+    for (std::size_t w = 0; w < windows_.size(); ++w) {
+        total += start_loss(w, point);
+        const std::vector<double> place_count = predict(w, point.motion, point.starts[w]);
+        for (std::size_t k = 0; k < place_count.size(); ++k)
+            total +=
+                rounding_loss(place_count[k] - windows_[w].position_mm[k] / resolution_mm_, point.noise_count)
+                    .value;
+    }
+    return total;
+}
+
+double MacroEstimator::residual_count(const MacroPoint& point) const {
+    double squares = 0.0, ticks = 0.0;
+    for (std::size_t w = 0; w < windows_.size(); ++w) {
+        const std::vector<double> place_count = predict(w, point.motion, point.starts[w]);
+        for (std::size_t k = 0; k < place_count.size(); ++k) {
+            const double error = place_count[k] - windows_[w].position_mm[k] / resolution_mm_;
+            squares += error * error;
+        }
+        ticks += static_cast<double>(place_count.size());
+    }
+    return std::sqrt(squares / ticks);
+}
+
+double MacroEstimator::noise_count(const MacroPoint& point) const {
+    const double residual = residual_count(point);
+    return std::max(least_encoder_noise_count, std::sqrt(std::max(0.0, residual * residual - 1.0 / 12.0)));
+}
+
+/// Columns: derivative of the predicted place (counts) by each parameter, then by the start's position and
+/// velocity; central differences.
+Eigen::MatrixXd MacroEstimator::sensitivities(std::size_t w, const MacroPoint& point,
+                                              const MacroActive& active) const {
+    const auto rows = static_cast<Eigen::Index>(windows_[w].position_mm.size());
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, macro_parameter_count + 2);
+    const auto difference = [&](Eigen::Index column, const std::vector<double>& above,
+                                const std::vector<double>& below, double width) {
+        result.col(column) = (Eigen::Map<const Eigen::VectorXd>(above.data(), rows) -
+                              Eigen::Map<const Eigen::VectorXd>(below.data(), rows)) /
+                             width;
+    };
+    const MacroVector here = vector_of(point.motion);
+    for (int i = 0; i < macro_parameter_count; ++i) {
+        if (!active[static_cast<std::size_t>(i)]) continue;
+        MacroVector above = here, below = here;
+        above[i] += difference_[i];
+        below[i] =
+            i == macro_index::friction ? std::max(0.0, here[i] - difference_[i]) : here[i] - difference_[i];
+        difference(i, predict(w, with_parameters(point.motion, above), point.starts[w]),
+                   predict(w, with_parameters(point.motion, below), point.starts[w]), above[i] - below[i]);
+    }
+    result.col(macro_parameter_count).setConstant(1.0 / resolution_mm_);
+    MacroMotionState faster = point.starts[w], slower = point.starts[w];
+    faster.velocity_mm_per_s += difference_[macro_index::speed];
+    slower.velocity_mm_per_s -= difference_[macro_index::speed];
+    difference(macro_parameter_count + 1, predict(w, point.motion, faster), predict(w, point.motion, slower),
+               2.0 * difference_[macro_index::speed]);
+    return result;
+}
+
+MacroEstimator::Sums MacroEstimator::sum_up(std::size_t w, const MacroPoint& point,
+                                            const MacroActive& active) const {
+    const Eigen::MatrixXd jacobian = sensitivities(w, point, active);
+    const std::vector<double> place_count = predict(w, point.motion, point.starts[w]);
+    Eigen::VectorXd slopes(jacobian.rows()), curvatures(jacobian.rows());
+    for (Eigen::Index k = 0; k < jacobian.rows(); ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        const RoundingLoss loss =
+            rounding_loss(place_count[i] - windows_[w].position_mm[i] / resolution_mm_, point.noise_count);
+        slopes[k] = loss.slope;
+        curvatures[k] = loss.curvature;
+    }
+    const Eigen::VectorXd gradient = jacobian.transpose() * slopes;
+    const Eigen::MatrixXd curvature = jacobian.transpose() * curvatures.asDiagonal() * jacobian;
+    constexpr int n = macro_parameter_count;
+    Sums sums{curvature.topLeftCorner<n, n>(), curvature.topRightCorner<n, 2>(),
+              curvature.bottomRightCorner<2, 2>(), gradient.head<n>(), gradient.tail<2>()};
+    const double place_std = start_std_mm(point), velocity_std = prior_width * fastest_mm_per_s_;
+    const Eigen::Vector2d precision{1.0 / (place_std * place_std), 1.0 / (velocity_std * velocity_std)};
+    sums.start_curvature.diagonal() += precision;
+    sums.start_gradient[0] += precision[0] * (point.starts[w].position_mm - windows_[w].position_mm[0]);
+    sums.start_gradient[1] += precision[1] * point.starts[w].velocity_mm_per_s;
+    return sums;
+}
+
+void MacroEstimator::refine(MacroPoint& point, const MacroActive& active, int most_iterations) const {
+    constexpr double least_gain = 1e-6, easiest = 1e-9, hardest = 1e9;
+    double damping = 1e-3, here = loss(point);
+    for (int iteration = 0; iteration < most_iterations && damping < hardest; ++iteration) {
+        std::vector<Sums> sums;
+        sums.reserve(windows_.size());
+        MacroMatrix curvature = prior_std_.cwiseAbs2().cwiseInverse().asDiagonal();
+        MacroVector centre = vector_of(point.motion);
+        centre[macro_index::log_time_constant] -= prior_log_time_constant;
+        MacroVector gradient = centre.cwiseQuotient(prior_std_.cwiseAbs2());
+        for (std::size_t w = 0; w < windows_.size(); ++w) {
+            sums.push_back(sum_up(w, point, active));
+            curvature += sums.back().curvature;
+            gradient += sums.back().gradient;
+        }
+        for (int i = 0; i < macro_parameter_count; ++i)
+            if (!active[static_cast<std::size_t>(i)]) gradient[i] = 0.0;
+        bool better = false;
+        double gained = 0.0;
+        while (!better && damping < hardest) {
+            // The window starts are eliminated first (Schur complement): each couples to the parameters only.
+            MacroMatrix reduced = curvature;
+            reduced.diagonal() *= 1.0 + damping;
+            MacroVector right = gradient;
+            std::vector<Eigen::Matrix2d> inverse(sums.size());
+            for (std::size_t w = 0; w < sums.size(); ++w) {
+                Eigen::Matrix2d damped = sums[w].start_curvature;
+                damped.diagonal() *= 1.0 + damping;
+                inverse[w] = damped.inverse();
+                reduced -= sums[w].cross * inverse[w] * sums[w].cross.transpose();
+                right -= sums[w].cross * inverse[w] * sums[w].start_gradient;
+            }
+            const MacroVector step = -reduced.ldlt().solve(right);
+            MacroPoint next = point;
+            next.motion = with_parameters(point.motion, vector_of(point.motion) + step);
+            for (std::size_t w = 0; w < sums.size(); ++w) {
+                const Eigen::Vector2d move =
+                    -inverse[w] * (sums[w].start_gradient + sums[w].cross.transpose() * step);
+                next.starts[w].position_mm += move[0];
+                next.starts[w].velocity_mm_per_s += move[1];
+            }
+            const double there = step.allFinite() && std::isfinite(next.motion.time_constant_s) &&
+                                         next.motion.time_constant_s > 0.0
+                                     ? loss(next)
+                                     : here;
+            better = there < here;
+            damping = better ? std::max(easiest, 0.1 * damping) : 10.0 * damping;
+            if (better) gained = here - there, point = std::move(next), here = there;
+        }
+        if (gained < least_gain) return;
+    }
+}
+
+MacroMatrix MacroEstimator::covariance(const MacroPoint& point, const MacroActive& active) const {
+    constexpr int n = macro_parameter_count;
+    MacroMatrix curvature = prior_std_.cwiseAbs2().cwiseInverse().asDiagonal();
+    MacroMatrix scatter = curvature;
+    double blocks = 0.0;
+    for (std::size_t w = 0; w < windows_.size(); ++w) {
+        const Sums sums = sum_up(w, point, active);
+        const Eigen::Matrix<double, 2, n> carried = sums.start_curvature.inverse() * sums.cross.transpose();
+        curvature += sums.curvature - sums.cross * carried;
+        const Eigen::MatrixXd jacobian = sensitivities(w, point, active);
+        const Eigen::MatrixXd own = jacobian.leftCols<n>() - jacobian.rightCols<2>() * carried;
+        const std::vector<double> place_count = predict(w, point.motion, point.starts[w]);
+        for (std::size_t begin = 0; begin < place_count.size(); ++blocks) {
+            const std::size_t end = end_of_block(windows_[w], begin);
+            MacroVector score = MacroVector::Zero();
+            for (; begin < end; ++begin)
+                score += rounding_loss(place_count[begin] - windows_[w].position_mm[begin] / resolution_mm_,
+                                       point.noise_count)
+                             .slope *
+                         own.row(static_cast<Eigen::Index>(begin)).transpose();
+            scatter += score * score.transpose();
+        }
+    }
+    const double unbiased = blocks > n + 1 ? blocks / (blocks - n - 1) : blocks;
+    // In units of the priors: the parameters' own differ by many powers of ten.
+    const auto unit = prior_std_.asDiagonal();
+    const MacroMatrix inverse = unit * MacroMatrix(unit * curvature * unit).inverse() * unit;
+    MacroMatrix result = inverse * (unbiased * scatter) * inverse;
+    const MacroVector widened = inverse.diagonal().cwiseQuotient(result.diagonal()).cwiseSqrt().cwiseMax(1.0);
+    result = widened.asDiagonal() * result * widened.asDiagonal();
+    for (int i = 0; i < n; ++i) {
+        if (active[static_cast<std::size_t>(i)]) continue;
+        result.row(i).setZero();
+        result.col(i).setZero();
+    }
+    return result;
+}
+
+}  // namespace fidservo::calib

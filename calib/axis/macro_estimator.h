@@ -1,0 +1,87 @@
+#pragma once
+// Maximum likelihood of the macro stage's parameters by simulation: the model runs through each window under
+// the recorded commands from a state of its own, and is judged by the counts it should have shown.
+//
+// Nothing is differentiated and no reading is fed back, so neither rounding nor a closed loop biases the fit,
+// as both do a regression of accelerations on recorded velocities. Windows keep what the model does not know
+// from adding up, as it would without bound behind an integrator.
+#include "calib/axis/macro_motion.h"
+#include "calib/axis/macro_trace.h"
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace fidservo::calib {
+
+/// Where the parameters of MacroMotion that a fit may change stand in all vectors here.
+namespace macro_index {
+inline constexpr int speed = 0, slope = 1, friction = 2, offset = 3, log_time_constant = 4;
+}
+inline constexpr int macro_parameter_count = 5;
+using MacroActive = std::array<bool, macro_parameter_count>;
+using MacroVector = Eigen::Matrix<double, macro_parameter_count, 1>;
+using MacroMatrix = Eigen::Matrix<double, macro_parameter_count, macro_parameter_count>;
+
+MacroVector vector_of(const MacroMotion& motion);
+/// `motion` with the fitted parameters replaced; friction at least 0.
+MacroMotion with_parameters(MacroMotion motion, const MacroVector& parameters);
+
+/// A model and the state in which it enters each window.
+struct MacroPoint {
+    MacroMotion motion;
+    std::vector<MacroMotionState> starts;
+    double noise_count = 1.0;
+};
+
+class MacroEstimator {
+  public:
+    /// @param windows  not empty; what they show must outlive the estimator
+    /// @param resolution_mm  of the encoder
+    MacroEstimator(std::vector<MacroWindow> windows, double resolution_mm);
+
+    /// The windows entered where they were recorded, at the velocity of their first ticks.
+    MacroPoint start_at(const MacroMotion& motion) const;
+
+    /// -log likelihood, with priors so wide (ten times what the data show) that they weigh nothing where the
+    /// data speak; they only keep undetermined directions finite.
+    double loss(const MacroPoint& point) const;
+
+    /// Levenberg-Marquardt on the active parameters and all window starts.
+    void refine(MacroPoint& point, const MacroActive& active, int most_iterations) const;
+
+    /// Root mean square of prediction minus reading, counts.
+    double residual_count(const MacroPoint& point) const;
+
+    /// Standard deviation before rounding that explains the residual, at least a twentieth of a count.
+    double noise_count(const MacroPoint& point) const;
+
+    /// Covariance of the active parameters, zero elsewhere: the sandwich H^-1 (sum of g g') H^-1 over blocks
+    /// of 50 ms, longer where the reading stands still, which holds when errors are correlated over less than
+    /// a block or the noise is not as assumed; widened to H^-1, the likelihood's own claim, where blocks are
+    /// few.
+    MacroMatrix covariance(const MacroPoint& point, const MacroActive& active) const;
+
+    const std::vector<MacroWindow>& windows() const { return windows_; }
+    double fastest_mm_per_s() const { return fastest_mm_per_s_; }
+
+  private:
+    struct Sums;
+
+    std::vector<double> predict(std::size_t window, const MacroMotion& motion,
+                                const MacroMotionState& start) const;
+    Eigen::MatrixXd sensitivities(std::size_t window, const MacroPoint& point,
+                                  const MacroActive& active) const;
+    Sums sum_up(std::size_t window, const MacroPoint& point, const MacroActive& active) const;
+    double start_loss(std::size_t window, const MacroPoint& point) const;
+    double start_std_mm(const MacroPoint& point) const;
+
+    std::vector<MacroWindow> windows_;
+    double resolution_mm_;
+    double fastest_mm_per_s_ = 0.0;
+    MacroVector prior_std_;
+    MacroVector difference_;  ///< steps of the numerical derivatives
+};
+
+}  // namespace fidservo::calib

@@ -1,0 +1,61 @@
+#pragma once
+// Identification of the macro stage from recordings: gain, time constant, dead zone, friction, offset, each
+// with its standard error, or the reason why these data do not determine it.
+#include "calib/axis/macro_motion.h"
+#include "calib/axis/macro_trace.h"
+#include "core/macro_parameters.h"
+#include "core/result.h"
+
+#include <span>
+
+namespace fidservo::calib {
+
+/// What is known of the rig beforehand: its build, not its dynamics.
+struct MacroBuild {
+    double resolution_mm;    ///< of the encoder
+    Travel travel;           ///< in the encoder's frame; infinite where the encoder's origin is unknown
+    double command_limit_V;  ///< larger recorded commands are taken as this
+    bool dead_zone;          ///< whether friction shows as a dead zone on the command
+    double unit_V;           ///< the command at which the effective voltage is 1 V, which defines the gain
+    double threshold_V;      ///< the rig file's; used for a0 where the data leave the threshold open
+};
+
+/// From a rig file. The unit is where its dead zone lets 1 V pass: 4 V on the reference rig, (1 - a0) / delta
+/// above the threshold.
+MacroBuild macro_build(const MacroParameters& macro);
+
+struct MacroEstimate {
+    double value;
+    double std;  ///< one standard error
+};
+
+/// Each of these is determined or refused by itself (Reason::not_identifiable).
+struct MacroIdentification {
+    Result<MacroEstimate> gain_mm_per_s_per_V;  ///< K: speed per effective volt, 1 V at unit_V
+    Result<MacroEstimate> time_constant_s;      ///< tau
+    Result<MacroEstimate> threshold_V;
+    Result<MacroEstimate> zone_offset_V;  ///< a0: effective voltage at the threshold, eq. (7)
+    Result<MacroEstimate> zone_slope;     ///< delta, eq. (7)
+    Result<MacroEstimate> friction_V;     ///< Coulomb friction in effective volts
+    Result<MacroEstimate> drive_offset_V;
+    bool threshold_assumed = false;  ///< a0 is for the rig file's threshold
+
+    MacroMotion motion;     ///< the fitted model
+    double residual_count;  ///< r.m.s. of prediction minus reading over the windows
+    double window_s;
+    int windows;
+    double used_s;      ///< recorded time that entered the fit
+    double left_out_s;  ///< at an end stop, or in pieces too short
+};
+
+/// Fits the model of macro_motion.h to all recordings together, closed or open loop.
+///
+/// Windows last 1 s; where the model leaves more than a count unexplained in them, they are halved, down to
+/// 0.125 s, because an unmodelled force moves a prediction by the square of time while rounding does not
+/// grow. A Coulomb friction or offset that the data cannot tell from the rest is taken as zero and refused.
+/// Fails with Reason::not_identifiable if there are no usable data at all: too short, no command, no motion;
+/// with Reason::no_convergence if no finite model follows them.
+/// @param traces  may be empty; commands and positions finite, as macro_traces gives them
+Result<MacroIdentification> identify_macro(std::span<const MacroTrace> traces, const MacroBuild& build);
+
+}  // namespace fidservo::calib

@@ -1,0 +1,75 @@
+#pragma once
+// The least-squares problem behind camera_calibration.h.
+#include "calib/camera/lens_projection.h"
+#include "calib/camera/plane_pose.h"
+#include "calib/camera/target_view.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace fidservo::calib {
+
+/// Rotation vector, shift in mm.
+using PoseBlock = std::array<double, 6>;
+using LensFlags = std::array<bool, lens_parameters>;
+
+PoseBlock block_of(const PlanePose& pose);
+PlanePose pose_of(const PoseBlock& block);
+
+/// What is adjusted.
+struct BundleState {
+    Lens lens;
+    std::vector<PoseBlock> poses;
+};
+
+struct BundleCovariance {
+    Eigen::Matrix<double, lens_parameters, lens_parameters> lens;
+    std::vector<Eigen::Matrix<double, 6, 6>> poses;
+};
+
+/// Tags in views with their weights; those that are switched off take no part.
+class Bundle {
+  public:
+    Bundle(const std::vector<TargetView>& views, double extra_std_px);
+
+    /// Adjusts the poses and the flagged parameters of the lens. Returns chi^2, or nothing without a
+    /// solution.
+    std::optional<double> adjust(BundleState& state, const LensFlags& fitted) const;
+
+    /// The same roughly, and unmoved by single tags that are far off (Huber's loss).
+    void approach(BundleState& state, const LensFlags& fitted) const;
+
+    /// Adjusts one view's pose alone. Returns its chi^2.
+    double adjust_pose(const Lens& lens, std::size_t view, PoseBlock& pose) const;
+
+    /// Empty if the Jacobian's rank is too low.
+    std::optional<BundleCovariance> covariance(BundleState state, const LensFlags& fitted) const;
+
+    /// Switches off what fits badly, and on again what no longer does; says whether that changed anything.
+    bool sort_out(const BundleState& state);
+
+    /// Seen minus modelled corners of a tag, px.
+    Eigen::Matrix<double, 8, 1> error_px(const BundleState& state, std::size_t view, std::size_t tag) const;
+
+    bool uses(std::size_t view, std::size_t tag) const { return sights_[view][tag].used; }
+    int measured_directions() const;
+
+  private:
+    struct Sight {
+        std::array<Eigen::Vector2d, 4> printed_mm;
+        Eigen::Matrix<double, 8, 1> seen_px;
+        CornerWeights weights;
+        bool used = true;
+    };
+    struct Residual;
+    struct Problem;
+    void build(Problem& problem, BundleState& state, const LensFlags& fitted, bool robust) const;
+    double mean_square(const BundleState& state, std::size_t view, std::size_t tag) const;
+
+    std::vector<std::vector<Sight>> sights_;
+};
+
+}  // namespace fidservo::calib

@@ -1,0 +1,73 @@
+#pragma once
+// A camera's lens from views of a flat target.
+#include "calib/camera/lens_projection.h"
+#include "calib/camera/plane_pose.h"
+#include "calib/camera/target_view.h"
+#include "core/camera_geometry.h"
+#include "core/result.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace fidservo::calib {
+
+using LensMask = std::array<bool, lens_parameters>;
+
+/// Focal length, principal point and k1.
+LensMask usual_lens();
+
+struct CameraCalibrationOptions {
+    int width_px = 0;
+    int height_px = 0;
+    /// Which of the lens's parameters are fitted; the others keep the values of a lens without distortion.
+    /// Empty: the usual ones, and tangential distortion, k2 and k3 as far as they improve the fit at 1 %.
+    std::optional<LensMask> fitted;
+    bool fit_focal_ratio = false;  ///< where `fitted` is empty
+    /// What is believed beforehand; the iteration starts there. Empty: from the views' homographies.
+    std::optional<CameraGeometry> start;
+    double extra_std_px = 0.0;  ///< of the corners, added to their covariances in squares
+};
+
+/// A tag's corners as seen minus as the calibrated camera shows them.
+struct SightResidual {
+    int tag_id;
+    std::array<Eigen::Vector2d, 4> seen_px;
+    std::array<Eigen::Vector2d, 4> error_px;
+    bool used;  ///< false: it fits so badly that it was left out
+};
+
+struct ViewFit {
+    std::string name;
+    PlanePose pose;
+    Eigen::Matrix<double, 6, 6> covariance;  ///< of (rotation vector of R, t)
+    double rms_px;  ///< r.m.s. distance of the used corners from where they should be
+    std::vector<SightResidual> tags;
+};
+
+struct CameraCalibration {
+    CameraGeometry camera;  ///< the lens; rotation, tilt and distance are those of the first view
+    LensMask fitted;
+    Eigen::Matrix<double, lens_parameters, lens_parameters> covariance;  ///< zero where not fitted
+    std::vector<ViewFit> views;
+    double rms_px;       ///< r.m.s. distance of the used corners, as OpenCV counts the reprojection error
+    double misfit;       ///< mean square of the residuals in their own variances, a degree of freedom
+    std::size_t unused;  ///< tags that were left out
+
+    double std_of(LensParameter parameter) const;
+};
+
+/// Bundle adjustment: weighted least squares of all measured directions of all tags' corners over the lens
+/// and a pose a view, Q = R P + t, image of Q by core/camera_geometry.h. Tags whose mean square exceeds 16
+/// times the median one are left out and the rest fitted again. Covariances are from the Jacobian, times the
+/// misfit where that is above 1. Source: Zhang, A flexible new technique for camera calibration, IEEE PAMI
+/// 22(11), 2000; Triggs et al., Bundle adjustment, a modern synthesis, 1999. Fails with
+/// Reason::not_identifiable if no view has a tag or the views do not determine the lens at all (poorly
+/// determined numbers are returned, with their standard errors), Reason::no_convergence.
+Result<CameraCalibration> calibrate_camera(const std::vector<TargetView>& views,
+                                           const CameraCalibrationOptions& options);
+
+}  // namespace fidservo::calib

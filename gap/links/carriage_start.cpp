@@ -1,0 +1,67 @@
+#include "gap/links/carriage_start.h"
+
+#include "gap/links/carriage_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+namespace fidservo::gap {
+
+namespace {
+
+/// Standard deviation of what lies outside of its count. Within it all places are equally good, also where a
+/// carriage at rest says so a hundred times.
+constexpr double noise_count = 0.05;
+/// How far the carried state may be trusted: in place by what rounding hides, in velocity by a count's way.
+constexpr double place_std_count = 0.3, coast_std_count = 1.0;
+constexpr double place_weight = 1.0 / (place_std_count * place_std_count);
+constexpr double coast_weight = 1.0 / (coast_std_count * coast_std_count);
+
+}  // namespace
+
+double start_loss(std::span<const double> error_count, const StartCorrection& done) {
+    double loss = 0.5 * (place_weight * done.place_count * done.place_count +
+                         coast_weight * done.coast_count * done.coast_count);
+    for (const double error : error_count) {
+        const double excess = beyond_rounding(error) / noise_count;
+        loss += 0.5 * excess * excess;
+    }
+    return loss;
+}
+
+StartCorrection estimate_start(std::span<const double> error_count, const StartCorrection& done,
+                               double ticks_per_tau) {
+    constexpr int most_steps = 12;
+    constexpr double enough_count = 1e-4;
+    const double weight = 1.0 / (noise_count * noise_count);
+    const double decay = std::exp(-1.0 / ticks_per_tau);
+    StartCorrection found = done;
+    for (int step = 0; step < most_steps; ++step) {
+        const double place = found.place_count - done.place_count;
+        const double coast = found.coast_count - done.coast_count;
+        Eigen::Vector2d slope(place_weight * found.place_count, coast_weight * found.coast_count);
+        Eigen::Matrix2d curvature = Eigen::Vector2d(place_weight, coast_weight).asDiagonal();
+        double left = 1.0;
+        for (const double error : error_count) {
+            const double covered = 1.0 - left;
+            left *= decay;
+            const double excess = beyond_rounding(error + place + covered * coast);
+            if (excess == 0.0) continue;
+            slope += weight * excess * Eigen::Vector2d(1.0, covered);
+            curvature(0, 0) += weight;
+            curvature(0, 1) += weight * covered;
+            curvature(1, 1) += weight * covered * covered;
+        }
+        curvature(1, 0) = curvature(0, 1);
+        const Eigen::Vector2d change = curvature.inverse() * slope;
+        found.place_count -= change.x();
+        found.coast_count -= change.y();
+        if (change.cwiseAbs().maxCoeff() < enough_count) break;
+    }
+    return found;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,181 @@
+#include "gap/residuals/remainder.h"
+
+#include "gap/balance/carriage_forces.h"
+#include "gap/balance/period_search.h"
+#include "gap/evidence/halves.h"
+#include "gap/fit/gap_size.h"
+#include "gap/residuals/accusation.h"
+#include "gap/residuals/held_carriage.h"
+#include "gap/residuals/minor_loops.h"
+#include "gap/residuals/sheared_tags.h"
+#include "gap/residuals/surrogate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fidservo::gap {
+namespace {
+
+/// What is above this is a gap, whether or not anything is found that it depends on.
+constexpr double clear_floors = 1.25;
+
+/// How much more chance is put up with where something must be found.
+constexpr double likely = 10.0;
+
+/// Errors of what was fitted on the other half, where they are judged.
+Errors held_out_errors(const Evidence& evidence, const CrossFit& explained,
+                       std::span<const std::uint8_t> half) {
+    const Wanted wanted = everything(evidence);
+    Errors errors = evidence.errors(explained.of_half[1], wanted);
+    const Errors other = evidence.errors(explained.of_half[0], wanted);
+    constexpr float not_judged = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t w = 0; w < half.size(); ++w)
+        for (std::size_t k = evidence.windows()[w].begin; k < evidence.windows()[w].end; ++k)
+            if (std::isnan(explained.mean_squares[w]))
+                errors[k] = not_judged;
+            else if (half[w] == 1)
+                errors[k] = other[k];
+    return errors;
+}
+
+/// Groups of the signal's surrogate that predict what was not fitted, and the surrogate's period.
+struct Dependences {
+    std::vector<int> groups;
+    double period_mm = 0.0;
+};
+
+/// A surrogate fitted to the errors, that may be asked with several tails.
+struct Model {
+    Regression regression;
+    double as_good;
+    double period_mm;
+
+    Dependences dependences(double tail) const {
+        return {regression.significant_groups(tail, as_good), period_mm};
+    }
+};
+
+Model model_of(const Evidence& evidence, Signal signal, const Surrogate& surrogate, const Errors& errors,
+               std::span<const std::uint8_t> half) {
+    return {Regression(evidence.windows(), signal, errors, surrogate.columns, surrogate.nuisances, half),
+            surrogate.as_good, surrogate.period_mm};
+}
+
+/// By the first tail that finds any.
+Dependences first_found(const Model& model, std::span<const double> tails) {
+    Dependences found;
+    for (const double tail : tails) {
+        found = model.dependences(tail);
+        if (!found.groups.empty()) break;
+    }
+    return found;
+}
+
+/// What friction does where the carriage hardly moves shows at the edge of the dead zone only: it is looked
+/// for there where nothing is found elsewhere, and at last where the carriage is held though it is pushed.
+Dependences dependences_of_carriage(const Evidence& evidence, const Errors& errors,
+                                    std::span<const std::uint8_t> usual_half, std::span<const double> tails) {
+    const std::vector<std::uint8_t> half = has_own_zeros(evidence)
+                                               ? halves_of_each_run(evidence)
+                                               : std::vector(usual_half.begin(), usual_half.end());
+    const std::vector<PositionPeriod> periods = strongest_periods(evidence, errors);
+    const PositionPeriod period = periods.empty() ? PositionPeriod{} : periods.front();
+    constexpr std::array edges_V{usual_edge_V, 0.0};
+    std::vector<Model> models;
+    Dependences found;
+    for (const double tail : tails) {
+        for (std::size_t k = 0; k < edges_V.size(); ++k) {
+            if (k == models.size()) {
+                const Surrogate surrogate = carriage_surrogate(evidence, errors, edges_V[k], period);
+                models.push_back(model_of(evidence, Signal::encoder, surrogate, surrogate.errors, half));
+            }
+            found = models[k].dependences(tail);
+            if (!found.groups.empty()) return found;
+        }
+        if (!carriage_is_held(evidence)) continue;
+        found.groups = {static_cast<int>(Dependence::standing)};
+        return found;
+    }
+    return found;
+}
+
+/// @param tails  of finding something by chance, each larger than the one before
+Dependences dependences(const Evidence& evidence, Signal signal, const Errors& errors,
+                        std::span<const std::uint8_t> half, std::span<const double> tails) {
+    switch (signal) {
+        case Signal::encoder:
+            return dependences_of_carriage(evidence, errors, half, tails);
+        case Signal::hall:
+            if (only_minor_loops_are_off(evidence, errors))
+                return {{static_cast<int>(Dependence::minor_loops)}};
+            return first_found(model_of(evidence, signal, platform_surrogate(evidence), errors, half), tails);
+        case Signal::tag:
+            if (tags_are_sheared(evidence, errors)) return {{static_cast<int>(Dependence::motion_by_row)}};
+            return first_found(model_of(evidence, signal, tag_surrogate(evidence, errors), errors, half),
+                               tails);
+        case Signal::macro_command:
+        case Signal::micro_command:
+        case Signal::image:
+            break;
+    }
+    return {};
+}
+
+Remainder remainder_of_signal(const SignalGap& gap, const Pattern& pattern, const Dependences& found) {
+    const Signal signal = gap.signal;
+    const auto first =
+        found.groups.empty() ? std::nullopt : std::optional(static_cast<Dependence>(found.groups.front()));
+    Remainder remainder{std::string(accused_block(pattern, signal, first)), {}, {}};
+    for (const int group : found.groups) {
+        const auto dependence = static_cast<Dependence>(group);
+        std::string name(name_of(dependence));
+        if (dependence == Dependence::position_period || dependence == Dependence::reading_period)
+            name += fmt::format(" ({:.3g} mm)", found.period_mm);
+        if (std::ranges::find(remainder.depends_on, name) == remainder.depends_on.end())
+            remainder.depends_on.push_back(std::move(name));
+    }
+    remainder.text =
+        fmt::format("{}: {:.3g} {} r.m.s. ({:.3g} floors) remain that no effect explains; {}",
+                    name_of(signal), gap.after, unit_of(signal), pattern.floors[index_of(signal)],
+                    remainder.depends_on.empty()
+                        ? std::string("nothing was found that they depend on")
+                        : fmt::format("they depend on {}", fmt::join(remainder.depends_on, ", ")));
+    return remainder;
+}
+
+}  // namespace
+
+std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail,
+                                      const SignalLimits& matters) {
+    const std::vector<std::uint8_t> half = halves(evidence);
+    const Errors errors = held_out_errors(evidence, explained, half);
+    std::vector<SignalGap> gaps = signal_gaps(evidence, explained.mean_squares, explained.mean_squares);
+    const Pattern pattern = pattern_of(evidence, gaps, errors);
+    const auto floors = [&](const SignalGap& gap) { return pattern.floors[index_of(gap.signal)]; };
+    const std::optional<Signal> suspect = false_sensor(pattern);
+    std::ranges::sort(gaps, std::greater{},
+                      [&](const SignalGap& gap) { return std::pair(gap.signal == suspect, floors(gap)); });
+    for (const SignalGap& gap : gaps) {
+        const double limit = matters[index_of(gap.signal)];
+        if (floors(gap) < least_floors || (limit > 0.0 && gap.discrepancy <= limit)) continue;
+        if (gap.signal == Signal::tag && tags_are_innocent(pattern)) continue;
+        // Where a gap is beyond doubt, what it likely depends on says more than nothing.
+        const bool is_clear = floors(gap) >= clear_floors;
+        const std::array tails{tail, likely * tail};
+        const Dependences found =
+            dependences(evidence, gap.signal, errors, half, std::span(tails).first(is_clear ? 2 : 1));
+        if (found.groups.empty() && !is_clear) continue;
+        return remainder_of_signal(gap, pattern, found);
+    }
+    return {};
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,22 @@
+#pragma once
+// A detection of a tag, with what the stages did while it was seen.
+#include "gap/evidence.h"
+#include "gap/links/tag_link.h"
+
+#include <cstddef>
+
+namespace fidservo::gap {
+
+struct TagSight {
+    std::size_t run;
+    const TagSighting& tag;
+    double position_mm;        ///< of the carriage
+    double velocity_mm_per_s;  ///< of carriage and platform together
+    double contraction_mm, time_s;
+    bool has_stood;  ///< whether nothing has moved for 100 ms, some frames
+};
+
+/// By the readings. @param detection  of a recording, as in Window::first_detection
+TagSight sight_of(const Evidence& evidence, std::size_t run, std::size_t detection);
+
+}  // namespace fidservo::gap

@@ -1,0 +1,91 @@
+#include "gap/search/chain.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fidservo::gap {
+namespace {
+
+SignalFlags only_in(const SignalFlags& all, const SignalFlags& some) {
+    SignalFlags rest{};
+    for (std::size_t s = 0; s < signal_count; ++s) rest[s] = all[s] && !some[s];
+    return rest;
+}
+
+/// Candidates of one chain that the other lacks.
+std::vector<const Candidate*> only_in(const Chain& one, const Chain& other) {
+    std::vector<const Candidate*> found = one.candidates();
+    std::erase_if(found, [&](const Candidate* candidate) {
+        return std::ranges::find(other.choices, candidate, &Choice::candidate) != other.choices.end();
+    });
+    return found;
+}
+
+/// Whether a chain is another one with a richer effect in the place of its limit.
+bool refines(const Chain& richer, const Chain& plainer) {
+    const auto more = only_in(richer, plainer), less = only_in(plainer, richer);
+    return more.size() == 1 && less.size() == 1 && is_limit_of(*less.front()->effect, *more.front()->effect);
+}
+
+}  // namespace
+
+std::vector<const Candidate*> Chain::candidates() const {
+    std::vector<const Candidate*> all;
+    for (const Choice& choice : choices) all.push_back(choice.candidate);
+    return all;
+}
+
+bool has_room_for_two(const Chain& chain, std::size_t most_effects) {
+    return chain.choices.size() + 2 <= most_effects;
+}
+
+Choice choice_of(const Search& search, const CrossFit& beside, std::vector<Trial> trials) {
+    Choice choice{.candidate = trials.front().candidate, .loss_without = beside.loss};
+    for (std::size_t k = 1; k < trials.size(); ++k)
+        if (trials[k].is_leader && !trials[k].candidate->is_limit && trials[k].gain > least_gain &&
+            search.ties(trials[0].fitted, trials[k].fitted))
+            choice.ties.push_back(trials[k].candidate);
+    choice.alternatives = std::move(trials);
+    return choice;
+}
+
+bool has_leader(const std::vector<Trial>& trials) {
+    return !trials.empty() && trials.front().is_leader;
+}
+
+Chain grown(const Search& search, Chain chain, std::vector<Trial> trials) {
+    CrossFit fitted = trials.front().fitted;
+    const Candidate& added = *trials.front().candidate;
+    const SignalFlags passed_on = only_in(search.concerned_by(added, fitted), teachers_of(*added.effect));
+    if (passed_on != SignalFlags{}) search.fit_again(fitted, passed_on);
+    chain.choices.push_back(choice_of(search, chain.fitted, std::move(trials)));
+    chain.fitted = std::move(fitted);
+    return chain;
+}
+
+Chain without(const Search& search, const Chain& chain, std::size_t left_out) {
+    Chain shorter = chain;
+    const SignalFlags concerned = search.concerned_by(*chain.choices[left_out].candidate, chain.fitted);
+    const auto at = static_cast<std::ptrdiff_t>(left_out);
+    shorter.choices.erase(shorter.choices.begin() + at);
+    for (Hypothesis& hypothesis : shorter.fitted.of_half) hypothesis.erase(hypothesis.begin() + at);
+    search.fit_again(shorter.fitted, concerned);
+    return shorter;
+}
+
+Chain rest_of(const Search& search, const Chain& chain, const SignalFlags& signals) {
+    Chain rest = chain;
+    for (std::size_t k = chain.choices.size(); k-- > 0;)
+        if (meet(teachers_of(*chain.choices[k].candidate->effect), signals)) rest = without(search, rest, k);
+    return rest;
+}
+
+bool is_better(const Search& search, const Chain& other, const Chain& chain) {
+    if (other.choices.size() < chain.choices.size() || refines(chain, other))
+        return !search.is_real(other.fitted, chain.fitted);
+    if (other.choices.size() > chain.choices.size() || refines(other, chain))
+        return search.is_real(chain.fitted, other.fitted);
+    return other.fitted.loss < chain.fitted.loss - least_gain;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,193 @@
+// How a search fits one effect closely: one way of going on after the other, as long as something is left.
+#include "gap/evidence/parallel.h"
+#include "gap/search/contender.h"
+#include "gap/search/scatter.h"
+#include "gap/search/search.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace fidservo::gap {
+namespace {
+
+/// Whether one half of the recordings has no use for a candidate.
+bool vanishes_on_a_half(const Trial& trial) {
+    return std::ranges::any_of(trial.fitted.of_half, [&](const Hypothesis& hypothesis) {
+        const plant::EffectSetting& fitted = hypothesis.back();
+        return std::ranges::all_of(trial.candidate->sizes, [&](std::size_t k) {
+            return fitted.values[k] == fitted.effect->parameters[k].vanishing;
+        });
+    });
+}
+
+/// Whether its effect displaces what the camera sees, by up to the end of a count.
+bool moves_tags(const Candidate& candidate) {
+    const plant::Part part = candidate.effect->part;
+    return part == plant::Part::encoder || plant::is_of_camera(part);
+}
+
+/// Shares of a signal's excess that have to be cleared.
+constexpr double worth_it = 0.1, worth_a_simplex = 0.5, nearly_all = 0.98;
+
+}  // namespace
+
+/// One contender's close fit. Each round begins with the contender as it is; every way that is due is tried
+/// from the best of the round, whose place it takes where it gains more.
+class Search::CloserFit {
+  public:
+    CloserFit(const Search& search, const CrossFit& base, Contender& contender, bool scatters,
+              double most_effort)
+        : search_(search),
+          base_(base),
+          contender_(contender),
+          scatters_(scatters),
+          most_effort_(most_effort),
+          is_wave_(contender.trial.candidate->wave.has_value()),
+          is_in_valleys_(has_valleys(*contender.trial.candidate)),
+          effort_at_start_(search.fitter_.evidence().effort()) {}
+
+    void run() {
+        constexpr int most_rounds = 4;
+        Finding& finding = *contender_.finding;
+        const Sought asked = scatters_ || !is_in_valleys_ ? Sought::among_many : Sought::from_there;
+        if (finding.sought >= asked || vanishes_on_a_half(contender_.trial)) return;
+        if (!clears(contender_, is_wave_ ? worth_a_simplex : worth_it)) return;
+        bool has_gone_on = finding.sought != Sought::nowhere;
+        for (int round = 0; round < most_rounds && !is_worn_out(); ++round) {
+            if (!leaves_something()) return;
+            Contender closer = after_a_round(has_gone_on);
+            has_gone_on = false;
+            if (!keep(std::move(closer))) break;
+        }
+        finding.sought = asked;
+    }
+
+  private:
+    /// @param has_gone_on  whether it has gone on from here before: it does so again only where scattering
+    ///                     finds nothing
+    Contender after_a_round(bool has_gone_on) const {
+        Contender best = contender_;
+        const auto or_else = [&](Contender other) {
+            if (other.gain() > best.gain()) best = std::move(other);
+        };
+        if (!has_gone_on) or_else(gone_on());
+        if (is_wave_ && is_worth_scattering(best)) or_else(search_.scattered(base_, best));
+        if (has_gone_on && best.gain() <= contender_.gain()) or_else(gone_on());
+        if (!is_wave_ && is_off(best)) or_else(by_slopes(close_step));
+        if (is_worth_refining(best)) or_else(search_.refined(base_, best));
+        // A spring once it is known whether it hardens.
+        if (!is_wave_ && is_worth_scattering(best)) or_else(search_.scattered(base_, best));
+        if (is_off(best)) or_else(search_.crossed(base_, best));
+        if (is_worth_a_simplex(best)) or_else(by_simplex(best, itself()));
+        if (is_worth_a_simplex_with_others(best)) or_else(by_simplex(best, contender_.fitted_places(base_)));
+        return best;
+    }
+
+    /// @return whether another round may gain more
+    bool keep(Contender closer) {
+        constexpr double worth_another = 4.0 * least_gain;
+        // Where a wave stays far off, more of the same does not help, but another valley.
+        const bool is_of_another_valley = is_wave_ && !scatters_ && is_far_off(closer);
+        const bool goes_on = !is_of_another_valley && closer.gain() >= contender_.gain() + worth_another;
+        if (closer.gain() > contender_.gain()) {
+            for (std::size_t side = 0; side < 2; ++side)
+                contender_.finding->fitted[side] = contender_.part(closer.trial.fitted.of_half[side]);
+            contender_ = std::move(closer);
+        }
+        return goes_on;
+    }
+
+    Contender gone_on() const { return is_wave_ ? by_simplex(contender_, itself()) : by_slopes(usual_step); }
+
+    Contender by_slopes(double step_scales) const {
+        return fitted_by([&](std::size_t side) {
+            return search_.fitted_from_there(base_, contender_, side, step_scales);
+        });
+    }
+
+    Contender by_simplex(const Contender& from, const Places& places) const {
+        return fitted_by([&](std::size_t side) { return search_.polished(from, side, places).hypothesis; });
+    }
+
+    template <class FitSide>
+    Contender fitted_by(const FitSide& fit_side) const {
+        Contender closer = contender_;
+        parallel_for(2, [&](std::size_t side) { closer.trial.fitted.of_half[side] = fit_side(side); });
+        search_.judge_both_halves(base_, closer);
+        return closer;
+    }
+
+    /// In what it is taught by, and in what only passes the change on: tags can tell more closely how the
+    /// carriage moves than counts.
+    bool leaves_something() const {
+        return meet(search_.off(contender_.trial.fitted),
+                    reached_by({contender_.trial.fitted.of_half[0].back()}));
+    }
+
+    bool is_worth_scattering(const Contender& best) const {
+        return is_in_valleys_ && scatters_ && is_far_off(best) && clears(best, nearly_all);
+    }
+
+    /// Of a wave its harmonic, once it is in its valley or has been looked for among many values. Where
+    /// nothing is let go by jumps a form is seen from further off.
+    bool is_worth_refining(const Contender& best) const {
+        if (!is_off(best) || is_worn_out() || (is_wave_ && !scatters_ && is_far_off(best))) return false;
+        if (is_wave_ && !scatters_) return clears(best, in_its_valley);
+        return clears(best, contender_.teachers()[index_of(Signal::encoder)] ? 0.9 : 0.5);
+    }
+
+    bool is_worth_a_simplex(const Contender& best) const {
+        return !is_wave_ && is_off(best) && !is_worn_out() &&
+               (moves_tags(*contender_.trial.candidate) || clears(best, nearly_all));
+    }
+
+    bool is_worth_a_simplex_with_others(const Contender& best) const {
+        return is_off(best) && !is_worn_out() && !contender_.coupled.empty() && clears(best, nearly_all);
+    }
+
+    bool clears(const Contender& contender, double share) const {
+        return search_.clears_a_signal(base_, contender.trial.fitted, share);
+    }
+    bool is_off(const Contender& contender) const {
+        return meet(search_.off(contender.trial.fitted), contender.teachers());
+    }
+    bool is_far_off(const Contender& contender) const {
+        return meet(search_.far_off(contender.trial.fitted), contender.teachers());
+    }
+    bool is_worn_out() const { return search_.fitter_.evidence().effort() - effort_at_start_ > most_effort_; }
+    Places itself() const { return {base_.of_half[0].size()}; }
+
+    const Search& search_;
+    const CrossFit& base_;
+    Contender& contender_;
+    bool scatters_;
+    double most_effort_;
+    bool is_wave_, is_in_valleys_;
+    double effort_at_start_;
+};
+
+void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatters,
+                        double share_of_effort) const {
+    if (options_.tell) options_.tell(fmt::format("{} closer", contender.trial.candidate->effect->name));
+    CloserFit(*this, base, contender, scatters, share_of_effort * options_.most_effort).run();
+}
+
+CrossFit Search::closer(const CrossFit& base, CrossFit whole, const Candidate& last) const {
+    constexpr double share_of_effort = 0.5;
+    CrossFit rest = base;
+    for (std::size_t side = 0; side < 2; ++side)
+        rest.of_half[side].assign(whole.of_half[side].begin(), whole.of_half[side].end() - 1);
+    Finding finding;
+    Contender contender{{.candidate = &last, .gain = base.loss - whole.loss, .fitted = std::move(whole)},
+                        coupled_with(rest.of_half[0], *last.effect),
+                        &finding};
+    for (std::size_t side = 0; side < 2; ++side)
+        finding.fitted[side] = contender.part(contender.trial.fitted.of_half[side]);
+    fit_closer(rest, contender, true, share_of_effort);
+    return std::move(contender.trial.fitted);
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,387 @@
+#include "gap/search/everything.h"
+
+#include "core/median.h"
+#include "gap/balance/force_balance.h"
+#include "gap/fit/fit.h"
+#include "gap/fit/minimum_norm.h"
+#include "gap/fit/predictive_density.h"
+#include "gap/fit/score.h"
+#include "gap/search/shape_screening.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <mutex>
+#include <set>
+#include <utility>
+
+namespace fidservo::gap {
+namespace {
+
+/// Standard deviation of sizes about nothing, in typical ones.
+constexpr double expected_sizes = 3.0;
+
+/// What a size has to be worth to be kept: twice it is the square of a normal deviate, here of one in 200.
+constexpr double least_worth = 4.0;
+
+/// Predictions of which only what some settings reach is predicted anew.
+class Incremental {
+  public:
+    Incremental(const Evidence& evidence, const Hypothesis& beside, const Wanted& wanted)
+        : evidence_(evidence), beside_(beside), wanted_(wanted) {}
+
+    Errors operator()(const Hypothesis& settings) {
+        Hypothesis changed, whole = beside_;
+        whole.insert(whole.end(), settings.begin(), settings.end());
+        Errors known;
+        {
+            const std::scoped_lock lock(access_);
+            if (known_at_.size() == settings.size()) {
+                for (std::size_t k = 0; k < settings.size(); ++k)
+                    if (!(settings[k] == known_at_[k])) changed.push_back(settings[k]);
+                if (changed.size() <= 1) known = known_;
+            }
+        }
+        if (known.empty()) {
+            Errors errors = evidence_.errors(whole, wanted_);
+            const std::scoped_lock lock(access_);
+            known_at_ = settings;
+            known_ = errors;
+            return errors;
+        }
+        if (changed.empty()) return known;
+        const Wanted reached = only_of(evidence_.windows(), wanted_, reached_by(changed));
+        const Errors errors = evidence_.errors(whole, reached);
+        if (errors.empty()) return errors;
+        const std::vector<Window>& windows = evidence_.windows();
+        for (std::size_t w = 0; w < windows.size(); ++w)
+            if (reached[w] != 0)
+                std::copy(errors.begin() + static_cast<std::ptrdiff_t>(windows[w].begin),
+                          errors.begin() + static_cast<std::ptrdiff_t>(windows[w].end),
+                          known.begin() + static_cast<std::ptrdiff_t>(windows[w].begin));
+        return known;
+    }
+
+  private:
+    const Evidence& evidence_;
+    const Hypothesis& beside_;
+    const Wanted& wanted_;
+    std::mutex access_;
+    Hypothesis known_at_;
+    Errors known_;
+};
+
+/// A fit is near where half of the windows that were off at its start are at less than this mean square.
+constexpr double near_square = 2.0;
+
+double median_square(const std::vector<double>& all, const Wanted& leading) {
+    std::vector<double> squares;
+    for (std::size_t w = 0; w < all.size(); ++w)
+        if (leading[w] != 0 && !std::isnan(all[w])) squares.push_back(all[w]);
+    return squares.empty() ? 0.0 : median_of(std::move(squares));
+}
+
+double median_square(const Evidence& evidence, const Errors& errors, const Wanted& leading) {
+    return median_square(mean_squares(evidence.windows(), errors), leading);
+}
+
+/// The windows by which it is told how far off a fit still is: of the signal that is furthest off, those of
+/// which predictions are off at the start; what stands still is predicted by anything.
+Wanted windows_off(const Evidence& evidence, const Wanted& wanted, const Errors& errors) {
+    const std::vector<Window>& windows = evidence.windows();
+    const std::vector<double> squares = mean_squares(windows, errors);
+    Wanted furthest(windows.size(), 0);
+    double most = 0.0;
+    for (const Signal signal : {Signal::encoder, Signal::hall, Signal::tag}) {
+        Wanted leading = only_of(windows, wanted, only(signal));
+        for (std::size_t w = 0; w < windows.size(); ++w)
+            if (!(squares[w] > near_square)) leading[w] = 0;
+        const double square = median_square(squares, leading);
+        if (square <= most) continue;
+        most = square;
+        furthest = std::move(leading);
+    }
+    return furthest;
+}
+
+/// From wherever it begins to where nothing gets better, at levels that follow what is left.
+Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
+                      const Wanted& leading, Hypothesis start, double sizes) {
+    constexpr int most_levels = 6, iterations_a_level = 8;
+    constexpr double hardly_less = 0.5, tolerance = 0.02;
+    double last = std::numeric_limits<double>::infinity();
+    for (int level = 0; level < most_levels; ++level) {
+        const double square = median_square(evidence, predict(start), leading);
+        if (square < near_square || square > hardly_less * last) break;
+        last = square;
+        start = fit(predict, evidence.windows(), wanted, start,
+                    {.most_iterations = iterations_a_level,
+                     .tolerance = tolerance,
+                     .keeps_slopes = true,
+                     .scale_floors = std::sqrt(1.0 + square),
+                     .expected_sizes = sizes})
+                    .hypothesis;
+    }
+    return start;
+}
+
+Fit fitted_closely(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
+                   const Hypothesis& start, double sizes, double scale_floors, int most_iterations) {
+    constexpr double tolerance = 1e-6, hardly_worth = 0.01 * least_worth;
+    return fit(predict, evidence.windows(), wanted, start,
+               {.most_iterations = most_iterations,
+                .tolerance = tolerance,
+                .least_improvement = hardly_worth,
+                .with_covariance = true,
+                .keeps_slopes = true,
+                .scale_floors = scale_floors,
+                .expected_sizes = sizes});
+}
+
+/// The places of each setting's sizes among all parameters, and their distances from nothing in scales.
+struct Sizes {
+    std::vector<std::vector<Eigen::Index>> at;
+    Eigen::VectorXd typical;
+
+    Sizes(std::span<const Candidate* const> candidates, const Fit& fitted) : at(candidates.size()) {
+        std::vector<double> all;
+        for (std::size_t c = 0; c < candidates.size(); ++c) {
+            const plant::EffectSetting& setting = fitted.hypothesis[c];
+            for (std::size_t k = 0; k < setting.values.size(); ++k) {
+                const plant::EffectParameter& parameter = setting.effect->parameters[k];
+                if (std::ranges::find(candidates[c]->sizes, k) != candidates[c]->sizes.end())
+                    at[c].push_back(static_cast<Eigen::Index>(all.size()));
+                all.push_back(setting.values[k] - parameter.vanishing);
+            }
+        }
+        typical = Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+    }
+
+    /// What some candidates are worth together beside the others.
+    double worth(const std::vector<std::size_t>& left_out, const Eigen::MatrixXd& covariance) const {
+        std::vector<Eigen::Index> places;
+        for (const std::size_t c : left_out) places.insert(places.end(), at[c].begin(), at[c].end());
+        const Eigen::VectorXd sizes = typical(places);
+        const Eigen::MatrixXd own = covariance(places, places);
+        return 0.5 * sizes.dot(minimum_norm_solution(own, sizes));
+    }
+};
+
+/// How much more than where noise is all that is left a candidate has to be worth: as many times as the
+/// windows that teach it are fewer independent ones, where something is left that they share.
+class Demand {
+  public:
+    /// Where noise is taken for all that is left.
+    Demand() { times_.fill(1.0); }
+
+    /// @param errors  in the windows wanted, by everything
+    Demand(const Evidence& evidence, const Wanted& wanted, const Errors& errors) : Demand() {
+        const std::vector<Window>& windows = evidence.windows();
+        std::vector<double> squares = mean_squares(windows, errors);
+        std::array<std::set<std::size_t>, signal_count> runs;
+        std::array<double, signal_count> count{}, expected{};
+        for (std::size_t w = 0; w < windows.size(); ++w) {
+            if (wanted[w] == 0) squares[w] = std::numeric_limits<double>::quiet_NaN();
+            if (std::isnan(squares[w])) continue;
+            const std::size_t signal = index_of(windows[w].signal);
+            runs[signal].insert(windows[w].run);
+            count[signal] += 1.0;
+            expected[signal] += windows[w].expected_square;
+        }
+        const Discrepancy left = discrepancy_of(windows, squares);
+        for (std::size_t s = 0; s < signal_count; ++s)
+            if (count[s] > 0.0)
+                times_[s] = 1.0 / independent_share(count[s] / static_cast<double>(runs[s].size()),
+                                                    expected[s] / count[s], left[s]);
+    }
+
+    /// Of the signal that tells most of it.
+    double worth_of(const Candidate& candidate) const {
+        const SignalFlags teachers = teachers_of(*candidate.effect);
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t s = 0; s < signal_count; ++s)
+            if (teachers[s]) least = std::min(least, times_[s]);
+        return least_worth * (std::isfinite(least) ? least : 1.0);
+    }
+
+  private:
+    std::array<double, signal_count> times_{};
+};
+
+/// Those candidates that remain when what is worth least, over what is demanded of it, is taken away, one
+/// after the other.
+std::vector<std::size_t> kept(std::span<const Candidate* const> candidates, const Fit& fitted,
+                              const Demand& demand) {
+    const Sizes sizes(candidates, fitted);
+    std::vector<std::size_t> rest(candidates.size()), left_out;
+    for (std::size_t c = 0; c < rest.size(); ++c) rest[c] = c;
+    double lost = 0.0;
+    while (!rest.empty()) {
+        double least = std::numeric_limits<double>::infinity(), lost_with_it = lost;
+        std::size_t at = 0;
+        for (std::size_t k = 0; k < rest.size(); ++k) {
+            std::vector<std::size_t> without = left_out;
+            without.push_back(rest[k]);
+            const double worth = sizes.worth(without, fitted.curvature_covariance);
+            const double share = (worth - lost) / demand.worth_of(*candidates[rest[k]]);
+            if (share < least) {
+                least = share;
+                lost_with_it = worth;
+                at = k;
+            }
+        }
+        if (least >= 1.0) break;
+        lost = std::max(lost, lost_with_it);
+        left_out.push_back(rest[at]);
+        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(at));
+    }
+    return rest;
+}
+
+/// What every candidate is worth beside the others.
+std::vector<double> worth_of_each(std::span<const Candidate* const> candidates, const Fit& fitted) {
+    const Sizes sizes(candidates, fitted);
+    std::vector<double> worth;
+    for (std::size_t c = 0; c < candidates.size(); ++c)
+        worth.push_back(sizes.worth({c}, fitted.curvature_covariance));
+    return worth;
+}
+
+/// Some of the candidates, with their settings.
+struct Chosen {
+    std::vector<const Candidate*> candidates;
+    Hypothesis settings;
+
+    void keep(const std::vector<std::size_t>& places) {
+        Chosen rest;
+        for (const std::size_t c : places) {
+            rest.candidates.push_back(candidates[c]);
+            rest.settings.push_back(settings[c]);
+        }
+        *this = std::move(rest);
+    }
+};
+
+/// All candidates without a shape of their own, as large as nothing, and those begun as they are.
+Chosen begun_with(std::span<const Candidate* const> candidates, const Hypothesis& begun) {
+    Chosen chosen;
+    for (const Candidate* candidate : candidates) {
+        const auto known = std::ranges::find(begun, candidate->effect, &plant::EffectSetting::effect);
+        if (known == begun.end() && has_a_shape(*candidate)) continue;
+        chosen.candidates.push_back(candidate);
+        chosen.settings.push_back(known != begun.end() ? *known
+                                                       : of_size(*candidate, candidate->shapes.front(), 0.0));
+    }
+    return chosen;
+}
+
+}  // namespace
+
+bool is_smooth(const Candidate& candidate) {
+    const SignalFlags teachers = teachers_of(*candidate.effect);
+    const bool is_taught_smoothly = teachers[index_of(Signal::hall)] || teachers[index_of(Signal::tag)];
+    return is_taught_smoothly && !candidate.is_limit;
+}
+
+bool is_smooth_of_carriage(const Candidate& candidate) {
+    return shows_in_balance(*candidate.effect) && !candidate.wave && !candidate.patch &&
+           !candidate.is_limit && candidate.step_within_counts == 0.0;
+}
+
+NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
+                                      const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
+                                      const std::array<Wanted, 2>& wanted) {
+    // Most of what is not needed shows before values are known closely.
+    constexpr int at_first = 4, then = 15;
+    std::array<Incremental, 2> incremental{Incremental(evidence, beside[0], wanted[0]),
+                                           Incremental(evidence, beside[1], wanted[1])};
+    const std::array<Predict, 2> predict{std::ref(incremental[0]), std::ref(incremental[1])};
+    Chosen chosen = begun_with(candidates, begun);
+    const Wanted leading = windows_off(evidence, wanted[0], predict[0](chosen.settings));
+    chosen.settings =
+        approached(evidence, predict[0], wanted[0], leading, std::move(chosen.settings), expected_sizes);
+    const double square = median_square(evidence, predict[0](chosen.settings), leading);
+    const bool is_near = square < near_square;
+    if (!is_near && begun.empty()) return {};
+    const double scale_floors = is_near ? 1.0 : std::sqrt(1.0 + square);
+    std::array<Fit, 2> fitted;
+    const auto fit_half = [&](std::size_t side, double sizes, int most_iterations) {
+        fitted[side] = fitted_closely(evidence, predict[side], wanted[side], chosen.settings, sizes,
+                                      scale_floors, most_iterations);
+    };
+    const auto fit_first = [&](double sizes, int most_iterations) {
+        fit_half(0, sizes, most_iterations);
+        chosen.settings = fitted[0].hypothesis;
+    };
+    Demand demand;
+    /// Whether anything was taken away.
+    const auto prune = [&] {
+        const std::vector<std::size_t> rest = kept(chosen.candidates, fitted[0], demand);
+        const bool is_less = rest.size() < chosen.candidates.size();
+        chosen.keep(rest);
+        return is_less;
+    };
+    fit_first(expected_sizes, at_first);
+    prune();
+    if (chosen.candidates.empty()) return {};
+    demand = Demand(evidence, wanted[0], predict[0](chosen.settings));
+    std::vector<double> worth;
+    for (bool is_all = false; !is_all;) {
+        do {
+            fit_first(0.0, then);
+        } while (prune() && !chosen.candidates.empty());
+        if (chosen.candidates.empty()) return {};
+        fit_half(1, 0.0, then);
+        const std::vector<double> here = worth_of_each(chosen.candidates, fitted[0]),
+                                  there = worth_of_each(chosen.candidates, fitted[1]);
+        std::vector<std::size_t> rest;
+        worth.clear();
+        for (std::size_t c = 0; c < here.size(); ++c) {
+            worth.push_back(here[c] + there[c]);
+            if (std::min(here[c], there[c]) >= demand.worth_of(*chosen.candidates[c])) rest.push_back(c);
+        }
+        is_all = rest.size() == here.size();
+        chosen.keep(rest);
+        if (chosen.candidates.empty()) return {};
+    }
+    return {chosen.candidates, {fitted[0].hypothesis, fitted[1].hypothesis}, std::move(worth)};
+}
+
+Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,
+                            std::span<const plant::EffectSetting> waves, const Hypothesis& beside,
+                            const Hypothesis& begun, const Wanted& wanted) {
+    constexpr double share_of_best = 0.5;
+    constexpr double worth_a_fit = 0.2;  // of the loss, of a wave: errors show one of many periods by chance
+    const Predict predict = [&](const Hypothesis& settings) {
+        Hypothesis whole = beside;
+        whole.insert(whole.end(), settings.begin(), settings.end());
+        return evidence.errors(whole, wanted);
+    };
+    const Chosen others = begun_with(candidates, begun);
+    std::vector<const Candidate*> shaped;
+    std::vector<GridPoint> grid;
+    for (const Candidate* candidate : candidates) {
+        if (std::ranges::find(others.candidates, candidate) != others.candidates.end()) continue;
+        if (!candidate->wave) shaped.push_back(candidate);
+        for (const plant::EffectSetting& wave : waves)
+            if (wave.effect == candidate->effect) grid.push_back({candidate, wave.values});
+    }
+    std::ranges::move(grid_of(shaped), std::back_inserter(grid));
+    const Errors errors = predict(others.settings);
+    const double square = median_square(evidence, errors, windows_off(evidence, wanted, errors));
+    const double enough_for_a_wave = worth_a_fit * total_loss(evidence.windows(), wanted, errors);
+    Hypothesis best;
+    double most = 0.0;
+    for (const ScreenedShape& shape : screened_shapes(predict, evidence.windows(), wanted, others.settings,
+                                                      grid, std::sqrt(1.0 + square), expected_sizes)) {
+        if (shape.candidate->wave && shape.gain < enough_for_a_wave) continue;
+        most = std::max(most, shape.gain);
+        if (shape.gain >= share_of_best * most) best.push_back(shape.setting);
+    }
+    return best;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,194 @@
+#include "gap/search/first_sight.h"
+
+#include "gap/evidence/parallel.h"
+#include "gap/fit/minimum_norm.h"
+#include "gap/fit/score.h"
+#include "gap/fit/slopes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Dense>
+
+namespace fidservo::gap {
+namespace {
+
+/// What moves, by some scales.
+Hypothesis moved(const ScaledParameters& parameters, const Eigen::VectorXd& scales) {
+    std::vector<double> values = parameters.values;
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += scales(static_cast<Eigen::Index>(k));
+    return parameters.at(values);
+}
+
+/// What moves, by some scales, then the candidate.
+Hypothesis moved(const Surroundings& beside, const Eigen::VectorXd& scales, plant::EffectSetting added) {
+    Hypothesis part = moved(beside.parameters, scales);
+    part.push_back(std::move(added));
+    return part;
+}
+
+/// Whether a size may lie to either side of none.
+bool has_other_side(const Candidate& candidate) {
+    return std::ranges::any_of(candidate.sizes, [&](std::size_t k) {
+        const plant::EffectParameter& parameter = candidate.effect->parameters[k];
+        return parameter.low < parameter.vanishing;
+    });
+}
+
+/// Errors with such shares of the changes.
+Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen::VectorXd& shares) {
+    Errors sum = base;
+    for (std::size_t k = 0; k < changes.size(); ++k)
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += static_cast<float>(shares(static_cast<Eigen::Index>(k))) * changes[k][i];
+    return sum;
+}
+
+/// Shares of some changes that make the errors smallest, weighted by the loss at the base.
+Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& counted, const Errors& base,
+                            const std::vector<Errors>& changes) {
+    const auto width = static_cast<Eigen::Index>(changes.size());
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(width, width);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(width), change(width);
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        if (counted[w] == 0) continue;
+        Eigen::MatrixXd own = Eigen::MatrixXd::Zero(width, width);
+        Eigen::VectorXd own_right = Eigen::VectorXd::Zero(width);
+        double squares = 0.0, count = 0.0;
+        for (std::size_t row = windows[w].begin; row < windows[w].end; ++row) {
+            if (std::isnan(base[row])) continue;
+            for (Eigen::Index k = 0; k < width; ++k) {
+                const float value = changes[static_cast<std::size_t>(k)][row];
+                change(k) = std::isfinite(value) ? value : 0.0F;
+            }
+            own.selfadjointView<Eigen::Lower>().rankUpdate(change);
+            own_right -= static_cast<double>(base[row]) * change;
+            squares += static_cast<double>(base[row]) * base[row];
+            count += 1.0;
+        }
+        if (count == 0.0) continue;
+        normal += own / (count + squares);
+        right += own_right / (count + squares);
+    }
+    const Eigen::MatrixXd full = normal.selfadjointView<Eigen::Lower>();
+    return minimum_norm_solution(full, right);
+}
+
+}  // namespace
+
+plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>& shape,
+                           const Eigen::VectorXd& shares) {
+    std::vector<double> values = shape;
+    for (std::size_t k = 0; k < candidate.sizes.size(); ++k) {
+        const std::size_t at = candidate.sizes[k];
+        const plant::EffectParameter& parameter = candidate.effect->parameters[at];
+        values[at] = std::clamp(
+            parameter.vanishing + shares(static_cast<Eigen::Index>(k)) * (shape[at] - parameter.vanishing),
+            parameter.low, parameter.high);
+    }
+    return {candidate.effect, std::move(values)};
+}
+
+Surroundings surroundings(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
+                          const Hypothesis& base, const Errors& base_errors, const Places& places) {
+    Surroundings beside{base, base_errors, places, ScaledParameters(part_of(base, places)), {}, {}};
+    const Predict predict_part = [&](const Hypothesis& part) {
+        return predict(with_part(base, places, part));
+    };
+    beside.slopes.resize(beside.parameters.size());
+    parallel_for(beside.slopes.size(), [&](std::size_t k) {
+        beside.slopes[k] = slope(predict_part, beside.parameters, k, base_errors);
+    });
+    if (!beside.slopes.empty())
+        beside.moved =
+            predict_part(moved(beside.parameters, best_shares(windows, counted, base_errors, beside.slopes)));
+    return beside;
+}
+
+Promise promise_of(plant::EffectSetting setting, const Predict& predict, std::span<const Window> windows,
+                   const Wanted& counted, const Surroundings& beside, std::span<const double> base_squares) {
+    Hypothesis part = part_of(beside.base, beside.places);
+    part.push_back(std::move(setting));
+    const double gain =
+        gained(windows, counted, base_squares, predict(extended(beside.base, beside.places, part)));
+    return {std::move(part), gain};
+}
+
+std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
+                                    const Wanted& counted, const Surroundings& beside,
+                                    const Candidate& candidate) {
+    constexpr double probe = 0.25;  // of the typical size
+    constexpr double hopeless_gain = 0.4 * least_gain;
+    constexpr double further = 2.5, furthest = 100.0;
+    constexpr std::size_t most_places = 8, most_starts = 4;
+    const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
+    const auto moving = static_cast<Eigen::Index>(beside.slopes.size());
+    const Eigen::VectorXd unmoved = Eigen::VectorXd::Zero(moving);
+    struct Place {
+        std::vector<double> shape;
+        Eigen::VectorXd steps;  ///< scales of what moves, then shares of the sizes
+        double expected_gain;   ///< if errors changed in proportion to them
+        double probe_gain;      ///< of a small size, really
+    };
+    const std::vector<double> base_squares = mean_squares(windows, beside.errors);
+    const double without =
+        beside.moved.empty() ? 0.0 : std::max(0.0, gained(windows, counted, base_squares, beside.moved));
+    std::vector<Place> places;
+    const auto is_hopeless = [&](const Place& place) {
+        return place.expected_gain - without < hopeless_gain && place.probe_gain <= 0.0;
+    };
+    const auto probed = [&](const std::vector<double>& shape, double share) -> std::optional<Place> {
+        std::vector<Errors> changes = beside.slopes;
+        double probe_gain = -std::numeric_limits<double>::infinity();
+        for (Eigen::Index k = 0; k < width; ++k) {
+            const Hypothesis part =
+                moved(beside, unmoved, sized(candidate, shape, share * Eigen::VectorXd::Unit(width, k)));
+            Errors change = predict(extended(beside.base, beside.places, part));
+            if (change.empty()) return {};
+            probe_gain = std::max(probe_gain, gained(windows, counted, base_squares, change));
+            for (std::size_t i = 0; i < change.size(); ++i)
+                change[i] = (change[i] - beside.errors[i]) / static_cast<float>(share);
+            changes.push_back(std::move(change));
+        }
+        const Eigen::VectorXd steps = best_shares(windows, counted, beside.errors, changes);
+        const double expected = gained(windows, counted, base_squares, added(beside.errors, changes, steps));
+        return Place{shape, steps, expected, probe_gain};
+    };
+    for (const std::vector<double>& shape : candidate.shapes) {
+        std::optional<Place> place = probed(shape, probe);
+        // What a wire that is cold cannot do to one side says nothing of the other one.
+        if (place && is_hopeless(*place) && has_other_side(candidate)) place = probed(shape, -probe);
+        if (place && !is_hopeless(*place)) places.push_back(*std::move(place));
+    }
+    std::ranges::sort(places, std::greater{}, &Place::expected_gain);
+    if (places.size() > most_places / 2)  // the others by what is not extrapolated
+        std::ranges::sort(places.begin() + most_places / 2, places.end(), std::greater{}, &Place::probe_gain);
+    std::vector<Promise> starts;
+    for (std::size_t p = 0; p < std::min(places.size(), most_places); ++p) {
+        Promise best{{}, -std::numeric_limits<double>::infinity()};
+        const Eigen::VectorXd with_rest = places[p].steps.head(moving), sizes = places[p].steps.tail(width);
+        const auto look = [&](const Eigen::VectorXd& rest, const Eigen::VectorXd& shares) {
+            Hypothesis there = moved(beside, rest, sized(candidate, places[p].shape, shares));
+            const double gain =
+                gained(windows, counted, base_squares, predict(extended(beside.base, beside.places, there)));
+            const bool is_best = best.start.empty() || gain > best.gain;
+            if (is_best) best = {std::move(there), gain};
+            return is_best;
+        };
+        for (const double part : {1.0, 0.4}) look(part * with_rest, part * sizes);
+        // Far off, what is best nearby is too little by far: on as long as it becomes better.
+        for (double part = further; part < furthest && look(part * with_rest, part * sizes);) part *= further;
+        if (moving > 0) look(unmoved, sizes);
+        if (best.gain - without < hopeless_gain) look(unmoved, Eigen::VectorXd::Ones(width));
+        starts.push_back(best);
+    }
+    std::ranges::sort(starts, std::greater{}, &Promise::gain);
+    std::erase_if(starts, [&](const Promise& start) { return start.gain - without < hopeless_gain; });
+    if (starts.size() > most_starts) starts.resize(most_starts);
+    return starts;
+}
+
+}  // namespace fidservo::gap

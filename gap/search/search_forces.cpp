@@ -1,0 +1,250 @@
+// An explanation of the carriage from where its forces balance.
+#include "core/rig.h"
+#include "gap/balance/force_regression.h"
+#include "gap/evidence/halves.h"
+#include "gap/evidence/parallel.h"
+#include "gap/fit/polish.h"
+#include "gap/fit/score.h"
+#include "gap/search/everything.h"
+#include "gap/search/scatter.h"
+#include "gap/search/search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace fidservo::gap {
+namespace {
+
+/// Of the effort of a search, after which what balances the forces is given up.
+constexpr double share_for_forces = 0.3;
+
+std::size_t place_of_least(const std::vector<double>& values) {
+    return static_cast<std::size_t>(std::ranges::min_element(values) - values.begin());
+}
+
+/// A setting, and with each refinement that its effect may have, and each other choice.
+std::vector<plant::EffectSetting> with_refinements(const plant::EffectSetting& setting) {
+    std::vector<plant::EffectSetting> all{setting};
+    const auto add = [&](std::size_t parameter, double value) {
+        all.push_back(setting);
+        all.back().values[parameter] = value;
+    };
+    for (const Refinement& refinement : refinements_of(*setting.effect))
+        for (const double value : refinement.values) add(refinement.parameter, value);
+    for (std::size_t k = 0; k < setting.values.size(); ++k) {
+        const plant::EffectParameter& parameter = setting.effect->parameters[k];
+        if (parameter.is_choice())
+            add(k, parameter.is_high(setting.values[k]) ? parameter.low : parameter.high);
+    }
+    return all;
+}
+
+/// A model as it is, and with one of its effects in another form: plainer, richer, or refined. The balance
+/// does not see how a carriage stands.
+std::vector<BalancedModel> forms_of(const BalancedModel& model, const std::vector<Candidate>& candidates,
+                                    const MacroParameters& rail) {
+    std::vector<BalancedModel> forms{model};
+    for (std::size_t at = 0; at < model.settings.size(); ++at) {
+        const auto add = [&](const Candidate& candidate, const plant::EffectSetting& plain) {
+            for (plant::EffectSetting& setting : with_refinements(plain)) {
+                forms.push_back(model);
+                forms.back().candidates[at] = &candidate;
+                forms.back().settings[at] = std::move(setting);
+            }
+        };
+        add(*model.candidates[at], model.settings[at]);
+        for (const Candidate& other : candidates) {
+            if (std::ranges::find(model.candidates, &other) != model.candidates.end()) continue;
+            for (const plant::EffectSetting& form : rich_forms(model.settings[at], other)) add(other, form);
+            if (is_limit_of(*other.effect, *model.candidates[at]->effect) && !other.is_limit)
+                add(other, plain_form(model.settings[at], rail));
+        }
+    }
+    return forms;
+}
+
+/// A model's candidates, and what else is smooth and is neither a form of one of these nor of another.
+std::vector<const Candidate*> smooth_beside(const BalancedModel& model,
+                                            const std::vector<Candidate>& candidates) {
+    std::vector<const Candidate*> all = model.candidates;
+    for (const Candidate& candidate : candidates) {
+        const auto is_a_form = [&](const Candidate* other) {
+            return other->class_name == candidate.class_name ||
+                   is_limit_of(*other->effect, *candidate.effect) ||
+                   is_limit_of(*candidate.effect, *other->effect);
+        };
+        if (is_smooth_of_carriage(candidate) && std::ranges::none_of(all, is_a_form))
+            all.push_back(&candidate);
+    }
+    return all;
+}
+
+/// Models where the carriage is followed with them, beside what is known, in one half of the windows. What
+/// is asked once the effort is spent is worth nothing.
+class FollowedHalf {
+  public:
+    FollowedHalf(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted, double most_effort)
+        : evidence_(evidence),
+          known_(known),
+          wanted_(wanted),
+          most_effort_(most_effort),
+          predict_(predictor(wanted)) {}
+
+    double loss(const Hypothesis& settings) const {
+        return total_loss(evidence_.windows(), wanted_, predict_(settings));
+    }
+
+    std::vector<double> losses(const std::vector<BalancedModel>& models) const {
+        std::vector<double> losses(models.size());
+        parallel_for(models.size(), [&](std::size_t k) { losses[k] = loss(models[k].settings); });
+        return losses;
+    }
+
+    Fit fitted(const Hypothesis& settings) const {
+        return fit(predict_, evidence_.windows(), wanted_, settings);
+    }
+
+    /// The best of many drawn around some settings: forces along the rail have many small valleys.
+    /// @param windows  that are looked at
+    Hypothesis scattered(const Hypothesis& settings, std::size_t windows) const {
+        constexpr double spread = 0.25;  // the balance tells much more than a guess
+        Places all(settings.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        const std::vector<Window>& from = evidence_.windows();
+        const Wanted telling = instructive(from, wanted_, mean_squares(from, predict_(settings)), windows);
+        const Fit drawn = scatter(predictor(telling), from, telling, settings, all, spread);
+        return polish(predictor(telling), from, telling, drawn.hypothesis, all).hypothesis;
+    }
+
+    /// The first of some forms of a model, fitted; or another one that follows the carriage better, by more
+    /// than chance, of those that do best unfitted.
+    BalancedModel best_form(std::vector<BalancedModel> forms, double tail) const {
+        constexpr std::size_t most_fitted = 4;
+        const double chance = std::log(static_cast<double>(forms.size()) / tail);
+        const std::vector<double> unfitted = losses(forms);
+        std::vector<std::size_t> order(forms.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::stable_sort(order.begin() + 1, order.end(), {},
+                                 [&](std::size_t form) { return unfitted[form]; });
+        order.resize(std::min(order.size(), most_fitted));
+        std::vector<double> left(order.size());
+        parallel_for(order.size(), [&](std::size_t k) {
+            Fit closer = fitted(forms[order[k]].settings);
+            forms[order[k]].settings = std::move(closer.hypothesis);
+            left[k] = closer.loss;
+        });
+        const std::size_t least = place_of_least(left);
+        return forms[order[left[least] < left.front() - chance ? least : 0]];
+    }
+
+    /// Loss that each effect of a model saves beside the others.
+    std::vector<double> worth(const Hypothesis& settings) const {
+        const double with_all = loss(settings);
+        std::vector<double> worth;
+        for (std::size_t k = 0; k < settings.size(); ++k) {
+            Hypothesis without = settings;
+            without.erase(without.begin() + static_cast<std::ptrdiff_t>(k));
+            worth.push_back(loss(without) - with_all);
+        }
+        return worth;
+    }
+
+  private:
+    Predict predictor(const Wanted& wanted) const {
+        return [this, &wanted](const Hypothesis& settings) {
+            if (evidence_.effort() > most_effort_) return Errors{};
+            Hypothesis whole = known_;
+            whole.insert(whole.end(), settings.begin(), settings.end());
+            return evidence_.errors(whole, wanted);
+        };
+    }
+
+    const Evidence& evidence_;
+    const Hypothesis& known_;
+    const Wanted& wanted_;
+    double most_effort_;
+    Predict predict_;
+};
+
+/// Both halves, each scattered from what follows it better: the other one may have come to a deeper valley.
+std::array<Hypothesis, 2> drawn_around(const FollowedHalf& first, const FollowedHalf& second,
+                                       const std::array<Hypothesis, 2>& settings, std::size_t windows) {
+    const auto of = [&](const FollowedHalf& half, const Hypothesis& own, const Hypothesis& other) {
+        return half.scattered(half.loss(other) < half.loss(own) ? other : own, windows);
+    };
+    return {of(first, settings[0], settings[1]), of(second, settings[1], settings[0])};
+}
+
+}  // namespace
+
+Search::Together Search::forces_beside(const CrossFit& base) {
+    const Evidence& evidence = fitter_.evidence();
+    const double effort_before = evidence.effort();
+    if (options_.tell) options_.tell("what balances the carriage's forces");
+    Together found = balanced_beside(base);
+    effort_at_start_ += evidence.effort() - effort_before;
+    return found;
+}
+
+Search::Together Search::balanced_beside(const CrossFit& base) const {
+    const auto settings_of_model = [&](const Together& found) {
+        std::array<Hypothesis, 2> settings = found.fitted.of_half;
+        for (std::size_t side = 0; side < 2; ++side)
+            settings[side].erase(
+                settings[side].begin(),
+                settings[side].begin() + static_cast<std::ptrdiff_t>(base.of_half[side].size()));
+        return settings;
+    };
+    constexpr int most_rounds = 4;
+    constexpr double share_explained = 0.9;
+    constexpr std::size_t most_drawn = 3;  // effects; of more, a generation says too little
+    const Evidence& evidence = fitter_.evidence();
+    std::vector<const Candidate*> all;
+    for (const Candidate& candidate : candidates_) all.push_back(&candidate);
+    const std::vector<BalancedModel> models =
+        balanced_models(evidence, fitter_.half(1), moving_carriage(base.of_half[0]), all, options_.tail);
+    if (models.empty()) return {{}, {}, base};
+    std::array<Wanted, 2> wanted;
+    for (std::size_t side = 0; side < 2; ++side)
+        wanted[side] = only_of(evidence.windows(), fitter_.half(side), only(Signal::encoder));
+    const double most_effort = evidence.effort() + share_for_forces * options_.most_effort;
+    const FollowedHalf first(evidence, base.of_half[0], wanted[0], most_effort),
+        second(evidence, base.of_half[1], wanted[1], most_effort);
+    const BalancedModel model = first.best_form(
+        forms_of(models[place_of_least(first.losses(models))], candidates_, evidence.rig().macro),
+        options_.tail);
+    NeededCandidates itself{model.candidates,
+                            {model.settings, second.fitted(model.settings).hypothesis},
+                            first.worth(model.settings)};
+    if (evidence.effort() > most_effort) return {{}, {}, base};
+    Together best = together(base.of_half, itself);
+    const auto is_off = [&] { return off(best.fitted)[index_of(Signal::encoder)]; };
+    const bool is_in_valleys = itself.candidates.size() <= most_drawn &&
+                               std::ranges::any_of(itself.candidates, [](const Candidate* candidate) {
+                                   return has_valleys(*candidate);
+                               });
+    try {
+        for (int round = 0; is_in_valleys && is_off() && round < most_rounds; ++round) {
+            itself.of_half = drawn_around(first, second, settings_of_model(best), options_.windows);
+            if (evidence.effort() > most_effort) break;
+            itself.worth = first.worth(itself.of_half[0]);
+            Together drawn = together(base.of_half, itself);
+            if (!(drawn.fitted.loss < best.fitted.loss)) break;
+            best = std::move(drawn);
+        }
+        if (!is_off()) return best;
+        Together whole =
+            together(base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_),
+                                                        base.of_half, settings_of_model(best)[0], wanted));
+        // Many that leave most of it stand in for something else.
+        const bool explains = nearly_clears(base, whole.fitted, share_explained);
+        return explains && whole.fitted.loss < best.fitted.loss ? whole : best;
+    } catch (const BudgetEnded&) {
+        return best;
+    }
+}
+
+}  // namespace fidservo::gap

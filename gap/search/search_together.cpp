@@ -1,0 +1,135 @@
+// All smooth candidates at once, of wire and view beside what is known of the carriage.
+#include "gap/balance/balanced_waves.h"
+#include "gap/search/everything.h"
+#include "gap/search/search.h"
+#include "gap/search/shape_screening.h"
+#include "gap/search/starts.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace fidservo::gap {
+namespace {
+
+/// Those signals that the Hall reading and the tags are of, as far as there are windows of them.
+SignalFlags smooth_signals(std::span<const Window> windows) {
+    SignalFlags signals{};
+    for (const Window& window : windows)
+        if (window.signal == Signal::hall || window.signal == Signal::tag)
+            signals[index_of(window.signal)] = true;
+    return signals;
+}
+
+/// One smooth candidate of each class that meets some signals, that which a hypothesis has if it has one.
+std::vector<const Candidate*> smooth_ones(const std::vector<Candidate>& all, const Hypothesis& known,
+                                          const SignalFlags& signals) {
+    const auto is_known = [&](const Candidate& candidate) {
+        return std::ranges::find(known, candidate.effect, &plant::EffectSetting::effect) != known.end();
+    };
+    std::vector<const Candidate*> found;
+    for (const Candidate& candidate : all) {
+        if (!is_smooth(candidate) || !meet(teachers_of(*candidate.effect), signals)) continue;
+        const auto same = std::ranges::find(found, candidate.class_name, &Candidate::class_name);
+        if (same == found.end())
+            found.push_back(&candidate);
+        else if (is_known(candidate))
+            *same = &candidate;
+    }
+    return found;
+}
+
+/// Of what both tell, the Hall reading tells more.
+bool is_told_by_hall(const Candidate* candidate) {
+    return teachers_of(*candidate->effect)[index_of(Signal::hall)];
+}
+
+}  // namespace
+
+/// What everything is fitted to, and beside what.
+struct Search::EverythingBeside {
+    std::vector<const Candidate*> candidates;
+    std::array<Hypothesis, 2> beside;
+    Hypothesis begun;
+    std::array<Wanted, 2> wanted;
+};
+
+Search::EverythingBeside Search::everything_of(const CrossFit& base, bool of_tags_alone) const {
+    SignalFlags smooth = smooth_signals(fitter_.evidence().windows());
+    EverythingBeside everything{
+        smooth_ones(candidates_, base.of_half[0], smooth), base.of_half, base.of_half[0], {}};
+    if (of_tags_alone) {
+        std::erase_if(everything.candidates, is_told_by_hall);
+        smooth = only(Signal::tag);
+    }
+    const auto is_among = [&](const plant::EffectSetting& setting) {
+        return std::ranges::find(everything.candidates, setting.effect, &Candidate::effect) !=
+               everything.candidates.end();
+    };
+    for (Hypothesis& hypothesis : everything.beside) std::erase_if(hypothesis, is_among);
+    std::erase_if(everything.begun, [&](const plant::EffectSetting& setting) { return !is_among(setting); });
+    for (std::size_t side = 0; side < 2; ++side)
+        everything.wanted[side] = only_of(fitter_.evidence().windows(), fitter_.half(side), smooth);
+    return everything;
+}
+
+Search::Together Search::needed_of(const EverythingBeside& all) const {
+    return together(all.beside, needed_of_everything(fitter_.evidence(), all.candidates, all.beside,
+                                                     all.begun, all.wanted));
+}
+
+Search::Together Search::everything_beside(const CrossFit& base) const {
+    if (options_.tell) options_.tell("all that is smooth at once");
+    return needed_of(everything_of(base));
+}
+
+Hypothesis Search::waves_of_reading(const CrossFit& base,
+                                    std::span<const Candidate* const> candidates) const {
+    std::vector<const Candidate*> of_waves;
+    std::ranges::copy_if(candidates, std::back_inserter(of_waves),
+                         [](const Candidate* candidate) { return candidate->wave.has_value(); });
+    if (of_waves.empty() || !off(base)[index_of(Signal::encoder)]) return {};
+    const Evidence& evidence = fitter_.evidence();
+    const Hypothesis& known = base.of_half[0];
+    const Wanted wanted = only_of(evidence.windows(), fitter_.half(0), only(Signal::encoder));
+    Hypothesis waves;
+    for (const PositionPeriod& period : periods_along_rail(evidence, known, evidence.errors(known, wanted)))
+        for (const Candidate* candidate : of_waves) waves.push_back(wave_at(*candidate, period));
+    return waves;
+}
+
+std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) const {
+    const EverythingBeside all = everything_of(base);
+    const Wanted wanted = only_of(fitter_.evidence().windows(), all.wanted[0], off(base));
+    std::vector<Together> found;
+    for (const plant::EffectSetting& shape :
+         promising_shapes(fitter_.evidence(), all.candidates, waves_of_reading(base, all.candidates),
+                          all.beside[0], all.begun, wanted)) {
+        if (options_.tell) options_.tell(fmt::format("{} with all that is smooth", shape.effect->name));
+        const auto candidate_of = [&](const plant::EffectSetting& setting) {
+            return *std::ranges::find(all.candidates, setting.effect, &Candidate::effect);
+        };
+        EverythingBeside with = everything_of(base, !is_told_by_hall(candidate_of(shape)));
+        // What stood in for it may hold a fit back: sizes begin from nothing.
+        std::erase_if(with.begun, [&](const plant::EffectSetting& setting) {
+            return !has_a_shape(*candidate_of(setting));
+        });
+        with.begun.push_back(shape);
+        found.push_back(needed_of(with));
+    }
+    return found;
+}
+
+Search::Together Search::together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const {
+    Together together{
+        std::move(needed.candidates), std::move(needed.worth), {.of_half = beside, .mean_squares = {}}};
+    for (std::size_t side = 0; side < 2; ++side)
+        together.fitted.of_half[side].insert(together.fitted.of_half[side].end(),
+                                             needed.of_half[side].begin(), needed.of_half[side].end());
+    fitter_.judge(together.fitted);
+    return together;
+}
+
+}  // namespace fidservo::gap

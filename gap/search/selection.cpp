@@ -1,0 +1,301 @@
+#include "gap/search/selection.h"
+
+#include "gap/search/at_once.h"
+#include "gap/search/growth.h"
+#include "gap/search/scatter.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace fidservo::gap {
+namespace {
+
+/// Whether another effect explains better in the place of one: a plainer form of it unless the richer one's
+/// gain is no chance.
+bool replaces(const Search& search, const Trial& other, const Chain& chain, std::size_t at) {
+    if (is_limit_of(*other.candidate->effect, *chain.choices[at].candidate->effect))
+        return !search.is_real(other.fitted, chain.fitted);
+    return other.fitted.loss < chain.fitted.loss - least_gain;
+}
+
+/// The rest with another effect than the chain has, where that does as well without one of the rest: two that
+/// were taken in for one.
+std::optional<Chain> shorter_with_another(const Search& search, const Chain& chain, const Chain& rest,
+                                          const std::vector<Trial>& trials) {
+    constexpr double as_good = 0.75;  // of the gain, before the other one is fitted closer
+    if (rest.choices.size() < 2) return {};
+    for (const Trial& trial : trials) {
+        const bool is_known =
+            std::ranges::find(chain.choices, trial.candidate, &Choice::candidate) != chain.choices.end();
+        if (!trial.is_leader || is_known || trial.gain < as_good * (rest.fitted.loss - chain.fitted.loss))
+            continue;
+        const Chain other = grown(search, rest, {trial});
+        for (std::size_t k = 0; k < rest.choices.size(); ++k) {
+            Chain shorter = without(search, other, k);
+            if (search.is_real(shorter.fitted, other.fitted)) continue;
+            shorter.fitted = search.closer(search.nothing(), std::move(shorter.fitted), *trial.candidate);
+            if (!search.is_real(shorter.fitted, chain.fitted)) return shorter;
+        }
+    }
+    return {};
+}
+
+/// An effect that was taken in first may have been a compromise of two others: each is given up where the
+/// rest does as well without it, and otherwise exchanged for what is best beside the rest. As long as nothing
+/// has changed the last one needs no test: it was found beside this very rest.
+/// @param changed  whether anything changed before
+/// @return whether anything changed, before or here
+bool exchange(Search& search, Chain& chain, bool changed) {
+    constexpr int most_exchanges = 4;
+    int exchanges = 0;
+    const auto tested = [&] { return changed ? chain.choices.size() : chain.choices.size() - 1; };
+    std::size_t k = 0;
+    const auto start_over_with = [&](Chain other) {
+        chain = std::move(other);
+        changed = true;
+        k = 0;
+    };
+    while (chain.choices.size() > 1 && k < tested()) {
+        Chain rest = without(search, chain, k);
+        if (!search.is_real(rest.fitted, chain.fitted)) {
+            start_over_with(std::move(rest));
+            continue;
+        }
+        if (search.leaves_little(chain.fitted))
+            search.remember(rest.fitted, *chain.choices[k].candidate, chain.fitted, k);
+        std::vector<Trial> trials = search.try_all(rest.fitted, rest.candidates());
+        if (std::optional<Chain> shorter = shorter_with_another(search, chain, rest, trials)) {
+            start_over_with(*std::move(shorter));
+            continue;
+        }
+        const bool is_other = has_leader(trials) && trials.front().candidate != chain.choices[k].candidate;
+        if (!is_other) {
+            // The same again, with its alternatives as they are beside the whole rest.
+            if (has_leader(trials)) chain.choices[k] = choice_of(search, rest.fitted, std::move(trials));
+            ++k;
+        } else if (replaces(search, trials.front(), chain, k) && exchanges++ < most_exchanges) {
+            start_over_with(grown(search, std::move(rest), std::move(trials)));
+        } else {
+            ++k;
+        }
+    }
+    return changed;
+}
+
+/// Whether two effects explain what nothing was taken in for: two wrong ones fit most things a little, and by
+/// little more than chance.
+bool explains(const Search& search, const CrossFit& without, const CrossFit& with) {
+    constexpr double most = 0.9, times_chance = 2.0;
+    return search.nearly_clears(without, with) ||
+           (search.nearly_clears(without, with, most) && search.is_no_chance(without, with, times_chance));
+}
+
+/// Where signals stay off their floors, what was taken in for them, one after the other, may be no step on
+/// the way to what there is: instead of it each of the best single effects, with what is best beside it.
+/// Where nothing was taken in, two effects may hide each other: what promises a little is tried as the first
+/// of a pair.
+/// @return whether anything changed
+bool begin_otherwise(Search& search, Chain& chain, std::size_t most_effects) {
+    constexpr Effort effort{.fits = 3, .leaders = 1};
+    const SignalFlags off = search.off(chain.fitted);
+    if (off == SignalFlags{}) return false;
+    const Chain rest = rest_of(search, chain, off);
+    if (!has_room_for_two(rest, most_effects)) return false;
+    const bool from_nothing = chain.choices.size() == rest.choices.size();
+    bool changed = false;
+    const std::size_t most_first = from_nothing ? 6 : 3;
+    std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates(), {.scatters = false});
+    if (!from_nothing && has_leader(singles)) {
+        Chain one = grown(search, rest, singles);
+        if (is_better(search, one, chain)) {
+            chain = std::move(one);
+            changed = true;
+            if (search.is_at_floor(chain.fitted)) return true;
+        }
+    }
+    if (from_nothing) std::ranges::stable_sort(singles, std::greater{}, &Trial::promised);
+    std::vector<std::string> classes;
+    for (const Trial& single : singles) {
+        const bool is_new = std::ranges::find(classes, single.candidate->class_name) == classes.end();
+        const bool is_hopeless = from_nothing ? single.promised <= 0.0 : single.gain < least_gain;
+        if (is_hopeless || !is_new) continue;
+        if (classes.size() == most_first) break;
+        classes.push_back(single.candidate->class_name);
+        std::optional<CrossFit> fitted = search.with(rest.fitted, *single.candidate);
+        if (!fitted) continue;
+        Trial first = single;
+        first.is_leader = true;
+        first.fitted = *std::move(fitted);
+        const Chain one = grown(search, rest, {std::move(first)});
+        std::vector<Trial> trials = search.try_all(one.fitted, one.candidates(), effort);
+        if (!has_leader(trials)) continue;
+        Chain two = grown(search, one, std::move(trials));
+        if (!is_better(search, two, chain) || (from_nothing && !explains(search, chain.fitted, two.fitted)))
+            continue;
+        chain = std::move(two);
+        changed = true;
+        if (search.is_at_floor(chain.fitted)) break;
+    }
+    return changed;
+}
+
+/// Whether fits without each of a chain's effects take too long.
+bool is_long(const Chain& chain) {
+    constexpr std::size_t most_short = 4;
+    return chain.choices.size() > most_short;
+}
+
+/// What balances the forces of a carriage and leaves it off is a beginning: what is best beside it is taken
+/// in, and each effect is put to the test, with half of the effort.
+/// @return whether the encoder comes to its floor
+bool goes_on_to_the_floor(Search& search, Chain& chain) {
+    constexpr double half = 0.5;
+    constexpr std::size_t most_added = 2;
+    const Growth growth{.most_effects = chain.choices.size() + most_added, .scans = false};
+    search.look_for_causes_in(only(Signal::encoder), half);
+    search.limit(true);
+    try {
+        const Candidate& last = *chain.choices.back().candidate;
+        if (!is_long(chain) && moves_carriage(*last.effect) && !has_valleys(last)) {
+            CrossFit closer = search.closer(search.nothing(), chain.fitted, last);
+            if (closer.loss < chain.fitted.loss) chain.fitted = std::move(closer);
+        }
+        grow(search, chain, growth, nullptr);
+        if (!is_long(chain)) exchange(search, chain, false);
+    } catch (const SearchExhausted&) {
+        if (search.over()) throw;
+    }
+    search.limit(false);
+    search.look_for_causes_in(all_signals, 1.0);
+    return !search.off(chain.fitted)[index_of(Signal::encoder)];
+}
+
+std::vector<const Candidate*> limits_in(const Chain& chain) {
+    std::vector<const Candidate*> limits;
+    for (const Choice& choice : chain.choices)
+        if (choice.candidate->is_limit) limits.push_back(choice.candidate);
+    return limits;
+}
+
+/// The chain without what cannot be named.
+Chain nameable(const Search& search, Chain chain) {
+    for (std::size_t k = chain.choices.size(); k-- > 0;)
+        if (chain.choices[k].candidate->is_limit) chain = without(search, chain, k);
+    return chain;
+}
+
+/// What is left without one of a chain's effects; of many, without another fit of the rest.
+CrossFit left_out_of(const Search& search, const Chain& chain, std::size_t left_out) {
+    if (chain.choices.size() == 1) return search.nothing();
+    if (!is_long(chain)) return without(search, chain, left_out).fitted;
+    CrossFit rest = chain.fitted;
+    for (Hypothesis& hypothesis : rest.of_half)
+        hypothesis.erase(hypothesis.begin() + static_cast<std::ptrdiff_t>(left_out));
+    search.judge(rest);
+    return rest;
+}
+
+/// Puts that first which alone would make the largest gap.
+void put_largest_first(const Search& search, Chain& chain) {
+    const std::size_t count = chain.choices.size();
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t k = 0; k < count; ++k) {
+        chain.choices[k].gap_alone = search.gap_alone(chain.fitted.of_half[0][k]);
+        order.emplace_back(chain.choices[k].gap_alone, k);
+    }
+    std::ranges::stable_sort(order, std::greater{}, &std::pair<double, std::size_t>::first);
+    const auto in_order = [&](auto& values) {
+        auto sorted = values;
+        for (std::size_t k = 0; k < count; ++k) sorted[k] = std::move(values[order[k].second]);
+        values = std::move(sorted);
+    };
+    in_order(chain.choices);
+    for (Hypothesis& hypothesis : chain.fitted.of_half) in_order(hypothesis);
+}
+
+/// The first `count` effects of a chain alone.
+CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
+    CrossFit fitted = chain.fitted;
+    SignalFlags concerned{};
+    for (std::size_t k = count; k < chain.choices.size(); ++k)
+        concerned = either(concerned, search.concerned_by(*chain.choices[k].candidate, chain.fitted));
+    for (Hypothesis& hypothesis : fitted.of_half) hypothesis.resize(count);
+    if (is_long(chain))
+        search.judge(fitted);
+    else
+        search.fit_again(fitted, concerned);
+    return fitted;
+}
+
+}  // namespace
+
+Fit fit_to_all(const Evidence& evidence, const CrossFit& cross) {
+    constexpr int most_iterations = 6;  // from what fits half of it
+    const Wanted wanted = everything(evidence);
+    const Predict predict = [&](const Hypothesis& hypothesis) { return evidence.errors(hypothesis, wanted); };
+    return fit(predict, evidence.windows(), wanted, cross.of_half[0],
+               {.most_iterations = most_iterations, .tolerance = 1e-6, .with_covariance = true});
+}
+
+Selection select(const Evidence& evidence, const std::vector<Candidate>& candidates,
+                 const SelectionOptions& options) {
+    Search search(evidence, candidates, options.search);
+    Selection selection;
+    Chain chain{{}, search.nothing()};
+    std::optional<Chain> by_forces;
+    selection.steps.push_back(chain.fitted);
+    try {
+        const AtOnce at_once = explain_at_once(search, chain, by_forces, selection.alone);
+        bool are_several = at_once.are_several;
+        if (by_forces && goes_on_to_the_floor(search, *by_forces)) {
+            chain = *std::exchange(by_forces, std::nullopt);
+            are_several = true;
+        }
+        const std::size_t most_effects = chain.choices.size() + options.most_effects;
+        std::vector<Trial> tried;
+        const Growth growth{.most_effects = most_effects, .scans = !at_once.is_balanced};
+        are_several = grow(search, chain, growth, &tried) || are_several;
+        add_tried(selection.alone, std::move(tried));
+        search.limit(true);
+        if (!are_several || !search.leaves_little(chain.fitted))
+            are_several = begin_otherwise(search, chain, most_effects) || are_several;
+        // Of many, each was asked whether it is needed when they were fitted together.
+        if (!is_long(chain) && exchange(search, chain, are_several)) grow(search, chain, growth, nullptr);
+    } catch (const SearchExhausted&) {
+        selection.ended = search.over().value_or(Ended::budget);
+    } catch (const BudgetEnded& ended) {
+        selection.ended = ended.how();
+    }
+    evidence.budget()->end_search();
+    search.limit(false);
+    if (by_forces && search.off(chain.fitted)[index_of(Signal::encoder)]) {
+        try {
+            by_forces = with_carriage_of(search, chain, *by_forces);
+        } catch (const BudgetEnded& ended) {
+            selection.ended = ended.how();  // it stands as it was found
+        }
+        if (is_better(search, *by_forces, chain)) chain = *std::move(by_forces);
+    }
+    std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
+    try {
+        if (search.is_at_floor(chain.fitted)) selection.limits = limits_in(chain);
+        chain = nameable(search, chain);
+        put_largest_first(search, chain);
+        for (std::size_t k = 0; k < chain.choices.size(); ++k)
+            chain.choices[k].left_out = left_out_of(search, chain, k);
+        std::vector<CrossFit> steps;
+        for (std::size_t k = 1; k < chain.choices.size(); ++k) steps.push_back(first_of(search, chain, k));
+        selection.steps.insert(selection.steps.end(), steps.begin(), steps.end());
+    } catch (const BudgetEnded& ended) {
+        selection.ended = ended.how();
+        // What each effect is worth by itself was not worked out.
+        for (std::size_t k = 1; k < chain.choices.size(); ++k) selection.steps.push_back(chain.fitted);
+    }
+    if (!chain.choices.empty()) selection.steps.push_back(chain.fitted);
+    selection.choices = std::move(chain.choices);
+    return selection;
+}
+
+}  // namespace fidservo::gap

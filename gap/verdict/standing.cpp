@@ -1,0 +1,139 @@
+#include "gap/verdict/standing.h"
+
+#include "gap/fit/gap_size.h"
+#include "gap/residuals/accusation.h"
+#include "gap/verdict/calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+namespace fidservo::gap {
+namespace {
+
+/// See Support::agreement.
+double agreement_with(const std::optional<Remainder>& whole, const Selection& selection,
+                      const Choice& choice) {
+    constexpr double agrees = 1.0, is_not_known = 0.5, contradicts = 0.0;
+    if (!whole || whole->depends_on.empty()) return is_not_known;
+    const auto is_accused = [&](const Choice& named) {
+        return named.candidate->effect->block == whole->block;
+    };
+    if (stage_of(whole->block) != stage_of(choice.candidate->effect->block)) return is_not_known;
+    if (std::ranges::any_of(selection.choices, is_accused)) return agrees;
+    return whole->depends_on.size() == 1 ? contradicts : is_not_known;
+}
+
+bool is_at_bound(const plant::EffectSetting& setting) {
+    const std::span<const plant::EffectParameter> parameters = setting.effect->parameters;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+        const double value = setting.values[k];
+        if (!parameters[k].is_choice() && value != parameters[k].vanishing &&
+            (value == parameters[k].low || value == parameters[k].high))
+            return true;
+    }
+    return false;
+}
+
+/// Of all its sizes together, in typical ones or, of what has none, in their ranges, over what they are away
+/// from none.
+double halves_apart(const Candidate& candidate, const plant::EffectSetting& one,
+                    const plant::EffectSetting& other) {
+    double difference = 0.0, size = 0.0;
+    for (const std::size_t k : candidate.sizes) {
+        const plant::EffectParameter& parameter = candidate.effect->parameters[k];
+        const bool has_typical_size = parameter.typical != parameter.vanishing;
+        const double scale =
+            has_typical_size ? parameter.typical - parameter.vanishing : parameter.high - parameter.low;
+        difference += std::pow((one.values[k] - other.values[k]) / scale, 2);
+        size += std::pow((0.5 * (one.values[k] + other.values[k]) - parameter.vanishing) / scale, 2);
+    }
+    return size > 0.0 ? std::sqrt(difference / size) : 0.0;
+}
+
+/// What is left, and what would be without one of them, in that of its signals in which it matters most.
+struct OwnFloors {
+    double left = 1.0, without = 1.0;
+};
+
+using Floors = std::array<double, signal_count>;
+
+OwnFloors own_floors(const Floors& left, const Floors& without, const SignalFlags& taught) {
+    OwnFloors most;
+    for (std::size_t s = 0; s < signal_count; ++s)
+        if (taught[s] && without[s] / left[s] >= most.without / most.left) most = {left[s], without[s]};
+    return most;
+}
+
+/// The weight of what has it, or what these recordings cannot tell from it.
+double weight_of_name(const Choice& choice, const ChoiceWeights& weights) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < choice.alternatives.size(); ++k) {
+        const Candidate* candidate = choice.alternatives[k].candidate;
+        if (candidate->class_name == choice.candidate->class_name ||
+            std::ranges::find(choice.ties, candidate) != choice.ties.end())
+            sum += weights.of_alternatives[k];
+    }
+    return std::min(1.0, sum);
+}
+
+}  // namespace
+
+Features features_of(const Support& support) {
+    constexpr double most_logit = 7.0, least_share = 1e-4, least_apart = 1e-3, least_floors_off = 0.15,
+                     most_floors_off = 3.0;
+    const double discrepancy = std::sqrt(std::max(0.0, std::pow(support.gap_after, 2) - 1.0));
+    const double odds = support.weight / std::max(1.0 - support.weight, 1e-300);
+    return {std::clamp(std::log(std::max(odds, 1e-300)), -most_logit, most_logit),
+            -std::log(std::clamp(discrepancy, least_floors_off, most_floors_off)),
+            std::log(support.without_floors / support.left_floors),
+            -std::log(std::max(support.gap_left, least_share)),
+            std::log(support.names),
+            -std::log(std::max(support.halves_apart, least_apart)),
+            support.agreement,
+            support.is_at_bound ? 0.0 : 1.0};
+}
+
+double logistic_probability(const Features& features, double offset, const Features& coefficients) {
+    double log_odds = offset;
+    for (std::size_t k = 0; k < features.size(); ++k) log_odds += coefficients[k] * features[k];
+    return 1.0 / (1.0 + std::exp(-log_odds));
+}
+
+double calibrated_probability(const Support& support) {
+    return logistic_probability(features_of(support), calibrated_offset, calibrated_coefficients);
+}
+
+std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
+                              const std::vector<ChoiceWeights>& weights,
+                              const std::optional<Remainder>& whole) {
+    const std::vector<Window>& windows = evidence.windows();
+    const CrossFit& explained = selection.steps.back();
+    const TotalGap gap =
+        total_gap(signal_gaps(evidence, selection.steps.front().mean_squares, explained.mean_squares));
+    const Floors left = typical_floors(windows, explained.mean_squares);
+    std::vector<Support> all;
+    for (std::size_t k = 0; k < selection.choices.size(); ++k) {
+        const Choice& choice = selection.choices[k];
+        const CrossFit& left_out =
+            choice.left_out.mean_squares.empty() ? selection.steps.front() : choice.left_out;
+        const Floors without = typical_floors(windows, left_out.mean_squares);
+        const OwnFloors own = own_floors(left, without, teachers_of(*choice.candidate->effect));
+        all.push_back({.weight = weight_of_name(choice, weights[k]),
+                       .left_floors = own.left,
+                       .without_floors = own.without,
+                       .gap_alone = choice.gap_alone,
+                       .gap_after = gap.after,
+                       .gap_left = 1.0 - gap.removed(),
+                       .names = static_cast<double>(selection.choices.size()),
+                       .agreement = agreement_with(whole, selection, choice),
+                       .halves_apart =
+                           halves_apart(*choice.candidate, explained.of_half[0][k], explained.of_half[1][k]),
+                       .is_at_bound = std::ranges::any_of(
+                           explained.of_half, [&](const Hypothesis& half) { return is_at_bound(half[k]); })});
+    }
+    return all;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,31 @@
+#pragma once
+// What recordings cannot decide, and why, in words for people.
+#include "gap/candidates/candidate.h"
+#include "gap/search/selection.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// One line each, what concerns most first:
+///   - recordings that say that they are of another rig, and signals that the explained simulator predicts
+///     worse than a rig that does not move at all (r.m.s. within windows): the rig file may be of another
+///     rig;
+///   - signals of the rig that no recording has, or of which nothing could be judged;
+///   - effects that act at a place on the rail, where places are not known;
+///   - that the search was cut short;
+///   - by block, effects that would hardly show at their typical size: the loss that they would make,
+///     sum over windows of 1/2 log(1 + d_w), d_w the mean square change of the predictions in floors, is less
+///     than 4, what a search needs to be sure of anything;
+///   - parts of recordings that were not judged; of many recordings that share a reason, in one line.
+/// @param tried  what the diagnosis was to try
+std::vector<std::string> undecided(const Evidence& evidence, std::span<const Candidate> tried,
+                                   const Selection& selection);
+
+/// Of a gap that nothing was accepted for, why not, where it is for want of data: the effect that would
+/// remove most of it, half at least, with its values, or that there are few windows. Empty otherwise.
+std::string what_is_wanting(const Evidence& evidence, const Selection& selection);
+
+}  // namespace fidservo::gap

@@ -1,0 +1,11 @@
+#pragma once
+// The nominal plate as an ideal camera would see it.
+#include "core/camera_parameters.h"
+#include "src/inspect/measure/checks.h"
+
+namespace fidservo::inspect {
+
+/// Draws under even light and without noise, with the camera's own blur, seen from a plate point.
+DrawNominal nominal_drawing(const CameraParameters& camera, const Plate& nominal);
+
+}  // namespace fidservo::inspect

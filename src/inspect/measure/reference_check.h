@@ -1,0 +1,17 @@
+#pragma once
+// The view against an image of what it should be.
+#include "src/inspect/measure/checks.h"
+
+namespace fidservo::inspect {
+
+/// One row for each defect, value: its length (of the smallest rectangle around it), nominal 0, tolerance:
+/// the longest that is allowed. One row that passes if there is none. The length's uncertainty is that of its
+/// two ends, each known to within half a pixel: u = 1 px / sqrt(6).
+CheckedView compare_view(const CheckContext& context, const ReferenceCheck& check);
+
+/// An image of a good part as a reference: its place comes from the fiducial in it. Throws InputError if it
+/// cannot be read, is not of the camera's size, or does not show the fiducial.
+vision::ReferenceImage load_reference(const std::filesystem::path& file, const CameraParameters& camera,
+                                      const Plate& nominal, int tag_id);
+
+}  // namespace fidservo::inspect

@@ -1,0 +1,20 @@
+#pragma once
+// One visit to a site: go to each view, take its picture at rest, measure.
+#include "src/inspect/measure/schedule.h"
+#include "src/inspect/measure/site_measurement.h"
+#include "src/session/session.h"
+
+namespace fidservo::inspect {
+
+/// What every visit of a run needs.
+struct VisitContext {
+    Measuring measuring;
+    Session& session;
+};
+
+/// Views that fail are tried again as the recipe says; those that succeeded stay. A site that is given up has
+/// `not_measured` rows for what is missing. Images and the recording are on the disk when this returns.
+/// Throws RunFault if a device or the disk fails or the user stops the run.
+Visit visit_site(const VisitContext& context, const NextVisit& next);
+
+}  // namespace fidservo::inspect

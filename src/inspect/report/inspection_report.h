@@ -1,0 +1,34 @@
+#pragma once
+// The report of an inspection: one HTML file that works offline.
+#include "src/inspect/journal.h"
+#include "src/inspect/measure/output.h"
+#include "src/inspect/recipe/recipe.h"
+#include "src/inspect/report/device_figures.h"
+#include "src/inspect/report/rig_findings.h"
+#include "src/report/page.h"
+
+#include <cstddef>
+
+namespace fidservo {
+struct Rig;
+}
+
+namespace fidservo::inspect {
+
+/// All but what is known of the rig only after a run.
+struct InspectionReport {
+    report::Page page;
+    std::size_t findings_at = 0;  ///< where in its body a section about the rig belongs
+};
+
+/// Reads images and recordings back from the output folder.
+InspectionReport inspection_report(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
+                                   const JournalContent& content, const DeviceFigures& devices);
+
+/// The same with a section of what the recordings say of the rig.
+InspectionReport with_findings(InspectionReport all, const RigFindings& findings);
+
+/// Throws RunFault if the disk does not take it.
+void write_inspection_report(const OutputFolder& output, const InspectionReport& all);
+
+}  // namespace fidservo::inspect

@@ -1,0 +1,25 @@
+#pragma once
+// What an inspection's own recordings say of the rig beside its simulation.
+#include "src/inspect/measure/output.h"
+
+#include <filesystem>
+#include <string>
+
+namespace fidservo {
+struct Rig;
+}
+
+namespace fidservo::inspect {
+
+struct RigFindings {
+    std::string line;  ///< for a terminal: verdict and where the report is
+    std::string html;  ///< of the report's section
+};
+
+/// Diagnoses what homing and visits have recorded, for at most half a minute, and writes OUT/diagnosis.html
+/// and OUT/diagnosis.json. What cannot be diagnosed is said instead. Throws RunFault if the disk does not
+/// take the files.
+RigFindings find_in_recordings(const OutputFolder& output, const Rig& rig,
+                               const std::filesystem::path& rig_file);
+
+}  // namespace fidservo::inspect

@@ -1,0 +1,17 @@
+#pragma once
+// What the diagnosis of a case with frames is given.
+#include "core/recording.h"
+#include "src/selfcheck/draw/true_rig.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace fidservo::selfcheck {
+
+/// Eight recordings on the independent model of the true rig, each filmed for 2 s (reference/tag_picture.h).
+/// The detections are what the program's detector finds in the frames, their looks are measured as diagnose
+/// does; the frames are not kept. On all cores.
+/// Throws InputError where the rig's camera does not look straight down.
+std::vector<Recording> film_campaign(const Rig& nominal, const TrueRig& true_rig, std::uint64_t seed);
+
+}  // namespace fidservo::selfcheck

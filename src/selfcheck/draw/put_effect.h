@@ -1,0 +1,19 @@
+#pragma once
+// An effect of the catalogue put into a rig at a size that is drawn evenly in the logarithm.
+#include "core/random.h"
+#include "src/selfcheck/draw/label.h"
+#include "src/selfcheck/draw/listed_effects.h"
+#include "src/selfcheck/draw/true_rig.h"
+
+#include <string_view>
+
+namespace fidservo::selfcheck {
+
+/// What a label says of an effect made in a way.
+TrueEffect true_effect(const EffectDraw& way, double size);
+
+/// One of the ways to make an effect of a class, from below the floor, or a 300th of the largest where that
+/// is more, to the largest.
+TrueEffect put_listed(TrueRig& rig, std::string_view class_name, NoiseStream& draw);
+
+}  // namespace fidservo::selfcheck

@@ -1,0 +1,19 @@
+#pragma once
+#include "src/selfcheck/draw/label.h"
+#include "src/selfcheck/tally/score.h"
+
+namespace fidservo::selfcheck {
+
+/// A case that is done.
+struct Outcome {
+    std::size_t number = 0;
+    Label label;
+    Score score;
+    double recording_s = 0.0;  ///< wall clock
+    double diagnosis_s = 0.0;  ///< likewise, from recordings in memory to the diagnosis
+};
+
+/// One line: the truth, what was said, whether that is right.
+std::string line_of(const Outcome& outcome);
+
+}  // namespace fidservo::selfcheck

@@ -1,0 +1,141 @@
+// The forces that a carriage's prediction lacks, against forces that are known.
+#include "gap/balance/carriage_forces.h"
+
+#include "core/rig.h"
+#include "gap/balance/patch_search.h"
+#include "gap/balance/period_search.h"
+#include "plant/effects/catalogue.h"
+#include "tests/gap/simulated_campaign.h"
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+namespace {
+
+using namespace gap;
+using testing::campaign;
+using testing::effects;
+
+constexpr std::size_t half_support = 25;
+
+CarriageForces lacking_of_file(const Evidence& evidence) {
+    return {evidence, evidence.errors({}, everything(evidence)), half_support};
+}
+
+/// By how much a column of a unit quantity has to be scaled to be what the truth has and the file lacks.
+double fitted(const CarriageForces& forces, const Column& column) {
+    double product = 0.0, square = 0.0;
+    for (const CarriageForces::Support& support : forces.supports()) {
+        const double value = column.values[support.slot];
+        product -= value * static_cast<double>(forces.lacking()[support.slot]);
+        square += value * value;
+    }
+    return product / square;
+}
+
+double mean_square(const CarriageForces& forces) {
+    double sum = 0.0;
+    for (const CarriageForces::Support& support : forces.supports())
+        sum += std::pow(forces.lacking()[support.slot], 2);
+    return sum / static_cast<double>(forces.supports().size());
+}
+
+TEST(CarriageForces, RigAsItsFileSays_LacksNoMoreThanRoundingMakes) {
+    const CarriageForces forces = lacking_of_file(campaign({}, {"macro-sweep", "macro-pulses"}));
+    ASSERT_GT(forces.supports().size(), 500U);
+    EXPECT_NEAR(mean_square(forces), 1.0, 0.3);
+}
+
+TEST(CarriageForces, ForceBesideTheCommand_ComesBackInVolts) {
+    const CarriageForces forces =
+        lacking_of_file(campaign(effects({"drive_offset:offset_V=0.02"}), {"macro-sweep", "macro-pulses"}));
+    const double found_V = fitted(forces, forces.of_force(0, [](const SlidingRow& at) { return at.passed; }));
+    EXPECT_NEAR(found_V, 0.02, 0.03 * 0.02);
+}
+
+TEST(CarriageForces, FrictionOnTheMotion_ComesBackInVolts_WhetherTheDrivePushesOrNot) {
+    const double truth = 4e-4;
+    const CarriageForces forces = lacking_of_file(
+        campaign(effects({"viscous_friction:damping_V_s_per_mm=0.0004"}), {"macro-sweep", "macro-pulses"}));
+    const double found =
+        -fitted(forces, forces.of_force(0, [](const SlidingRow& at) { return at.velocity_mm_per_s; }));
+    EXPECT_NEAR(found, truth, 0.03 * truth);
+}
+
+TEST(CarriageForces, StateAtAWindowsStart_IsNoForce) {
+    const Evidence evidence = campaign({}, {"macro-sweep"});
+    const double decay = evidence.rig().macro.velocity_pole;
+    Errors errors = evidence.errors({}, everything(evidence));
+    const CarriageForces before(evidence, errors, half_support);
+    for (const Window& window : evidence.windows()) {
+        if (window.signal != Signal::encoder) continue;
+        for (std::size_t k = 0; k < window.rows; ++k)
+            errors[window.begin + k] +=
+                static_cast<float>(20.0 + 100.0 * std::pow(decay, static_cast<double>(k)));
+    }
+    const CarriageForces after(evidence, errors, half_support);
+    ASSERT_FALSE(after.supports().empty());
+    for (const CarriageForces::Support& support : after.supports())
+        EXPECT_NEAR(after.lacking()[support.slot], before.lacking()[support.slot], 0.05);
+}
+
+/// As well as a fit needs it to begin: a fifth of the amplitude, a tenth of a wave over half the rail.
+TEST(PeriodSearch, ForceThatLetsTheCarriageGoByJumps_ComesBackWithPeriodAmplitudeAndPhase) {
+    struct Truth {
+        double amplitude_V, period_mm, phase_rad;
+    };
+    for (const Truth& truth : {Truth{0.1, 5.0, 1.0}, Truth{0.1, 2.2, -2.0}, Truth{0.02, 11.3, 0.5}}) {
+        const Evidence evidence =
+            campaign(effects({fmt::format("cogging:amplitude_V={},period_mm={},phase_rad={}",
+                                          truth.amplitude_V, truth.period_mm, truth.phase_rad)}),
+                     {"macro-sweep", "macro-pulses", "macro-square"});
+        const auto periods = strongest_periods(evidence, evidence.errors({}, everything(evidence)));
+        ASSERT_FALSE(periods.empty());
+        const PositionPeriod& found = periods.front();
+        EXPECT_NEAR(found.force_V.amplitude, truth.amplitude_V, 0.2 * truth.amplitude_V) << truth.period_mm;
+        constexpr double middle_mm = 100.0;
+        EXPECT_NEAR(middle_mm / found.period_mm, middle_mm / truth.period_mm, 0.1) << truth.period_mm;
+        const auto there = [&](double period_mm, double phase_rad) {
+            return 2.0 * std::numbers::pi * middle_mm / period_mm + phase_rad;
+        };
+        EXPECT_NEAR(std::remainder(there(found.period_mm, found.force_V.phase_rad) -
+                                       there(truth.period_mm, truth.phase_rad),
+                                   2.0 * std::numbers::pi),
+                    0.0, 0.15)
+            << truth.period_mm;
+    }
+}
+
+/// As well as a fit needs it to begin, also where dry friction that the file lacks is everywhere.
+TEST(PatchSearch, NarrowPatch_ComesBackWithLevelPlaceAndWidth) {
+    for (const std::string_view beside : {"", "coulomb_friction:level_V=0.05"}) {
+        constexpr double level_V = 0.1, centre_mm = 77.0, width_mm = 5.0;
+        std::vector<plant::EffectSetting> truth{plant::parse_effect(
+            fmt::format("rail_patch:level_V={},centre_mm={},width_mm={}", level_V, centre_mm, width_mm))};
+        if (!beside.empty()) truth.push_back(plant::parse_effect(beside));
+        const Evidence evidence = campaign(truth, {"macro-sweep", "macro-pulses", "macro-square"});
+        const auto patches = strongest_patches(evidence, evidence.errors({}, everything(evidence)));
+        ASSERT_FALSE(patches.empty());
+        EXPECT_NEAR(patches.front().level_V, level_V, 0.4 * level_V) << beside;
+        EXPECT_NEAR(patches.front().centre_mm, centre_mm, 0.6 * width_mm) << beside;
+        EXPECT_NEAR(std::log2(patches.front().width_mm / width_mm), 0.0, 1.1) << beside;
+    }
+}
+
+TEST(PatchSearch, FrictionThatIsTheSameEverywhere_IsNoPatch) {
+    const Evidence evidence =
+        campaign(effects({"coulomb_friction:level_V=0.05"}), {"macro-sweep", "macro-pulses"});
+    const auto patches = strongest_patches(evidence, evidence.errors({}, everything(evidence)));
+    for (const FrictionPatch& patch : patches) EXPECT_LT(patch.share, 0.05) << patch.centre_mm;
+}
+
+}  // namespace
+
+}  // namespace fidservo

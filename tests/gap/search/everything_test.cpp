@@ -1,0 +1,95 @@
+// All smooth candidates at once, and what the data need of them.
+#include "gap/search/everything.h"
+
+#include "gap/evidence/halves.h"
+#include "tests/gap/effects.h"
+#include "tests/gap/simulated_campaign.h"
+#include "tests/reference_rig.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+namespace {
+
+using namespace gap;
+using testing::effects;
+
+Recording recorded(std::string_view kind, const Hypothesis& truth, std::uint64_t seed) {
+    const std::string name = std::string(kind) + "-" + std::to_string(seed);
+    return simulate(reference_rig(), truth, make_experiment(kind, reference_rig(), seed, name), name, seed);
+}
+
+Evidence wire_campaign(const Hypothesis& truth) {
+    std::vector<Recording> recordings;
+    for (const std::string_view kind : {"micro-steps", "micro-triangle"})
+        for (const std::uint64_t seed : {51, 52}) recordings.push_back(recorded(kind, truth, seed));
+    return {reference_rig(), std::move(recordings)};
+}
+
+struct Found {
+    std::vector<std::string> names;
+    NeededCandidates needed;
+};
+
+Found needed_of(const Evidence& evidence) {
+    const std::vector<Candidate> all = candidates(evidence, {}, {});
+    std::vector<const Candidate*> smooth;
+    for (const Candidate& candidate : all)
+        if (is_smooth(candidate) &&
+            std::ranges::find(smooth, candidate.class_name, &Candidate::class_name) == smooth.end())
+            smooth.push_back(&candidate);
+    const std::vector<std::uint8_t> half = halves(evidence);
+    std::array<Wanted, 2> wanted{everything(evidence), everything(evidence)};
+    for (std::size_t w = 0; w < half.size(); ++w)
+        for (std::size_t side = 0; side < 2; ++side)
+            if (half[w] != side || evidence.windows()[w].signal != Signal::hall) wanted[side][w] = 0;
+    Found found{{}, needed_of_everything(evidence, smooth, {}, {}, wanted)};
+    for (const Candidate* candidate : found.needed.candidates) found.names.push_back(candidate->class_name);
+    std::ranges::sort(found.names);
+    return found;
+}
+
+TEST(Everything, FourSmallCausesOfTheWire_AreAllFound_WithTheirValues_AndNoOther) {
+    const Hypothesis truth = effects({"ambient_temperature:shift_degC=0.5", "heating_lag:factor=1.03",
+                                      "heater_delay:delay_ms=3", "stroke_change:factor=0.99"});
+    const Evidence evidence = wire_campaign(truth);
+    const Found found = needed_of(evidence);
+    ASSERT_EQ(found.needed.candidates.size(), 4U);
+    for (const plant::EffectSetting& setting : found.needed.of_half[0]) {
+        const auto same = std::ranges::find(truth, setting.effect, &plant::EffectSetting::effect);
+        ASSERT_NE(same, truth.end()) << setting.effect->name;
+        const double typical =
+            std::abs(setting.effect->parameters[0].typical - setting.effect->parameters[0].vanishing);
+        EXPECT_NEAR(setting.values[0], same->values[0], 0.02 * typical) << setting.effect->name;
+    }
+}
+
+TEST(Everything, NominalRig_NeedsNothing) {
+    EXPECT_TRUE(needed_of(wire_campaign({})).names.empty());
+}
+
+TEST(Everything, WhatIsFarOff_ForAnotherReason_IsLeftToOthers) {
+    const Evidence evidence = wire_campaign(effects({"second_thermal_mass:conductance=0.4,mass_tau_s=8"}));
+    EXPECT_TRUE(needed_of(evidence).names.empty());
+}
+
+TEST(Everything, IsOfWireSensorsAndView_NotOfTheCarriage) {
+    const Evidence evidence = wire_campaign({});
+    for (const Candidate& candidate : candidates(evidence, {}, {})) {
+        const plant::Part part = candidate.effect->part;
+        EXPECT_EQ(is_smooth(candidate), part != plant::Part::carriage && !candidate.is_limit)
+            << candidate.effect->name;
+    }
+}
+
+}  // namespace
+
+}  // namespace fidservo

@@ -1,0 +1,42 @@
+#include "gap/verdict/model_weights.h"
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+namespace {
+
+using gap::model_weights;
+
+using Densities = std::vector<std::vector<double>>;
+
+TEST(ModelWeights, OfOneRecording_GoWithTheDensities) {
+    const std::vector<double> weights = model_weights(Densities{{-3.0}, {-3.0 - std::log(3.0)}, {-1e4}});
+    EXPECT_NEAR(weights[0], 0.75, 1e-12);
+    EXPECT_NEAR(weights[1], 0.25, 1e-12);
+    EXPECT_EQ(weights[2], 0.0);
+    EXPECT_TRUE(model_weights(Densities{}).empty());
+}
+
+TEST(ModelWeights, WhatEveryRecordingSays_IsSure) {
+    const std::vector<double> weights = model_weights(Densities{{0, 0, 0, 0}, {-4, -4, -4, -4}});
+    EXPECT_NEAR(weights[0], 1.0 / (1.0 + std::exp(-16.0)), 1e-12);
+}
+
+TEST(ModelWeights, WhatOneRecordingSaysAlone_IsNot) {
+    const Densities one_says{{0, 0, 0, 0}, {-16, 0, 0, 0}};
+    const std::vector<double> weights = model_weights(one_says);
+    EXPECT_LT(weights[0], 0.99);
+    EXPECT_GT(weights[0], 0.7);
+    const std::vector<double> torn = model_weights(Densities{{0, 0}, {-8, 8}});
+    EXPECT_NEAR(torn[0], 0.5, 0.1);
+    EXPECT_NEAR(torn[0] + torn[1], 1.0, 1e-12);
+}
+
+}  // namespace
+
+}  // namespace fidservo
