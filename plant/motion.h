@@ -222,14 +222,13 @@ class Motion {
         return there.duration_s;
     }
 
-    /// Whether nothing changes however often the carriage turns: bristles never slide, and what else acts is
-    /// the same both ways. Stiff springs let it turn many times a tick.
+    /// Whether nothing changes where it turns, which stiff springs let it do many times a tick.
     bool swings_freely(const SpringMotion& motion) const {
         const Friction& friction = p_.friction;
-        if (p_.play_mm > 0.0 || friction.left_V_s_per_mm != friction.right_V_s_per_mm) return false;
         const double unbent_mm = x_[place] - friction.bristle_mm * bend_;
         const auto [low_mm, high_mm] = motion.range_mm();
-        return x_[place] + low_mm > std::max(unbent_mm - friction.bristle_mm, axis_.driven_low_mm) &&
+        return p_.play_mm == 0.0 && friction.left_V_s_per_mm == friction.right_V_s_per_mm &&
+               x_[place] + low_mm > std::max(unbent_mm - friction.bristle_mm, axis_.driven_low_mm) &&
                x_[place] + high_mm < std::min(unbent_mm + friction.bristle_mm, axis_.driven_high_mm);
     }
 
