@@ -393,9 +393,8 @@ class Motion {
     // What stays as it is until the next event.
     double direction_ = 1.0;
     DeadZoneBranch branch_ = DeadZoneBranch::inside;
-    double voltage_V_ = 0.0;
     bool held_ = false;
-    double hold_low_ = 0.0, hold_high_ = 0.0;
+    double voltage_V_ = 0.0, hold_low_ = 0.0, hold_high_ = 0.0;
 };
 
 }  // namespace fidservo::plant
