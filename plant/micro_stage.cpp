@@ -27,6 +27,7 @@ MicroStage make_micro_stage(const MicroStageParameters& parameters, double tick_
     MicroStage stage{make_heater(parameters.heater, tick_s, parameters.mass, parameters.heater_delay_s),
                      parameters.fod,
                      parameters.table_shift_degC,
+                     parameters.table_shift_degC_per_mm,
                      parameters.stroke_factor,
                      std::nullopt,
                      make_hall_sensor(parameters.hall),
@@ -38,10 +39,16 @@ MicroStage make_micro_stage(const MicroStageParameters& parameters, double tick_
 }
 
 MicroStageState start(const MicroStage& stage, std::uint64_t seed) {
-    const double table_degC = stage.heater.parameters.ambient_degC - stage.table_shift_degC;
-    MicroStageState state{start(stage.heater), preisach_start(*stage.fod, table_degC), 0.0, {seed, "hall"}};
+    const double extended_degC = stage.heater.parameters.ambient_degC - stage.table_shift_degC;
+    MicroStageState state{
+        start(stage.heater), preisach_start(*stage.fod, extended_degC), 0.0, {seed, "hall"}};
     state.position_mm = stage.stroke_factor * state.wire.contraction_mm;
     return state;
+}
+
+double table_degC(const MicroStage& stage, const MicroStageState& state) {
+    const double contraction_mm = stage.stroke_factor * state.wire.contraction_mm;
+    return state.heater.temp_degC - stage.table_shift_degC - stage.table_shift_degC_per_mm * contraction_mm;
 }
 
 double mean_reading_lsb(const MicroStage& stage, const MicroStageState& state) {
@@ -56,8 +63,7 @@ int sample(const MicroStage& stage, MicroStageState& state) {
 void advance(const MicroStage& stage, MicroStageState& state, double command_V,
              const CarriageInfluence& carriage) {
     advance(stage.heater, state.heater, command_V);
-    const double table_degC = state.heater.temp_degC - stage.table_shift_degC;
-    state.position_mm = stage.stroke_factor * preisach_step(*stage.fod, state.wire, table_degC);
+    state.position_mm = stage.stroke_factor * preisach_step(*stage.fod, state.wire, table_degC(stage, state));
     if (stage.swing) {
         advance(*stage.swing, state.swing, carriage.shaking);
         state.position_mm += state.swing.position_mm;

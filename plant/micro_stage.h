@@ -50,8 +50,9 @@ struct MicroStageParameters {
     SecondMass mass = {};
     double heater_delay_s = 0.0;
     std::shared_ptr<const FodTable> fod;
-    double table_shift_degC = 0.0;  ///< of the transformation temperatures against the table
-    double stroke_factor = 1.0;     ///< contraction per contraction of the table
+    double table_shift_degC = 0.0;         ///< of the transformation temperatures against the table
+    double table_shift_degC_per_mm = 0.0;  ///< and by this much more with the wire's contraction
+    double stroke_factor = 1.0;            ///< contraction per contraction of the table
     SwingParameters swing = {};
     HallParameters hall;
     HallDisturbance hall_disturbance = {};
@@ -61,7 +62,7 @@ struct MicroStageParameters {
 struct MicroStage {
     Heater heater;
     std::shared_ptr<const FodTable> fod;
-    double table_shift_degC;
+    double table_shift_degC, table_shift_degC_per_mm;
     double stroke_factor;
     std::optional<PlatformSwing> swing;  ///< empty: none
     HallSensor hall;
@@ -96,6 +97,10 @@ MicroStage make_micro_stage(const MicroStageParameters& parameters, double tick_
 
 /// A wire that was cold for long: at ambient temperature, fully extended.
 MicroStageState start(const MicroStage& stage, std::uint64_t seed);
+
+/// The temperature that the wire's table is read at: the wire's, less what its load shifts the transformation
+/// by, degC. The load is that of the last tick's contraction.
+double table_degC(const MicroStage& stage, const MicroStageState& state);
 
 /// The Hall sensor's reading without noise, rounding and the converter's ends, in LSB.
 double mean_reading_lsb(const MicroStage& stage, const MicroStageState& state);

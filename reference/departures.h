@@ -111,9 +111,10 @@ enum class HysteresisLaw { preisach, duhem };
 
 struct HysteresisDepartures {
     HysteresisLaw law = HysteresisLaw::preisach;
-    double stress_shift_degC = 0.0;         ///< transformation temperatures are higher by
-    double stress_shift_degC_per_mm = 0.0;  ///< and by this much more with contraction, as a spring loads it
-    double stroke = 1.0;                    ///< factor on the contraction
+    double stress_shift_degC = 0.0;          ///< transformation temperatures are higher by
+    double stress_shift_degC_per_mm = 0.0;   ///< and by this much more with contraction, as a spring loads it
+    double stress_shift_degC_per_mm2 = 0.0;  ///< with its square, as one that hardens does
+    double stroke = 1.0;                     ///< factor on the contraction
     double stroke_fading_per_mm = 0.0;  ///< share of the factor's excess over 1 that is lost with contraction
 };
 

@@ -3,8 +3,11 @@
 namespace fidservo::reference {
 
 HysteresisModel make_hysteresis(const FodTable& table, const HysteresisDepartures& departures) {
-    HysteresisModel model{PreisachPlane(table), departures.stress_shift_degC,
-                          departures.stress_shift_degC_per_mm, departures.stroke,
+    HysteresisModel model{PreisachPlane(table),
+                          departures.stress_shift_degC,
+                          departures.stress_shift_degC_per_mm,
+                          departures.stress_shift_degC_per_mm2,
+                          departures.stroke,
                           departures.stroke_fading_per_mm};
     if (departures.law == HysteresisLaw::duhem) model.law = make_duhem(table);
     return model;
@@ -18,7 +21,10 @@ HysteresisState heated_to(const HysteresisModel& model, double temp_degC) {
 
 void move_to(const HysteresisModel& model, HysteresisState& state, double temp_degC) {
     double seen_degC = temp_degC - model.shift_degC;
-    if (model.shift_degC_per_mm != 0.0) seen_degC -= model.shift_degC_per_mm * contraction_mm(model, state);
+    if (model.shift_degC_per_mm != 0.0 || model.shift_degC_per_mm2 != 0.0) {
+        const double x_mm = contraction_mm(model, state);
+        seen_degC -= (model.shift_degC_per_mm + model.shift_degC_per_mm2 * x_mm) * x_mm;
+    }
     if (const auto* plane = std::get_if<PreisachPlane>(&model.law))
         move_to(*plane, std::get<Staircase>(state), seen_degC);
     else

@@ -14,6 +14,7 @@ struct HysteresisModel {
     std::variant<PreisachPlane, DuhemLaw> law;
     double shift_degC;
     double shift_degC_per_mm;
+    double shift_degC_per_mm2;
     double stroke;
     double stroke_fading_per_mm;
 };

@@ -27,7 +27,8 @@ std::vector<double> unknown_mm(const PlatformRun& run, const PlatformModel& nomi
     const double slowest_tau_s = std::max(heater.heating_tau_s, heater.cooling_tau_s);
     double taus = 0.0, highest_degC = table.low_degC(), lowest_degC = table.high_degC();
     for (std::size_t k = 0; k < run.command_V.size(); ++k) {
-        const double temp_degC = std::clamp(state.heater.temp_degC, table.low_degC(), table.high_degC());
+        const double temp_degC =
+            std::clamp(table_degC(nominal.stage, state), table.low_degC(), table.high_degC());
         if (taus >= enough_taus) {
             highest_degC = std::max(highest_degC, temp_degC - margin_degC);
             lowest_degC = std::min(lowest_degC, temp_degC + margin_degC);

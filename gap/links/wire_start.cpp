@@ -89,7 +89,9 @@ plant::MicroStageState heated_to(const PlatformModel& model, double excess_lsb) 
     };
     const double goal_lsb = mean_reading_lsb(model.stage, cold) + excess_lsb;
     double low = cold.heater.temp_degC;
-    double high = std::max(low, model.stage.fod->high_degC() + model.stage.table_shift_degC);
+    const double most_load_degC = std::max(0.0, model.stage.table_shift_degC_per_mm) *
+                                  model.stage.stroke_factor * model.stage.fod->stroke_mm();
+    double high = std::max(low, model.stage.fod->high_degC() + model.stage.table_shift_degC + most_load_degC);
     while (high - low > resolution_degC) {
         const double middle = 0.5 * (low + high);
         (mean_reading_lsb(model.stage, heated(middle)) < goal_lsb ? low : high) = middle;
@@ -207,8 +209,14 @@ void step(const PlatformModel& model, const PlatformRun& run, const CarriagePath
 
 void slide(const plant::MicroStage& stage, plant::MicroStageState& state, double by_degC) {
     if (by_degC == 0.0) return;
-    state.heater.temp_degC += by_degC;
-    slide_wire(*stage.fod, state.wire, state.heater.temp_degC - stage.table_shift_degC);
+    // By steps over which the load of a contracting wire hardly changes.
+    constexpr double longest_degC = 0.25;
+    const double steps =
+        stage.table_shift_degC_per_mm == 0.0 ? 1.0 : std::ceil(std::abs(by_degC) / longest_degC);
+    for (double left = steps; left > 0.0; left -= 1.0) {
+        state.heater.temp_degC += by_degC / steps;
+        slide_wire(*stage.fod, state.wire, table_degC(stage, state));
+    }
     state.position_mm = stage.stroke_factor * state.wire.contraction_mm + state.swing.position_mm;
 }
 

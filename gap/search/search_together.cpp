@@ -33,9 +33,10 @@ std::vector<const Candidate*> smooth_ones(const std::vector<Candidate>& all, con
     for (const Candidate& candidate : all) {
         if (!is_smooth(candidate) || !meet(teachers_of(*candidate.effect), signals)) continue;
         const auto same = std::ranges::find(found, candidate.class_name, &Candidate::class_name);
+        // Of what cannot be told apart, what is known, or else what says most.
         if (same == found.end())
             found.push_back(&candidate);
-        else if (is_known(candidate))
+        else if (is_known(candidate) || (!is_known(**same) && candidate.sizes.size() > (*same)->sizes.size()))
             *same = &candidate;
     }
     return found;

@@ -137,7 +137,8 @@ const std::vector<Pair>& pairs() {
         {"heater_gain", [](Departures& rig) { rig.heater.gain = 1.05; }, {1.05}},
         {"heating_lag", [](Departures& rig) { rig.heater.heating_tau = 1.2; }, {1.2}},
         {"heater_delay", [](Departures& rig) { rig.heater.delay_s = 0.0504; }, {50.4}},
-        {"stress_shift", [](Departures& rig) { rig.hysteresis.stress_shift_degC = 8.0; }, {8.0}},
+        {"stress_shift", [](Departures& rig) { rig.hysteresis.stress_shift_degC = 8.0; }, {8.0, 0.0}},
+        {"stress_shift", [](Departures& rig) { rig.hysteresis.stress_shift_degC_per_mm = 2.0; }, {0.0, 2.0}},
         {"stroke_change", [](Departures& rig) { rig.hysteresis.stroke = 0.95; }, {0.95}},
         {"macro_coupling",
          [](Departures& rig) {

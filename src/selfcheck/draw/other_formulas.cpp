@@ -75,9 +75,9 @@ void heater_gain_cold(Departures& rig, double size, NoiseStream& draw) {
 }
 
 /// As large at 2 mm as a constant shift of the size. A larger one than is drawn would let the wire snap.
-void stress_by_spring(Departures& rig, double size_degC, NoiseStream& draw) {
+void stress_by_hardening_spring(Departures& rig, double size_degC, NoiseStream& draw) {
     constexpr double middle_mm = 2.0;
-    rig.hysteresis.stress_shift_degC_per_mm = random_sign(draw) * size_degC / middle_mm;
+    rig.hysteresis.stress_shift_degC_per_mm2 = random_sign(draw) * size_degC / (middle_mm * middle_mm);
 }
 
 void stroke_fading(Departures& rig, double size, NoiseStream& draw) {
@@ -109,7 +109,7 @@ constexpr std::array others{
     EffectDraw{"encoder_ripple", "skewed", 4.3e-3, 0.3, encoder_ripple_skewed},
     EffectDraw{"airflow", "convection", 7.9e-4, 0.8, airflow_convection},
     EffectDraw{"heater_gain", "cold wire", 1.3e-4, 0.2, heater_gain_cold},
-    EffectDraw{"stress_shift", "spring", 6.4e-3, 6.0, stress_by_spring},
+    EffectDraw{"stress_shift", "hardening spring", 6.4e-3, 6.0, stress_by_hardening_spring},
     EffectDraw{"stroke_change", "fading", 5.7e-4, 0.15, stroke_fading},
     EffectDraw{"hall_nonlinearity", "fifth power", 1.9e-3, 0.2, hall_fifth},
     EffectDraw{"hall_drift", "slowing", 5e-5, 5e-3, hall_drift_slowing},

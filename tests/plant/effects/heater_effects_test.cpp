@@ -157,5 +157,17 @@ TEST(StressShift, Transformation_HappensThatMuchLater) {
     EXPECT_LT(after(loaded, 1.55, 3000).micro->position_mm, after(nominal, 1.55, 3000).micro->position_mm);
 }
 
+/// A wire that was only ever heated is at f(T - c x, T - c x).
+TEST(StressShift, OfASpring_GrowsWithContraction) {
+    const StagePlant loaded = plant_with("stress_shift:shift_degC=1,spring_degC_per_mm=2.5");
+    for (const int ticks : {400, 3000, 20'000}) {
+        const MicroStageState state = *after(loaded, 1.6, ticks).micro;
+        const double seen_degC = state.heater.temp_degC - 1.0 - 2.5 * state.position_mm;
+        EXPECT_NEAR(state.position_mm, loaded.micro->fod->contraction_mm(seen_degC, seen_degC), 1e-3)
+            << ticks;
+    }
+    EXPECT_GT(after(loaded, 1.6, 20'000).micro->position_mm, 0.5);
+}
+
 }  // namespace
 }  // namespace fidservo::plant
