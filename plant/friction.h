@@ -23,7 +23,7 @@
 // evenly from a to b, with little between them, m their mean and q = w / (m d):
 //
 //     LuGre:    z(y) = s m + (z0 - s m) E + s (b - a) ((1 + E) / 2 - (1 - E) / q),     E = exp(-q)
-//     springs:  z(y) = z0 + s q m, no farther than to s m
+//     springs:  z(y) = z0 + s w / d, no farther than to s b
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -142,32 +142,43 @@ inline std::optional<Creep> balanced_creep(const Friction& friction, double velo
     return Creep{friction.creep_mm_per_s * std::atanh(balance), dry_V * slope / friction.creep_mm_per_s};
 }
 
+/// Bristles that lack less than this of the bend at which they slide, do.
+inline constexpr double fully_bent_within = 1e-8;
+
+struct BristleBend {
+    double bend;     ///< z
+    double bending;  ///< d dz/dy, of a motion in its direction: 1 of unbent bristles, 0 of those that slide
+};
+
 /// z after a way in one direction, on which g goes from before_V to dry_V.
-inline double bristle_bend(const Friction& friction, double bend, double way_mm, double direction,
-                           double before_V, double dry_V) {
+inline BristleBend bristle_bend(const Friction& friction, double bend, double way_mm, double direction,
+                                double before_V, double dry_V) {
     const double half = 0.5, straight = 1e-3;
+    if (friction.bristles_are_springs) {
+        // Up to what slides now; further bent by a friction that was larger they give way.
+        const double most = dry_V / friction.coulomb_V, before = direction * bend;
+        const double sign = before <= most ? 1.0 : -1.0;
+        const double bent = before + sign * direction * way_mm / friction.bristle_mm;
+        if (sign * (bent - most) >= -fully_bent_within) return {direction * most, 0.0};
+        return {direction * bent, sign};
+    }
     const double mean = half * (before_V + dry_V) / friction.coulomb_V;
     const double ways = direction * way_mm / (mean * friction.bristle_mm);
-    if (friction.bristles_are_springs) {
-        const double before = direction * bend, way = ways * mean;
-        return direction * (before <= mean ? std::min(mean, before + way) : std::max(mean, before - way));
-    }
     const double lost = -std::expm1(-ways);
-    const double bent = bend + (direction * mean - bend) * lost;
-    if (before_V == dry_V) return bent;
-    const double share = std::abs(ways) < straight ? ways * ways / 12.0 : 1.0 - half * lost - lost / ways;
-    return bent + direction * (dry_V - before_V) / friction.coulomb_V * share;
+    double bent = bend + (direction * mean - bend) * lost;
+    if (before_V != dry_V) {
+        const double share = std::abs(ways) < straight ? ways * ways / 12.0 : 1.0 - half * lost - lost / ways;
+        bent += direction * (dry_V - before_V) / friction.coulomb_V * share;
+    }
+    return {bent, 1.0 - direction * friction.coulomb_V * bent / dry_V};
 }
 
-/// F with bristles of bend z where g is dry_V, in V.
+/// F with bristles, in V.
 inline double bristle_friction_V(const Friction& friction, double velocity_mm_per_s, double direction,
-                                 double bend, double dry_V) {
+                                 const BristleBend& bristles) {
     const double viscous = direction > 0.0 ? friction.right_V_s_per_mm : friction.left_V_s_per_mm;
-    const double elastic_V = friction.coulomb_V * bend;
-    const double rest = 1.0 - direction * elastic_V / dry_V;
-    const double unbent = friction.bristles_are_springs && rest != 0.0 ? std::copysign(1.0, rest) : rest;
-    return elastic_V + friction.bristle_damping_V_s_per_mm * velocity_mm_per_s * unbent +
-           viscous * velocity_mm_per_s;
+    const double damping = friction.bristle_damping_V_s_per_mm * bristles.bending + viscous;
+    return friction.coulomb_V * bristles.bend + damping * velocity_mm_per_s;
 }
 
 }  // namespace fidservo::plant

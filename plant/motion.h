@@ -118,9 +118,6 @@ class Motion {
     /// Slower than this, and pulled less than would keep it at this, is at rest.
     static constexpr double rest_mm_per_s = 1e-9;
 
-    /// Bristles that lack less than this share of their bend slide.
-    static constexpr double fully_bent = 1e-8;
-
     struct Step : RungeKuttaStep<size> {
         double duration_s;
     };
@@ -290,7 +287,7 @@ class Motion {
     double friction_V(const State& x) const {
         const double dry_V = dry_V_at(x);
         if (!axis_.has_bristles) return sliding_friction_V(p_.friction, x[speed], direction_, dry_V);
-        return bristle_friction_V(p_.friction, x[speed], direction_, bend_at(x, dry_V), dry_V);
+        return bristle_friction_V(p_.friction, x[speed], direction_, bend_at(x, dry_V));
     }
 
     /// A velocity against the direction, as trial steps beyond a turn have, counts as 0.
@@ -300,8 +297,8 @@ class Motion {
 
     bool coasts() const { return branch_ == DeadZoneBranch::inside; }
 
-    double bend_at(const State& x, double dry_V) const {
-        if (bend_ == direction_ && dry_is_coulomb_) return direction_;
+    BristleBend bend_at(const State& x, double dry_V) const {
+        if (bend_ == direction_ && dry_is_coulomb_) return {direction_, 0.0};
         return bristle_bend(p_.friction, bend_, x[place] - x_[place], direction_, start_dry_V_, dry_V);
     }
 
@@ -364,8 +361,8 @@ class Motion {
     /// Takes over the end of a step, put right where an event has just been passed.
     void settle(const State& end) {
         if (axis_.has_bristles && !held_) {
-            bend_ = bend_at(end, dry_V_at(end));
-            if (std::abs(bend_ - direction_) < fully_bent) bend_ = direction_;
+            bend_ = bend_at(end, dry_V_at(end)).bend;
+            if (std::abs(bend_ - direction_) < fully_bent_within) bend_ = direction_;
         }
         x_ = end;
         if (held_) return;

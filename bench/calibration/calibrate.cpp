@@ -31,10 +31,11 @@ using Json = nlohmann::json;
 
 constexpr std::size_t feature_count = gap::feature_names.size();
 
-/// What diagnoses are expected to be about.
-const std::map<std::string, double> share_of_kind{{"one", 0.3},        {"two", 0.2},   {"withheld", 0.15},
-                                                  {"unlisted", 0.1},   {"three", 0.1}, {"messy", 0.1},
-                                                  {"messy-none", 0.05}};
+/// What diagnoses are expected to be about: a machine differs in many small ways more often than in one, and
+/// now and then in a way that nobody has listed.
+const std::map<std::string, double> share_of_kind{{"one", 0.09},      {"two", 0.09},   {"withheld", 0.09},
+                                                  {"unlisted", 0.09}, {"three", 0.22}, {"messy", 0.22},
+                                                  {"messy-none", 0.2}};
 
 struct Name {
     std::string kind, family;

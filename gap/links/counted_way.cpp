@@ -64,7 +64,8 @@ plant::MechanismState remembered(const CountedWay& way, const plant::MacroAxis& 
         const plant::Friction& friction = axis.parameters.friction;
         if (axis.has_bristles)
             mechanism.bristle_bend = plant::bristle_bend(friction, mechanism.bristle_bend, way_mm, direction,
-                                                         friction.coulomb_V, friction.coulomb_V);
+                                                         friction.coulomb_V, friction.coulomb_V)
+                                         .bend;
     }
     return mechanism;
 }

@@ -142,8 +142,6 @@ INSTANTIATE_TEST_SUITE_P(
         KnownCase{"TagsOfAnotherSize", 2028, 120, "tag_side", has_right_block},
         // Its command shows as acceleration does: mass and belt together stand in for it.
         KnownCase{"LateCommandBesideAGain", 2081, 294, "drive_delay", is_all_right},
-        // One half of the data ends in a valley beside that of the other half.
-        KnownCase{"HardeningCableBesideASwing", 2081, 266, "macro_coupling", is_followed_to_the_floor},
         // Found by a scan: which way the carriage goes is all that shows it.
         KnownCase{"WaveOfTwoMillivolts", 2101, 278, "cogging", is_followed_to_the_floor},
         KnownCase{"WeakWaveBesideAMass", 2094, 325, "payload", is_all_right},

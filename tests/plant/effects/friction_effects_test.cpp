@@ -250,6 +250,21 @@ TEST(Presliding, OfSpringsBesideFrictionOfCoasting_IsElasticUntilItSlides) {
     }
 }
 
+/// Damping acts on bristles that bend. Where friction that falls with speed is all but gone, rounding must
+/// not decide whether they do: steps would become as short as they may.
+TEST(Presliding, OfDampedSpringsThatSlideBesideStribeckFriction_IsFollowedInFewSteps) {
+    const std::vector effects{
+        parse_effect("presliding:level_V=0.0065,distance_um=6.5,springs=1,damping_V_s_per_mm=0.05"),
+        parse_effect("stribeck_friction:level_V=0.05,speed_mm_per_s=4.8")};
+    const MacroAxis axis = endless_axis_with(effects);
+    MacroAxisState state = start(axis, 0.0);
+    StepCount steps;
+    constexpr int ticks = 2000;
+    for (int k = 0; k < ticks; ++k) steps += advance(axis, state, 1.5 * std::sin(0.01 * k));
+    EXPECT_LT(steps.integrated, 20 * ticks);
+    EXPECT_GT(std::abs(state.position_mm), 1.0);
+}
+
 /// Within a tick it would swing back.
 TEST(Presliding, OfStiffSprings_SlidesWhereItIsFast) {
     const MacroAxis axis = endless_axis_with("presliding:level_V=0.1,distance_um=0.1,springs=1");
