@@ -56,12 +56,15 @@ gap::Support support_of(const Json& json, double gap_after) {
             .is_at_bound = json.at("at_bound")};
 }
 
+/// Without those that are contested, which share their probability (gap/verdict/standing.h).
 std::vector<Name> names_of(const Json& self_check) {
     std::vector<Name> names;
     for (const Json& one : self_check.at("cases"))
         for (const Json& found : one.at("found")) {
             const gap::Support support = support_of(found.at("support"), one.at("gap").at("after"));
-            names.push_back({one.at("kind"), found.at("class"), gap::features_of(support), found.at("true")});
+            if (support.agreement > 0.0 && !support.is_at_bound)
+                names.push_back(
+                    {one.at("kind"), found.at("class"), gap::features_of(support), found.at("true")});
         }
     return names;
 }
@@ -212,7 +215,8 @@ void calibrate(const std::vector<std::string>& files) {
     tell(names, judged_by_others(names));
     const Coefficients all = fitted(names);
     fmt::print(R"(#pragma once
-// Coefficients of the probability of a name (gap/verdict/standing.h), written by `./run calibrate` from self-checks:
+// Coefficients of the probability of a name (gap/verdict/standing.h), written by `./run calibrate` from
+// self-checks:
 //
 //     {}
 #include <array>

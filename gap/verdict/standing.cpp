@@ -91,8 +91,7 @@ Features features_of(const Support& support) {
             -std::log(std::max(support.gap_left, least_share)),
             std::log(support.names),
             -std::log(std::max(support.halves_apart, least_apart)),
-            support.agreement,
-            support.is_at_bound ? 0.0 : 1.0};
+            std::max(support.agreement, 0.5)};
 }
 
 double logistic_probability(const Features& features, double offset, const Features& coefficients) {
@@ -102,7 +101,11 @@ double logistic_probability(const Features& features, double offset, const Featu
 }
 
 double calibrated_probability(const Support& support) {
-    return logistic_probability(features_of(support), calibrated_offset, calibrated_coefficients);
+    const double probability =
+        logistic_probability(features_of(support), calibrated_offset, calibrated_coefficients);
+    constexpr double share_of_two = 0.5;
+    const bool is_contested = support.agreement == 0.0 || support.is_at_bound;
+    return is_contested ? share_of_two * probability : probability;
 }
 
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,

@@ -19,9 +19,8 @@
 namespace fidservo::gap {
 
 /// What the regression is linear in.
-inline constexpr std::array<std::string_view, 8> feature_names{
-    "weight_logit", "log_discrepancy", "log_gain",  "log_gap_left",
-    "log_names",    "halves_agree",    "agreement", "within_bounds"};
+inline constexpr std::array<std::string_view, 7> feature_names{
+    "weight_logit", "log_discrepancy", "log_gain", "log_gap_left", "log_names", "halves_agree", "agreement"};
 using Features = std::array<double, feature_names.size()>;
 
 /// x_k of a name, each larger the more speaks for it; logarithms natural:
@@ -33,14 +32,15 @@ using Features = std::array<double, feature_names.size()>;
 ///   log_gap_left   -log of the share of the whole gap that is left, 1e-4 at least
 ///   log_names      log of how many are named: many small ones stand in for another one less often
 ///   halves_agree   -log of how far its size differs between halves, 1e-3 at least
-///   agreement      0, 0.5 or 1
-///   within_bounds  1, or 0 where the data want more of it than a rig can have
+///   agreement      0.5 or 1
 Features features_of(const Support& support);
 
 /// Of a regression with such an offset and coefficients.
 double logistic_probability(const Features& features, double offset, const Features& coefficients);
 
-/// By the calibrated coefficients.
+/// The calibrated regression's, or half of it where there is another account of the same data beside the
+/// name: where the analysis without names contradicts it, or where the data want more of it than a rig can
+/// have. Such names are too few in self-checks for the regression to learn what they are worth.
 double calibrated_probability(const Support& support);
 
 /// Of each choice of a selection.

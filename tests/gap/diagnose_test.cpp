@@ -45,7 +45,7 @@ TEST(Diagnosis, EffectIsNamedAmongItsLikes_WithItsValueWithinItsError) {
     ASSERT_EQ(names(diagnosis), std::vector<std::string>{"viscous_friction"});
     EXPECT_EQ(diagnosis.verdict, Verdict::explained);
     EXPECT_EQ(diagnosis.where.front().block, "macro.friction");
-    EXPECT_GT(diagnosis.effects.front().probability, 0.95);
+    EXPECT_GT(diagnosis.effects.front().probability, 0.9);
     const FittedParameter& damping = diagnosis.effects.front().parameters.front();
     EXPECT_NEAR(damping.value, 0.0004, 5.0 * damping.std + 1e-6);
     EXPECT_GT(damping.std, 0.0);
