@@ -40,7 +40,8 @@ Findings wall_clocks(const SourceFile& file);
 /// Tests that a document names, `Suite.Thing_Condition_Expectation`, and that no test file has.
 Findings tests_that_are_not_there(const SourceFile& document, const std::vector<SourceFile>& house);
 /// A diagnosis that asks for an effect by its name, its block or a parameter's unit instead of for what the
-/// effect says of itself (plant/effects/effect.h). Which block errors accuse is in gap/residuals/accusation.cpp.
+/// effect says of itself (plant/effects/effect.h). Which block errors accuse is in
+/// gap/residuals/accusation.cpp.
 Findings effects_asked_for(const SourceFile& file, const std::vector<SourceFile>& house);
 /// Work that is left to somebody, and code that is switched off.
 Findings notes_to_self(const SourceFile& file);
