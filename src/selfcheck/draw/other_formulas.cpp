@@ -74,7 +74,8 @@ void heater_gain_cold(Departures& rig, double size, NoiseStream& draw) {
     rig.heater.cold_gain = random_sign(draw) * size;
 }
 
-/// As large at 2 mm as a constant shift of the size. A larger one than is drawn would let the wire snap.
+/// As large at 2 mm as a constant shift of the size. The reference rig's wire, whose contraction x times its
+/// slope dx/dT is 0.56 mm^2/degC at most, would snap from 3.6 degC on: 2 size / (2 mm)^2 x dx/dT = 1.
 void stress_by_hardening_spring(Departures& rig, double size_degC, NoiseStream& draw) {
     constexpr double middle_mm = 2.0;
     rig.hysteresis.stress_shift_degC_per_mm2 = random_sign(draw) * size_degC / (middle_mm * middle_mm);
@@ -109,7 +110,7 @@ constexpr std::array others{
     EffectDraw{"encoder_ripple", "skewed", 4.3e-3, 0.3, encoder_ripple_skewed},
     EffectDraw{"airflow", "convection", 7.9e-4, 0.8, airflow_convection},
     EffectDraw{"heater_gain", "cold wire", 1.3e-4, 0.2, heater_gain_cold},
-    EffectDraw{"stress_shift", "hardening spring", 6.4e-3, 6.0, stress_by_hardening_spring},
+    EffectDraw{"stress_shift", "hardening spring", 6.4e-3, 3.5, stress_by_hardening_spring},
     EffectDraw{"stroke_change", "fading", 5.7e-4, 0.15, stroke_fading},
     EffectDraw{"hall_nonlinearity", "fifth power", 1.9e-3, 0.2, hall_fifth},
     EffectDraw{"hall_drift", "slowing", 5e-5, 5e-3, hall_drift_slowing},
