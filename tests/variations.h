@@ -1,0 +1,48 @@
+#pragma once
+// Many inputs of one kind, drawn at random: each has to be measured right or refused, none silently wrong.
+#include <cstdint>
+#include <random>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+/// How the program took one input.
+struct Outcome {
+    enum class End { right, refused, wrong };
+    End end;
+    std::string text = {};  ///< of what is wrong, or of the refusal
+
+    static Outcome right() { return {End::right}; }
+    /// In one line that tells what is the matter; anything else is wrong.
+    static Outcome refused(const std::string& line) {
+        const bool one_line = !line.empty() && line.find('\n') == std::string::npos;
+        return {one_line ? End::refused : End::wrong, line};
+    }
+    static Outcome wrong(const std::string& text) { return {End::wrong, text}; }
+};
+
+/// Draws `number` inputs of a kind, one a seed, and prints the kind's row of the table "kind, tried, right,
+/// refused, wrong". Every wrong one fails the test and prints its seed; so does a kind of which all are
+/// refused.
+/// @param trial  (std::mt19937_64&) -> Outcome: draws an input, has it read, judges
+template <class Trial>
+void expect_right_or_refused(const std::string& kind, int number, Trial trial) {
+    int right = 0, refused = 0, wrong = 0;
+    for (int seed = 1; seed <= number; ++seed) {
+        std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+        const Outcome outcome = trial(random);
+        right += outcome.end == Outcome::End::right ? 1 : 0;
+        refused += outcome.end == Outcome::End::refused ? 1 : 0;
+        wrong += outcome.end == Outcome::End::wrong ? 1 : 0;
+        if (outcome.end == Outcome::End::wrong)
+            ADD_FAILURE() << kind << ", seed " << seed << ": " << outcome.text;
+    }
+    fmt::print("variations | {} | tried {} | right {} | refused {} | wrong {}\n", kind, number, right,
+               refused, wrong);
+    EXPECT_GT(right, 0) << kind << ": all were refused";
+}
+
+}  // namespace fidservo
