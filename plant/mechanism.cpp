@@ -1,5 +1,6 @@
 #include "plant/mechanism.h"
 
+#include "core/input_error.h"
 #include "plant/macro_axis.h"
 #include "plant/motion.h"
 
@@ -23,6 +24,16 @@ void carry(const MacroAxis& axis, MacroAxisState& state, double driven_mm, doubl
     state.mechanism.driven_mm_per_s = driven_mm_per_s;
 }
 
+/// Throws InputError where motion between two ticks takes more steps than most_steps_a_tick.
+void demand_that_it_can_be_followed(int stretches, const StepCount& steps) {
+    if (stretches + steps.integrated + steps.in_series > most_steps_a_tick)
+        throw InputError(
+            "the carriage's forces change its motion too fast to be followed: more than " +
+            std::to_string(most_steps_a_tick) +
+            " steps of integration between two ticks; allowed: stiffness and friction with which "
+            "it takes less");
+}
+
 template <std::size_t size>
 StepCount move_by_steps(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
     using Motion = plant::Motion<size>;
@@ -38,7 +49,8 @@ StepCount move_by_steps(const MacroAxis& axis, MacroAxisState& state, double dri
     Motion motion(axis, drive_V, start, mechanism.bristle_bend);
     constexpr double no_time_s = 1e-15;
     bool moves = true;
-    while (duration_s > no_time_s && (moves = motion.begin())) {
+    for (int stretches = 0; duration_s > no_time_s && (moves = motion.begin()); ++stretches) {
+        demand_that_it_can_be_followed(stretches, motion.steps());
         duration_s -= motion.advance(std::min(duration_s, axis.longest_step_s));
         carry(axis, state, motion.state()[Motion::place], motion.state()[Motion::speed]);
     }

@@ -55,8 +55,11 @@ struct StepCount {
 /// Whether motion is a power series where dry friction does not change.
 bool has_series(const MacroAxis& axis);
 
+/// So that a thousand ticks, a window of what is predicted, take a second at most: a step takes 0.2 us.
+inline constexpr int most_steps_a_tick = 5000;
+
 /// Moves the carriage under a held voltage of the drive, before standing forces and dead zone. Does not
-/// allocate.
+/// allocate. Throws InputError where forces are so stiff that it would take more than most_steps_a_tick.
 StepCount move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s);
 
 }  // namespace fidservo::plant

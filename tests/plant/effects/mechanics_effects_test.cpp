@@ -1,3 +1,4 @@
+#include "core/input_error.h"
 #include "tests/plant/allocation_count.h"
 #include "tests/plant/effects/effect_rig.h"
 
@@ -28,6 +29,18 @@ TEST(DriveDelay, StepResponse_IsShiftedByAnyTime) {
 TEST(Cogging, FreeCarriage_ComesToRestWhereTheForceTurnsItBack) {
     const MacroAxis axis = endless_axis_with("cogging:amplitude_V=0.1,period_mm=5");
     EXPECT_NEAR(after(axis, start(axis, 1.5), 0.0, 4000).position_mm, 2.5, 1e-6);
+}
+
+/// A wave that the carriage crosses a hundred thousand times between two ticks.
+TEST(Cogging, TooFineToBeFollowed_IsRefused) {
+    PlantParameters plant = plant_parameters(macro_only_rig());
+    plant.axis.dead_zone = {};
+    plant.axis.standing.cogging_V = 1.0;
+    plant.axis.standing.cogging_period_mm = 1e-6;
+    const MacroAxis axis = make_macro_axis(plant.axis, plant.tick_s);
+    MacroAxisState state = start(axis, 100.0);
+    state.velocity_mm_per_s = 100.0;
+    EXPECT_THROW(advance(axis, state, 0.0), InputError);
 }
 
 TEST(Cogging, CarriageInTheDeadZone_IsHeld) {
