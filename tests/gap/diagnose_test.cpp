@@ -53,7 +53,7 @@ TEST(Diagnosis, EffectIsNamedAmongItsLikes_WithItsValueWithinItsError) {
     EXPECT_LT(diagnosis.gap.after, 1.1);
 }
 
-TEST(Diagnosis, OfAnAxisAlone_TakesNothingFromWhatItDoesNotHave) {
+TEST(SlowDiagnosis, OfAnAxisAlone_TakesNothingFromWhatItDoesNotHave) {
     std::vector<Recording> recordings = recordings_of(
         effects({"drive_gain:factor=0.95", "coulomb_friction:level_V=0.2"}), {"macro-sweep", "macro-pulses"});
     for (Recording& recording : recordings) {
@@ -150,7 +150,7 @@ TEST(SlowDiagnosis, TwoEffectsOfOneStretch_AreBothNamed) {
 }
 
 /// Its halves of the data lie in a long bent valley, in which fits used to end far from its lowest place.
-TEST(Diagnosis, MassThatConductsAndLosesHeat_IsFoundWithItsConductanceAndCapacity) {
+TEST(SlowDiagnosis, MassThatConductsAndLosesHeat_IsFoundWithItsConductanceAndCapacity) {
     const Diagnosis diagnosis = diagnose(
         campaign(effects({"second_thermal_mass:conductance=0.117,mass_tau_s=62,taken=3.65,diffusion_s=1"}),
                  {"micro-steps", "micro-triangle", "micro-servo"}),
@@ -163,7 +163,7 @@ TEST(Diagnosis, MassThatConductsAndLosesHeat_IsFoundWithItsConductanceAndCapacit
     EXPECT_NEAR(found[2].value, 3.65, 0.1);
 }
 
-TEST(Diagnosis, RippleOfTheReading_IsFoundWithItsAmplitude) {
+TEST(SlowDiagnosis, RippleOfTheReading_IsFoundWithItsAmplitude) {
     const Diagnosis diagnosis =
         diagnose(campaign(effects({"encoder_ripple:amplitude_um=60,period_mm=8,phase_rad=1"}),
                           {"macro-sweep", "macro-square"}),

@@ -110,7 +110,7 @@ TEST(SlowDiagnosis, HalvesThatContradictEachOther_AreEndedWithAnAnswer) {
 }
 
 /// What it does in the middle of the rail hides within a count.
-TEST(Diagnosis, SmallFalseScaleOfEitherSign_IsFound) {
+TEST(SlowDiagnosis, SmallFalseScaleOfEitherSign_IsFound) {
     for (const double factor : {0.9992, 1.0008}) {
         const std::string text = fmt::format("encoder_scale:factor={}", factor);
         const Diagnosis diagnosis = diagnosed({text}, {"macro-square", "integrated"},

@@ -150,7 +150,7 @@ TEST(ReferToTravel, StatedZero_IsTaken_IfItIsKnownToHalfACount) {
 }
 
 /// Counted from the right end without a tag, places are relative: no effect that acts at one is tried.
-TEST(UnknownPlaces, EffectsThatActAtAPlace_AreNotDetermined_AndItIsSaid) {
+TEST(SlowUnknownPlaces, EffectsThatActAtAPlace_AreNotDetermined_AndItIsSaid) {
     const auto names_tried = [](const Recording& recording) {
         const Diagnosis diagnosis = diagnose(Evidence(reference_rig(), {recording}));
         std::vector<std::string> names;

@@ -52,7 +52,7 @@ TEST(Undecided, RecordingShorterThanAWindow_IsRefused) {
     EXPECT_THROW(diagnose(Evidence(reference_rig(), {recording})), InputError);
 }
 
-TEST(Undecided, ShortRecording_NamesAGuessAsSuch) {
+TEST(SlowUndecided, ShortRecording_NamesAGuessAsSuch) {
     Recording recording = simulated(effects({"drive_gain:factor=0.8"}), "macro-pulses", 3);
     recording.rows.resize(2000);
     const Diagnosis diagnosis = diagnose(Evidence(reference_rig(), {recording}));
