@@ -112,7 +112,7 @@ TEST(SlowRigNew, EveryOtherCommand_TakesIt) {
     expect_taken(folder, {"goto", "--tag", "30", "--dx-um", "150", "--hold", "0.1", "--rig", "rig.yaml"});
     expect_taken(folder, {"calibrate", "stage", "--check", "--rig", "rig.yaml"});
     const std::string recipe = FIDSERVO_ASSETS_DIR "/demo/recipe.yaml";
-    expect_taken(folder, {"inspect", recipe, "--rig", "rig.yaml", "--out", "run"}, 1);
+    expect_taken(folder, {"inspect", recipe, "--rig", "rig.yaml", "--out", "run", "--no-diagnosis"}, 1);
     expect_taken(folder, {"simulate", "campaign", "--rig", "rig.yaml", "--out", "campaign"});
     for (const char* part : {"macro", "hysteresis", "heater"})
         expect_taken(folder, {"identify", part, "campaign", "--rig", "rig.yaml"}, 1);
