@@ -33,7 +33,7 @@ struct BundleCovariance {
 /// Tags in views with their weights; those that are switched off take no part.
 class Bundle {
   public:
-    Bundle(const std::vector<TargetView>& views, double extra_std_px);
+    Bundle(LensModel model, const std::vector<TargetView>& views, double extra_std_px);
 
     /// Adjusts the poses and the flagged parameters of the lens. Returns chi^2, or nothing without a
     /// solution.
@@ -69,6 +69,7 @@ class Bundle {
     void build(Problem& problem, BundleState& state, const LensFlags& fitted, bool robust) const;
     double mean_square(const BundleState& state, std::size_t view, std::size_t tag) const;
 
+    LensModel model_;
     std::vector<std::vector<Sight>> sights_;
 };
 

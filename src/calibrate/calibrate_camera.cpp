@@ -3,7 +3,6 @@
 #include "calib/camera/photon_transfer.h"
 #include "calib/camera/target_images.h"
 #include "core/input_error.h"
-#include "core/plumb_bob.h"
 #include "core/result.h"
 #include "core/rig.h"
 #include "src/calibrate/camera_images.h"
@@ -89,6 +88,8 @@ void write_rig(const CalibrateCameraOptions& options, const CameraAnswer& answer
     edit.set("camera.focal_ratio", camera.focal_ratio);
     edit.set("camera.principal_point_px",
              std::array{camera.principal_point_px.x(), camera.principal_point_px.y()});
+    if (camera.distortion.model != before.geometry.distortion.model)
+        edit.set_name("camera.lens", name_of(camera.distortion.model));
     edit.set("camera.distortion", numbers_of(camera.distortion));
     edit.set("camera.distance_mm", before.geometry.distance_mm * camera.focal_px / before.geometry.focal_px);
     const auto error = [&](calib::LensParameter parameter) { return answer.calibration.std_of(parameter); };
