@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include <Eigen/LU>
 
@@ -157,7 +158,7 @@ std::vector<double> numbers_of(const LensDistortion& lens) {
     return {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
 }
 
-LensDistortion distortion_of(LensModel model, std::span<const double> numbers) {
+LensDistortion distortion_of(LensModel model, const std::vector<double>& numbers) {
     FIDSERVO_DEMAND(numbers.size() == coefficients_of(model));
     if (model == LensModel::equidistant)
         return {.k1 = numbers[0], .k2 = numbers[1], .k3 = numbers[2], .k4 = numbers[3], .model = model};

@@ -20,7 +20,6 @@
 // ("plumb_bob") write it; Kannala, Brandt, A generic camera model and calibration method for conventional,
 // wide-angle, and fish-eye lenses, IEEE PAMI 28(8), 2006, as OpenCV ("fisheye") and ROS ("equidistant") do.
 #include <array>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -54,7 +53,7 @@ std::size_t coefficients_of(LensModel model);
 std::vector<double> numbers_of(const LensDistortion& lens);
 
 /// @param numbers  coefficients_of(model) of them
-LensDistortion distortion_of(LensModel model, std::span<const double> numbers);
+LensDistortion distortion_of(LensModel model, const std::vector<double>& numbers);
 
 /// (x', y') of a direction of any length. NaN beyond the domain of an equidistant lens.
 Eigen::Vector2d picture_of(const LensDistortion& lens, const Eigen::Vector3d& direction);

@@ -116,13 +116,14 @@ std::optional<double> Bundle::adjust(BundleState& state, const LensFlags& fitted
     return 2.0 * summary.final_cost;
 }
 
-void Bundle::approach(BundleState& state, const LensFlags& fitted) const {
+double Bundle::approach(BundleState& state, const LensFlags& fitted) const {
     Problem problem;
     build(problem, state, fitted, true);
     ceres::Solver::Options options = solver_options(ceres::DENSE_SCHUR);
     options.function_tolerance = 1e-4;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem.terms, &summary);
+    return 2.0 * summary.final_cost;
 }
 
 double Bundle::adjust_pose(const Lens& lens, std::size_t view, PoseBlock& pose) const {

@@ -39,8 +39,8 @@ class Bundle {
     /// solution.
     std::optional<double> adjust(BundleState& state, const LensFlags& fitted) const;
 
-    /// The same roughly, and unmoved by single tags that are far off (Huber's loss).
-    void approach(BundleState& state, const LensFlags& fitted) const;
+    /// The same roughly, and unmoved by single tags that are far off (Huber's loss). Returns twice the loss.
+    double approach(BundleState& state, const LensFlags& fitted) const;
 
     /// Adjusts one view's pose alone. Returns its chi^2.
     double adjust_pose(const Lens& lens, std::size_t view, PoseBlock& pose) const;

@@ -49,8 +49,8 @@ double outermost_px(const CameraGeometry& lens, const std::vector<TargetView>& v
     return outermost;
 }
 
-CameraGeometry fisheye_of_least_error(const CameraCalibrationOptions& options,
-                                      const std::vector<TargetView>& views) {
+CameraGeometry lens_of_least_error(const CameraCalibrationOptions& options,
+                                   const std::vector<TargetView>& views) {
     constexpr double step = 1.1, longest = 50.0;  // the latter in widths of the image
     const double shortest_px = outermost_px(plain_lens(options, 1.0), views) / std::numbers::pi * step;
     const double longest_px = longest * std::max(options.width_px, options.height_px);
@@ -93,9 +93,12 @@ CameraGeometry plain_lens(const CameraCalibrationOptions& options, double focal_
     return lens;
 }
 
-CameraGeometry start_lens(const CameraCalibrationOptions& options, const std::vector<TargetView>& views) {
-    if (options.model == LensModel::equidistant) return fisheye_of_least_error(options, views);
-    return plain_lens(options, focal_of_homographies_px(plain_lens(options, 1.0), views));
+std::vector<CameraGeometry> start_lenses(const CameraCalibrationOptions& options,
+                                         const std::vector<TargetView>& views) {
+    std::vector<CameraGeometry> lenses{lens_of_least_error(options, views)};
+    if (options.model == LensModel::plumb_bob)
+        lenses.push_back(plain_lens(options, focal_of_homographies_px(plain_lens(options, 1.0), views)));
+    return lenses;
 }
 
 double rough_error_px(const CameraGeometry& lens, const std::vector<TargetView>& views) {
@@ -131,6 +134,18 @@ Result<BundleState> start_camera(const CameraGeometry& lens, const std::vector<T
         state.poses.push_back(block);
     }
     return state;
+}
+
+bool turn_poses(BundleState& state, const std::vector<TargetView>& views, const Bundle& bundle) {
+    bool turned = false;
+    for (std::size_t view = 0; view < views.size(); ++view) {
+        PoseBlock block = state.poses[view], other = block_of(mirrored(pose_of(block), views[view]));
+        const double chi2 = bundle.adjust_pose(state.lens, view, block);
+        if (!(bundle.adjust_pose(state.lens, view, other) < chi2)) continue;
+        state.poses[view] = other;
+        turned = true;
+    }
+    return turned;
 }
 
 }  // namespace fidservo::calib

@@ -13,11 +13,12 @@ namespace fidservo::calib {
 /// A lens without coefficients, its principal point in the image's middle.
 CameraGeometry plain_lens(const CameraCalibrationOptions& options, double focal_px);
 
-/// A plain lens of such a focal length that the views' own poses explain the corners well. plumb_bob: by the
-/// constraints that homographies have; equidistant, whose pictures of a plane are not homographies: the best
-/// of focal lengths in steps of a tenth, from the one by which the outermost corner is seen in the direction
-/// straight behind.
-CameraGeometry start_lens(const CameraCalibrationOptions& options, const std::vector<TargetView>& views);
+/// Plain lenses to begin with. Of a plumb_bob lens one whose focal length is from the constraints that
+/// homographies have, which distortion can spoil. Of either model, the best of focal lengths in steps of a
+/// tenth by rough_error_px(), from the one by which the outermost corner is seen in the direction straight
+/// behind: an equidistant lens's pictures of a plane are no homographies.
+std::vector<CameraGeometry> start_lenses(const CameraCalibrationOptions& options,
+                                         const std::vector<TargetView>& views);
 
 /// Median distance, px, of corners from where each view's pose by plane_pose() puts them: infinite if a view
 /// has none.
@@ -27,5 +28,9 @@ double rough_error_px(const CameraGeometry& lens, const std::vector<TargetView>&
 /// Reason::not_identifiable.
 Result<BundleState> start_camera(const CameraGeometry& lens, const std::vector<TargetView>& views,
                                  const Bundle& bundle);
+
+/// Exchanges the poses that by the lens as it is now explain their view better the other way round. Says
+/// whether any was.
+bool turn_poses(BundleState& state, const std::vector<TargetView>& views, const Bundle& bundle);
 
 }  // namespace fidservo::calib

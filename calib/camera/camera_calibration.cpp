@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include <fmt/format.h>
@@ -33,16 +34,44 @@ std::vector<Candidate> candidates_of(LensModel model) {
     return {{{k2}, one}, {{p1, p2}, two}, {{k3}, one}};
 }
 
-/// Step by step from few parameters to all that are asked for.
-void approach(const Bundle& bundle, const CameraCalibrationOptions& options, BundleState& state) {
+/// Step by step from few parameters to all that are asked for. Returns twice the robust loss.
+double approach(const Bundle& bundle, const CameraCalibrationOptions& options,
+                const std::vector<TargetView>& views, BundleState& state) {
     const LensMask wanted = options.fitted.value_or(usual_lens());
     LensMask mask{};
     if (options.start) mask = wanted;
+    double loss = 0.0;
     for (const LensParameter next : {focal, k1, centre_u}) {
         mask[next] = wanted[next];
         mask[centre_v] = mask[centre_u] && wanted[centre_v];
-        bundle.approach(state, mask);
+        loss = bundle.approach(state, mask);
     }
+    if (turn_poses(state, views, bundle)) loss = bundle.approach(state, mask);
+    return loss;
+}
+
+/// The best state that the starts lead to.
+Result<BundleState> approach_from_all(const Bundle& bundle, const CameraCalibrationOptions& options,
+                                      const std::vector<TargetView>& views) {
+    std::vector<CameraGeometry> starts;
+    if (options.start)
+        starts.push_back(*options.start);
+    else
+        starts = start_lenses(options, views);
+    Result<BundleState> best = failure(Reason::no_convergence, "no lens was found that explains the views");
+    double least = std::numeric_limits<double>::infinity();
+    for (const CameraGeometry& lens : starts) {
+        Result<BundleState> state = start_camera(lens, views, bundle);
+        if (!state) {
+            if (!best) best = state;
+            continue;
+        }
+        const double loss = approach(bundle, options, views, *state);
+        if (!(loss < least) || !(state->lens[focal] > 0.0)) continue;
+        least = loss;
+        best = state;
+    }
+    return best;
 }
 
 /// Terms that were fitted before are none again, so that the views are asked anew.
@@ -71,6 +100,38 @@ std::optional<double> adjust(const Bundle& bundle, const CameraCalibrationOption
         chi2 = lower;
     }
     return chi2;
+}
+
+/// That of the fitted numbers where terms were left out because they do not improve the fit: they need not be
+/// zero. With all of the model's terms in the fit the numbers have the covariance C and differ by d from
+/// those without; that of the latter about the truth is bounded by C + d d^T. The poses' likewise.
+std::optional<BundleCovariance> covariance_of(const Bundle& bundle, const CameraCalibrationOptions& options,
+                                              const BundleState& state, const LensMask& fitted) {
+    std::vector<Candidate> candidates =
+        options.fitted ? std::vector<Candidate>{} : candidates_of(options.model);
+    for (; !candidates.empty(); candidates.pop_back()) {
+        LensMask wider = fitted;
+        for (const Candidate& candidate : candidates) wider = with(wider, candidate.terms);
+        BundleState all = state;
+        if (!bundle.adjust(all, wider)) continue;
+        auto covariance = bundle.covariance(all, wider);
+        if (!covariance) continue;
+        Eigen::Matrix<double, lens_parameters, 1> step, kept;
+        for (int k = 0; k < lens_parameters; ++k) {
+            kept(k) = fitted[static_cast<std::size_t>(k)] ? 1.0 : 0.0;
+            step(k) = all.lens[static_cast<std::size_t>(k)] - state.lens[static_cast<std::size_t>(k)];
+        }
+        covariance->lens += step * step.transpose();
+        covariance->lens = (kept.asDiagonal() * covariance->lens * kept.asDiagonal()).eval();
+        for (std::size_t view = 0; view < state.poses.size(); ++view) {
+            const Eigen::Matrix<double, 6, 1> moved =
+                Eigen::Map<const Eigen::Matrix<double, 6, 1>>(all.poses[view].data()) -
+                Eigen::Map<const Eigen::Matrix<double, 6, 1>>(state.poses[view].data());
+            covariance->poses[view] += moved * moved.transpose();
+        }
+        return covariance;
+    }
+    return bundle.covariance(state, fitted);
 }
 
 ViewFit describe(const Bundle& bundle, const BundleState& state, const TargetView& view, std::size_t index) {
@@ -118,11 +179,9 @@ Result<CameraCalibration> calibrate_camera(const std::vector<TargetView>& views,
     constexpr int most_rounds = 4;
     if (views.empty()) return failure(Reason::not_identifiable, "there is no view of the target");
     Bundle bundle(options.model, views, options.extra_std_px);
-    const CameraGeometry lens = options.start ? *options.start : start_lens(options, views);
-    Result<BundleState> started = start_camera(lens, views, bundle);
+    Result<BundleState> started = approach_from_all(bundle, options, views);
     if (!started) return tl::make_unexpected(started.error());
     BundleState state = *started;
-    approach(bundle, options, state);
     bundle.sort_out(state);
     LensMask mask{};
     std::optional<double> chi2;
@@ -140,7 +199,7 @@ Result<CameraCalibration> calibrate_camera(const std::vector<TargetView>& views,
                         "views' places are {}: more views or more tags are needed",
                         views.size(), views.size() == 1 ? "" : "s", views.size() == 1 ? "s" : "",
                         bundle.measured_directions(), parameters));
-    const auto covariance = bundle.covariance(state, mask);
+    const auto covariance = covariance_of(bundle, options, state, mask);
     if (!covariance || !(state.lens[focal] > 0.0))
         return failure(Reason::not_identifiable,
                        fmt::format("{} view{} of the target do{} not determine the lens: different lenses "
