@@ -17,9 +17,11 @@ template <class T>
 Eigen::Matrix<T, 8, 1> corners_from_pose(LensModel model, const std::array<Eigen::Vector2d, 4>& printed_mm,
                                          const T* lens, const T* pose) {
     Eigen::Matrix<T, 8, 1> corners;
+    const Eigen::Vector2d middle = 0.25 * (printed_mm[0] + printed_mm[1] + printed_mm[2] + printed_mm[3]);
     for (int k = 0; k < 4; ++k) {
-        const Eigen::Vector2d& p = printed_mm[static_cast<std::size_t>(k)];
-        const std::array<T, 3> point{T(p.x()), T(p.y()), T(0.0)};
+        const Eigen::Vector2d from_middle = printed_mm[static_cast<std::size_t>(k)] - middle;
+        const std::array<T, 3> point{middle.x() + lens[tag_scale] * from_middle.x(),
+                                     middle.y() + lens[tag_scale] * from_middle.y(), T(0.0)};
         Eigen::Matrix<T, 3, 1> seen;
         ceres::AngleAxisRotatePoint(pose, point.data(), seen.data());
         for (int axis = 0; axis < 3; ++axis) seen(axis) += pose[3 + axis];

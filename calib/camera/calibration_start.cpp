@@ -49,16 +49,26 @@ double outermost_px(const CameraGeometry& lens, const std::vector<TargetView>& v
     return outermost;
 }
 
+/// Of the views some are enough for a focal length to a quarter.
+std::vector<TargetView> some_of(const std::vector<TargetView>& views) {
+    constexpr std::size_t enough = 8;
+    const std::size_t every = (views.size() + enough - 1) / enough;
+    std::vector<TargetView> some;
+    for (std::size_t k = 0; k < views.size(); k += every) some.push_back(views[k]);
+    return some;
+}
+
 CameraGeometry lens_of_least_error(const CameraCalibrationOptions& options,
                                    const std::vector<TargetView>& views) {
-    constexpr double step = 1.1, longest = 50.0;  // the latter in widths of the image
-    const double shortest_px = outermost_px(plain_lens(options, 1.0), views) / std::numbers::pi * step;
+    constexpr double step = 1.25, longest = 50.0;  // the latter in widths of the image
+    const std::vector<TargetView> some = some_of(views);
+    const double shortest_px = 1.05 * outermost_px(plain_lens(options, 1.0), views) / std::numbers::pi;
     const double longest_px = longest * std::max(options.width_px, options.height_px);
     CameraGeometry best = plain_lens(options, options.width_px);
     double least_px = std::numeric_limits<double>::infinity();
     for (double focal_px = std::max(1.0, shortest_px); focal_px < longest_px; focal_px *= step) {
         const CameraGeometry lens = plain_lens(options, focal_px);
-        const double error_px = rough_error_px(lens, views);
+        const double error_px = rough_error_px(lens, some);
         if (!(error_px < least_px)) continue;
         least_px = error_px;
         best = lens;

@@ -15,7 +15,7 @@ CameraGeometry plain_lens(const CameraCalibrationOptions& options, double focal_
 
 /// Plain lenses to begin with. Of a plumb_bob lens one whose focal length is from the constraints that
 /// homographies have, which distortion can spoil. Of either model, the best of focal lengths in steps of a
-/// tenth by rough_error_px(), from the one by which the outermost corner is seen in the direction straight
+/// quarter by rough_error_px(), from the one by which the outermost corner is seen in the direction straight
 /// behind: an equidistant lens's pictures of a plane are no homographies.
 std::vector<CameraGeometry> start_lenses(const CameraCalibrationOptions& options,
                                          const std::vector<TargetView>& views);

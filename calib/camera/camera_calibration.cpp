@@ -40,6 +40,7 @@ double approach(const Bundle& bundle, const CameraCalibrationOptions& options,
     const LensMask wanted = options.fitted.value_or(usual_lens());
     LensMask mask{};
     if (options.start) mask = wanted;
+    mask[tag_scale] = options.fit_tag_scale;
     double loss = 0.0;
     for (const LensParameter next : {focal, k1, centre_u}) {
         mask[next] = wanted[next];
@@ -76,15 +77,20 @@ Result<BundleState> approach_from_all(const Bundle& bundle, const CameraCalibrat
 
 /// Terms that were fitted before are none again, so that the views are asked anew.
 void clear_unfitted(Lens& lens, const LensMask& fitted) {
-    for (std::size_t k = focal_ratio; k < lens_parameters; ++k)
-        if (!fitted[k] && k != centre_u && k != centre_v) lens[k] = k == focal_ratio ? 1.0 : 0.0;
+    for (std::size_t k = k1; k <= k4; ++k)
+        if (!fitted[k]) lens[k] = 0.0;
+    for (const LensParameter share : {focal_ratio, tag_scale})
+        if (!fitted[share]) lens[share] = 1.0;
 }
 
 /// What is asked for, or the usual lens and what else the views ask for.
 std::optional<double> adjust(const Bundle& bundle, const CameraCalibrationOptions& options,
                              BundleState& state, LensMask& mask) {
     mask = options.fitted.value_or(usual_lens());
-    if (!options.fitted) mask[focal_ratio] = options.fit_focal_ratio;
+    if (!options.fitted) {
+        mask[focal_ratio] = options.fit_focal_ratio;
+        mask[tag_scale] = options.fit_tag_scale;
+    }
     clear_unfitted(state.lens, mask);
     if (options.fitted) return bundle.adjust(state, mask);
     auto chi2 = bundle.adjust(state, mask);
@@ -217,6 +223,7 @@ Result<CameraCalibration> calibrate_camera(const std::vector<TargetView>& views,
                              .unused = 0,
                              .seen = views};
     set_lens(result.camera, state.lens);
+    result.tag_scale = state.lens[tag_scale];
     const double widen = std::max(1.0, result.misfit);
     result.covariance *= widen;
     for (std::size_t view = 0; view < views.size(); ++view) {

@@ -28,6 +28,7 @@ struct CameraCalibrationOptions {
     /// Empty: the usual ones, and the model's other coefficients as far as they improve the fit at 1 %.
     std::optional<LensMask> fitted;
     bool fit_focal_ratio = false;  ///< where `fitted` is empty
+    bool fit_tag_scale = false;    ///< likewise
     /// What is believed beforehand, of that model; the iteration starts there. Empty: from the corners alone
     /// (calibration_start.h).
     std::optional<CameraGeometry> start;
@@ -53,6 +54,7 @@ struct ViewFit {
 struct CameraCalibration {
     CameraGeometry camera;  ///< the lens; rotation, tilt and distance are those of the first view
     LensMask fitted;
+    double tag_scale = 1.0;  ///< of the tags' sides to those said, where that was fitted
     Eigen::Matrix<double, lens_parameters, lens_parameters> covariance;  ///< zero where not fitted
     std::vector<ViewFit> views;
     double rms_px;       ///< r.m.s. distance of the used corners, as OpenCV counts the reprojection error

@@ -4,13 +4,53 @@
 #include "core/lens_picture.h"
 
 #include <array>
+#include <string_view>
 
 #include <Eigen/Core>
 
 namespace fidservo::calib {
 
-/// The lens's parameters as a solver's block: f, q, u0, v0, then the coefficients of both models.
-enum LensParameter { focal, focal_ratio, centre_u, centre_v, k1, k2, p1, p2, k3, k4, lens_parameters };
+/// The lens's parameters as a solver's block: f, q, u0, v0, then the coefficients of both models; and the
+/// size of the target's tags about their middles, as a share of what is said of them, by which a target's
+/// description is checked.
+enum LensParameter {
+    focal,
+    focal_ratio,
+    centre_u,
+    centre_v,
+    k1,
+    k2,
+    p1,
+    p2,
+    k3,
+    k4,
+    tag_scale,
+    lens_parameters
+};
+
+/// As rig files' provenance and reports name it.
+inline std::string_view name_of(LensParameter parameter) {
+    constexpr std::array<std::string_view, lens_parameters> names{"focal_px",
+                                                                  "focal_ratio",
+                                                                  "principal_point_u_px",
+                                                                  "principal_point_v_px",
+                                                                  "k1",
+                                                                  "k2",
+                                                                  "p1",
+                                                                  "p2",
+                                                                  "k3",
+                                                                  "k4",
+                                                                  "tag_scale"};
+    return names[parameter];
+}
+
+/// Whether a lens of that model has the parameter.
+inline bool belongs_to(LensModel model, LensParameter parameter) {
+    if (parameter == tag_scale) return false;
+    const bool is_equidistant = model == LensModel::equidistant;
+    if (parameter == p1 || parameter == p2) return !is_equidistant;
+    return parameter != k4 || is_equidistant;
+}
 
 using Lens = std::array<double, lens_parameters>;
 
@@ -25,7 +65,8 @@ inline Lens lens_of(const CameraGeometry& camera) {
             d.p1,
             d.p2,
             d.k3,
-            d.k4};
+            d.k4,
+            1.0};
 }
 
 /// The camera's model stays.
