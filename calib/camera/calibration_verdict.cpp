@@ -157,52 +157,73 @@ std::optional<double> spacing_of(const std::vector<PlateTag>& target, double tag
     return spacing;
 }
 
-/// Why the corners are explained badly: the first explanation that is tried and explains them.
+/// What was tried, in words that follow "that", and what came of it.
+struct Explanation {
+    double rms_px;
+    std::string text;
+};
+
+/// Of the explanations by lenses of one model those that fit. `asked`: as it was asked for.
+void add_explanations(const CameraCalibration& asked, LensModel by, const CalibrationLimits& limits,
+                      const std::vector<PlateTag>& target, std::vector<Explanation>& explanations) {
+    const LensModel model = asked.camera.distortion.model;
+    const std::string and_lens =
+        by == model ? "" : fmt::format(", with a lens of the model {}, --lens {},", name_of(by), name_of(by));
+    const auto fit_text = [&](const CameraCalibration& found) {
+        return fmt::format("fits: {:.2g} px in place of {:.3g} px", found.rms_px, asked.rms_px);
+    };
+    if (const auto scaled = with_free_tag_scale(asked, by); fits(scaled, asked, limits)) {
+        const auto said = spacing_of(target, 1.0), found = spacing_of(target, scaled->tag_scale);
+        if (said && found)
+            explanations.push_back(
+                {scaled->rms_px,
+                 fmt::format("the gap between the tags is {:.3g} of their side, not {:.3g}: that{} {}: "
+                             "is the target's spacing right?",
+                             *found, *said, and_lens, fit_text(*scaled))});
+    }
+    if (const auto grid = with_other_columns(asked, target, by);
+        grid && fits(grid->calibration, asked, limits))
+        explanations.push_back(
+            {grid->calibration.rms_px,
+             fmt::format("the tags stand in rows of {}, not of {}: that{} {}: is the target's grid right?",
+                         grid->columns, columns_of(target).value_or(0), and_lens,
+                         fit_text(grid->calibration))});
+}
+
+std::string other_lens_text(const CameraCalibration& asked, const CameraCalibration& other) {
+    const LensModel model = asked.camera.distortion.model, by = other.camera.distortion.model;
+    const Growth growth = growth_of(asked);
+    const std::string grows =
+        growth.is_real
+            ? fmt::format(", whose errors grow from {:.2g} px in the inner half to {:.2g} px in the outer",
+                          growth.inner_px, growth.outer_px)
+            : "";
+    return fmt::format(
+        "a lens of the model {} does not describe this camera{}; one of the model {} fits: {:.2g} px in "
+        "place of {:.3g} px: --lens {}",
+        name_of(model), grows, name_of(by), other.rms_px, asked.rms_px, name_of(by));
+}
+
+/// Why the corners are explained badly: the explanation that was tried and explains them best.
 std::string cause_of_misfit(const CameraCalibration& calibration, const CalibrationLimits& limits,
                             const std::vector<PlateTag>& target) {
     const LensModel model = calibration.camera.distortion.model, other = other_model(model);
-    const auto in_place = [&](const CameraCalibration& found) {
-        return fmt::format("{:.2g} px in place of {:.3g} px", found.rms_px, calibration.rms_px);
-    };
-    const auto asked = with_model(calibration, model);
-    if (!asked) return "";
-    const auto other_lens = with_model(calibration, other);
-    if (fits(other_lens, *asked, limits)) {
-        const Growth growth = growth_of(*asked);
-        return fmt::format(
-            "a {} lens does not describe this camera{}: an {} lens fits: {}: --lens {}", name_of(model),
-            growth.is_real ? fmt::format(" (errors grow from {:.2g} px in the middle to {:.2g} px at "
-                                         "the edge)",
-                                         growth.inner_px, growth.outer_px)
-                           : "",
-            name_of(other), in_place(*other_lens), name_of(other));
-    }
-    for (const LensModel by : {model, other}) {
-        const std::string and_lens =
-            by == model ? "" : fmt::format(", and an {} lens, --lens {}", name_of(by), name_of(by));
-        if (const auto scaled = with_free_tag_scale(calibration, by); fits(scaled, *asked, limits)) {
-            const auto said = spacing_of(target, 1.0), found = spacing_of(target, scaled->tag_scale);
-            if (said && found)
-                return fmt::format(
-                    "the gap between the tags is {:.2g} of their side, not {:.2g}: that{} fits: {}: "
-                    "is the target's spacing right?",
-                    *found, *said, and_lens, in_place(*scaled));
-        }
-        if (const auto grid = with_other_columns(calibration, target, by);
-            grid && fits(grid->calibration, *asked, limits))
-            return fmt::format(
-                "the tags stand in rows of {}, not of {}: that{} fits: {}: is the target's grid right?",
-                grid->columns, columns_of(target).value_or(0), and_lens, in_place(grid->calibration));
-    }
-    const auto without = without_worst_view(calibration, model);
+    const CameraCalibration asked = with_model(calibration, model).value_or(calibration);
+    std::vector<Explanation> explanations;
+    if (const auto other_lens = with_model(calibration, other); fits(other_lens, asked, limits))
+        explanations.push_back({other_lens->rms_px, other_lens_text(asked, *other_lens)});
+    add_explanations(asked, model, limits, target, explanations);
+    if (explanations.empty()) add_explanations(asked, other, limits, target, explanations);
+    if (!explanations.empty()) return std::ranges::min_element(explanations, {}, &Explanation::rms_px)->text;
+    const auto without = without_worst_view(asked, model);
     if (without && without->calibration.rms_px <= limits.most_rms_px)
-        return fmt::format("without {} the rest fits: {}", without->name, in_place(without->calibration));
+        return fmt::format("without {} the rest fits: {:.2g} px", without->name, without->calibration.rms_px);
     const double noisy = 1.0 + 3.0 * std::sqrt(2.0 / calibration.freedom);
     if (calibration.misfit <= noisy) return "the corners' own noise explains it";
     return fmt::format(
-        "neither an{} {} lens, nor tags of another size or in rows of another number, nor a single "
-        "view explains it",
-        other == LensModel::equidistant ? "" : "other,", name_of(other));
+        "neither a lens of the model {}, nor tags of another size or in rows of another number, nor a "
+        "single view explains it",
+        name_of(other));
 }
 
 }  // namespace
@@ -214,10 +235,9 @@ std::vector<std::string> shortcomings(const CameraCalibration& calibration, cons
     const double focal_std_px = calibration.std_of(focal);
     const bool explained = calibration.rms_px <= limits.most_rms_px;
     if (!explained) {
-        const std::string cause = cause_of_misfit(calibration, limits, target);
-        reasons.push_back(fmt::format("the reprojection error is too large: {:.3g} px, more than {:g} px{}{}",
-                                      calibration.rms_px, limits.most_rms_px, cause.empty() ? "" : "; ",
-                                      cause));
+        reasons.push_back(fmt::format("the reprojection error is too large: {:.3g} px, more than {:g} px; {}",
+                                      calibration.rms_px, limits.most_rms_px,
+                                      cause_of_misfit(calibration, limits, target)));
     } else if (!(focal_std_px <= limits.most_focal_std * focal_px)) {
         reasons.push_back(fmt::format(
             "the focal length is not determined: {:.5g} +- {:.2g} px, more than {:g} %{}", focal_px,

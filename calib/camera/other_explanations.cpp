@@ -1,11 +1,16 @@
 #include "calib/camera/other_explanations.h"
 
 #include "calib/camera/calibration_start.h"
+#include "calib/camera/plane_pose.h"
 #include "calib/significance.h"
+#include "core/median.h"
+#include "vision/tag_choice.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <Eigen/Geometry>
 
 namespace fidservo::calib {
 namespace {
@@ -28,18 +33,44 @@ std::optional<CameraCalibration> calibrated(const std::vector<TargetView>& views
 
 /// Some of the views, of those that show most, to compare descriptions of the target roughly.
 std::vector<TargetView> few_of(std::vector<TargetView> views) {
-    constexpr std::size_t enough = 6;
+    constexpr std::size_t enough = 4;
     std::ranges::stable_sort(views, std::ranges::greater{},
                              [](const TargetView& view) { return view.tags.size(); });
     if (views.size() > enough) views.resize(enough);
     return views;
 }
 
-double roughly_px(const std::vector<TargetView>& views, const CameraCalibrationOptions& options) {
+/// Median distance, px, of the corners from what the nearest perspective picture of the target shows.
+double perspective_error_px(const CameraGeometry& plain, const std::vector<TargetView>& views) {
+    std::vector<double> errors_px;
+    for (const TargetView& view : views) {
+        const auto homography = target_homography(plain, view);
+        if (!homography) return std::numeric_limits<double>::infinity();
+        for (const TagSight& sight : view.tags) {
+            const auto corners_mm = vision::corners_mm(sight.printed);
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Eigen::Vector2d shown = (*homography * corners_mm[k].homogeneous()).hnormalized();
+                errors_px.push_back(
+                    (plain.principal_point_px + shown - sight.seen.detection.corners_px[k]).norm());
+            }
+        }
+    }
+    return errors_px.empty() ? std::numeric_limits<double>::infinity() : median_of(errors_px);
+}
+
+/// Of a fisheye some focal lengths will do, where the descriptions of a target are compared.
+double fisheye_error_px(const CameraCalibrationOptions& options, const std::vector<TargetView>& views) {
+    constexpr double step = 1.5;
+    const double width_px = std::max(options.width_px, options.height_px);
     double least_px = std::numeric_limits<double>::infinity();
-    for (const CameraGeometry& lens : start_lenses(options, views))
-        least_px = std::min(least_px, rough_error_px(lens, views));
+    for (double focal_px = 0.2 * width_px; focal_px < 4.0 * width_px; focal_px *= step)
+        least_px = std::min(least_px, rough_error_px(plain_lens(options, focal_px), views));
     return least_px;
+}
+
+double roughly_px(const std::vector<TargetView>& views, const CameraCalibrationOptions& options) {
+    if (options.model == LensModel::equidistant) return fisheye_error_px(options, views);
+    return perspective_error_px(plain_lens(options, options.width_px), views);
 }
 
 std::vector<TargetView> with_sides(std::vector<TargetView> views, double scale) {
@@ -96,8 +127,9 @@ bool explains_better(const CameraCalibration& other, const CameraCalibration& as
     constexpr double by_chance = 1e-3;
     double chi2_other = 0.0, chi2_asked = 0.0;
     int measured = 0;
-    for (std::size_t view = 0; view < asked.views.size() && view < other.views.size(); ++view)
-        for (std::size_t tag = 0; tag < asked.views[view].tags.size(); ++tag) {
+    for (std::size_t view = 0; view < std::min(asked.views.size(), other.views.size()); ++view)
+        for (std::size_t tag = 0;
+             tag < std::min(asked.views[view].tags.size(), other.views[view].tags.size()); ++tag) {
             const SightResidual& a = asked.views[view].tags[tag];
             const SightResidual& b = other.views[view].tags[tag];
             if (!a.used || !b.used) continue;
@@ -121,6 +153,8 @@ bool explains_better(const CameraCalibration& other, const CameraCalibration& as
 std::optional<CameraCalibration> with_model(const CameraCalibration& asked, LensModel model) {
     CameraCalibrationOptions options = options_of(asked, model);
     if (model == asked.camera.distortion.model) options.start = asked.camera;
+    if (auto found = calibrated(asked.seen, options); found || !options.start) return found;
+    options.start.reset();
     return calibrated(asked.seen, options);
 }
 
