@@ -1,10 +1,10 @@
 #include "core/camera_geometry.h"
 
 #include "core/camera_slopes.h"
-#include "core/plumb_bob.h"
+
+#include <limits>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 namespace fidservo {
 bool looks_straight(const CameraGeometry& camera) {
@@ -21,26 +21,13 @@ Eigen::Matrix3d camera_from_plate(const CameraGeometry& camera) {
     return Eigen::AngleAxisd(tilt_rad, axis).toRotationMatrix() * turn;
 }
 
-Eigen::Vector2d distort(const LensDistortion& lens, const Eigen::Vector2d& ideal) {
-    return distorted(numbers_of(lens).data(), ideal);
-}
-
-Eigen::Vector2d undistort(const LensDistortion& lens, const Eigen::Vector2d& distorted) {
-    if (lens.is_none()) return distorted;
-    constexpr int enough = 8;  // quadratic from an error of some per cent
-    Eigen::Vector2d ideal = distorted;
-    for (int step = 0; step < enough; ++step)
-        ideal -= distortion_slope(lens, ideal).inverse() * (distort(lens, ideal) - distorted);
-    return ideal;
-}
-
 Eigen::Vector2d project(const CameraGeometry& camera, const Eigen::Vector2d& plate_mm, double s_mm) {
     if (looks_straight(camera))
         return camera.principal_point_px + (plate_mm - Eigen::Vector2d(s_mm, 0.0)) / mm_per_px(camera);
     const Eigen::Vector3d from_camera =
         Eigen::Vector3d(plate_mm.x(), plate_mm.y(), camera.distance_mm) - s_mm * stage_axis(camera);
     const Eigen::Vector3d seen = camera_from_plate(camera) * from_camera;
-    const Eigen::Vector2d pictured = distort(camera.distortion, seen.head<2>() / seen.z());
+    const Eigen::Vector2d pictured = picture_of(camera.distortion, seen);
     return camera.principal_point_px +
            camera.focal_px * Eigen::Vector2d(pictured.x(), camera.focal_ratio * pictured.y());
 }
@@ -48,9 +35,9 @@ Eigen::Vector2d project(const CameraGeometry& camera, const Eigen::Vector2d& pla
 Eigen::Vector2d back_project(const CameraGeometry& camera, const Eigen::Vector2d& image_px, double s_mm) {
     if (looks_straight(camera))
         return (image_px - camera.principal_point_px) * mm_per_px(camera) + Eigen::Vector2d(s_mm, 0.0);
-    const Eigen::Vector2d ideal = ideal_point(camera, image_px);
     const Eigen::Vector3d ray =
-        camera_from_plate(camera).transpose() * Eigen::Vector3d(ideal.x(), ideal.y(), 1.0);
+        camera_from_plate(camera).transpose() * ray_of(camera.distortion, pictured_at(camera, image_px));
+    if (!(ray.z() > 0.0)) return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
     const Eigen::Vector3d centre = s_mm * stage_axis(camera);
     return centre.head<2>() + (camera.distance_mm - centre.z()) / ray.z() * ray.head<2>();
 }

@@ -6,24 +6,18 @@
 // perpendicular from the camera's centre to the plate. Image: u right, v down, px; pixel centres lie at
 // integer coordinates. A point P of the plate is seen from position s at
 //
-//     Q = R_tilt R_z (P - s a + (0, 0, Z)),   (x, y) = (Q_x, Q_y) / Q_z
-//     x' = x (1 + k1 r2 + k2 r2^2 + k3 r2^3) + 2 p1 x y + p2 (r2 + 2 x^2)
-//     y' = y (1 + k1 r2 + k2 r2^2 + k3 r2^3) + p1 (r2 + 2 y^2) + 2 p2 x y,   r2 = x^2 + y^2
+//     Q = R_tilt R_z (P - s a + (0, 0, Z))
+//     (x', y'): the lens's picture of the direction Q, by one of the models of core/lens.h
 //     u = u0 + f x',   v = v0 + f q y'
 //
 // R_z turns from u towards v, R_tilt about an axis in the image plane, a: the stage's axis, a unit vector.
-// A camera that looks straight down along a true axis without distortion: u = u0 + f (X - s) / Z, v = v0 + f
-// Y / Z. Source of the distortion: Brown, Close-range camera calibration, Photogrammetric Engineering 37(8),
-// 1971, as OpenCV and ROS ("plumb_bob") write it.
+// A camera that looks straight down along a true axis through a pinhole: u = u0 + f (X - s) / Z, v = v0 + f
+// Y / Z.
+#include "core/lens.h"
+
 #include <Eigen/Core>
 
 namespace fidservo {
-
-/// Radial and tangential coefficients, in OpenCV's and ROS's order.
-struct LensDistortion {
-    double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
-    bool is_none() const { return k1 == 0.0 && k2 == 0.0 && p1 == 0.0 && p2 == 0.0 && k3 == 0.0; }
-};
 
 struct CameraGeometry {
     int width_px;
@@ -50,16 +44,12 @@ bool looks_straight(const CameraGeometry& camera);
 /// R_tilt R_z: from the plate's frame to the camera's.
 Eigen::Matrix3d camera_from_plate(const CameraGeometry& camera);
 
-/// (x', y') of (x, y).
-Eigen::Vector2d distort(const LensDistortion& lens, const Eigen::Vector2d& ideal);
-
-/// (x, y) of (x', y'), by Newton's method to rounding. Valid where the lens makes a one-to-one picture.
-Eigen::Vector2d undistort(const LensDistortion& lens, const Eigen::Vector2d& distorted);
-
-/// Image point in px of a plate point in mm, seen from camera position s.
+/// Image point in px of a plate point in mm, seen from camera position s. NaN beyond the domain of an
+/// equidistant lens.
 Eigen::Vector2d project(const CameraGeometry& camera, const Eigen::Vector2d& plate_mm, double s_mm);
 
-/// Plate point in mm of an image point in px, seen from camera position s.
+/// Plate point in mm of an image point in px, seen from camera position s. NaN where the image shows nothing
+/// of the plate: no ray of the lens ends there, or it leads away from the plate.
 Eigen::Vector2d back_project(const CameraGeometry& camera, const Eigen::Vector2d& image_px, double s_mm);
 
 }  // namespace fidservo

@@ -1,18 +1,12 @@
 #include "core/camera_slopes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
 
 namespace fidservo {
 namespace {
-
-/// (x', y') of an image point.
-Eigen::Vector2d pictured_at(const CameraGeometry& camera, const Eigen::Vector2d& image_px) {
-    Eigen::Vector2d pictured = (image_px - camera.principal_point_px) / camera.focal_px;
-    pictured.y() /= camera.focal_ratio;
-    return pictured;
-}
 
 /// ideal_by_image() of the image point whose ideal point is given.
 Eigen::Matrix2d slope_at(const CameraGeometry& camera, const Eigen::Vector2d& ideal) {
@@ -35,25 +29,28 @@ bool pictures_once(const CameraGeometry& camera, const Eigen::Vector2d& image_px
     return true;
 }
 
+/// Whether the lens's picture reaches the side of the image that is nearest to the principal point.
+bool reaches_a_side(const CameraGeometry& camera) {
+    const Eigen::Vector2d low = pictured_at(camera, {-0.5, -0.5});
+    const Eigen::Vector2d high = pictured_at(camera, {camera.width_px - 0.5, camera.height_px - 0.5});
+    const double nearest = std::min(low.cwiseAbs().minCoeff(), high.cwiseAbs().minCoeff());
+    return ray_of(camera.distortion, {nearest, 0.0}).allFinite();
+}
+
 }  // namespace
 
 Eigen::Vector3d stage_axis(const CameraGeometry& camera) {
     return Eigen::Vector3d(1.0, camera.axis_rad.x(), camera.axis_rad.y()).normalized();
 }
 
-Eigen::Vector2d ideal_point(const CameraGeometry& camera, const Eigen::Vector2d& image_px) {
-    return undistort(camera.distortion, pictured_at(camera, image_px));
+Eigen::Vector2d pictured_at(const CameraGeometry& camera, const Eigen::Vector2d& image_px) {
+    Eigen::Vector2d pictured = (image_px - camera.principal_point_px) / camera.focal_px;
+    pictured.y() /= camera.focal_ratio;
+    return pictured;
 }
 
-Eigen::Matrix2d distortion_slope(const LensDistortion& lens, const Eigen::Vector2d& ideal) {
-    const double x = ideal.x(), y = ideal.y(), r2 = ideal.squaredNorm();
-    const double radial = 1.0 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3));
-    const double slope = 2.0 * (lens.k1 + r2 * (2.0 * lens.k2 + r2 * 3.0 * lens.k3));
-    const double mixed = slope * x * y + 2.0 * lens.p1 * x + 2.0 * lens.p2 * y;
-    Eigen::Matrix2d jacobian;
-    jacobian << radial + slope * x * x + 2.0 * lens.p1 * y + 6.0 * lens.p2 * x, mixed, mixed,
-        radial + slope * y * y + 6.0 * lens.p1 * y + 2.0 * lens.p2 * x;
-    return jacobian;
+Eigen::Vector2d ideal_point(const CameraGeometry& camera, const Eigen::Vector2d& image_px) {
+    return undistort(camera.distortion, pictured_at(camera, image_px));
 }
 
 Eigen::Matrix2d ideal_by_image(const CameraGeometry& camera, const Eigen::Vector2d& image_px) {
@@ -62,14 +59,19 @@ Eigen::Matrix2d ideal_by_image(const CameraGeometry& camera, const Eigen::Vector
 
 Eigen::Matrix2d plate_by_image(const CameraGeometry& camera, const Eigen::Vector2d& image_px, double s_mm) {
     if (looks_straight(camera)) return mm_per_px(camera) * Eigen::Matrix2d::Identity();
-    const Eigen::Vector2d ideal = ideal_point(camera, image_px);
+    const LensDistortion& lens = camera.distortion;
+    const Eigen::Vector3d seen = ray_of(lens, pictured_at(camera, image_px));
     const Eigen::Matrix3d plate_from_camera = camera_from_plate(camera).transpose();
-    const Eigen::Vector3d ray = plate_from_camera * Eigen::Vector3d(ideal.x(), ideal.y(), 1.0);
-    const Eigen::Matrix<double, 3, 2> ray_by_ideal = plate_from_camera.leftCols<2>();
+    const Eigen::Vector3d ray = plate_from_camera * seen;
     const double height_mm = camera.distance_mm - s_mm * stage_axis(camera).z();
-    const Eigen::Matrix2d plate_by_ideal =
-        height_mm / ray.z() * (ray_by_ideal.topRows<2>() - ray.head<2>() / ray.z() * ray_by_ideal.row(2));
-    return plate_by_ideal * slope_at(camera, ideal);
+    const auto plate_by = [&](const Eigen::Matrix<double, 3, 2>& ray_by) -> Eigen::Matrix2d {
+        return height_mm / ray.z() * (ray_by.topRows<2>() - ray.head<2>() / ray.z() * ray_by.row(2));
+    };
+    if (lens.model == LensModel::plumb_bob)
+        return plate_by(plate_from_camera.leftCols<2>()) * slope_at(camera, seen.head<2>());
+    const Eigen::DiagonalMatrix<double, 2> pictured_by_image(1.0 / camera.focal_px,
+                                                             1.0 / (camera.focal_px * camera.focal_ratio));
+    return plate_by(plate_from_camera * ray_slope(lens, seen)) * pictured_by_image;
 }
 
 double mm_per_px_at(const CameraGeometry& camera, const Eigen::Vector2d& image_px, double s_mm) {
@@ -79,6 +81,7 @@ double mm_per_px_at(const CameraGeometry& camera, const Eigen::Vector2d& image_p
 
 bool lens_is_one_to_one(const CameraGeometry& camera) {
     if (camera.distortion.is_none()) return true;
+    if (camera.distortion.model == LensModel::equidistant) return reaches_a_side(camera);
     constexpr int steps = 16;
     for (int k = 0; k <= steps; ++k) {
         const double u = -0.5 + camera.width_px * static_cast<double>(k) / steps;

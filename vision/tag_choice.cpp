@@ -56,8 +56,8 @@ double room_px(const CameraGeometry& camera, const PlateTag& tag, double s_mm) {
             const Eigen::Vector2d at = project(camera, point, s_mm);
             room = std::min({room, at.x() + 0.5, camera.width_px - 0.5 - at.x(), at.y() + 0.5,
                              camera.height_px - 0.5 - at.y()});
-            // Far outside, a lens that bends inwards may show a point a second time.
-            if (room >= 0.0 && (back_project(camera, at, s_mm) - point).norm() > 1e-3 * tag.side_mm)
+            // Far outside, a lens that bends inwards may show a point a second time, or not at all.
+            if (room >= 0.0 && !((back_project(camera, at, s_mm) - point).norm() <= 1e-3 * tag.side_mm))
                 return out_of_sight_px;
         }
     return room;

@@ -14,16 +14,18 @@ namespace fidservo::calib {
 namespace {
 
 template <class T>
-Eigen::Matrix<T, 8, 1> corners_from_pose(const std::array<Eigen::Vector2d, 4>& printed_mm, const T* lens,
-                                         const T* pose) {
+Eigen::Matrix<T, 8, 1> corners_from_pose(LensModel model, const std::array<Eigen::Vector2d, 4>& printed_mm,
+                                         const T* lens, const T* pose) {
     Eigen::Matrix<T, 8, 1> corners;
+    const Eigen::Vector2d middle = 0.25 * (printed_mm[0] + printed_mm[1] + printed_mm[2] + printed_mm[3]);
     for (int k = 0; k < 4; ++k) {
-        const Eigen::Vector2d& p = printed_mm[static_cast<std::size_t>(k)];
-        const std::array<T, 3> point{T(p.x()), T(p.y()), T(0.0)};
+        const Eigen::Vector2d from_middle = printed_mm[static_cast<std::size_t>(k)] - middle;
+        const std::array<T, 3> point{middle.x() + lens[tag_scale] * from_middle.x(),
+                                     middle.y() + lens[tag_scale] * from_middle.y(), T(0.0)};
         Eigen::Matrix<T, 3, 1> seen;
         ceres::AngleAxisRotatePoint(pose, point.data(), seen.data());
         for (int axis = 0; axis < 3; ++axis) seen(axis) += pose[3 + axis];
-        corners.template segment<2>(2 * k) = image_of(lens, seen);
+        corners.template segment<2>(2 * k) = image_of(model, lens, seen);
     }
     return corners;
 }
@@ -56,16 +58,18 @@ PlanePose pose_of(const PoseBlock& block) {
 }
 
 struct Bundle::Residual {
+    LensModel model;
     Sight sight;
     template <class T>
     bool operator()(const T* lens, const T* pose, T* residual) const {
-        const Eigen::Matrix<T, 8, 1> error = sight.seen_px - corners_from_pose(sight.printed_mm, lens, pose);
+        const Eigen::Matrix<T, 8, 1> error =
+            sight.seen_px - corners_from_pose(model, sight.printed_mm, lens, pose);
         Eigen::Map<Eigen::Matrix<T, 8, 1>> out(residual);
         out = sight.weights.whiten.cast<T>() * error;
         return true;
     }
-    static ceres::CostFunction* of(const Sight& sight) {
-        return new ceres::AutoDiffCostFunction<Residual, 8, lens_parameters, 6>(new Residual{sight});
+    static ceres::CostFunction* of(LensModel model, const Sight& sight) {
+        return new ceres::AutoDiffCostFunction<Residual, 8, lens_parameters, 6>(new Residual{model, sight});
     }
 };
 
@@ -73,7 +77,7 @@ struct Bundle::Problem {
     ceres::Problem terms;
 };
 
-Bundle::Bundle(const std::vector<TargetView>& views, double extra_std_px) {
+Bundle::Bundle(LensModel model, const std::vector<TargetView>& views, double extra_std_px) : model_(model) {
     for (const TargetView& view : views) {
         std::vector<Sight>& sights = sights_.emplace_back();
         for (const TagSight& tag : view.tags) {
@@ -93,8 +97,9 @@ void Bundle::build(Problem& problem, BundleState& state, const LensFlags& fitted
     for (std::size_t view = 0; view < sights_.size(); ++view)
         for (const Sight& sight : sights_[view])
             if (sight.used)
-                terms.AddResidualBlock(Residual::of(sight), robust ? new ceres::HuberLoss(far_off) : nullptr,
-                                       state.lens.data(), state.poses[view].data());
+                terms.AddResidualBlock(Residual::of(model_, sight),
+                                       robust ? new ceres::HuberLoss(far_off) : nullptr, state.lens.data(),
+                                       state.poses[view].data());
     std::vector<int> held;
     for (int k = 0; k < lens_parameters; ++k)
         if (!fitted[static_cast<std::size_t>(k)]) held.push_back(k);
@@ -113,20 +118,21 @@ std::optional<double> Bundle::adjust(BundleState& state, const LensFlags& fitted
     return 2.0 * summary.final_cost;
 }
 
-void Bundle::approach(BundleState& state, const LensFlags& fitted) const {
+double Bundle::approach(BundleState& state, const LensFlags& fitted) const {
     Problem problem;
     build(problem, state, fitted, true);
     ceres::Solver::Options options = solver_options(ceres::DENSE_SCHUR);
     options.function_tolerance = 1e-4;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem.terms, &summary);
+    return 2.0 * summary.final_cost;
 }
 
 double Bundle::adjust_pose(const Lens& lens, std::size_t view, PoseBlock& pose) const {
     Lens held = lens;
     ceres::Problem terms;
     for (const Sight& sight : sights_[view])
-        terms.AddResidualBlock(Residual::of(sight), nullptr, held.data(), pose.data());
+        terms.AddResidualBlock(Residual::of(model_, sight), nullptr, held.data(), pose.data());
     terms.SetParameterBlockConstant(held.data());
     ceres::Solver::Summary summary;
     ceres::Solve(solver_options(ceres::DENSE_QR), &terms, &summary);
@@ -161,7 +167,8 @@ std::optional<BundleCovariance> Bundle::covariance(BundleState state, const Lens
 Eigen::Matrix<double, 8, 1> Bundle::error_px(const BundleState& state, std::size_t view,
                                              std::size_t tag) const {
     const Sight& sight = sights_[view][tag];
-    return sight.seen_px - corners_from_pose(sight.printed_mm, state.lens.data(), state.poses[view].data());
+    return sight.seen_px -
+           corners_from_pose(model_, sight.printed_mm, state.lens.data(), state.poses[view].data());
 }
 
 double Bundle::mean_square(const BundleState& state, std::size_t view, std::size_t tag) const {

@@ -33,14 +33,14 @@ struct BundleCovariance {
 /// Tags in views with their weights; those that are switched off take no part.
 class Bundle {
   public:
-    Bundle(const std::vector<TargetView>& views, double extra_std_px);
+    Bundle(LensModel model, const std::vector<TargetView>& views, double extra_std_px);
 
     /// Adjusts the poses and the flagged parameters of the lens. Returns chi^2, or nothing without a
     /// solution.
     std::optional<double> adjust(BundleState& state, const LensFlags& fitted) const;
 
-    /// The same roughly, and unmoved by single tags that are far off (Huber's loss).
-    void approach(BundleState& state, const LensFlags& fitted) const;
+    /// The same roughly, and unmoved by single tags that are far off (Huber's loss). Returns twice the loss.
+    double approach(BundleState& state, const LensFlags& fitted) const;
 
     /// Adjusts one view's pose alone. Returns its chi^2.
     double adjust_pose(const Lens& lens, std::size_t view, PoseBlock& pose) const;
@@ -69,6 +69,7 @@ class Bundle {
     void build(Problem& problem, BundleState& state, const LensFlags& fitted, bool robust) const;
     double mean_square(const BundleState& state, std::size_t view, std::size_t tag) const;
 
+    LensModel model_;
     std::vector<std::vector<Sight>> sights_;
 };
 

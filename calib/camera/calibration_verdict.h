@@ -1,6 +1,7 @@
 #pragma once
 // Whether a camera's calibration is good enough, and if not, why.
 #include "calib/camera/camera_calibration.h"
+#include "core/plate.h"
 
 #include <string>
 #include <vector>
@@ -30,7 +31,16 @@ struct CalibrationLimits {
     int least_views = 5;            ///< that differ
 };
 
-/// What is wrong, one sentence for people each. None: the calibration is good.
-std::vector<std::string> shortcomings(const CameraCalibration& calibration, const CalibrationLimits& limits);
+/// What is wrong, one sentence for people each, the cause of a bad fit first; none: the calibration is good.
+/// A cause is named only if it was tried (other_explanations.h) and explains the corners, an advice only if
+/// it was worked out what it would bring (predicted_errors.h); of numbers that a lens yields which does not
+/// explain the corners none is judged.
+/// @param target  all of its tags
+std::vector<std::string> shortcomings(const CameraCalibration& calibration, const CalibrationLimits& limits,
+                                      const std::vector<PlateTag>& target);
+
+/// What explains the corners of a good calibration better beyond chance, one sentence each: a lens of the
+/// other model; tags of another size, where that moves a number of the lens by more than its standard error.
+std::vector<std::string> notes_on(const CameraCalibration& calibration);
 
 }  // namespace fidservo::calib

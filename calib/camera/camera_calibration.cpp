@@ -1,124 +1,100 @@
 #include "calib/camera/camera_calibration.h"
 
 #include "calib/camera/bundle.h"
-#include "calib/dense.h"
+#include "calib/camera/calibration_start.h"
 #include "core/failure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 namespace fidservo::calib {
 namespace {
 
-CameraGeometry plain_lens(const CameraCalibrationOptions& options, double focal_px) {
-    return {.width_px = options.width_px,
-            .height_px = options.height_px,
-            .focal_px = focal_px,
-            .principal_point_px = {0.5 * (options.width_px - 1), 0.5 * (options.height_px - 1)},
-            .distance_mm = 1.0};
-}
-
-/// The focal length by which the columns of all homographies become orthogonal and equally long, least
-/// squares in 1 / f^2 (Zhang's constraints with the principal point in the middle); a usual one where they do
-/// not say.
-double start_focal_px(const CameraGeometry& unit_lens, const std::vector<TargetView>& views) {
-    double products = 0.0, squares = 0.0;
-    for (const TargetView& view : views) {
-        const auto found = target_homography(unit_lens, view);
-        if (!found) continue;
-        const Eigen::Matrix3d& h = *found;
-        const auto add = [&](double with_focal, double without) {
-            products += with_focal * without;
-            squares += with_focal * with_focal;
-        };
-        add(h.col(0).head<2>().dot(h.col(1).head<2>()), h(2, 0) * h(2, 1));
-        add(h.col(0).head<2>().squaredNorm() - h.col(1).head<2>().squaredNorm(),
-            h(2, 0) * h(2, 0) - h(2, 1) * h(2, 1));
-    }
-    const double longest_px = std::max(unit_lens.width_px, unit_lens.height_px);
-    const double focal_px = std::sqrt(-squares / products);
-    const bool plausible = focal_px > 0.2 * longest_px && focal_px < 50.0 * longest_px;
-    return plausible ? focal_px : 1.2 * longest_px;
-}
-
-/// The other pose that looks nearly the same from afar: the target's normal mirrored at the line of sight.
-PlanePose mirrored(const PlanePose& pose, const TargetView& view) {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const TagSight& sight : view.tags)
-        middle.head<2>() += sight.printed.centre_mm / static_cast<double>(view.tags.size());
-    const Eigen::Vector3d seen = pose.turn * middle + pose.shift_mm;
-    const Eigen::Vector3d sight_line = seen.normalized();
-    const Eigen::Vector3d normal = pose.turn.col(2);
-    const Eigen::Vector3d other = 2.0 * sight_line.dot(normal) * sight_line - normal;
-    PlanePose result;
-    result.turn = turn_between(normal, other).toRotationMatrix() * pose.turn;
-    result.shift_mm = seen - result.turn * middle;
-    return result;
-}
-
-/// A lens and a pose of every view to begin with.
-Result<BundleState> start_camera(const std::vector<TargetView>& views,
-                                 const CameraCalibrationOptions& options, const Bundle& bundle) {
-    const CameraGeometry lens =
-        options.start ? *options.start : plain_lens(options, start_focal_px(plain_lens(options, 1.0), views));
-    BundleState state{lens_of(lens), {}};
-    for (std::size_t view = 0; view < views.size(); ++view) {
-        const auto homography = target_homography(lens, views[view]);
-        if (!homography)
-            return failure(Reason::not_identifiable,
-                           views[view].name + ": its tags do not determine where the camera was");
-        const PlanePose pose = pose_of_homography(lens, *homography);
-        PoseBlock block = block_of(pose), other = block_of(mirrored(pose, views[view]));
-        const double chi2 = bundle.adjust_pose(state.lens, view, block);
-        if (bundle.adjust_pose(state.lens, view, other) < chi2) block = other;
-        state.poses.push_back(block);
-    }
-    return state;
-}
-
-LensMask with(LensMask mask, std::initializer_list<LensParameter> more) {
+LensMask with(LensMask mask, std::span<const LensParameter> more) {
     for (const LensParameter parameter : more) mask[parameter] = true;
     return mask;
 }
 
 /// What the terms must lower chi^2 by, in misfits: the 1 % point of its distribution if they are not there.
 struct Candidate {
-    std::initializer_list<LensParameter> terms;
+    std::vector<LensParameter> terms;
     double least_gain;
 };
 
-/// Step by step from few parameters to all that are asked for.
-void approach(const Bundle& bundle, const CameraCalibrationOptions& options, BundleState& state) {
+/// Of an equidistant lens the last three may be found together where none is alone.
+std::vector<Candidate> candidates_of(LensModel model) {
+    constexpr double one = 6.63, two = 9.21, three = 11.34;
+    if (model == LensModel::equidistant)
+        return {{{k2}, one}, {{k3}, one}, {{k4}, one}, {{k2, k3, k4}, three}};
+    return {{{k2}, one}, {{p1, p2}, two}, {{k3}, one}};
+}
+
+/// Step by step from few parameters to all that are asked for. Returns twice the robust loss.
+double approach(const Bundle& bundle, const CameraCalibrationOptions& options,
+                const std::vector<TargetView>& views, BundleState& state) {
     const LensMask wanted = options.fitted.value_or(usual_lens());
     LensMask mask{};
     if (options.start) mask = wanted;
+    mask[tag_scale] = options.fit_tag_scale;
+    double loss = 0.0;
     for (const LensParameter next : {focal, k1, centre_u}) {
         mask[next] = wanted[next];
         mask[centre_v] = mask[centre_u] && wanted[centre_v];
-        bundle.approach(state, mask);
+        loss = bundle.approach(state, mask);
     }
+    if (turn_poses(state, views, bundle)) loss = bundle.approach(state, mask);
+    return loss;
+}
+
+/// The best state that the starts lead to.
+Result<BundleState> approach_from_all(const Bundle& bundle, const CameraCalibrationOptions& options,
+                                      const std::vector<TargetView>& views) {
+    std::vector<CameraGeometry> starts;
+    if (options.start)
+        starts.push_back(*options.start);
+    else
+        starts = start_lenses(options, views);
+    Result<BundleState> best = failure(Reason::no_convergence, "no lens was found that explains the views");
+    double least = std::numeric_limits<double>::infinity();
+    for (const CameraGeometry& lens : starts) {
+        Result<BundleState> state = start_camera(lens, views, bundle);
+        if (!state) {
+            if (!best) best = state;
+            continue;
+        }
+        const double loss = approach(bundle, options, views, *state);
+        if (!(loss < least) || !(state->lens[focal] > 0.0)) continue;
+        least = loss;
+        best = state;
+    }
+    return best;
 }
 
 /// Terms that were fitted before are none again, so that the views are asked anew.
 void clear_unfitted(Lens& lens, const LensMask& fitted) {
-    for (std::size_t k = focal_ratio; k < lens_parameters; ++k)
-        if (!fitted[k] && k != centre_u && k != centre_v) lens[k] = k == focal_ratio ? 1.0 : 0.0;
+    for (std::size_t k = k1; k <= k4; ++k)
+        if (!fitted[k]) lens[k] = 0.0;
+    for (const LensParameter share : {focal_ratio, tag_scale})
+        if (!fitted[share]) lens[share] = 1.0;
 }
 
 /// What is asked for, or the usual lens and what else the views ask for.
 std::optional<double> adjust(const Bundle& bundle, const CameraCalibrationOptions& options,
                              BundleState& state, LensMask& mask) {
     mask = options.fitted.value_or(usual_lens());
-    if (!options.fitted) mask[focal_ratio] = options.fit_focal_ratio;
+    if (!options.fitted) {
+        mask[focal_ratio] = options.fit_focal_ratio;
+        mask[tag_scale] = options.fit_tag_scale;
+    }
     clear_unfitted(state.lens, mask);
     if (options.fitted) return bundle.adjust(state, mask);
     auto chi2 = bundle.adjust(state, mask);
-    const std::initializer_list<LensParameter> tangential{p1, p2}, second{k2}, third{k3};
-    for (const Candidate& candidate :
-         {Candidate{second, 6.63}, Candidate{tangential, 9.21}, Candidate{third, 6.63}}) {
+    for (const Candidate& candidate : candidates_of(options.model)) {
         if (!chi2) break;
         BundleState tried = state;
         const LensMask wider = with(mask, candidate.terms);
@@ -130,6 +106,38 @@ std::optional<double> adjust(const Bundle& bundle, const CameraCalibrationOption
         chi2 = lower;
     }
     return chi2;
+}
+
+/// That of the fitted numbers where terms were left out because they do not improve the fit: they need not be
+/// zero. With all of the model's terms in the fit the numbers have the covariance C and differ by d from
+/// those without; that of the latter about the truth is bounded by C + d d^T. The poses' likewise.
+std::optional<BundleCovariance> covariance_of(const Bundle& bundle, const CameraCalibrationOptions& options,
+                                              const BundleState& state, const LensMask& fitted) {
+    std::vector<Candidate> candidates =
+        options.fitted ? std::vector<Candidate>{} : candidates_of(options.model);
+    for (; !candidates.empty(); candidates.pop_back()) {
+        LensMask wider = fitted;
+        for (const Candidate& candidate : candidates) wider = with(wider, candidate.terms);
+        BundleState all = state;
+        if (!bundle.adjust(all, wider)) continue;
+        auto covariance = bundle.covariance(all, wider);
+        if (!covariance) continue;
+        Eigen::Matrix<double, lens_parameters, 1> step, kept;
+        for (int k = 0; k < lens_parameters; ++k) {
+            kept(k) = fitted[static_cast<std::size_t>(k)] ? 1.0 : 0.0;
+            step(k) = all.lens[static_cast<std::size_t>(k)] - state.lens[static_cast<std::size_t>(k)];
+        }
+        covariance->lens += step * step.transpose();
+        covariance->lens = (kept.asDiagonal() * covariance->lens * kept.asDiagonal()).eval();
+        for (std::size_t view = 0; view < state.poses.size(); ++view) {
+            const Eigen::Matrix<double, 6, 1> moved =
+                Eigen::Map<const Eigen::Matrix<double, 6, 1>>(all.poses[view].data()) -
+                Eigen::Map<const Eigen::Matrix<double, 6, 1>>(state.poses[view].data());
+            covariance->poses[view] += moved * moved.transpose();
+        }
+        return covariance;
+    }
+    return bundle.covariance(state, fitted);
 }
 
 ViewFit describe(const Bundle& bundle, const BundleState& state, const TargetView& view, std::size_t index) {
@@ -164,7 +172,8 @@ double rms_px_of(const std::vector<ViewFit>& views) {
 }  // namespace
 
 LensMask usual_lens() {
-    return with({}, {focal, centre_u, centre_v, k1});
+    constexpr std::array usual{focal, centre_u, centre_v, k1};
+    return with({}, usual);
 }
 
 double CameraCalibration::std_of(LensParameter parameter) const {
@@ -175,11 +184,10 @@ Result<CameraCalibration> calibrate_camera(const std::vector<TargetView>& views,
                                            const CameraCalibrationOptions& options) {
     constexpr int most_rounds = 4;
     if (views.empty()) return failure(Reason::not_identifiable, "there is no view of the target");
-    Bundle bundle(views, options.extra_std_px);
-    Result<BundleState> started = start_camera(views, options, bundle);
+    Bundle bundle(options.model, views, options.extra_std_px);
+    Result<BundleState> started = approach_from_all(bundle, options, views);
     if (!started) return tl::make_unexpected(started.error());
     BundleState state = *started;
-    approach(bundle, options, state);
     bundle.sort_out(state);
     LensMask mask{};
     std::optional<double> chi2;
@@ -188,21 +196,34 @@ Result<CameraCalibration> calibrate_camera(const std::vector<TargetView>& views,
         if (!chi2) return failure(Reason::no_convergence, "no lens was found that explains the views");
         if (round + 1 == most_rounds || !bundle.sort_out(state)) break;
     }
-    const auto covariance = bundle.covariance(state, mask);
     const auto parameters = static_cast<int>(std::ranges::count(mask, true) + 6 * std::ssize(views));
     const int freedom = bundle.measured_directions() - parameters;
-    if (!covariance || freedom <= 0 || !(state.lens[focal] > 0.0))
+    if (freedom <= 0)
+        return failure(
+            Reason::not_identifiable,
+            fmt::format("{} view{} of the target measure{} {} numbers of tags, and the lens and the "
+                        "views' places are {}: more views or more tags are needed",
+                        views.size(), views.size() == 1 ? "" : "s", views.size() == 1 ? "s" : "",
+                        bundle.measured_directions(), parameters));
+    const auto covariance = covariance_of(bundle, options, state, mask);
+    if (!covariance || !(state.lens[focal] > 0.0))
         return failure(Reason::not_identifiable,
-                       fmt::format("{} view{} of the target cannot tell the lens", views.size(),
-                                   views.size() == 1 ? "" : "s that are too few or too alike"));
+                       fmt::format("{} view{} of the target do{} not determine the lens: different lenses "
+                                   "explain {} equally well",
+                                   views.size(), views.size() == 1 ? "" : "s", views.size() == 1 ? "es" : "",
+                                   views.size() == 1 ? "it" : "them"));
     CameraCalibration result{.camera = plain_lens(options, 1.0),
                              .fitted = mask,
                              .covariance = covariance->lens,
                              .views = {},
                              .rms_px = 0.0,
+                             .chi2 = *chi2,
+                             .freedom = freedom,
                              .misfit = *chi2 / freedom,
-                             .unused = 0};
+                             .unused = 0,
+                             .seen = views};
     set_lens(result.camera, state.lens);
+    result.tag_scale = state.lens[tag_scale];
     const double widen = std::max(1.0, result.misfit);
     result.covariance *= widen;
     for (std::size_t view = 0; view < views.size(); ++view) {

@@ -23,11 +23,14 @@ LensMask usual_lens();
 struct CameraCalibrationOptions {
     int width_px = 0;
     int height_px = 0;
+    LensModel model = LensModel::plumb_bob;
     /// Which of the lens's parameters are fitted; the others keep the values of a lens without distortion.
-    /// Empty: the usual ones, and tangential distortion, k2 and k3 as far as they improve the fit at 1 %.
+    /// Empty: the usual ones, and the model's other coefficients as far as they improve the fit at 1 %.
     std::optional<LensMask> fitted;
     bool fit_focal_ratio = false;  ///< where `fitted` is empty
-    /// What is believed beforehand; the iteration starts there. Empty: from the views' homographies.
+    bool fit_tag_scale = false;    ///< likewise
+    /// What is believed beforehand, of that model; the iteration starts there. Empty: from the corners alone
+    /// (calibration_start.h).
     std::optional<CameraGeometry> start;
     double extra_std_px = 0.0;  ///< of the corners, added to their covariances in squares
 };
@@ -51,11 +54,16 @@ struct ViewFit {
 struct CameraCalibration {
     CameraGeometry camera;  ///< the lens; rotation, tilt and distance are those of the first view
     LensMask fitted;
+    double tag_scale = 1.0;  ///< of the tags' sides to those said, where that was fitted
     Eigen::Matrix<double, lens_parameters, lens_parameters> covariance;  ///< zero where not fitted
     std::vector<ViewFit> views;
     double rms_px;       ///< r.m.s. distance of the used corners, as OpenCV counts the reprojection error
-    double misfit;       ///< mean square of the residuals in their own variances, a degree of freedom
+    double chi2;         ///< sum of squares of the residuals of the used tags in their own variances
+    int freedom;         ///< what was measured less what was fitted
+    double misfit;       ///< chi2 / freedom
     std::size_t unused;  ///< tags that were left out
+    /// The views in the order of `views`, as they are without knowledge of the lens.
+    std::vector<TargetView> seen;
 
     double std_of(LensParameter parameter) const;
 };

@@ -22,7 +22,7 @@ using Place = std::array<double, 2>;  ///< s, y
 
 /// Image points of a tag's corners as eight numbers.
 template <class T>
-Eigen::Matrix<T, 8, 1> corners_from_mount(const Lens& lens, const Eigen::Vector3d& axis,
+Eigen::Matrix<T, 8, 1> corners_from_mount(LensModel model, const Lens& lens, const Eigen::Vector3d& axis,
                                           const std::array<Eigen::Vector2d, 4>& printed_mm, const T* mount,
                                           const T* place) {
     const std::array<T, 3> tilt{mount[tilt_u], mount[tilt_v], T(0.0)};
@@ -39,7 +39,7 @@ Eigen::Matrix<T, 8, 1> corners_from_mount(const Lens& lens, const Eigen::Vector3
         Eigen::Matrix<T, 3, 1> seen;
         ceres::AngleAxisRotatePoint(about_z.data(), from_camera.data(), turned.data());
         ceres::AngleAxisRotatePoint(tilt.data(), turned.data(), seen.data());
-        corners.template segment<2>(2 * k) = image_of(lens_T.data(), seen);
+        corners.template segment<2>(2 * k) = image_of(model, lens_T.data(), seen);
     }
     return corners;
 }
@@ -52,6 +52,7 @@ Eigen::Matrix<double, 8, 1> seen_corners_px(const TagSight& sight) {
 }
 
 struct MountResidual {
+    LensModel model;
     Lens lens;
     Eigen::Vector3d axis;
     std::array<Eigen::Vector2d, 4> printed_mm;
@@ -62,7 +63,7 @@ struct MountResidual {
     bool operator()(const T* mount, const T* place, T* residual) const {
         Eigen::Map<Eigen::Matrix<T, 8, 1>> out(residual);
         const Eigen::Matrix<T, 8, 1> error =
-            corners_from_mount(lens, axis, printed_mm, mount, place) - seen_px;
+            corners_from_mount(model, lens, axis, printed_mm, mount, place) - seen_px;
         out = whiten.cast<T>() * error;
         return true;
     }
@@ -74,16 +75,15 @@ Status start_mount(const CameraGeometry& lens, const std::vector<TargetView>& vi
     const Eigen::Vector3d axis = stage_axis(lens);
     std::size_t most_tags = 1;
     for (std::size_t i = 0; i < views.size(); ++i) {
-        const auto homography = target_homography(lens, views[i]);
-        if (!homography)
+        const auto pose = plane_pose(lens, views[i]);
+        if (!pose)
             return failure(Reason::not_identifiable, views[i].name + ": its tags do not determine a pose");
-        const PlanePose pose = pose_of_homography(lens, *homography);
-        const Eigen::Vector3d centre = pose.centre_mm();
+        const Eigen::Vector3d centre = pose->centre_mm();
         const double s_mm = centre.x() / axis.x();
         places[i] = {s_mm, centre.y() - s_mm * axis.y()};
         if (views[i].tags.size() <= most_tags) continue;
         most_tags = views[i].tags.size();
-        const CameraGeometry camera = camera_at(lens, pose);
+        const CameraGeometry camera = camera_at(lens, *pose);
         mount = {camera.rotation_rad, camera.tilt_rad.x(), camera.tilt_rad.y(),
                  camera.distance_mm + s_mm * axis.z()};
     }
@@ -105,6 +105,7 @@ Result<CameraMount> fit_camera_mount(const CameraGeometry& lens, const std::vect
     if (const Status started = start_mount(lens, views, mount, places); !started)
         return tl::make_unexpected(started.error());
 
+    const LensModel model = lens.distortion.model;
     const Lens numbers = lens_of(lens);
     const Eigen::Vector3d axis = stage_axis(lens);
     ceres::Problem problem;
@@ -113,10 +114,11 @@ Result<CameraMount> fit_camera_mount(const CameraGeometry& lens, const std::vect
         for (const TagSight& sight : views[i].tags) {
             const CornerWeights weights = corner_weights(sight.seen.covariance_px2, 0.0);
             measured += weights.rank;
-            problem.AddResidualBlock(new ceres::AutoDiffCostFunction<MountResidual, 8, mount_parameters, 2>(
-                                         new MountResidual{numbers, axis, vision::corners_mm(sight.printed),
-                                                           seen_corners_px(sight), weights.whiten}),
-                                     nullptr, mount.data(), places[i].data());
+            problem.AddResidualBlock(
+                new ceres::AutoDiffCostFunction<MountResidual, 8, mount_parameters, 2>(
+                    new MountResidual{model, numbers, axis, vision::corners_mm(sight.printed),
+                                      seen_corners_px(sight), weights.whiten}),
+                nullptr, mount.data(), places[i].data());
         }
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
@@ -150,7 +152,7 @@ Result<CameraMount> fit_camera_mount(const CameraGeometry& lens, const std::vect
     for (std::size_t i = 0; i < views.size(); ++i) {
         MisfitSums sums;
         for (const TagSight& sight : views[i].tags) {
-            sums.squared_px += (corners_from_mount(numbers, axis, vision::corners_mm(sight.printed),
+            sums.squared_px += (corners_from_mount(model, numbers, axis, vision::corners_mm(sight.printed),
                                                    mount.data(), places[i].data()) -
                                 seen_corners_px(sight))
                                    .squaredNorm();

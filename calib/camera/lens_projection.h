@@ -1,40 +1,93 @@
 #pragma once
 // The projection of core/camera_geometry.h for solvers that differentiate it.
 #include "core/camera_geometry.h"
-#include "core/plumb_bob.h"
+#include "core/lens_picture.h"
 
-#include <algorithm>
 #include <array>
-#include <span>
+#include <string_view>
 
 #include <Eigen/Core>
 
 namespace fidservo::calib {
 
-/// The lens's parameters as a solver's block: f, q, u0, v0, then the distortion in OpenCV's order.
-enum LensParameter { focal, focal_ratio, centre_u, centre_v, k1, k2, p1, p2, k3, lens_parameters };
+/// The lens's parameters as a solver's block: f, q, u0, v0, then the coefficients of both models; and the
+/// size of the target's tags about their middles, as a share of what is said of them, by which a target's
+/// description is checked.
+enum LensParameter {
+    focal,
+    focal_ratio,
+    centre_u,
+    centre_v,
+    k1,
+    k2,
+    p1,
+    p2,
+    k3,
+    k4,
+    tag_scale,
+    lens_parameters
+};
+
+/// As rig files' provenance and reports name it.
+inline std::string_view name_of(LensParameter parameter) {
+    constexpr std::array<std::string_view, lens_parameters> names{"focal_px",
+                                                                  "focal_ratio",
+                                                                  "principal_point_u_px",
+                                                                  "principal_point_v_px",
+                                                                  "k1",
+                                                                  "k2",
+                                                                  "p1",
+                                                                  "p2",
+                                                                  "k3",
+                                                                  "k4",
+                                                                  "tag_scale"};
+    return names[parameter];
+}
+
+/// Whether a lens of that model has the parameter.
+inline bool belongs_to(LensModel model, LensParameter parameter) {
+    if (parameter == tag_scale) return false;
+    const bool is_equidistant = model == LensModel::equidistant;
+    if (parameter == p1 || parameter == p2) return !is_equidistant;
+    return parameter != k4 || is_equidistant;
+}
 
 using Lens = std::array<double, lens_parameters>;
 
 inline Lens lens_of(const CameraGeometry& camera) {
-    Lens lens{camera.focal_px, camera.focal_ratio, camera.principal_point_px.x(),
-              camera.principal_point_px.y()};
-    std::ranges::copy(numbers_of(camera.distortion), lens.begin() + k1);
-    return lens;
+    const LensDistortion& d = camera.distortion;
+    return {camera.focal_px,
+            camera.focal_ratio,
+            camera.principal_point_px.x(),
+            camera.principal_point_px.y(),
+            d.k1,
+            d.k2,
+            d.p1,
+            d.p2,
+            d.k3,
+            d.k4,
+            1.0};
 }
 
+/// The camera's model stays.
 inline void set_lens(CameraGeometry& camera, const Lens& lens) {
     camera.focal_px = lens[focal];
     camera.focal_ratio = lens[focal_ratio];
     camera.principal_point_px = {lens[centre_u], lens[centre_v]};
-    camera.distortion = distortion_of(std::span(lens).subspan<k1, 5>());
+    camera.distortion = {lens[k1], lens[k2], lens[p1], lens[p2], lens[k3], lens[k4], camera.distortion.model};
 }
 
-/// Image point in px of a point in the camera's frame; the equations of core/camera_geometry.h.
+/// Image point in px of a point in the camera's frame; the equations of core/camera_geometry.h, of an
+/// equidistant lens beyond its domain too.
 template <class T>
-Eigen::Matrix<T, 2, 1> image_of(const T* lens, const Eigen::Matrix<T, 3, 1>& seen) {
-    const Eigen::Matrix<T, 2, 1> ideal(seen.x() / seen.z(), seen.y() / seen.z());
-    const Eigen::Matrix<T, 2, 1> bent = distorted(lens + k1, ideal);
+Eigen::Matrix<T, 2, 1> image_of(LensModel model, const T* lens, const Eigen::Matrix<T, 3, 1>& seen) {
+    Eigen::Matrix<T, 2, 1> bent;
+    if (model == LensModel::plumb_bob) {
+        const Eigen::Matrix<T, 2, 1> ideal(seen.x() / seen.z(), seen.y() / seen.z());
+        bent = distorted(lens + k1, ideal);
+    } else {
+        bent = fisheye_picture(lens[k1], lens[k2], lens[k3], lens[k4], seen);
+    }
     return {lens[centre_u] + lens[focal] * bent.x(),
             lens[centre_v] + lens[focal] * lens[focal_ratio] * bent.y()};
 }

@@ -1,6 +1,7 @@
 #include "calib/camera/plane_pose.h"
 
 #include "calib/dense.h"
+#include "core/camera_slopes.h"
 #include "vision/tag_choice.h"
 
 #include <cmath>
@@ -58,16 +59,62 @@ std::optional<Eigen::Matrix3d> target_homography(const CameraGeometry& lens, con
     return homography / homography.leftCols<1>().norm();
 }
 
-PlanePose pose_of_homography(const CameraGeometry& lens, const Eigen::Matrix3d& homography) {
-    const Eigen::DiagonalMatrix<double, 3> to_rays(1.0 / lens.focal_px, 1.0 / lens.focal_px, 1.0);
-    Eigen::Matrix3d columns = to_rays * homography;
-    columns /= std::sqrt(columns.col(0).norm() * columns.col(1).norm());
-    if (columns(2, 2) < 0.0) columns = -columns;
+namespace {
+
+PlanePose pose_of_columns(const Eigen::Matrix3d& columns) {
     Eigen::Matrix3d turn;
     turn << columns.col(0), columns.col(1), columns.col(0).cross(columns.col(1));
     const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::NoQRPreconditioner> parts(
         turn, Eigen::ComputeFullU | Eigen::ComputeFullV);
     return {parts.matrixU() * parts.matrixV().transpose(), columns.col(2)};
+}
+
+}  // namespace
+
+PlanePose pose_of_homography(const CameraGeometry& lens, const Eigen::Matrix3d& homography) {
+    const Eigen::DiagonalMatrix<double, 3> to_rays(1.0 / lens.focal_px, 1.0 / lens.focal_px, 1.0);
+    Eigen::Matrix3d columns = to_rays * homography;
+    columns /= std::sqrt(columns.col(0).norm() * columns.col(1).norm());
+    if (columns(2, 2) < 0.0) columns = -columns;
+    return pose_of_columns(columns);
+}
+
+std::optional<PlanePose> plane_pose(const CameraGeometry& lens, const TargetView& view) {
+    if (lens.distortion.model == LensModel::plumb_bob) {
+        const auto homography = target_homography(lens, view);
+        if (!homography) return std::nullopt;
+        return pose_of_homography(lens, *homography);
+    }
+    const auto points = static_cast<Eigen::Index>(4 * view.tags.size());
+    if (points == 0) return std::nullopt;
+    Eigen::Matrix2Xd printed(2, points);
+    Eigen::Matrix3Xd rays(3, points);
+    Eigen::Index column = 0;
+    for (const TagSight& sight : view.tags) {
+        const auto corners_mm = vision::corners_mm(sight.printed);
+        for (std::size_t k = 0; k < 4; ++k, ++column) {
+            printed.col(column) = corners_mm[k];
+            rays.col(column) = ray_of(lens.distortion, pictured_at(lens, sight.seen.detection.corners_px[k]));
+        }
+    }
+    if (!rays.allFinite()) return std::nullopt;
+    const Eigen::Matrix3d from = normaliser(printed);
+    Eigen::MatrixXd system(3 * points, 9);
+    for (Eigen::Index k = 0; k < points; ++k) {
+        const Eigen::RowVector3d p = (from * printed.col(k).homogeneous()).transpose();
+        const Eigen::Vector3d r = rays.col(k);
+        const Eigen::RowVector3d none = Eigen::RowVector3d::Zero();
+        system.row(3 * k) << none, -r.z() * p, r.y() * p;
+        system.row(3 * k + 1) << r.z() * p, none, -r.x() * p;
+        system.row(3 * k + 2) << -r.y() * p, r.x() * p, none;
+    }
+    const SymmetricParts parts = symmetric_parts(product(system.transpose(), system));
+    if (!(parts.values(1) > 1e-12 * parts.values(8))) return std::nullopt;
+    Eigen::Matrix3d columns = parts.vectors.col(0).reshaped<Eigen::RowMajor>(3, 3) * from;
+    columns /= std::sqrt(columns.col(0).norm() * columns.col(1).norm());
+    const Eigen::Matrix3Xd placed = columns * printed.colwise().homogeneous();
+    if (placed.cwiseProduct(rays).sum() < 0.0) columns = -columns;
+    return pose_of_columns(columns);
 }
 
 CameraGeometry camera_at(const CameraGeometry& lens, const PlanePose& pose) {

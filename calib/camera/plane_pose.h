@@ -27,6 +27,11 @@ std::optional<Eigen::Matrix3d> target_homography(const CameraGeometry& lens, con
 /// sense. Source: Zhang, A flexible new technique for camera calibration, IEEE PAMI 22(11), 2000, sec. 3.1.
 PlanePose pose_of_homography(const CameraGeometry& lens, const Eigen::Matrix3d& homography);
 
+/// The pose of a view by the lens, to begin with: by its homography; of an equidistant lens by the same
+/// transform of its rays, r x H (X, Y, 1) = 0, which may come from behind the camera's centre. Empty if the
+/// corners do not determine it, or the lens pictures no ray at one of them.
+std::optional<PlanePose> plane_pose(const CameraGeometry& lens, const TargetView& view);
+
 /// The camera as it stands at a pose: rotation_rad, tilt_rad and distance_mm follow from the pose, the rest
 /// from the lens. The plate is shifted so that the camera's foot is at (s, y) = (0, 0).
 CameraGeometry camera_at(const CameraGeometry& lens, const PlanePose& pose);

@@ -69,8 +69,8 @@ Result<CameraCalibration> calibrate_camera(const std::vector<TargetImage>& image
     constexpr int most_passes = 6;
     constexpr double settled = 0.1;
     CameraCalibrationOptions lens = options.lens;
-    Result<CameraCalibration> calibration =
-        calibrate_camera(views_of(images, target, options.noise, nullptr), lens);
+    std::vector<TargetView> seen = views_of(images, target, options.noise, nullptr);
+    Result<CameraCalibration> calibration = calibrate_camera(seen, lens);
     for (int pass = 1; pass < most_passes && calibration; ++pass) {
         lens.start = calibration->camera;
         const Result<CameraCalibration> next =
@@ -80,6 +80,7 @@ Result<CameraCalibration> calibrate_camera(const std::vector<TargetImage>& image
         calibration = next;
         if (moved < settled) break;
     }
+    if (calibration) calibration->seen = std::move(seen);
     return calibration;
 }
 

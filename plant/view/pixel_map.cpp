@@ -5,6 +5,19 @@
 #include <algorithm>
 
 namespace fidservo::plant::view {
+namespace {
+
+/// x and y per z of a ray from the camera. The flat picture ends at 87 degrees from the plate's normal; what
+/// a fisheye shows beyond, or where it shows nothing, is taken from its end.
+Eigen::Vector2d slope_of(const Eigen::Vector3d& ray) {
+    constexpr double steepest = 20.0;
+    const double aside = ray.head<2>().norm();
+    if (ray.z() * steepest >= aside) return ray.head<2>() / ray.z();
+    if (aside > 0.0) return steepest / aside * ray.head<2>();
+    return {steepest, 0.0};
+}
+
+}  // namespace
 
 PixelMap::PixelMap(const CameraGeometry& camera, const ImageMap& flat) : width_(camera.width_px) {
     if (flat.is_image()) {
@@ -19,9 +32,9 @@ PixelMap::PixelMap(const CameraGeometry& camera, const ImageMap& flat) : width_(
     for (int v = 0; v < camera.height_px; ++v) {
         Span& row = rows_.emplace_back(Span{1e9, -1e9});
         for (int u = 0; u < width_; ++u) {
-            const Eigen::Vector2d ideal = ideal_point(camera, {u, v});
-            const Eigen::Vector3d ray = plate_from_camera * Eigen::Vector3d(ideal.x(), ideal.y(), 1.0);
-            const Eigen::Vector2d seen = flat.place_of_ray(ray.head<2>() / ray.z());
+            const Eigen::Vector3d ray =
+                plate_from_camera * ray_of(camera.distortion, pictured_at(camera, {u, v}));
+            const Eigen::Vector2d seen = flat.place_of_ray(slope_of(ray));
             offset_u_px_.push_back(static_cast<float>(seen.x() - u));
             offset_v_px_.push_back(static_cast<float>(seen.y() - v));
             row = {std::min(row.low_px, seen.y()), std::max(row.high_px, seen.y())};

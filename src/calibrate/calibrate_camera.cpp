@@ -3,7 +3,6 @@
 #include "calib/camera/photon_transfer.h"
 #include "calib/camera/target_images.h"
 #include "core/input_error.h"
-#include "core/plumb_bob.h"
 #include "core/result.h"
 #include "core/rig.h"
 #include "src/calibrate/camera_images.h"
@@ -14,6 +13,7 @@
 #include "src/config/rig_file.h"
 #include "src/recording/durable_file.h"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -38,6 +38,15 @@ void demand_new_files(const CalibrateCameraOptions& options) {
             if (other != option && !file->empty() && file->lexically_normal() == same->lexically_normal())
                 throw InputError(fmt::format("{}, {}: {}: are one file", option, other, file->string()));
     }
+}
+
+LensModel model_of(const CalibrateCameraOptions& options) {
+    const auto model = std::ranges::find(lens_models, options.lens,
+                                         [](LensModel each) { return std::string(name_of(each)); });
+    if (model == lens_models.end())
+        throw InputError(fmt::format("--lens: {}: allowed: {}, {}", options.lens, name_of(lens_models[0]),
+                                     name_of(lens_models[1])));
+    return *model;
 }
 
 CameraTarget target_of(const CalibrateCameraOptions& options, const Rig& rig) {
@@ -89,21 +98,16 @@ void write_rig(const CalibrateCameraOptions& options, const CameraAnswer& answer
     edit.set("camera.focal_ratio", camera.focal_ratio);
     edit.set("camera.principal_point_px",
              std::array{camera.principal_point_px.x(), camera.principal_point_px.y()});
+    if (camera.distortion.model != before.geometry.distortion.model)
+        edit.set_name("camera.lens", name_of(camera.distortion.model));
     edit.set("camera.distortion", numbers_of(camera.distortion));
     edit.set("camera.distance_mm", before.geometry.distance_mm * camera.focal_px / before.geometry.focal_px);
     const auto error = [&](calib::LensParameter parameter) { return answer.calibration.std_of(parameter); };
-    RigProvenance provenance{"camera",
-                             {answer.source},
-                             {{"focal_px", error(calib::focal)},
-                              {"focal_ratio", error(calib::focal_ratio)},
-                              {"principal_point_u_px", error(calib::centre_u)},
-                              {"principal_point_v_px", error(calib::centre_v)},
-                              {"k1", error(calib::k1)},
-                              {"k2", error(calib::k2)},
-                              {"p1", error(calib::p1)},
-                              {"p2", error(calib::p2)},
-                              {"k3", error(calib::k3)}},
-                             {{"corners_px", answer.calibration.rms_px}}};
+    RigProvenance provenance{"camera", {answer.source}, {}, {{"corners_px", answer.calibration.rms_px}}};
+    for (std::size_t k = 0; k < calib::lens_parameters; ++k)
+        if (const auto parameter = static_cast<calib::LensParameter>(k);
+            calib::belongs_to(camera.distortion.model, parameter))
+            provenance.standard_errors.emplace_back(calib::name_of(parameter), error(parameter));
     if (answer.noise) {
         edit.set("camera.full_well_e", answer.noise->full_well_e);
         edit.set("camera.read_noise_e", answer.noise->read_noise_e);
@@ -117,20 +121,11 @@ void write_rig(const CalibrateCameraOptions& options, const CameraAnswer& answer
     fmt::print("rig file: {}\n", options.write_rig.string());
 }
 
-/// Residuals beyond all measuring: the target is another one than said.
-std::vector<std::string> reasons_of(const calib::CameraCalibration& calibration,
-                                    const CalibrateCameraOptions& options) {
-    std::vector<std::string> reasons = calib::shortcomings(calibration, options.limits);
-    constexpr double another_target_px = 3.0;
-    if (calibration.rms_px > another_target_px)
-        reasons.emplace_back("tags do not stand where the target has them: is its grid, its spacing right?");
-    return reasons;
-}
-
 }  // namespace
 
 int calibrate_camera(const CalibrateCameraOptions& options) {
     demand_new_files(options);
+    const LensModel model = model_of(options);
     const Rig rig = load_rig(options.rig_file);
     if (!options.write_rig.empty() && !rig.camera)
         throw InputError(fmt::format("{}: camera: missing: --write-rig changes one that is there",
@@ -141,6 +136,7 @@ int calibrate_camera(const CalibrateCameraOptions& options) {
     calib::ImageCalibrationOptions how;
     how.lens.width_px = images.width_px;
     how.lens.height_px = images.height_px;
+    how.lens.model = model;
     how.lens.fit_focal_ratio = options.focal_ratio;
     const bool is_own_plate = rig.camera && target.border_cells == 1;
     how.noise = is_own_plate ? vision::grey_noise(*rig.camera) : photograph_noise;
@@ -155,9 +151,11 @@ int calibrate_camera(const CalibrateCameraOptions& options) {
                         .without_target = images.without_target,
                         .calibration = *calibration,
                         .coverage = calib::coverage_of(*calibration),
-                        .shortcomings = reasons_of(*calibration, options),
+                        .shortcomings = calib::shortcomings(*calibration, options.limits, target.tags),
+                        .notes = {},
                         .noise = {},
                         .no_noise = {}};
+    if (answer.shortcomings.empty()) answer.notes = calib::notes_on(*calibration);
     measure_noise(options, images, answer);
     fmt::print("{}", describe(answer));
     if (!options.report.empty()) {

@@ -17,6 +17,7 @@ struct CalibrateCameraOptions {
     std::string grid;
     double tag_size_mm = 0.0;
     double tag_spacing = 0.0;
+    std::string lens = "plumb_bob";
     bool focal_ratio = false;
     calib::CalibrationLimits limits;
     std::filesystem::path noise_frames;

@@ -29,14 +29,11 @@ struct Row {
 
 std::vector<Row> rows_of(const CameraAnswer& answer) {
     using namespace calib;
-    constexpr std::array<std::string_view, lens_parameters> names{
-        "focal_px", "focal_ratio", "principal_point_px u", "principal_point_px v", "k1", "k2", "p1",
-        "p2",       "k3"};
     const Lens lens = lens_of(answer.calibration.camera);
     std::vector<Row> rows;
     for (std::size_t k = 0; k < lens_parameters; ++k)
         if (answer.calibration.fitted[k])
-            rows.push_back({std::string(names[k]), lens[k],
+            rows.push_back({std::string(calib::name_of(static_cast<LensParameter>(k))), lens[k],
                             answer.calibration.std_of(static_cast<LensParameter>(k)),
                             k == focal || k == centre_u || k == centre_v ? " px" : ""});
     if (answer.noise) {
@@ -133,6 +130,8 @@ std::string describe(const CameraAnswer& answer) {
     if (answer.calibration.unused > 0)
         text += fmt::format("  {:<22}{} tags that fit badly\n", "left out", answer.calibration.unused);
     if (!answer.no_noise.empty()) text += fmt::format("  noise not determined: {}\n", answer.no_noise);
+    text += fmt::format("  {:<22}{}\n", "lens", name_of(answer.calibration.camera.distortion.model));
+    for (const std::string& note : answer.notes) text += fmt::format("  note: {}\n", note);
     if (answer.shortcomings.empty()) return text + "good\n";
     for (const std::string& reason : answer.shortcomings)
         text += fmt::format("not good enough: {}\n", reason);
@@ -158,6 +157,11 @@ std::string camera_report(const CameraAnswer& answer) {
         for (const std::string& reason : answer.shortcomings)
             reasons += "<li>" + report::escaped(reason) + "</li>";
         page.body += report::section("verdict", "Why it is not good enough", reasons + "</ul>");
+    }
+    if (!answer.notes.empty()) {
+        std::string notes = "<ul>";
+        for (const std::string& note : answer.notes) notes += "<li>" + report::escaped(note) + "</li>";
+        page.body += report::section("notes", "What would explain the corners better", notes + "</ul>");
     }
     page.body += report::section("values", "Values", lens_values_table(answer));
     page.body += report::section("coverage", "Where in the image the target was seen",

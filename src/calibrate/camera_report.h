@@ -17,6 +17,7 @@ struct CameraAnswer {
     calib::CameraCalibration calibration;
     calib::Coverage coverage;
     std::vector<std::string> shortcomings;
+    std::vector<std::string> notes;  ///< where it is good: what would explain the corners better still
     std::optional<calib::PhotonTransfer> noise;
     std::string no_noise;  ///< why there is none, where it was asked for
 };

@@ -1,4 +1,3 @@
-#include "core/plumb_bob.h"
 #include "core/rig.h"
 #include "src/calibrate/calibrate_stage.h"
 #include "src/calibrate/stage_values.h"

@@ -30,6 +30,9 @@ void add_calibrate_camera(CLI::App& parent, int& exit_code) {
     command->add_option("--tag-size-mm", options->tag_size_mm, "Side of the grid's tags")->type_name("MM");
     command->add_option("--tag-spacing", options->tag_spacing, "Gap between them as a share of the side")
         ->type_name("SHARE");
+    command->add_option("--lens", options->lens, "Model of the lens: plumb_bob, or equidistant for a fisheye")
+        ->type_name("MODEL")
+        ->capture_default_str();
     command->add_flag("--focal-ratio", options->focal_ratio, "Pixels may not be square: find f_y / f_x too");
     command
         ->add_option("--max-error-px", options->limits.most_rms_px,

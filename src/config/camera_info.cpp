@@ -1,6 +1,5 @@
 #include "src/config/camera_info.h"
 
-#include "core/plumb_bob.h"
 #include "src/config/rig_camera.h"
 #include "src/config/yaml_reader.h"
 
@@ -35,16 +34,19 @@ void check_camera_matrix(const YamlValue& data) {
     if (k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0) data.fail("the last row must be 0, 0, 1");
 }
 
-/// Without a model it is ROS's default, plumb_bob.
-void check_model(const YamlValue& root) {
-    const auto model = root.find("distortion_model");
-    if (model && !(model->is_scalar() && model->text() == "plumb_bob"))
-        model->fail("this distortion model is not supported; allowed: plumb_bob");
+/// Without a name it is ROS's default, plumb_bob; OpenCV and some drivers call equidistant "fisheye".
+LensModel read_model(const YamlValue& root) {
+    const auto name = root.find("distortion_model");
+    if (!name) return LensModel::plumb_bob;
+    const std::string text = name->is_scalar() ? name->text() : "";
+    if (text == "equidistant" || text == "fisheye") return LensModel::equidistant;
+    if (text != "plumb_bob")
+        name->fail("this distortion model is not supported; allowed: plumb_bob, equidistant (or fisheye)");
+    return LensModel::plumb_bob;
 }
 
-LensDistortion read_distortion(const YamlValue& map) {
-    const std::vector<double> numbers = matrix_of(map, 1, 5);
-    return distortion_of(std::span<const double, 5>(numbers));
+LensDistortion read_distortion(LensModel model, const YamlValue& map) {
+    return distortion_of(model, matrix_of(map, 1, coefficients_of(model)));
 }
 
 std::string matrix_text(const char* name, int rows, int columns, const std::vector<double>& data) {
@@ -75,7 +77,7 @@ CameraGeometry with_intrinsics(CameraGeometry camera, const CameraInfo& info) {
 
 CameraInfo load_camera_info(const std::filesystem::path& file) {
     const YamlValue root = YamlValue::load(file);
-    check_model(root);
+    const LensModel model = read_model(root);
     const YamlValue matrix = root.at("camera_matrix");
     const std::vector<double> k = matrix_of(matrix, 3, 3);
     check_camera_matrix(matrix.at("data"));
@@ -87,7 +89,7 @@ CameraInfo load_camera_info(const std::filesystem::path& file) {
                           .height_px = root.at("image_height").integer(least_image_px, most_image_px),
                           .focal_px = {k[0], k[4]},
                           .principal_point_px = {k[2], k[5]},
-                          .distortion = read_distortion(root.at("distortion_coefficients"))};
+                          .distortion = read_distortion(model, root.at("distortion_coefficients"))};
     check_focal_ratio(matrix.at("data"), k[4] / k[0]);
     return info;
 }
@@ -95,14 +97,14 @@ CameraInfo load_camera_info(const std::filesystem::path& file) {
 std::string camera_info_text(const CameraInfo& info) {
     const double fx = info.focal_px.x(), fy = info.focal_px.y();
     const double cx = info.principal_point_px.x(), cy = info.principal_point_px.y();
-    const DistortionNumbers lens = numbers_of(info.distortion);
+    const std::vector<double> lens = numbers_of(info.distortion);
     YAML::Emitter name;  // quoted where it must be
     name << info.camera_name;
     return fmt::format("image_width: {}\nimage_height: {}\ncamera_name: {}\n", info.width_px, info.height_px,
                        name.c_str()) +
            matrix_text("camera_matrix", 3, 3, {fx, 0, cx, 0, fy, cy, 0, 0, 1}) +
-           "distortion_model: plumb_bob\n" +
-           matrix_text("distortion_coefficients", 1, 5, {lens.begin(), lens.end()}) +
+           fmt::format("distortion_model: {}\n", name_of(info.distortion.model)) +
+           matrix_text("distortion_coefficients", 1, static_cast<int>(lens.size()), lens) +
            matrix_text("rectification_matrix", 3, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1}) +
            matrix_text("projection_matrix", 3, 4, {fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0});
 }

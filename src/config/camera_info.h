@@ -15,7 +15,7 @@ struct CameraInfo {
     int height_px;
     Eigen::Vector2d focal_px;  ///< f_x, f_y
     Eigen::Vector2d principal_point_px;
-    LensDistortion distortion;  ///< plumb_bob
+    LensDistortion distortion;
 };
 
 /// The camera's intrinsics without its place.
@@ -26,7 +26,8 @@ CameraGeometry with_intrinsics(CameraGeometry camera, const CameraInfo& info);
 
 /// Reads the file. Rectification and projection concern rectified images: their sizes are checked, their
 /// numbers not used. Keys beyond ROS's own are passed over. Throws InputError that names file, line, key and
-/// value; of the distortion models only plumb_bob is read.
+/// value; the distortion models are plumb_bob and
+/// equidistant, which may be called fisheye.
 CameraInfo load_camera_info(const std::filesystem::path& file);
 
 /// The file's text; what load_camera_info() makes of it is the same to the last bit. Rectification is none,

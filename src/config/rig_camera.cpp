@@ -2,7 +2,6 @@
 
 #include "core/camera_parameters.h"
 #include "core/camera_slopes.h"
-#include "core/plumb_bob.h"
 #include "src/config/camera_info.h"
 #include "src/config/capture_keys.h"
 
@@ -24,9 +23,14 @@ Eigen::Vector2d pair_of(const YamlValue& value, const NumberRange& range) {
     return {numbers[0], numbers[1]};
 }
 
-LensDistortion read_lens(const YamlValue& value) {
-    const std::vector<double> numbers = value.numbers(5, coefficients);
-    return distortion_of(std::span<const double, 5>(numbers));
+/// An equidistant lens without `distortion` is one of which theta_d = theta.
+LensDistortion read_lens(const YamlValue& map) {
+    LensDistortion lens;
+    if (const auto name = map.find("lens"))
+        lens.model = lens_models[name->one_of({name_of(lens_models[0]), name_of(lens_models[1])})];
+    if (const auto numbers = map.find("distortion"))
+        return distortion_of(lens.model, numbers->numbers(coefficients_of(lens.model), coefficients));
+    return lens;
 }
 
 CameraGeometry read_own_intrinsics(const YamlValue& map) {
@@ -36,7 +40,7 @@ CameraGeometry read_own_intrinsics(const YamlValue& map) {
                           .principal_point_px = pair_of(map.at("principal_point_px"), any_number),
                           .distance_mm = 0.0};
     if (const auto ratio = map.find("focal_ratio")) camera.focal_ratio = ratio->number(focal_ratios);
-    if (const auto lens = map.find("distortion")) camera.distortion = read_lens(*lens);
+    camera.distortion = read_lens(map);
     return camera;
 }
 
@@ -63,8 +67,12 @@ CameraGeometry read_geometry(const YamlValue& map) {
     if (const auto tilt = map.find("tilt_rad")) camera.tilt_rad = pair_of(*tilt, tilts);
     if (const auto axis = map.find("axis_rad")) camera.axis_rad = pair_of(*axis, axis_angles);
     if (!lens_is_one_to_one(camera))
-        (info ? *info : map.at("distortion"))
-            .fail("a lens of these coefficients would picture one point at two places of the image");
+        (info ? *info : map.at(map.find("distortion") ? "distortion" : "lens"))
+            .fail(camera.distortion.model == LensModel::plumb_bob
+                      ? "a lens of these coefficients would picture one point at two places of the image"
+                      : "the picture of such a lens ends before the nearest side of the image: focal_px and "
+                        "the "
+                        "coefficients leave no direction for what is beyond");
     return camera;
 }
 
@@ -77,12 +85,14 @@ void check_focal_ratio(const YamlValue& value, double focal_ratio) {
 }
 
 CameraParameters read_rig_camera(const YamlValue& map) {
-    map.allow_only({"camera_info",  "width_px",           "height_px",       "focal_px",
-                    "focal_ratio",  "principal_point_px", "distortion",      "distance_mm",
-                    "rotation_rad", "tilt_rad",           "axis_rad",        "frame_rate_hz",
-                    "exposure_s",   "full_well_e",        "read_noise_e",    "gain_spread",
-                    "blur_px",      "latency_s",          "corner_noise_px", "max_speed_mm_per_s",
-                    "capture",      "geometry_covariance"});
+    map.allow_only({"camera_info",   "width_px",           "height_px",
+                    "focal_px",      "focal_ratio",        "principal_point_px",
+                    "lens",          "distortion",         "distance_mm",
+                    "rotation_rad",  "tilt_rad",           "axis_rad",
+                    "frame_rate_hz", "exposure_s",         "full_well_e",
+                    "read_noise_e",  "gain_spread",        "blur_px",
+                    "latency_s",     "corner_noise_px",    "max_speed_mm_per_s",
+                    "capture",       "geometry_covariance"});
     CameraParameters camera{.geometry = read_geometry(map),
                             .frame_rate_hz = map.at("frame_rate_hz").number({0.0, 1e5, true}),
                             .exposure_s = map.at("exposure_s").number(positive),

@@ -11,8 +11,8 @@ inline constexpr int least_image_px = 16;
 inline constexpr int most_image_px = 20'000;
 
 /// Keys of `camera` that a ROS file gives in their place.
-inline constexpr std::array intrinsic_camera_keys{"width_px",    "height_px",          "focal_px",
-                                                  "focal_ratio", "principal_point_px", "distortion"};
+inline constexpr std::array intrinsic_camera_keys{
+    "width_px", "height_px", "focal_px", "focal_ratio", "principal_point_px", "lens", "distortion"};
 
 /// A rig file's `camera`: its own numbers, or those of a ROS file (camera_info.h) where it names one. Throws
 /// InputError.

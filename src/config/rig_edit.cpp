@@ -1,7 +1,6 @@
 #include "src/config/rig_edit.h"
 
 #include "core/input_error.h"
-#include "core/plumb_bob.h"
 #include "core/rig.h"
 #include "src/config/camera_info.h"
 #include "src/config/fod_file.h"
@@ -65,6 +64,8 @@ void copy_camera_info(YAML::Node camera, const fs::path& rig_file) {
     std::vector<std::string> distortion;
     std::ranges::transform(numbers_of(info.distortion), std::back_inserter(distortion), exact);
     camera["distortion"] = list_of(distortion);
+    if (info.distortion.model != LensModel::plumb_bob)
+        camera["lens"] = std::string(name_of(info.distortion.model));
 }
 
 /// A path that is relative to one file, as one that is relative to another.
@@ -129,6 +130,10 @@ void RigEdit::set(std::string_view key, std::span<const double> values) {
     digits.reserve(values.size());
     for (const double value : values) digits.push_back(digits_of(value));
     impl_->set(key, list_of(digits));
+}
+
+void RigEdit::set_name(std::string_view key, std::string_view name) {
+    impl_->set(key, YAML::Node(std::string(name)));
 }
 
 void RigEdit::state_effect(const StatedEffect& effect) {

@@ -34,6 +34,8 @@ class RigEdit {
     void set(std::string_view key, double value);
     /// The same for a list, e.g. "camera.distortion".
     void set(std::string_view key, std::span<const double> values);
+    /// The same for a name, e.g. "camera.lens".
+    void set_name(std::string_view key, std::string_view name);
     /// Adds an effect to those that the file states; one of the same name is replaced.
     void state_effect(const StatedEffect& effect);
     /// Writes the table beside the rig file, as NAME_fod.csv, and refers to it.

@@ -1,6 +1,5 @@
 #include "src/inspect/identity.h"
 
-#include "core/plumb_bob.h"
 #include "core/rig.h"
 #include "src/commit.h"
 #include "src/inspect/sha256.h"

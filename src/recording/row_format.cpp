@@ -3,9 +3,11 @@
 #include "core/camera_parameters.h"
 #include "src/recording/layout.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <vector>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -87,15 +89,19 @@ void append_frame(std::string& text, const FrameName& frame) {
 
 std::string sensor_yaml(const CameraParameters& camera) {
     const CameraGeometry& geometry = camera.geometry;
-    const LensDistortion& lens = geometry.distortion;  // EuRoC has four coefficients; a fifth is k3
+    std::vector<double> lens = numbers_of(geometry.distortion);
+    const bool is_plumb_bob = geometry.distortion.model == LensModel::plumb_bob;
+    if (is_plumb_bob && lens.back() == 0.0) lens.pop_back();  // EuRoC has four; a fifth is k3
+    std::vector<std::string> coefficients;
+    std::ranges::transform(lens, std::back_inserter(coefficients), shortest);
     return fmt::format(
         "sensor_type: camera\nrate_hz: {}\nresolution: [{}, {}]\ncamera_model: pinhole\n"
         "intrinsics: [{}, {}, {}, {}]  # fu, fv, cu, cv in px; pixel centres at integers\n"
-        "distortion_model: radial-tangential\ndistortion_coefficients: [{}, {}, {}, {}{}]\n",
+        "distortion_model: {}\ndistortion_coefficients: [{}]\n",
         shortest(camera.frame_rate_hz), geometry.width_px, geometry.height_px, shortest(geometry.focal_px),
         shortest(geometry.focal_px * geometry.focal_ratio), shortest(geometry.principal_point_px.x()),
-        shortest(geometry.principal_point_px.y()), shortest(lens.k1), shortest(lens.k2), shortest(lens.p1),
-        shortest(lens.p2), lens.k3 == 0.0 ? "" : ", " + shortest(lens.k3));
+        shortest(geometry.principal_point_px.y()), is_plumb_bob ? "radial-tangential" : "equidistant",
+        fmt::join(coefficients, ", "));
 }
 
 }  // namespace fidservo

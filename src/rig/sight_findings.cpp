@@ -38,11 +38,13 @@ void look_at_camera(const Rig& rig, std::vector<Finding>& findings) {
     const CameraParameters& camera = *rig.camera;
     const CameraGeometry& geometry = camera.geometry;
     const double widths = geometry.focal_px / geometry.width_px;
-    if (widths < least_focal_widths || widths > most_focal_widths)
+    const bool draws_straight = geometry.distortion.model == LensModel::plumb_bob;
+    if ((draws_straight && widths < least_focal_widths) || widths > most_focal_widths)
         findings.push_back(
             {"camera.focal_px", fmt::format("{:g}", geometry.focal_px),
-             fmt::format("an image of {} px would be {:.3g} degrees wide", geometry.width_px,
-                         2.0 * std::atan(0.5 / widths) * 180.0 / std::numbers::pi),
+             fmt::format(
+                 "an image of {} px would be {:.3g} degrees wide", geometry.width_px,
+                 (draws_straight ? 2.0 * std::atan(0.5 / widths) : 1.0 / widths) * 180.0 / std::numbers::pi),
              fmt::format("{:g} to {:g}: the lens' focal length / a pixel's size, both in mm",
                          least_focal_widths * geometry.width_px, most_focal_widths * geometry.width_px)});
     const Eigen::Vector2d middle_px(0.5 * (geometry.width_px - 1), 0.5 * (geometry.height_px - 1));

@@ -163,7 +163,7 @@ TEST(SlowRenderedCalibration, ThirtyViews_GiveTheLensAndDisplacementsOfHundredth
         EXPECT_LT(std::abs(error(3)), 0.01 * std::abs(true_k1));
         EXPECT_GT(found->misfit, 0.5);
         EXPECT_LT(found->misfit, 2.0);
-        EXPECT_TRUE(shortcomings(*found, {}).empty());
+        EXPECT_TRUE(shortcomings(*found, {}, plate.tags).empty());
 
         const DisplacementErrors errors = displacement_errors(found->camera, plate, seed);
         std::printf("displacements: %.4f um r.m.s. between tags in view, %.4f um over 4 mm of travel\n",
@@ -182,7 +182,7 @@ TEST(SlowRenderedCalibration, PlateThatIsNeverTilted_DoesNotTellTheFocalLength) 
         images.push_back(rendered(plate, true_camera().geometry, 0.4 * k, 1, static_cast<std::uint64_t>(k)));
     const auto found = calibrated(images, plate);
     if (!found) return;
-    const std::vector<std::string> reasons = shortcomings(*found, {});
+    const std::vector<std::string> reasons = shortcomings(*found, {}, plate.tags);
     ASSERT_FALSE(reasons.empty());
     EXPECT_NE(reasons.front().find("focal length is not determined"), std::string::npos) << reasons.front();
 }

@@ -64,6 +64,9 @@ TEST(CalibrateCamera, FilesThatExistOrAreOne_AreRefusedFirst) {
     EXPECT_THAT(message_of([&] { calibrate_camera(options); }), HasSubstr("are one file"));
     options.write_rig.clear();
     EXPECT_THAT(message_of([&] { calibrate_camera(options); }), HasSubstr("there is no such file or folder"));
+    options.lens = "fish";
+    EXPECT_EQ(message_of([&] { calibrate_camera(options); }),
+              "--lens: fish: allowed: plumb_bob, equidistant");
 }
 
 }  // namespace

@@ -128,10 +128,8 @@ TEST(CameraInfo, FileWithoutModelAndWithOtherKeys_IsReadAsRosReadsIt) {
 TEST(CameraInfo, Mistakes_AreNamedWithWhatIsAllowed) {
     EXPECT_EQ(ros_message_with("plumb_bob", "rational_polynomial"),
               "10: distortion_model: rational_polynomial: this distortion model is not supported; allowed: "
-              "plumb_bob");
-    EXPECT_EQ(
-        ros_message_with("plumb_bob", "equidistant"),
-        "10: distortion_model: equidistant: this distortion model is not supported; allowed: plumb_bob");
+              "plumb_bob, equidistant (or fisheye)");
+    EXPECT_EQ(ros_message_with("plumb_bob", "equidistant"), "13: distortion_coefficients.cols: 5: must be 4");
     EXPECT_EQ(ros_message_with("cols: 5", "cols: 8"), "13: distortion_coefficients.cols: 8: must be 5");
     EXPECT_EQ(ros_message_with("-0.000139, 0.]", "-0.000139]"),
               "14: distortion_coefficients.data: a list: must be a list of 5 numbers");
@@ -147,6 +145,27 @@ TEST(CameraInfo, Mistakes_AreNamedWithWhatIsAllowed) {
               "1: image_width: 1280 px: must be a whole number from 16 to 20000");
     EXPECT_EQ(ros_message_with("distortion_coefficients", "distortion_coefficents"),
               "1: distortion_coefficients: missing: this key must be given");
+}
+
+TEST(CameraInfo, EquidistantLens_IsReadByEitherNameAndWrittenByRossName) {
+    const TemporaryFolder folder;
+    for (const std::string name : {"equidistant", "fisheye"}) {
+        const std::string text =
+            replaced(replaced(replaced(ros_text, "plumb_bob", name), "cols: 5", "cols: 4"), "-0.000139, 0.]",
+                     "-0.000139]");
+        const CameraInfo info = load_camera_info(folder.write(name + ".yaml", text));
+        EXPECT_EQ(info.distortion.model, LensModel::equidistant);
+        EXPECT_EQ(numbers_of(info.distortion), (std::vector<double>{-0.2, 0.035, 0.001, -0.000139}));
+        const std::string written = camera_info_text(info);
+        EXPECT_NE(
+            written.find("distortion_model: equidistant\ndistortion_coefficients:\n  rows: 1\n  cols: 4\n"
+                         "  data: [-0.2, 0.035, 0.001, -0.000139]\n"),
+            std::string::npos)
+            << written;
+        const CameraInfo again = load_camera_info(folder.write(name + "_again.yaml", written));
+        EXPECT_EQ(again.distortion.model, LensModel::equidistant);
+        EXPECT_EQ(numbers_of(again.distortion), numbers_of(info.distortion));
+    }
 }
 
 /// The reference rig with a piece replaced, in a folder with its other files and the ROS file.
@@ -191,6 +210,40 @@ TEST_F(RigCamera, NewKeys_AreReadAndNeutralWhereTheyAreNotGiven) {
     EXPECT_EQ(camera.geometry.tilt_rad, Eigen::Vector2d(0.05, -0.01));
     EXPECT_EQ(camera.geometry.axis_rad, Eigen::Vector2d(0.0005, -0.0002));
     EXPECT_EQ(camera.gain_spread, 0.01);
+}
+
+TEST_F(RigCamera, EquidistantLens_IsReadWithItsFourCoefficients) {
+    const auto camera_with = [&](const std::string& keys) {
+        return load_rig(rig_with("  distance_mm: 20\n", "  distance_mm: 20\n  " + keys + "\n"))
+            .camera->geometry;
+    };
+    const CameraGeometry bare = camera_with("lens: equidistant");
+    EXPECT_EQ(bare.distortion.model, LensModel::equidistant);
+    EXPECT_FALSE(looks_straight(bare));
+    const CameraGeometry camera = camera_with("lens: equidistant\n  distortion: [0.01, 0.02, 0.03, 0.04]");
+    EXPECT_EQ(numbers_of(camera.distortion), (std::vector<double>{0.01, 0.02, 0.03, 0.04}));
+    EXPECT_EQ(camera_with("lens: plumb_bob").distortion.model, LensModel::plumb_bob);
+    EXPECT_EQ(message_with("lens: fish"), "26: camera.lens: fish: allowed: plumb_bob, equidistant");
+    EXPECT_EQ(message_with("lens: equidistant\n  distortion: [0, 0, 0, 0, 0]"),
+              "27: camera.distortion: a list: must be a list of 4 numbers");
+    EXPECT_EQ(message_with("lens: equidistant\n  distortion: [-60, 0, 0, 0]"),
+              "27: camera.distortion: a list: the picture of such a lens ends before the nearest side of the "
+              "image: "
+              "focal_px and the coefficients leave no direction for what is beyond");
+}
+
+TEST_F(RigCamera, EquidistantCameraInfo_IsCopiedWithItsLensWhenAnIntrinsicChanges) {
+    const auto rig = rig_with_camera_info();
+    folder_.write("cam/ros.yaml",
+                  replaced(replaced(replaced(ros_text, "plumb_bob", "fisheye"), "cols: 5", "cols: 4"),
+                           "-0.000139, 0.]", "-0.000139]"));
+    RigEdit edit(rig);
+    edit.set("camera.focal_px", 5000.0);
+    edit.save(folder_ / "new.yaml");
+    const CameraGeometry camera = load_rig(folder_ / "new.yaml").camera->geometry;
+    EXPECT_EQ(camera.focal_px, 5000.0);
+    EXPECT_EQ(camera.distortion.model, LensModel::equidistant);
+    EXPECT_EQ(camera.distortion.k4, -0.000139);
 }
 
 TEST_F(RigCamera, ValuesThatCannotBe_AreRefused) {

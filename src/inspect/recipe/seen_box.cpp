@@ -13,15 +13,28 @@ struct Side {
     Eigen::Vector2d middle_mm;
 };
 
+/// The plate point at an image point; where a fisheye shows nothing of the plate, at the nearest one towards
+/// the optical axis where it does.
+Eigen::Vector2d plate_point_mm(const CameraGeometry& camera, const Eigen::Vector2d& image_px, double s_mm) {
+    constexpr int steps = 64;
+    Eigen::Vector2d place = back_project(camera, image_px, s_mm);
+    for (int k = steps - 1; k >= 0 && !place.allFinite(); --k) {
+        const double share = static_cast<double>(k) / steps;
+        place = back_project(
+            camera, camera.principal_point_px + share * (image_px - camera.principal_point_px), s_mm);
+    }
+    return place;
+}
+
 Side side_between(const CameraGeometry& camera, double s_mm, const Eigen::Vector2d& from_px,
                   const Eigen::Vector2d& to_px) {
     constexpr int steps = 16;  // a side bends by pixels at most: its chords miss hundredths
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Side side{{Eigen::Vector2d::Constant(infinity), Eigen::Vector2d::Constant(-infinity)},
-              back_project(camera, 0.5 * (from_px + to_px), s_mm)};
+              plate_point_mm(camera, 0.5 * (from_px + to_px), s_mm)};
     for (int k = 0; k <= steps; ++k) {
         const Eigen::Vector2d place =
-            back_project(camera, from_px + static_cast<double>(k) / steps * (to_px - from_px), s_mm);
+            plate_point_mm(camera, from_px + static_cast<double>(k) / steps * (to_px - from_px), s_mm);
         side.around = {side.around.low_mm.cwiseMin(place), side.around.high_mm.cwiseMax(place)};
     }
     return side;
