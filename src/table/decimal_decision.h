@@ -1,0 +1,22 @@
+#pragma once
+// Which of point and comma is the decimal sign of a table, by all its numbers together.
+#include "src/table/plain_table.h"
+
+namespace fidservo {
+
+/// What the numbers of a table tell; the first line of each kind.
+struct DecimalEvidence {
+    struct Place {
+        int line = 0;
+        std::string field = {};
+    };
+    Place point = {}, comma = {};
+    /// Between commas, a column that could be the decimals of the one before it: digits alone, all as many,
+    /// or with zeros in front.
+    std::optional<std::size_t> could_be_decimals = {};
+};
+
+/// Looks at all rows. @param columns  of the table
+DecimalEvidence decimal_evidence_of(const PlainTable& table, char separator, std::size_t columns);
+
+}  // namespace fidservo
