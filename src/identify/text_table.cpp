@@ -202,6 +202,9 @@ TextTable read_text_table(const std::filesystem::path& file, const std::vector<C
     FIDSERVO_DEMAND(!choices.empty());
     const PlainTable source = PlainTable::load(file, options);
     TextTable table{file, {}, source.notes()};
+    if (!source.last_row_ends())
+        table.notes.emplace_back(
+            "the last line has no end: if the file was cut off, its last number is too short");
     std::vector<Reading> readings;
     for (const ColumnChoice& choice : choices) {
         table.columns.push_back({choice.role, "", {}});

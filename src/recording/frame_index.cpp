@@ -152,7 +152,7 @@ void demand_times(const PlainTable& table, const std::vector<FrameName>& frames,
     bool all_by_one = frames.size() > 1;
     for (std::size_t k = 1; k < frames.size(); ++k) {
         if (frames[k].time_ns <= frames[k - 1].time_ns)
-            table.fail(lines[k], fmt::format("time {} ns: must be after that of the row before, {} ns",
+            table.fail(lines[k], fmt::format("timestamp: {} ns: must be after that of the row before, {} ns",
                                              frames[k].time_ns, frames[k - 1].time_ns));
         all_by_one = all_by_one && frames[k].time_ns - frames[k - 1].time_ns == 1;
     }

@@ -10,6 +10,12 @@ namespace {
 class DecimalsWatch {
   public:
     void saw(std::string_view field) {
+        // Programs that leave out the point, as in 1e-05, write one digit in front of the exponent.
+        const std::size_t digits_in_front = field.find_first_not_of("0123456789");
+        has_long_mantissa_ =
+            has_long_mantissa_ ||
+            (digits_in_front != std::string_view::npos && digits_in_front > 1 &&
+             std::string_view("eEdD").find(field[digits_in_front]) != std::string_view::npos);
         const bool digits = !field.empty() && field.find_first_not_of("0123456789") == std::string_view::npos;
         are_digits_ = are_digits_ && digits;
         if (!digits) return;
@@ -21,10 +27,12 @@ class DecimalsWatch {
         ++rows_;
     }
     bool leads_with_zero() const { return are_digits_ && leads_with_zero_; }
+    bool has_long_mantissa() const { return has_long_mantissa_; }
     bool has_one_width() const { return are_digits_ && is_one_width_ && differs_ && width_ > 1; }
 
   private:
     bool are_digits_ = true, leads_with_zero_ = false, is_one_width_ = true, differs_ = false;
+    bool has_long_mantissa_ = false;
     std::size_t width_ = 0, rows_ = 0;
     std::string last_;
 };
@@ -51,7 +59,8 @@ DecimalEvidence decimal_evidence_of(const PlainTable& table, char separator, std
         }
     });
     for (std::size_t k = 1; k < watches.size() && !evidence.could_be_decimals; ++k)
-        if (watches[k].leads_with_zero() || watches[k].has_one_width()) evidence.could_be_decimals = k;
+        if (watches[k].leads_with_zero() || watches[k].has_one_width() || watches[k].has_long_mantissa())
+            evidence.could_be_decimals = k;
     return evidence;
 }
 
