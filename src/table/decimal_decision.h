@@ -11,9 +11,11 @@ struct DecimalEvidence {
         std::string field = {};
     };
     Place point = {}, comma = {};
-    /// Between commas, a column that could be the decimals of the one before it: digits alone, all as many,
-    /// or with zeros in front.
+    /// Between commas, a column that could be the decimals of the one before it: digits alone, all as many; or a
+    /// zero in front of other digits, several digits before an exponent, and in the one before it a zero with a sign.
     std::optional<std::size_t> could_be_decimals = {};
+    /// Between commas, a column that could be the last three digits, or more behind a point, of the one before it.
+    std::optional<std::size_t> could_be_thousands = {};
 };
 
 /// Looks at all rows. @param columns  of the table

@@ -71,17 +71,21 @@ void PlainTable::decide_decimal_sign(const TableOptions& options) {
     const bool titles_tell = std::ranges::any_of(structure_.titles, [&](const TitleLine& titles) {
         return titles.fields.size() == structure_.fields || titles.fields.size() == columns();
     });
-    if (options.decimal || decimal_ || titles_tell) return;
+    if (options.decimal || titles_tell || columns() < 3) return;
+    const auto ask = [&](const std::string& why) {
+        fail(first_line(), fmt::format("the commas may stand between fields or in numbers: {}; {}{}", why,
+                                       if_commas_separate, no_such_table));
+    };
+    if (evidence.could_be_thousands)
+        ask(fmt::format("column {} could be the last digits of column {}", *evidence.could_be_thousands + 1,
+                        *evidence.could_be_thousands));
+    if (decimal_) return;
     const std::size_t titles = structure_.fields_above;
     if (titles > 1 && titles < columns() && columns() <= 2 * titles)
-        fail(first_line(),
-             fmt::format("{} fields between commas, but {} above them: commas may be decimal signs too; {}{}",
-                         columns(), titles, if_commas_separate, no_such_table));
-    if (columns() < 3 || !evidence.could_be_decimals) return;
-    fail(first_line(), fmt::format("the commas may stand between fields or in numbers: column {} could be "
-                                   "the decimals of column {}; {}{}",
-                                   *evidence.could_be_decimals + 1, *evidence.could_be_decimals,
-                                   if_commas_separate, no_such_table));
+        ask(fmt::format("there are {} fields, but {} above them", columns(), titles));
+    if (evidence.could_be_decimals)
+        ask(fmt::format("column {} could be the decimals of column {}", *evidence.could_be_decimals + 1,
+                        *evidence.could_be_decimals));
 }
 
 double PlainTable::number(const TableRow& row, std::size_t column) const {

@@ -90,9 +90,10 @@ TEST(PlainTable, NumberThatCouldMeanTwoThings_IsAskedFor) {
 }
 
 TEST(PlainTable, CommasBetweenFieldsAndInNumbers_AreRefused) {
-    EXPECT_THAT(refusal_of("t,x\n0,5,1,25\n0,6,1,35\n"),
-                HasSubstr("4 fields between commas, but 2 above them"));
+    EXPECT_THAT(refusal_of("t,x\n0,5,1,25\n0,6,1,35\n"), HasSubstr("there are 4 fields, but 2 above them"));
     EXPECT_THAT(refusal_of("0,05,1,5\n0,10,1,6\n"), HasSubstr("column 2 could be the decimals of column 1"));
+    EXPECT_THAT(refusal_of("1,172.5,3\n2,256.0,4\n"),
+                HasSubstr("column 2 could be the last digits of column 1"));
     EXPECT_THAT(refusal_of("0,05,1,5\n0,10,1,6\n", {.decimal = DecimalSign::comma}),
                 HasSubstr("a table with commas both between its fields and in its numbers cannot be read"));
     EXPECT_EQ(rows_of("0,05,1\n0,10,1\n", {.decimal = DecimalSign::point}), (Rows{{0, 5, 1}, {0, 10, 1}}));
