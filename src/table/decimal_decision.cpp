@@ -54,11 +54,10 @@ DecimalEvidence decimal_evidence_of(const PlainTable& table, char separator, std
         for (std::size_t k = 0; k < row.fields.size(); ++k) {
             const std::string_view field = row.fields[k];
             const FieldLook look = look_at(field);
-            const bool has_point = field.find('.') != std::string_view::npos;
-            SignEvidence told = look.evidence;
-            // No program writes commas between fields and points between thousands.
-            if (told == SignEvidence::point_or_group && separator == ',' && has_point)
-                told = SignEvidence::point;
+            const SignEvidence told = look.evidence;
+            evidence.has_point_between_commas = evidence.has_point_between_commas ||
+                                                (told == SignEvidence::point_or_group && separator == ',' &&
+                                                 field.find('.') != std::string_view::npos);
             if (told == SignEvidence::point && evidence.point.line == 0)
                 evidence.point = {row.line, std::string(field)};
             if (told == SignEvidence::comma && evidence.comma.line == 0)

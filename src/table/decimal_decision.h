@@ -11,10 +11,14 @@ struct DecimalEvidence {
         std::string field = {};
     };
     Place point = {}, comma = {};
-    /// Between commas, a column that could be the decimals of the one before it: digits alone, all as many; or a
-    /// zero in front of other digits, several digits before an exponent, and in the one before it a zero with a sign.
+    bool has_point_between_commas =
+        false;  ///< 1.234 between commas: no program writes points between thousands there
+    /// Between commas, a column that could be the decimals of the one before it: digits alone, all as many;
+    /// or a zero in front of other digits, several digits before an exponent, and in the one before it a zero
+    /// with a sign.
     std::optional<std::size_t> could_be_decimals = {};
-    /// Between commas, a column that could be the last three digits, or more behind a point, of the one before it.
+    /// Between commas, a column that could be the last three digits, or more behind a point, of the one
+    /// before it.
     std::optional<std::size_t> could_be_thousands = {};
 };
 

@@ -64,14 +64,21 @@ void PlainTable::decide_decimal_sign(const TableOptions& options) {
         "a table with commas both between its fields and in its numbers cannot be read: save it with "
         "semicolons or "
         "tabs";
-    const std::string_view if_commas_separate =
-        options_are_offered_ ? "if they only stand between fields: --decimal point; " : "";
     if (decimal_ == DecimalSign::comma && evidence.comma.line == 0)
         fail(first_line(), fmt::format("commas stand between the fields; {}", no_such_table));
-    const bool titles_tell = std::ranges::any_of(structure_.titles, [&](const TitleLine& titles) {
-        return titles.fields.size() == structure_.fields || titles.fields.size() == columns();
-    });
-    if (options.decimal || titles_tell || columns() < 3) return;
+    const auto tells = [&](const TitleLine& titles) {
+        const auto last = std::find_if(titles.fields.rbegin(), titles.fields.rend(),
+                                       [](const std::string& title) { return !title.empty(); });
+        return static_cast<std::size_t>(titles.fields.rend() - last) == columns();
+    };
+    if (!options.decimal && std::ranges::none_of(structure_.titles, tells) && columns() > 2)
+        demand_whole_numbers(evidence, no_such_table);
+    if (!decimal_ && evidence.has_point_between_commas) decimal_ = DecimalSign::point;
+}
+
+void PlainTable::demand_whole_numbers(const DecimalEvidence& evidence, std::string_view no_such_table) const {
+    const std::string_view if_commas_separate =
+        options_are_offered_ ? "if they only stand between fields: --decimal point; " : "";
     const auto ask = [&](const std::string& why) {
         fail(first_line(), fmt::format("the commas may stand between fields or in numbers: {}; {}{}", why,
                                        if_commas_separate, no_such_table));

@@ -13,6 +13,8 @@ struct TableRow {
     std::span<const std::string_view> fields;
 };
 
+struct DecimalEvidence;
+
 class PlainTable {
   public:
     /// Throws InputError on a file that structure_of() refuses, on rows of another length, on numbers of
@@ -50,6 +52,8 @@ class PlainTable {
           options_are_offered_(options_are_offered) {}
 
     void decide_decimal_sign(const TableOptions& options);
+    /// Refuses fields between commas that could be parts of one number.
+    void demand_whole_numbers(const DecimalEvidence& evidence, std::string_view no_such_table) const;
 
     TextFile file_;
     TableStructure structure_;
