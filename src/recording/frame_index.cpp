@@ -86,6 +86,11 @@ IndexColumns index_columns(const PlainTable& table) {
         table.fail(table.first_line(),
                    "which column holds the images' names? allowed: one column of text, or one whose title is "
                    "filename");
+    for (const TitleLine& titles : table.titles())
+        for (const std::string& field : titles.fields)
+            if (has_image_ending(field))
+                table.fail(titles.line,
+                           fmt::format("'{}' names an image, but the line has no time", excerpt(field)));
     return {times.front(), names.front()};
 }
 

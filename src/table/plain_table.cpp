@@ -61,9 +61,8 @@ void PlainTable::decide_decimal_sign(const TableOptions& options) {
     }
     if (separator != ',') return;
     constexpr std::string_view no_such_table =
-        "a table with commas both between its fields and in its numbers cannot be read: save it with "
-        "semicolons or "
-        "tabs";
+        "a table with commas both between its fields and in its numbers cannot be read: "
+        "save it with semicolons or tabs";
     if (decimal_ == DecimalSign::comma && evidence.comma.line == 0)
         fail(first_line(), fmt::format("commas stand between the fields; {}", no_such_table));
     const auto tells = [&](const TitleLine& titles) {

@@ -142,8 +142,10 @@ struct Below {
     std::size_t lines = 0;
     int first_line = 0;
     std::string first;
+    int row_sized = 0;  ///< the first line with a field for each column, none of them empty
 
-    void add(int line, std::string_view text) {
+    void add(int line, std::string_view text, bool is_row_sized) {
+        if (is_row_sized && row_sized == 0) row_sized = line;
         if (lines++ == 0) {
             first_line = line;
             first = excerpt(text);
@@ -171,7 +173,7 @@ std::pair<LinesWithNumbers, Below> last_numbers(const TextFile& file, LinePlace 
             std::ranges::all_of(kinds, [](FieldKind kind) { return kind == FieldKind::empty; });
         if (fields.size() != shape.fields || !any_number) {
             if (only_empty && fields.size() == shape.fields && is_open) {
-                below.add(lines.place().line, line);
+                below.add(lines.place().line, line, false);
                 continue;
             }
             is_open = false;
@@ -179,7 +181,9 @@ std::pair<LinesWithNumbers, Below> last_numbers(const TextFile& file, LinePlace 
                 fail_in_line(
                     file, lines.place().line,
                     fmt::format("has {} fields; the rows above have {}", fields.size(), shape.fields));
-            below.add(lines.place().line, line);
+            below.add(
+                lines.place().line, line,
+                fields.size() == shape.fields && std::ranges::find(kinds, FieldKind::empty) == kinds.end());
             continue;
         }
         if (!is_open) run = {lines.place(), 0, 0, 0, std::vector<KindCounts>(shape.fields)};
@@ -244,6 +248,10 @@ TableStructure structure_of(const TextFile& file, const TableOptions& options) {
     if (std::ranges::none_of(is_key, [](bool key) { return key; }))
         for (std::size_t k = 0; k < is_key.size(); ++k)
             is_key[k] = structure.kinds[k] == FieldKind::number || structure.kinds[k] == FieldKind::time;
+    if (below.row_sized != 0)
+        fail_in_line(
+            file, below.row_sized,
+            "has a field for each column, but no number: below the rows only other lines of text may stand");
     find_first_row(file, options, is_key, run.begin, structure);
     if (below.lines > 0)
         structure.notes.push_back(

@@ -202,7 +202,7 @@ Outcome judge(const WrittenTable& written, const TextTable& table) {
 TEST(TableVariations, InstrumentsTables_AreReadRightOrRefused) {
     const testing::TemporaryFolder folder;
     constexpr std::array<std::string_view, 3> roles{"time", "input", "output"};
-    expect_right_or_refused("tables of instruments", 400, [&](std::mt19937_64& random) {
+    expect_right_or_refused("tables of instruments", 300, [&](std::mt19937_64& random) {
         const WrittenTable written(random);
         try {
             return judge(written, read_text_table(folder.write("table.csv", written.bytes()),
