@@ -271,7 +271,6 @@ TEST(CameraFileVariations, OtherPeoplesTargets_AreReadRightOrRefused) {
         const bool lacks_key = pick(0, 4) == 0;
         if (lacks_key) lines.erase(lines.begin() + pick(0, 4));
         std::shuffle(lines.begin(), lines.end(), random);
-        const TemporaryFolder folder;
         const auto file = folder.write(
             "target.yaml", (pick(0, 3) == 0 ? "\xEF\xBB\xBF" : "") +
                                fmt::format("{}", fmt::join(lines, pick(0, 1) == 0 ? "\n" : "\r\n")));
