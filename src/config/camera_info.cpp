@@ -1,5 +1,6 @@
 #include "src/config/camera_info.h"
 
+#include "core/input_error.h"
 #include "core/plumb_bob.h"
 #include "src/config/rig_camera.h"
 #include "src/config/yaml_reader.h"
@@ -243,6 +244,11 @@ CameraInfo load_camera_info(const std::filesystem::path& file) {
         return read_pinhole(root.at(chain[0]), chain[0], kalibr_names, "distortion_coeffs");
     if (root.find("intrinsics")) return read_pinhole(root, "unknown", euroc_names, "distortion_coefficients");
     const bool is_message = !root.find("camera_matrix") && (root.find("K") || root.find("k"));
+    if (!is_message && !root.find("camera_matrix"))
+        throw InputError(fmt::format(
+            "{}: has none of the keys that a file of intrinsics has; allowed: camera_matrix (ROS, OpenCV), "
+            "K (ROS's message), cam0 (kalibr), intrinsics (EuRoC)",
+            file.string()));
     return is_message ? read_ros_message(root) : read_ros_file(root);
 }
 

@@ -12,7 +12,7 @@ constexpr std::array units{
     Unit{"cm", "length", 10.0},  Unit{"m", "length", 1e3},         Unit{"V", "voltage", 1.0},
     Unit{"mV", "voltage", 1e-3}, Unit{"uV", "voltage", 1e-6},      Unit{"s", "time", 1.0},
     Unit{"ms", "time", 1e-3},    Unit{"us", "time", 1e-6},         Unit{"ns", "time", 1e-9},
-    Unit{"min", "time", 60.0},   Unit{"degC", "temperature", 1.0}, Unit{"count", "count", 1.0},
+    Unit{"min", "time", 60.0},   Unit{"degC", "temperature", 1.0}, Unit{"count", "reading", 1.0},
     Unit{"adc", "reading", 1.0}};
 
 struct OtherSpelling {
@@ -149,6 +149,16 @@ std::vector<std::string_view> units_of(std::string_view quantity) {
     for (const Unit& unit : units)
         if (unit.quantity == quantity) names.push_back(unit.name);
     return names;
+}
+
+bool names_a_unit(std::string_view line) {
+    for (std::size_t open = line.find_first_of("[("); open != std::string_view::npos;
+         open = line.find_first_of("[(", open + 1)) {
+        const std::size_t close = line.find_first_of("])", open);
+        if (close != std::string_view::npos && !unit_alone(line.substr(open + 1, close - open - 1)).empty())
+            return true;
+    }
+    return false;
 }
 
 std::string unit_alone(std::string_view text) {

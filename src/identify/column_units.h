@@ -31,6 +31,9 @@ struct ColumnTitleParts {
 /// "position [mm]", "Position (mm)", "s/mm"; or behind an underscore if it has two letters: "x_mm".
 ColumnTitleParts title_parts(std::string_view title);
 
+/// Whether a line holds a unit in brackets, of any quantity.
+bool names_a_unit(std::string_view line);
+
 /// The unit that a text is and nothing else, of any quantity, as in a line of units below the titles:
 /// find_unit()'s name, or the text; empty if it is none.
 std::string unit_alone(std::string_view text);

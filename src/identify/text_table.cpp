@@ -160,6 +160,12 @@ Reading reading_of(const PlainTable& table, const ColumnChoice& choice, TableCol
         const ColumnTitleParts found = unit_of_column(table, reading.index);
         column.unit = found.unit;
         column.perhaps = found.perhaps;
+        if (const auto& above = table.line_above();
+            above && column.unit.empty() && names_a_unit(above->second))
+            table.fail(above->first,
+                       fmt::format("'{}' names units, but has no title for each column; say the unit in "
+                                   "--columns, as {}={}[UNIT]",
+                                   excerpt(above->second), choice.role, choice.column));
     }
     return reading;
 }

@@ -19,11 +19,25 @@ struct HeaderLine {
     bool has_number;   ///< in one of these
     bool has_text;     ///< in one of these
     bool is_all_numbers;
-    std::size_t count;                ///< of its fields
+    std::size_t count;  ///< of its fields
+    std::string text;
     std::vector<std::string> fields;  ///< none where there are more than titles can be
 };
 
+/// Titles above columns that blanks separate may hold single blanks themselves.
+void split_at_wide_gaps(std::string_view line, std::vector<std::string_view>& fields) {
+    fields.clear();
+    line = without_blanks(line);
+    while (true) {
+        const std::size_t end = std::min(line.find("  "), line.find('\t'));
+        fields.push_back(line.substr(0, end));
+        if (end == std::string_view::npos) return;
+        line = without_blanks(line.substr(end));
+    }
+}
+
 HeaderLine header_line(std::string_view line, int number, char separator, const std::vector<bool>& is_key) {
+    constexpr std::size_t longest_text = 1000;
     HeaderLine header{.line = number,
                       .is_comment = is_comment(line, separator),
                       .is_row_like = false,
@@ -31,9 +45,16 @@ HeaderLine header_line(std::string_view line, int number, char separator, const 
                       .has_text = false,
                       .is_all_numbers = true,
                       .count = 0,
+                      .text = std::string(line.substr(0, longest_text)),
                       .fields = {}};
     std::vector<std::string_view> fields;
-    split_line(header.is_comment ? without_comment_mark(line) : line, separator, fields);
+    if (header.is_comment) line = without_comment_mark(line);
+    split_line(line, separator, fields);
+    if (separator == ' ' && fields.size() > is_key.size()) {
+        std::vector<std::string_view> wide;
+        split_at_wide_gaps(line, wide);
+        if (wide.size() == is_key.size()) fields = std::move(wide);
+    }
     for (std::size_t k = 0; k < fields.size(); ++k) {
         const FieldKind kind = look_at(fields[k]).kind;
         const bool is_number = kind == FieldKind::number || kind == FieldKind::time;
@@ -188,8 +209,11 @@ void find_first_row(const TextFile& file, const TableOptions& options, const std
                      "there is no row with a number in each of the columns that hold numbers");
     above.demand_no_row(structure);
     take_titles(above.lines(), structure);
-    if (!above.lines().empty()) structure.fields_above = above.lines().back().count;
     note_header(above.lines(), structure);
+    if (above.lines().empty()) return;
+    structure.fields_above = above.lines().back().count;
+    if (structure.titles.empty())
+        structure.line_above = {above.lines().back().line, above.lines().back().text};
 }
 
 }  // namespace fidservo

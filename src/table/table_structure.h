@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace fidservo {
@@ -30,9 +31,10 @@ struct TableStructure {
     std::size_t fields = 0;             ///< of every row
     std::vector<FieldKind> kinds = {};  ///< of the columns, by what most of their fields are
     LinePlace first_row = {};
-    std::size_t end = 0;                             ///< offset behind the last row
-    int last_line = 0;                               ///< the last row's
-    std::vector<TitleLine> titles = {};              ///< the lowest first
+    std::size_t end = 0;                                         ///< offset behind the last row
+    int last_line = 0;                                           ///< the last row's
+    std::vector<TitleLine> titles = {};                          ///< the lowest first
+    std::optional<std::pair<int, std::string>> line_above = {};  ///< the lowest, where none is one of titles
     std::size_t fields_above = 0;                    ///< of the lowest line above the rows; 0 without one
     std::optional<DecimalSign> stated_decimal = {};  ///< by the user, or by a line above the rows
     std::vector<std::string> notes = {};             ///< sentences on what was passed over

@@ -138,6 +138,24 @@ TEST(TextTable, UnitThatIsAnothersOrOnlyPerhapsOne_IsAskedFor) {
                 HasSubstr("column 2: unit 'mm', but 'um' in line 2"));
 }
 
+TEST(TextTable, TitlesWithBlanks_StandAboveWideGaps) {
+    const TextTable table =
+        table_of("# Time (ms)   Motor current  Position (um)\n0.5  1.5  2000\n1.0  2.5  3000\n",
+                 "input=Motor current,output=3,time=Time");
+    EXPECT_THAT(values_in(table, "output", "mm"), ElementsAre(2.0, 3.0));
+    EXPECT_THAT(values_in(table, "time", "s"), ElementsAre(0.0005, 0.001));
+}
+
+TEST(TextTable, UnitsThatBelongToNoColumn_AreAskedFor) {
+    EXPECT_THAT(
+        message_of([] { table_of("# t [s] x [um]\n0.5 1.5\n1.0 2.5\n", "input=1[s],output=2"); }),
+        HasSubstr(
+            "table.txt:1: '# t [s] x [um]' names units, but has no title for each column; say the unit in "
+            "--columns, as output=2[UNIT]"));
+    EXPECT_THAT(table_of("# t [s] x [um]\n0.5 1.5\n1.0 2.5\n", "input=1[s],output=2[um]").columns[1].values,
+                ElementsAre(1.5, 2.5));
+}
+
 TEST(TextTable, LineOfUnitsBelowTitles_Counts) {
     const TextTable table =
         table_of("Time,Channel A\n(ms),(mV)\n\n0.5,100\n1.0,200\n", "input=Channel A,output=Time");

@@ -141,6 +141,12 @@ TEST(CameraFiles, EuRoCsSensorAndRosMessages_AreRead) {
                 {0, 0, 0, 0, 0});
 }
 
+TEST(CameraFiles, FileOfAnotherKind_IsNamedAsThat) {
+    EXPECT_THAT(
+        refusal_of("%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 3\n"),
+        HasSubstr("camera.yaml: has none of the keys that a file of intrinsics has; allowed: camera_matrix"));
+}
+
 TEST(CameraFiles, MarkAndLineEnds_ArePassedOver) {
     std::string text = ros_file("distortion_model: plumb_bob\n", "  rows: 0\n  cols: 0\n  data: []\n");
     expect_lens(info_of("\xEF\xBB\xBF" + text), {0, 0, 0, 0, 0});
