@@ -2,6 +2,7 @@
 
 #include "core/fiducial_parameters.h"
 #include "core/input_error.h"
+#include "src/config/key_names.h"
 #include "src/config/plate_file.h"
 #include "src/config/yaml_reader.h"
 
@@ -15,6 +16,21 @@ namespace {
 
 constexpr int code_book = 587;  ///< tags of the family
 constexpr int most_a_side = 100;
+
+/// A file of another kind is named as that before its keys are looked at.
+void demand_april_grid(const YamlValue& root) {
+    constexpr std::string_view key = "target_type";
+    const auto type = root.find(key);
+    if (type && type->is_scalar() && type->text_or_empty() == "aprilgrid") return;
+    if (type) type->fail("allowed: aprilgrid");
+    for (const std::string& given : root.keys())
+        if (nearest_word(given, {key}) == key)
+            root.at(given).fail(fmt::format("unknown key; did you mean {}?", key));
+    throw InputError(
+        fmt::format("{}: {}: missing: a target file of kalibr is needed; allowed: {}: aprilgrid, with "
+                    "tagCols, tagRows, tagSize, tagSpacing",
+                    root.source().string(), key, key));
+}
 
 }  // namespace
 
@@ -53,8 +69,8 @@ CameraTarget april_grid(const std::string& grid, double tag_size_mm, double spac
 CameraTarget load_kalibr_target(const std::filesystem::path& file) {
     constexpr double mm_per_m = 1000.0;
     const YamlValue root = YamlValue::load(file);
+    demand_april_grid(root);
     root.allow_only({"target_type", "tagCols", "tagRows", "tagSize", "tagSpacing", "codeOffset"});
-    root.at("target_type").one_of({"aprilgrid"});
     const int columns = root.at("tagCols").integer(1, most_a_side);
     const int rows = root.at("tagRows").integer(1, most_a_side);
     if (columns * rows > code_book)

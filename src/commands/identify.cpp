@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,6 +44,7 @@ struct IdentifyOptions {
     std::filesystem::path table;
     std::string columns;
     double rate_hz = 0.0;
+    TableOptions form;  ///< of the table
     std::filesystem::path rig_file;
     std::filesystem::path json;
     std::filesystem::path write_rig;
@@ -54,7 +56,8 @@ IdentifyInput read_table_input(const IdentifyOptions& options, const Identificat
         throw InputError(fmt::format("--columns: missing: which column of the table is what, e.g. {}=1,{}=2",
                                      identification.roles[0], identification.roles[1]));
     input.table = read_text_table(
-        options.table, parse_columns(options.columns, identification.roles, identification.required));
+        options.table, parse_columns(options.columns, identification.roles, identification.required),
+        options.form);
     if (options.rate_hz < 0.0)
         throw InputError(fmt::format("--rate-hz: {}: must be above 0", options.rate_hz));
     if ((options.rate_hz > 0.0) == (input.table->find("time") != nullptr))
@@ -67,8 +70,10 @@ IdentifyInput read_input(const IdentifyOptions& options, const Identification& i
     if (options.table.empty() == options.recordings.empty())
         throw InputError("RECORDING: give recordings or --table, one of the two");
     if (!options.table.empty()) return read_table_input(options, identification);
-    if (!options.columns.empty() || options.rate_hz > 0.0)
-        throw InputError("--columns, --rate-hz: are for --table only");
+    if (!options.columns.empty() || options.rate_hz > 0.0 || options.form.header_lines ||
+        options.form.decimal || options.form.separator)
+        throw InputError(
+            "--columns, --rate-hz, --header-lines, --decimal, --separator: are for --table only");
     IdentifyInput input{load_rig(options.rig_file), {}, std::nullopt, 0.0};
     for (const std::filesystem::path& path : options.recordings)
         for (const std::filesystem::path& folder : find_recordings(path)) {
@@ -105,7 +110,10 @@ int run_identification(const IdentifyOptions& options, const Identification& ide
         throw InputError(fmt::format("--json, --write-rig: {}: are one file", options.json.string()));
     const IdentifyInput input = read_input(options, identification);
     if (!options.write_rig.empty()) demand_not_stated(input.rig, identification);
-    const Identified identified = identification.run(input);
+    Identified identified = identification.run(input);
+    if (input.table)
+        identified.notes.insert(identified.notes.begin(), input.table->notes.begin(),
+                                input.table->notes.end());
     fmt::print("{}", describe(identified));
     if (!options.json.empty()) write_identification_json(options.json, identified);
     if (!options.write_rig.empty() && fits_a_rig_file(identified)) {
@@ -115,6 +123,24 @@ int run_identification(const IdentifyOptions& options, const Identification& ide
         fmt::print("no rig file: nothing was identified that it could hold\n");
     }
     return identified.undetermined.empty() ? exit_done : exit_answer_is_no;
+}
+
+/// What a table does not tell of itself.
+void add_table_form(CLI::App& command, TableOptions& form) {
+    constexpr int most_lines = 1'000'000;
+    command.add_option("--header-lines", form.header_lines, "Lines of the table above its rows of numbers")
+        ->check(CLI::Range(0, most_lines))
+        ->option_text("N");
+    command.add_option("--decimal", form.decimal, "Decimal sign of the table's numbers: point or comma")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, DecimalSign>{{"point", DecimalSign::point}, {"comma", DecimalSign::comma}}))
+        ->option_text("SIGN");
+    command
+        .add_option("--separator", form.separator,
+                    "What stands between the table's fields: tab, semicolon, comma, bar or blank")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, char>{
+            {"tab", '\t'}, {"semicolon", ';'}, {"comma", ','}, {"bar", '|'}, {"blank", ' '}}))
+        ->option_text("NAME");
 }
 
 void add_identification(CLI::App& parent, const Identification& identification, int& exit_code) {
@@ -133,6 +159,7 @@ void add_identification(CLI::App& parent, const Identification& identification, 
                 fmt::join(identification.roles, ", ")))
         ->type_name("COLUMNS");
     command->add_option("--rate-hz", options->rate_hz, "Rows of the table a second")->type_name("HZ");
+    add_table_form(*command, options->form);
     add_rig_option(*command, options->rig_file);
     command->add_option("--json", options->json, "New file for values, standard errors and residuals")
         ->type_name("FILE");

@@ -1,6 +1,7 @@
 #pragma once
-// A camera's intrinsics as ROS keeps them: the YAML file of camera_calibration and camera_info_manager
-// (camera_calibration_parsers). Pixel centres lie at integer coordinates there too.
+// A camera's intrinsics as other programs keep them, in YAML: ROS (camera_calibration, camera_info_manager,
+// camera_calibration_parsers), OpenCV, kalibr, EuRoC. Pixel centres lie at integer coordinates in all of
+// them.
 #include "core/camera_geometry.h"
 
 #include <filesystem>
@@ -15,7 +16,7 @@ struct CameraInfo {
     int height_px;
     Eigen::Vector2d focal_px;  ///< f_x, f_y
     Eigen::Vector2d principal_point_px;
-    LensDistortion distortion;
+    LensDistortion distortion;  ///< plumb_bob
 };
 
 /// The camera's intrinsics without its place.
@@ -24,10 +25,19 @@ CameraInfo camera_info_of(const CameraGeometry& camera, const std::string& camer
 /// The same intrinsics in a camera whose place is another one's.
 CameraGeometry with_intrinsics(CameraGeometry camera, const CameraInfo& info);
 
-/// Reads the file. Rectification and projection concern rectified images: their sizes are checked, their
-/// numbers not used. Keys beyond ROS's own are passed over. Throws InputError that names file, line, key and
-/// value; the distortion models are plumb_bob and
-/// equidistant, which may be called fisheye.
+/// Reads a file; its keys tell whose it is:
+///   camera_matrix   ROS, and OpenCV's samples: image_width, image_height, distortion_coefficients; matrices
+///   as rows,
+///                   cols, data. Rectification and projection concern rectified images: their sizes are
+///                   checked, their numbers not used.
+///   K or k          ROS's message sensor_msgs/CameraInfo: width, height, D or d
+///   cam0            a kalibr camchain of one camera: intrinsics, resolution, distortion_coeffs
+///   intrinsics      EuRoC's sensor.yaml: resolution, distortion_coefficients
+/// Distortion is Brown's (plumb_bob, radtan, radial-tangential), with none, four (k1, k2, p1, p2) or five
+/// coefficients, more if they are 0; or equidistant, also called fisheye, with four. An empty model, or
+/// `none`, without coefficients is that of a camera without distortion. Keys beyond these are passed over.
+/// Throws InputError that names file, line, key and value; also where the principal point is outside the
+/// image, or where the matrix is not that of the image: binning, roi.
 CameraInfo load_camera_info(const std::filesystem::path& file);
 
 /// The file's text; what load_camera_info() makes of it is the same to the last bit. Rectification is none,

@@ -159,6 +159,14 @@ class OneDocument : public YAML::EventHandler {
     int begun_ = 0;
 };
 
+/// Text in which OpenCV's first line is a comment, with UTF-8's byte order mark left out.
+std::string as_yaml(std::string text) {
+    constexpr std::string_view mark = "\xEF\xBB\xBF", opencv = "%YAML:1.0";
+    if (text.starts_with(mark)) text.erase(0, mark.size());
+    if (text.starts_with(opencv)) text.front() = '#';
+    return text;
+}
+
 YAML::Node load_document(const std::string& text, const std::filesystem::path& file) {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
@@ -187,7 +195,7 @@ YamlValue YamlValue::load(const std::filesystem::path& file) {
 YamlValue YamlValue::parse(const std::string& text, const std::filesystem::path& file) {
     demand_text(text, file);
     try {
-        const YAML::Node document = load_document(text, file);
+        const YAML::Node document = load_document(as_yaml(text), file);
         if (!document.IsMap()) fail_at(file, 1, "the file must hold keys and values (key: value)");
         StructureCheck(file, text.size()).visit(document, 1);
         return YamlValue(std::make_shared<const Impl>(Impl{document, file, "", 1}));
@@ -225,9 +233,18 @@ bool YamlValue::is_scalar() const {
 }
 
 void YamlValue::allow_only(std::initializer_list<std::string_view> keys) const {
-    for (const std::string& key : this->keys())
-        if (std::find(keys.begin(), keys.end(), key) == keys.end())
-            at(key).fail(explain_unknown_key(key, {keys.begin(), keys.end()}));
+    const std::vector<std::string> given = this->keys();
+    const auto is_known = [&](const std::string& key) {
+        return std::find(keys.begin(), keys.end(), key) != keys.end();
+    };
+    const auto unknown = std::find_if_not(given.begin(), given.end(), is_known);
+    if (unknown == given.end()) return;
+    const auto known = static_cast<std::size_t>(std::count_if(given.begin(), given.end(), is_known));
+    const bool is_of_this_kind = !impl_->path.empty() || 2 * known >= given.size();
+    const std::vector<std::string_view> allowed(keys.begin(), keys.end());
+    at(*unknown).fail(is_of_this_kind
+                          ? explain_unknown_key(*unknown, allowed)
+                          : fmt::format("unknown key; allowed here: {}", fmt::join(allowed, ", ")));
 }
 
 std::vector<YamlValue> YamlValue::items() const {
@@ -289,6 +306,11 @@ std::string YamlValue::text() const {
     return impl_->node.Scalar();
 }
 
+std::string YamlValue::text_or_empty() const {
+    const bool is_empty = impl_->node.IsNull() || (is_scalar() && impl_->node.Scalar().empty());
+    return is_empty ? "" : text();
+}
+
 std::size_t YamlValue::one_of(std::initializer_list<std::string_view> words) const {
     const auto found =
         is_scalar() ? std::find(words.begin(), words.end(), impl_->node.Scalar()) : words.end();
@@ -307,6 +329,10 @@ std::vector<double> YamlValue::numbers(std::size_t count, const NumberRange& ran
 
 std::filesystem::path YamlValue::file() const {
     return (impl_->file.parent_path() / text()).lexically_normal();
+}
+
+const std::filesystem::path& YamlValue::source() const {
+    return impl_->file;
 }
 
 void YamlValue::fail(std::string_view message) const {

@@ -2,10 +2,11 @@
 
 #include "core/demand.h"
 #include "core/input_error.h"
-#include "src/recording/csv_text.h"
+#include "src/identify/column_units.h"
+#include "src/table/clock_time.h"
+#include "src/table/plain_table.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <optional>
 
@@ -16,31 +17,14 @@ namespace fidservo {
 
 namespace {
 
-struct Title {
-    std::string name;
-    std::string unit;
-};
-
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t#");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-/// "position [mm]" and "5[um]" have a unit.
-Title title_of(std::string_view text) {
-    text = trimmed(text);
+/// "5[um]" and "position [mm]" have a unit.
+ColumnChoice choice_of(std::string role, std::string_view text) {
+    text = without_blanks(text);
     const auto open = text.rfind('[');
-    if (open == std::string_view::npos || !text.ends_with(']')) return {std::string(text), ""};
-    return {std::string(trimmed(text.substr(0, open))),
+    if (open == std::string_view::npos || !text.ends_with(']'))
+        return {std::move(role), std::string(text), ""};
+    return {std::move(role), std::string(without_blanks(text.substr(0, open))),
             std::string(text.substr(open + 1, text.size() - open - 2))};
-}
-
-bool is_number(std::string_view text) {
-    double value = 0.0;
-    if (text.starts_with('+')) text.remove_prefix(1);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size();
 }
 
 std::optional<std::size_t> column_number(std::string_view text) {
@@ -50,35 +34,140 @@ std::optional<std::size_t> column_number(std::string_view text) {
     return number;
 }
 
-struct Unit {
-    std::string_view name;
-    std::string_view quantity;
-    double size;
-};
+/// The columns that a title means.
+std::vector<std::size_t> columns_titled(const PlainTable& table, std::string_view title) {
+    for (const TitleLine& line : table.titles()) {
+        std::vector<std::size_t> found;
+        for (std::size_t k = 0; k < std::min(line.fields.size(), table.columns()); ++k)
+            if (without_blanks(line.fields[k]) == title || title_parts(line.fields[k]).name == title)
+                found.push_back(k);
+        if (!found.empty()) return found;
+    }
+    return {};
+}
 
-constexpr std::array units{
-    Unit{"mm", "length", 1.0},  Unit{"um", "length", 1e-3},       Unit{"nm", "length", 1e-6},
-    Unit{"m", "length", 1e3},   Unit{"V", "voltage", 1.0},        Unit{"mV", "voltage", 1e-3},
-    Unit{"s", "time", 1.0},     Unit{"ms", "time", 1e-3},         Unit{"us", "time", 1e-6},
-    Unit{"ns", "time", 1e-9},   Unit{"degC", "temperature", 1.0}, Unit{"count", "count", 1.0},
-    Unit{"adc", "reading", 1.0}};
-
-const Unit* find_unit(std::string_view name) {
-    const auto found = std::ranges::find(units, name, &Unit::name);
-    return found == units.end() ? nullptr : &*found;
+std::string titles_for_message(const PlainTable& table) {
+    constexpr std::size_t most_named = 30;
+    std::vector<std::string> names;
+    for (const TitleLine& line : table.titles())
+        for (const std::string& field : line.fields)
+            if (const std::string name = title_parts(field).name; !name.empty() && names.size() < most_named)
+                names.push_back(excerpt(name));
+    return names.empty() ? "" : fmt::format(", {}", fmt::join(names, ", "));
 }
 
 /// The index of a chosen column.
-std::size_t find_column(const CsvText& csv, const std::vector<Title>& titles, const ColumnChoice& choice) {
-    const auto found = std::ranges::find(titles, choice.column, &Title::name);
-    if (found != titles.end()) return static_cast<std::size_t>(found - titles.begin());
+std::size_t find_column(const PlainTable& table, const ColumnChoice& choice) {
+    const auto fail = [&](const std::string& message) {
+        throw InputError(fmt::format("{}: --columns: {}={}: {}", table.file().string(), choice.role,
+                                     choice.column, message));
+    };
+    std::vector<std::size_t> found = columns_titled(table, choice.column);
     const auto number = column_number(choice.column);
-    if (number && *number >= 1 && *number <= titles.size()) return *number - 1;
-    std::vector<std::string> names;
-    for (const Title& title : titles)
-        if (!title.name.empty()) names.push_back(title.name);
-    csv.fail(fmt::format("--columns: {}={}: no such column; allowed: 1 to {}{}", choice.role, choice.column,
-                         titles.size(), names.empty() ? "" : fmt::format(", {}", fmt::join(names, ", "))));
+    const bool is_number = number && *number >= 1 && *number <= table.columns();
+    if (is_number && std::ranges::any_of(found, [&](std::size_t k) { return k + 1 != *number; }))
+        fail(fmt::format(
+            "is the number of one column and the title of column {}; give the number of the other, or "
+            "its title in another line",
+            found.front() + 1));
+    if (is_number) return *number - 1;
+    if (found.empty())
+        fail(fmt::format("no such column; allowed: 1 to {}{}", table.columns(), titles_for_message(table)));
+    if (found.size() > 1)
+        fail(fmt::format("is the title of columns {} and {}; give the number", found[0] + 1, found[1] + 1));
+    return found.front();
+}
+
+/// The unit that the lines above the rows give a column, and one that they perhaps do.
+ColumnTitleParts unit_of_column(const PlainTable& table, std::size_t column) {
+    ColumnTitleParts unit;
+    int line_of_unit = 0;
+    const auto state = [&](const std::string& found, int line) {
+        if (found.empty()) return;
+        if (!unit.unit.empty() && unit.unit != found)
+            table.fail(line, fmt::format("column {}: unit '{}', but '{}' in line {}: say which in --columns",
+                                         column + 1, found, unit.unit, line_of_unit));
+        unit.unit = found;
+        line_of_unit = line;
+    };
+    const auto& lines = table.titles();
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        if (column >= lines[k].fields.size()) continue;
+        const std::string& field = lines[k].fields[column];
+        // A title alone may be a word that is also a unit's.
+        const std::string alone = unit_alone(field);
+        const bool has_title_above = k + 1 < lines.size() && column < lines[k + 1].fields.size() &&
+                                     unit_alone(lines[k + 1].fields[column]).empty() &&
+                                     look_at(lines[k + 1].fields[column]).kind == FieldKind::text;
+        const ColumnTitleParts parts = title_parts(field);
+        if (!alone.empty() && has_title_above)
+            state(alone, lines[k].line);
+        else
+            state(parts.unit, lines[k].line);
+        if (unit.perhaps.empty()) unit.perhaps = parts.perhaps;
+    }
+    return unit;
+}
+
+/// Times of day in seconds from the first row's.
+class ClockColumn {
+  public:
+    ClockColumn(const PlainTable& table, std::size_t column) : table_(&table), column_(column) {}
+
+    double seconds_at(const TableRow& row) {
+        const auto time = clock_time_of(row.fields[column_]);
+        if (!time) table_->fail(row, column_, "must be a time of day as those of other rows");
+        if (!has_first_) {
+            has_first_ = true;
+            first_ = *time;
+            first_date_ = time->date;
+        }
+        if (time->has_date != first_.has_date)
+            table_->fail(row, column_, "must have a date in all rows or in none");
+        if (time->date != first_date_ && !(time->is_date_certain && first_.is_date_certain))
+            table_->fail(
+                row, column_,
+                "day and month could be exchanged; allowed over more than one day: dates as 2020-04-03");
+        return static_cast<double>(time->ns - first_.ns) * 1e-9;
+    }
+
+  private:
+    const PlainTable* table_;
+    std::size_t column_;
+    bool has_first_ = false;
+    ClockTime first_;
+    std::string first_date_;
+};
+
+/// A chosen column, where it stands and how it is read.
+struct Reading {
+    std::size_t index;
+    std::optional<ClockColumn> clock;
+};
+
+Reading reading_of(const PlainTable& table, const ColumnChoice& choice, TableColumn& column) {
+    Reading reading{find_column(table, choice), std::nullopt};
+    const Unit* stated = find_unit(choice.unit);
+    column.unit = stated != nullptr ? std::string(stated->name) : choice.unit;
+    if (table.kind(reading.index) == FieldKind::time && choice.role == "time") {
+        if (!column.unit.empty() && column.unit != "s")
+            table.fail(table.first_line(),
+                       fmt::format("column {}: holds times of day, which have no unit '{}'",
+                                   reading.index + 1, choice.unit));
+        column.unit = "s";
+        reading.clock.emplace(table, reading.index);
+    } else if (column.unit.empty()) {
+        const ColumnTitleParts found = unit_of_column(table, reading.index);
+        column.unit = found.unit;
+        column.perhaps = found.perhaps;
+        if (const auto& above = table.line_above();
+            above && column.unit.empty() && names_a_unit(above->second))
+            table.fail(above->first,
+                       fmt::format("'{}' names units, but has no title for each column; say the unit in "
+                                   "--columns, as {}={}[UNIT]",
+                                   excerpt(above->second), choice.role, choice.column));
+    }
+    return reading;
 }
 
 }  // namespace
@@ -95,13 +184,13 @@ std::vector<ColumnChoice> parse_columns(std::string_view text, std::span<const s
         rest.remove_prefix(std::min(rest.size(), piece.size() + 1));
         const auto equals = piece.find('=');
         if (equals == std::string_view::npos) fail(fmt::format("'{}' is not ROLE=COLUMN", piece));
-        const Title column = title_of(piece.substr(equals + 1));
-        const std::string role(trimmed(piece.substr(0, equals)));
+        const std::string role(without_blanks(piece.substr(0, equals)));
+        ColumnChoice choice = choice_of(role, piece.substr(equals + 1));
         if (std::ranges::find(roles, role) == roles.end()) fail(fmt::format("'{}' is no role", role));
         if (std::ranges::find(choices, role, &ColumnChoice::role) != choices.end())
             fail(fmt::format("{} is given twice", role));
-        if (column.name.empty()) fail(fmt::format("{} has no column", role));
-        choices.push_back({role, column.name, column.unit});
+        if (choice.column.empty()) fail(fmt::format("{} has no column", role));
+        choices.push_back(std::move(choice));
     }
     for (const std::string_view role : roles.first(required))
         if (std::ranges::find(choices, role, &ColumnChoice::role) == choices.end())
@@ -114,28 +203,26 @@ const TableColumn* TextTable::find(std::string_view role) const {
     return found == columns.end() ? nullptr : &*found;
 }
 
-TextTable read_text_table(const std::filesystem::path& file, const std::vector<ColumnChoice>& choices) {
+TextTable read_text_table(const std::filesystem::path& file, const std::vector<ColumnChoice>& choices,
+                          const TableOptions& options) {
     FIDSERVO_DEMAND(!choices.empty());
-    CsvText csv = CsvText::load(file, Separator::of_first_line);
-    if (!csv.next()) csv.fail("there is no row");
-    bool is_row = std::ranges::all_of(csv.fields(), is_number);
-    std::vector<Title> titles(csv.fields().size());
-    if (!is_row) std::ranges::transform(csv.fields(), titles.begin(), title_of);
-
-    TextTable table{file, {}};
-    std::vector<std::size_t> indices;
+    const PlainTable source = PlainTable::load(file, options);
+    TextTable table{file, {}, source.notes()};
+    if (!source.last_row_ends())
+        table.notes.emplace_back(
+            "the last line has no end: if the file was cut off, its last number is too short");
+    std::vector<Reading> readings;
     for (const ColumnChoice& choice : choices) {
-        indices.push_back(find_column(csv, titles, choice));
-        table.columns.push_back(
-            {choice.role, choice.unit.empty() ? titles[indices.back()].unit : choice.unit, {}});
+        table.columns.push_back({choice.role, "", {}});
+        readings.push_back(reading_of(source, choice, table.columns.back()));
     }
-    for (; is_row || csv.next(); is_row = false) {
-        if (csv.fields().size() != titles.size())
-            csv.fail(fmt::format("has {} fields; the first line has {}", csv.fields().size(), titles.size()));
-        for (std::size_t i = 0; i < indices.size(); ++i)
-            table.columns[i].values.push_back(csv.number(indices[i]));
-    }
-    if (table.rows() == 0) csv.fail("there is no row below the titles");
+    source.for_each_row([&](const TableRow& row) {
+        for (std::size_t i = 0; i < readings.size(); ++i) {
+            Reading& reading = readings[i];
+            table.columns[i].values.push_back(reading.clock ? reading.clock->seconds_at(row)
+                                                            : source.number(row, reading.index));
+        }
+    });
     return table;
 }
 
@@ -143,15 +230,16 @@ std::vector<double> values_in(const TextTable& table, std::string_view role, std
     const TableColumn* column = table.find(role);
     const Unit* wanted = find_unit(unit);
     FIDSERVO_DEMAND(column != nullptr && wanted != nullptr);
+    if (column->unit.empty() && !column->perhaps.empty() && column->perhaps != unit &&
+        find_unit(column->perhaps)->quantity == wanted->quantity)
+        throw InputError(fmt::format(
+            "{}: {}: the title may name the unit {}: say it in --columns, as {}=COLUMN[{}] or [{}]",
+            table.file.string(), role, column->perhaps, role, column->perhaps, unit));
     if (column->unit.empty() || column->unit == unit) return column->values;
     const Unit* given = find_unit(column->unit);
-    if (given == nullptr || given->quantity != wanted->quantity) {
-        std::vector<std::string_view> allowed;
-        for (const Unit& other : units)
-            if (other.quantity == wanted->quantity) allowed.push_back(other.name);
+    if (given == nullptr || given->quantity != wanted->quantity)
         throw InputError(fmt::format("{}: {}: unit '{}': allowed: {}", table.file.string(), role,
-                                     column->unit, fmt::join(allowed, ", ")));
-    }
+                                     column->unit, fmt::join(units_of(wanted->quantity), ", ")));
     std::vector<double> values = column->values;
     for (double& value : values) value *= given->size / wanted->size;
     return values;

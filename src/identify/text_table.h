@@ -1,5 +1,7 @@
 #pragma once
 // Columns of numbers from a text table that somebody else made.
+#include "src/table/table_structure.h"
+
 #include <filesystem>
 #include <span>
 #include <string>
@@ -11,7 +13,7 @@ namespace fidservo {
 /// Which column of a table plays which part: "input=1", "output=position [mm]" or "output=5[um]".
 struct ColumnChoice {
     std::string role;
-    std::string column;  ///< its number, from 1 on, or its title
+    std::string column;  ///< its number, from 1 on, or its title, with or without the unit
     std::string unit;    ///< empty: that of the title, or what the reader expects
 };
 
@@ -25,24 +27,31 @@ struct TableColumn {
     std::string role;
     std::string unit;  ///< empty: not stated
     std::vector<double> values;
+    std::string perhaps = {};  ///< where no unit is stated: one that the title may name, as x_m may
 };
 
 struct TextTable {
     std::filesystem::path file;
     std::vector<TableColumn> columns;
+    std::vector<std::string> notes =
+        {};  ///< sentences for the user: what was passed over, and what was decided
 
     /// nullptr if no column plays that part.
     const TableColumn* find(std::string_view role) const;
     std::size_t rows() const { return columns.front().values.size(); }
 };
 
-/// Reads a table: fields between commas, semicolons, tabs or blanks; a first line that is no row of numbers
-/// holds the titles, a unit in brackets at their end. Throws InputError "FILE:LINE: ..." on a column that is
-/// not there, a row of another length, a field that is no finite number, a last line that does not end.
-TextTable read_text_table(const std::filesystem::path& file, const std::vector<ColumnChoice>& choices);
+/// Reads columns of a table that any program wrote (src/table/plain_table.h). A column's unit is the
+/// choice's; else that of its title (column_units.h), or of the line of units below the titles. A column with
+/// the role `time` may hold times of day (clock_time.h): they become seconds from the first row's. Throws
+/// InputError "FILE:LINE: ..." on a column that is not there or that two titles mean, units that contradict
+/// each other, a row of another length, a field of a chosen column that is no finite number or could be two.
+TextTable read_text_table(const std::filesystem::path& file, const std::vector<ColumnChoice>& choices,
+                          const TableOptions& options = {});
 
-/// A column's values in a unit of the same quantity: mm um nm m; V mV; s ms us ns; degC; count adc. A column
-/// without unit is taken to have it already. Throws InputError.
+/// A column's values in a unit of the same quantity: mm um nm cm m; V mV uV; s ms us ns min; degC; count;
+/// adc. A column without unit is taken to have it already. Throws InputError, also where the title may name
+/// another one.
 std::vector<double> values_in(const TextTable& table, std::string_view role, std::string_view unit);
 
 }  // namespace fidservo

@@ -1,11 +1,10 @@
 #include "src/recording/csv_text.h"
 
 #include "core/input_error.h"
+#include "src/table/text_file.h"
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -13,29 +12,14 @@ namespace fidservo {
 
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-void split(std::string_view line, char separator, std::vector<std::string_view>& fields) {
+void split_at_commas(std::string_view line, std::vector<std::string_view>& fields) {
     fields.clear();
-    if (separator == ' ') line = trimmed(line);
     while (true) {
-        const auto end = line.find(separator);
-        fields.push_back(trimmed(line.substr(0, end)));
+        const auto end = line.find(',');
+        fields.push_back(without_blanks(line.substr(0, end)));
         if (end == std::string_view::npos) return;
         line.remove_prefix(end + 1);
-        if (separator == ' ') line = trimmed(line);
     }
-}
-
-char separator_in(std::string_view text) {
-    const std::string_view first_line = text.substr(0, text.find('\n'));
-    for (const char separator : {',', ';', '\t'})
-        if (first_line.find(separator) != std::string_view::npos) return separator;
-    return ' ';
 }
 
 template <class T>
@@ -45,23 +29,17 @@ bool parse_all(std::string_view text, T& value) {
     return error == std::errc() && end == text.data() + text.size();
 }
 
+/// The bytes of a file without UTF-8's byte order mark.
 std::string read_all(const std::filesystem::path& file) {
-    std::error_code ignored;
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file, ignored) ||
-        std::filesystem::is_character_file(file, ignored))
-        throw InputError(fmt::format("{}: cannot be opened as a text file", file.string()));
-    std::string text;
-    if (std::filesystem::is_regular_file(file, ignored))
-        text.reserve(static_cast<std::size_t>(std::filesystem::file_size(file, ignored)));
-    text.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    std::string text = read_bytes(file);
+    text.erase(0, utf8_mark_size(text));
     return text;
 }
 
 }  // namespace
 
-CsvText CsvText::load(const std::filesystem::path& file, Separator separator) {
-    return {read_all(file), file, separator};
+CsvText CsvText::load(const std::filesystem::path& file) {
+    return {read_all(file), file};
 }
 
 std::optional<CsvText> CsvText::load_whole_lines(const std::filesystem::path& file) {
@@ -71,10 +49,8 @@ std::optional<CsvText> CsvText::load_whole_lines(const std::filesystem::path& fi
     return CsvText(std::move(text), file);
 }
 
-CsvText::CsvText(std::string text, std::filesystem::path file, Separator separator)
-    : text_(std::move(text)),
-      file_(std::move(file)),
-      separator_(separator == Separator::comma ? ',' : separator_in(text_)) {
+CsvText::CsvText(std::string text, std::filesystem::path file)
+    : text_(std::move(text)), file_(std::move(file)) {
     if (text_.empty()) throw InputError(fmt::format("{}: is empty", file_.string()));
 }
 
@@ -86,8 +62,8 @@ bool CsvText::next() {
         std::string_view line(text_.data() + position_, end - position_);
         position_ = end + 1;
         if (line.ends_with('\r')) line.remove_suffix(1);
-        if (trimmed(line).empty()) continue;
-        split(line, separator_, fields_);
+        if (without_blanks(line).empty()) continue;
+        split_at_commas(line, fields_);
         return true;
     }
     return false;

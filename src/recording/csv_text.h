@@ -1,6 +1,7 @@
 #pragma once
-// A CSV file in memory, read line by line and field by field without copies. Errors are InputError
-// "FILE:LINE: message".
+// A CSV file as this program writes them, in memory, read line by line and field by field without copies:
+// fields between commas, lines that end in LF or CR LF; UTF-8's byte order mark may stand in front. Errors
+// are InputError "FILE:LINE: message". Tables of other programs: src/table/plain_table.h.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,22 +10,15 @@
 
 namespace fidservo {
 
-/// What stands between two fields.
-enum class Separator {
-    comma,
-    of_first_line,  ///< the first of comma, semicolon, tab that the first line holds; else blanks, many as
-                    ///< one
-};
-
 class CsvText {
   public:
     /// Reads the whole file. Throws InputError if it cannot be read or is empty.
-    static CsvText load(const std::filesystem::path& file, Separator separator = Separator::comma);
+    static CsvText load(const std::filesystem::path& file);
     /// The whole lines of a file with commas whose writer was ended in the middle; empty if there is none.
     /// Throws InputError if it cannot be read.
     static std::optional<CsvText> load_whole_lines(const std::filesystem::path& file);
     /// The same from text; `file` only appears in messages.
-    CsvText(std::string text, std::filesystem::path file, Separator separator = Separator::comma);
+    CsvText(std::string text, std::filesystem::path file);
 
     /// The next line without its end, split into fields; false at the end of the file. A last line that does
     /// not end is an error: the file was cut off. Blank lines are passed over.
@@ -44,7 +38,6 @@ class CsvText {
   private:
     std::string text_;
     std::filesystem::path file_;
-    char separator_;
     std::size_t position_ = 0;
     int line_ = 0;
     std::vector<std::string_view> fields_;

@@ -5,6 +5,7 @@
 #include "src/recording/csv_columns.h"
 #include "src/recording/csv_text.h"
 #include "src/recording/description.h"
+#include "src/recording/frame_index.h"
 #include "src/recording/layout.h"
 
 #include <algorithm>
@@ -254,7 +255,9 @@ std::vector<fs::path> find_recordings(const fs::path& path) {
 }
 
 std::vector<FrameName> read_frame_names(const fs::path& file) {
-    return frame_names_in(CsvText::load(file));
+    const fs::path recording = fs::absolute(file).parent_path().parent_path();
+    if (fs::exists(recording / "recording.yaml")) return frame_names_in(CsvText::load(file));
+    return read_frame_index(file);
 }
 
 std::vector<TagDetection> read_detections(const fs::path& file) {

@@ -20,7 +20,9 @@ Recording read_recording(const std::filesystem::path& folder);
 /// are none.
 std::vector<std::filesystem::path> find_recordings(const std::filesystem::path& path);
 
-/// cam0/data.csv: the frames of a camera folder, by time. Throws InputError.
+/// The list of a camera folder's frames, by time: of a recording its cam0/data.csv; of a folder that another
+/// program wrote, without recording.yaml in the folder above, whatever read_frame_index() reads. Throws
+/// InputError.
 std::vector<FrameName> read_frame_names(const std::filesystem::path& file);
 
 /// cam0/detections.csv: a row per tag and frame, by time. Throws InputError.

@@ -2,6 +2,7 @@
 
 #include "core/input_error.h"
 #include "core/rig.h"
+#include "src/calibrate/camera_target.h"
 #include "src/config/camera_info.h"
 #include "src/config/fod_file.h"
 #include "src/config/plate_file.h"
@@ -9,6 +10,7 @@
 #include "src/identify/text_table.h"
 #include "src/inspect/journal.h"
 #include "src/inspect/recipe/recipe.h"
+#include "src/recording/frame_index.h"
 #include "src/recording/reader.h"
 #include "src/simulation/experiment_file.h"
 #include "tests/inspect/small_recipe.h"
@@ -33,6 +35,7 @@ class Folder {
     Folder() : path_(fs::temp_directory_path() / ("fidservo-fuzz-" + std::to_string(::getpid()))) {
         fs::create_directories(path_ / "recording/stage0");
         fs::create_directories(path_ / "recording/cam0");
+        fs::create_directories(path_ / "index/data");
         fs::copy_file(FIDSERVO_FUZZ_CORPUS "/fod.csv", path_ / "fod.csv",
                       fs::copy_options::overwrite_existing);
     }
@@ -103,6 +106,11 @@ void read_camera_info(std::string_view bytes) {
     answered([&] { (void)load_camera_info(file); });
 }
 
+void read_camera_target(std::string_view bytes) {
+    const fs::path file = folder().write("target.yaml", bytes);
+    answered([&] { (void)load_kalibr_target(file); });
+}
+
 void read_image(std::string_view bytes) {
     const fs::path file = folder().write("image.png", bytes);
     (void)vision::load_frame({file, 0, false, 0});
@@ -111,7 +119,19 @@ void read_image(std::string_view bytes) {
 void read_table(std::string_view bytes) {
     const fs::path file = folder().write("table.csv", bytes);
     answered([&] { (void)read_text_table(file, {{"input", "1", ""}, {"output", "y", ""}}); });
+    answered([&] {
+        (void)read_text_table(file, {{"input", "2", ""}, {"output", "3", ""}, {"time", "1", ""}});
+    });
+    answered([&] {
+        (void)read_text_table(file, {{"input", "1", "mm"}, {"output", "2", ""}},
+                              {.header_lines = 1, .decimal = DecimalSign::comma, .separator = ';'});
+    });
     answered([&] { (void)load_fod(file); });
+}
+
+void read_frame_index(std::string_view bytes) {
+    const fs::path file = folder().write("index/data.csv", bytes);
+    answered([&] { (void)fidservo::read_frame_index(file); });
 }
 
 void read_journal(std::string_view bytes) {

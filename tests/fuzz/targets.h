@@ -16,9 +16,14 @@ void read_plate(std::string_view bytes);
 /// recording.yaml, stage0/data.csv, cam0/data.csv and cam0/detections.csv, between lines "%%%".
 void read_recording(std::string_view bytes);
 void read_camera_info(std::string_view bytes);
+/// kalibr's file of a calibration target.
+void read_camera_target(std::string_view bytes);
 void read_image(std::string_view bytes);
-/// A text table as `identify --table` reads it, and a table of first-order descending curves.
+/// A text table as `identify --table` reads it, with and without what its options say, and a table of
+/// first-order descending curves.
 void read_table(std::string_view bytes);
+/// A list of images and times as another program writes it.
+void read_frame_index(std::string_view bytes);
 void read_journal(std::string_view bytes);
 
 struct NamedTarget {
@@ -33,8 +38,10 @@ inline constexpr std::array targets{
     NamedTarget{"plate", read_plate},
     NamedTarget{"recording", read_recording},
     NamedTarget{"camera_info", read_camera_info},
+    NamedTarget{"camera_target", read_camera_target},
     NamedTarget{"image", read_image},
     NamedTarget{"table", read_table},
+    NamedTarget{"frame_index", read_frame_index},
     NamedTarget{"journal", read_journal},
 };
 

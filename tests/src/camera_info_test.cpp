@@ -129,8 +129,12 @@ TEST(CameraInfo, Mistakes_AreNamedWithWhatIsAllowed) {
     EXPECT_EQ(ros_message_with("plumb_bob", "rational_polynomial"),
               "10: distortion_model: rational_polynomial: this distortion model is not supported; allowed: "
               "plumb_bob, equidistant (or fisheye)");
-    EXPECT_EQ(ros_message_with("plumb_bob", "equidistant"), "13: distortion_coefficients.cols: 5: must be 4");
-    EXPECT_EQ(ros_message_with("cols: 5", "cols: 8"), "13: distortion_coefficients.cols: 8: must be 5");
+    EXPECT_EQ(
+        ros_message_with("plumb_bob", "equidistant"),
+        "14: distortion_coefficients.data: a list: has 5 coefficients; allowed of an equidistant lens: k1, "
+        "k2, k3, k4");
+    EXPECT_EQ(ros_message_with("cols: 5", "cols: 8"),
+              "14: distortion_coefficients.data: a list: must be a list of 8 numbers");
     EXPECT_EQ(ros_message_with("-0.000139, 0.]", "-0.000139]"),
               "14: distortion_coefficients.data: a list: must be a list of 5 numbers");
     EXPECT_EQ(ros_message_with("5012.25, 0., 641.5", "5012.25, 2., 641.5"),

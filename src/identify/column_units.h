@@ -1,0 +1,41 @@
+#pragma once
+// The units of a table's columns, as people write them into titles.
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fidservo {
+
+struct Unit {
+    std::string_view name;
+    std::string_view quantity;
+    double size;  ///< in the first unit of its quantity
+};
+
+/// By a unit's name, or another way to write it: "µm", "micron", "sec", "Volts", "°C". nullptr if it is
+/// unknown.
+const Unit* find_unit(std::string_view text);
+
+/// The names of a quantity's units.
+std::vector<std::string_view> units_of(std::string_view quantity);
+
+/// A column's title, taken apart.
+struct ColumnTitleParts {
+    std::string name;  ///< without the unit
+    std::string
+        unit;  ///< find_unit()'s name for it; as it is written where that does not know it; else empty
+    std::string perhaps;  ///< a unit that the title may name, as t_s may: s, or something that begins with s
+};
+
+/// A unit stands at the end, in square brackets; in round ones or behind a stroke if it is some quantity's:
+/// "position [mm]", "Position (mm)", "s/mm"; or behind an underscore if it has two letters: "x_mm".
+ColumnTitleParts title_parts(std::string_view title);
+
+/// Whether a line holds a unit in brackets, of any quantity.
+bool names_a_unit(std::string_view line);
+
+/// The unit that a text is and nothing else, of any quantity, as in a line of units below the titles:
+/// find_unit()'s name, or the text; empty if it is none.
+std::string unit_alone(std::string_view text);
+
+}  // namespace fidservo
