@@ -17,6 +17,9 @@ void read_plate(std::string_view bytes);
 void read_recording(std::string_view bytes);
 void read_camera_info(std::string_view bytes);
 void read_image(std::string_view bytes);
+/// The pages of a TIFF.
+void read_stack(std::string_view bytes);
+void read_video(std::string_view bytes);
 /// A text table as `identify --table` reads it, and a table of first-order descending curves.
 void read_table(std::string_view bytes);
 void read_journal(std::string_view bytes);
@@ -34,6 +37,8 @@ inline constexpr std::array targets{
     NamedTarget{"recording", read_recording},
     NamedTarget{"camera_info", read_camera_info},
     NamedTarget{"image", read_image},
+    NamedTarget{"stack", read_stack},
+    NamedTarget{"video", read_video},
     NamedTarget{"table", read_table},
     NamedTarget{"journal", read_journal},
 };

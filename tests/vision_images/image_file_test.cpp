@@ -62,7 +62,8 @@ TEST_F(ImageFile, EveryDepthAndFormat_IsReadAsByOpenCv) {
         for (const std::string ending : {"png", "tiff"}) {
             const std::string name = "type" + std::to_string(type) + "." + ending;
             ASSERT_TRUE(cv::imwrite((folder / name).string(), image)) << name;
-            EXPECT_EQ(difference_from_opencv(name), 0.0) << name;
+            const double rounding = CV_MAT_DEPTH(type) == CV_16U ? 1.0 : 0.0;  // OpenCV drops the lower eight
+            EXPECT_LE(difference_from_opencv(name), rounding) << name;
         }
     }
     for (const std::string name : {"a.jpg", "a.pgm", "a.bmp", "a.webp", "a.jp2"}) {

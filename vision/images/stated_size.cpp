@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -128,7 +129,10 @@ Result<StatedSize> pnm_size(std::string_view file) {
     if (!header.is_text) {
         const std::uint64_t row = header.is_bitmap ? (header.width + 7) / 8
                                                    : header.width * header.channels * (deep ? 2 : 1);
-        return whole_if(file, header.end + row * header.height, stated);
+        const std::uint64_t end = header.end + row * header.height;
+        if (file.size() > end && file[end] != 'P' && !std::isspace(static_cast<unsigned char>(file[end])))
+            return failure(Reason::device, fmt::format("{} bytes where its header says {}", file.size(), end));
+        return whole_if(file, end, stated);
     }
     std::uint64_t found = 0;
     Words words(file.substr(header.end));

@@ -284,16 +284,11 @@ cv::Mat as_8_bits(const cv::Mat& grey, const Layout& layout, std::span<const uns
     return result;
 }
 
+/// Of red, green and blue: CV_16UC1 of samples of more than 8 bits; else CV_8UC1 of which 255 is white.
 cv::Mat luma_of(const cv::Mat& samples, int bits) {
-    cv::Mat grey;
-    if (bits > 8) {
-        cv::cvtColor(samples, grey, cv::COLOR_RGB2GRAY);
-        return grey;
-    }
-    cv::Mat colours;
-    samples.convertTo(colours, CV_8U, 255.0 / ((1 << bits) - 1));
+    cv::Mat grey, colours = samples;
+    if (bits <= 8) samples.convertTo(colours, CV_8U, 255.0 / ((1 << bits) - 1));
     cv::cvtColor(colours, grey, cv::COLOR_RGB2GRAY);
-    grey.convertTo(grey, CV_16U, ((1 << bits) - 1) / 255.0);
     return grey;
 }
 
@@ -322,11 +317,11 @@ Result<StoredImage> read_plain(const Tiff& tiff, const Layout& layout) {
         return failure(Reason::device, "it has negative samples: what is black is not known");
     StoredImage image;
     const cv::Mat grey = layout.is_colour() ? luma_of(page.samples(), layout.bits) : page.samples();
+    image.grey = grey;
     if (layout.bits <= 8) {
-        image.grey = as_8_bits(grey, layout, palette);
+        if (!layout.is_colour()) image.grey = as_8_bits(grey, layout, palette);
         return image;
     }
-    image.grey = grey;
     image.stated_bits = stated_bits_of(tiff, layout.bits);
     image.white_is_zero = layout.photometric == PHOTOMETRIC_MINISWHITE;
     return image;

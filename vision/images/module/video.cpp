@@ -1,9 +1,11 @@
 #include "core/failure.h"
 #include "vision/images/module/parts.h"
 #include "vision/images/module/picture_samples.h"
+#include "vision/images/module/stated_length.h"
 
 #include <algorithm>
 #include <deque>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -81,6 +83,7 @@ struct Survey {
     std::size_t without_time = 0;
     bool times_rise = true;
     int end = AVERROR_EOF;  ///< what ended them
+    std::uint64_t bytes_short = 0;  ///< of what the file says that it has
 };
 
 /// Do times rise in the order in which frames are shown? Of H.264 and H.265 a frame may be stored up to 16
@@ -103,8 +106,12 @@ class RisingTimes {
     bool rise_ = true;
 };
 
-Survey survey(const Container& container) {
+Survey survey(const Container& container, const char* file) {
     Survey survey;
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+    if (const std::uint64_t stated = stated_length(file); !error && stated > bytes)
+        survey.bytes_short = stated - bytes;
     RisingTimes times;
     const Owned<AVPacket> packet(av_packet_alloc());
     while ((survey.end = next_packet(container, *packet)) == 0) {
@@ -152,7 +159,11 @@ std::vector<std::string> notes_of(const Container& container, const Survey& surv
         notes.push_back(fmt::format("it is cut short after {} frames: {}", survey.packets,
                                     text_of_error(survey.end)));
     else if (stated > survey.packets)
-        notes.push_back(fmt::format("it is cut short: {} frames where its header says {}", survey.packets, stated));
+        notes.push_back(
+            fmt::format("it is cut short: {} frames where its header says {}", survey.packets, stated));
+    else if (survey.bytes_short > 0)
+        notes.push_back(fmt::format("it is cut short after {} frames: {} bytes are missing", survey.packets,
+                                    survey.bytes_short));
     return notes;
 }
 
@@ -246,7 +257,7 @@ Result<std::unique_ptr<Video>> ffmpeg_video(const char* file) {
     av_log_set_level(AV_LOG_QUIET);
     auto surveyed = open_container(file);
     if (!surveyed) return tl::make_unexpected(surveyed.error());
-    const Survey what = survey(*surveyed);
+    const Survey what = survey(*surveyed, file);
     if (what.packets == 0) return failure(Reason::device, "it holds no frame");
     auto container = open_container(file);  // not all containers can be wound back
     if (!container) return tl::make_unexpected(container.error());
