@@ -20,9 +20,9 @@ struct CalibrationImages {
     std::vector<std::string> notes{};  ///< what was passed over or left out, one line each
 };
 
-/// Finds the target in all images of folders, recordings and videos; those that are damaged or missing are left
-/// out. Grey levels have one range in all of them. Throws InputError: an input that cannot be read, images of
-/// different sizes, tags that the target does not have (a wrong grid), no tag at all.
+/// Finds the target in all images of folders, recordings and videos; those that are damaged or missing are
+/// left out. Grey levels have one range in all of them. Throws InputError: an input that cannot be read,
+/// images of different sizes, tags that the target does not have (a wrong grid), no tag at all.
 CalibrationImages read_calibration_images(const std::vector<std::filesystem::path>& inputs,
                                           const CameraTarget& target);
 

@@ -35,12 +35,9 @@ void print_notes(const std::vector<std::string>& notes) {
 }
 
 NameTimes name_times_of(const std::string& word) {
-    constexpr std::pair<const char*, NameTimes> words[] = {{"", NameTimes::automatic},
-                                                           {"none", NameTimes::none},
-                                                           {"s", NameTimes::s},
-                                                           {"ms", NameTimes::ms},
-                                                           {"us", NameTimes::us},
-                                                           {"ns", NameTimes::ns}};
+    constexpr std::pair<const char*, NameTimes> words[] = {
+        {"", NameTimes::automatic}, {"none", NameTimes::none}, {"s", NameTimes::s},
+        {"ms", NameTimes::ms},      {"us", NameTimes::us},     {"ns", NameTimes::ns}};
     const auto known = std::ranges::find(words, word, [](const auto& one) { return one.first; });
     if (known == std::end(words))
         throw InputError(fmt::format("--name-times: {}: must be none, s, ms, us or ns", word));
@@ -61,10 +58,9 @@ int run_replay(const ReplayOptions& options) {
     print_notes(count.images.notes());
     if (count.images.read() == 0) {
         std::filesystem::remove_all(options.out);  // its tables have no row
-        throw InputError(count.images.all() == 1
-                             ? count.images.first_reason()
-                             : fmt::format("{}; the first: {}", count.images.text(),
-                                           count.images.first_reason()));
+        throw InputError(count.images.all() == 1 ? count.images.first_reason()
+                                                 : fmt::format("{}; the first: {}", count.images.text(),
+                                                               count.images.first_reason()));
     }
     fmt::print("{} tags in {}: {}, {}\n", count.tags, count.images.text(),
                (options.out / "detections.csv").string(), (options.out / "displacements.csv").string());
@@ -85,9 +81,10 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->option_text("...");
     add_rig_option(*command, options->rig_file);
     command
-        ->add_option("--name-times", options->name_times,
-                     "What the images' names in a folder are times in; else taken where they have 19 digits (ns) "
-                     "or 10 and a fraction (s)")
+        ->add_option(
+            "--name-times", options->name_times,
+            "What the images' names in a folder are times in; else taken where they have 19 digits (ns) "
+            "or 10 and a fraction (s)")
         ->type_name("none|s|ms|us|ns");
     command->add_option("--out", options->out, "New folder for the results")
         ->type_name("DIR")

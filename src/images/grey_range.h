@@ -1,5 +1,6 @@
 #pragma once
-// Which of the bits of a sequence's samples are used. Cameras of 10, 12 and 14 bits are saved in samples of 16.
+// Which of the bits of a sequence's samples are used. Cameras of 10, 12 and 14 bits are saved in samples
+// of 16.
 #include "vision/images/image_file.h"
 
 #include <cstdint>
@@ -40,8 +41,8 @@ struct DeepImage {
     std::uint64_t page = 0;
 };
 
-/// Decodes all of them once, on all cores: as long as reading them takes, and exact. Those that cannot be read
-/// say nothing.
+/// Decodes all of them once, on all cores: as long as reading them takes, and exact. Those that cannot be
+/// read say nothing.
 GreyLevels levels_of(std::span<const DeepImage> images);
 
 }  // namespace fidservo

@@ -14,16 +14,18 @@ namespace fidservo {
 
 /// Frames of one series belong together: their displacements have one origin, their grey levels one range.
 struct ImageFrame {
-    std::string name{};  ///< unique among the inputs: the file, with #0, #1 .. for frames of a stack or a video
+    std::string
+        name{};  ///< unique among the inputs: the file, with #0, #1 .. for frames of a stack or a video
     std::size_t series = 0;
     std::optional<TimeNs> time_ns{};  ///< middle of the exposure, where the input tells
     bool from_recording = false;      ///< taken by a rig's own camera
     std::filesystem::path file{};     ///< of an image or a stack
     std::uint64_t page = 0;           ///< the place of the stack's page in the file; 0: its first image
-    int bits = 16;  ///< of samples of more than 8 bits: 2^bits - 1 is full scale, decided for all of the series
-    cv::Mat decoded{};      ///< CV_8UC1; images are decoded by load()
-    std::string damage{};   ///< why it cannot be read: it is left out then, counted and named
-    int orientation = 1;    ///< as EXIF numbers them; the pixels are where the file has them
+    int bits =
+        16;  ///< of samples of more than 8 bits: 2^bits - 1 is full scale, decided for all of the series
+    cv::Mat decoded{};               ///< CV_8UC1; images are decoded by load()
+    std::string damage{};            ///< why it cannot be read: it is left out then, counted and named
+    int orientation = 1;             ///< as EXIF numbers them; the pixels are where the file has them
     bool has_more_pictures = false;  ///< the file holds pictures besides this one that are not read
 };
 

@@ -22,12 +22,6 @@ std::unique_ptr<vision::Video> opened(const fs::path& file) {
     return *std::move(video);
 }
 
-std::string name_of(const ImageSeries& series) {
-    if (!series.video.empty()) return series.video.string();
-    const fs::path& file = series.frames.front().file;
-    return series.frames.size() == 1 ? file.string() : file.parent_path().string();
-}
-
 }  // namespace
 
 class ImageFrames::OpenVideo {
@@ -108,8 +102,7 @@ void ImageFrames::decide_ranges(bool one_range) {
         const GreyLevels& decided = one_range ? all : levels[k];
         for (ImageFrame& frame : list_.series[k].frames) frame.bits = decided.bits();
         if (videos_[k]) videos_[k]->set_bits(decided.bits());
-        if (!one_range)
-            list_.notes.push_back(fmt::format("{}: {}", name_of(list_.series[k]), decided.text()));
+        if (!one_range) list_.notes.push_back(fmt::format("{}: {}", list_.series[k].name, decided.text()));
     }
     if (!all.is_empty()) list_.notes.push_back("all images: " + all.text());
 }
@@ -125,7 +118,8 @@ std::optional<ImageFrame> ImageFrames::next() {
     for (; current_series_ < list_.series.size(); ++current_series_, current_frame_ = 0) {
         if (videos_[current_series_]) {
             if (auto frame = videos_[current_series_]->next()) return frame;
-        } else if (const auto& frames = list_.series[current_series_].frames; current_frame_ < frames.size()) {
+        } else if (const auto& frames = list_.series[current_series_].frames;
+                   current_frame_ < frames.size()) {
             return frames[current_frame_++];
         }
     }

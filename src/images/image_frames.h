@@ -20,9 +20,9 @@ struct ImageOptions {
 /// The frames of all inputs (image_list.h), in order.
 class ImageFrames {
   public:
-    /// Looks at every input. Images whose samples have more than 8 bits, and videos of 16 bits that do not say
-    /// how many are used, are decoded once for their range: full scale is decided for a series, not for each
-    /// frame. Throws InputError if an input does not exist, cannot be read or holds no image.
+    /// Looks at every input. Images whose samples have more than 8 bits, and videos of 16 bits that do not
+    /// say how many are used, are decoded once for their range: full scale is decided for a series, not for
+    /// each frame. Throws InputError if an input does not exist, cannot be read or holds no image.
     explicit ImageFrames(const std::vector<std::filesystem::path>& inputs, const ImageOptions& options = {});
     ~ImageFrames();
 

@@ -76,7 +76,7 @@ class Lister {
 
   private:
     void add_file(const fs::path& file) {
-        ImageSeries series;
+        ImageSeries series{.name = file.string()};
         if (is_named_as_video(file))
             series.video = file;
         else
@@ -85,7 +85,7 @@ class Lister {
     }
 
     void add_index(const fs::path& camera) {
-        ImageSeries series;
+        ImageSeries series{.name = camera.string()};
         for (const FrameName& frame : read_frame_names(camera / "data.csv")) {
             const fs::path file = camera / "data" / frame.filename;
             std::error_code error;
@@ -94,11 +94,13 @@ class Lister {
                 continue;
             }
             ImageSeries pictures;
-            add_pictures(file, {.series = list_.series.size(), .time_ns = frame.time_ns, .from_recording = true},
+            add_pictures(file,
+                         {.series = list_.series.size(), .time_ns = frame.time_ns, .from_recording = true},
                          pictures);
             if (pictures.frames.size() > 1)
-                list_.notes.push_back(fmt::format("{}: the first of its {} pages is read: the index has one time",
-                                                  file.string(), pictures.frames.size()));
+                list_.notes.push_back(
+                    fmt::format("{}: the first of its {} pages is read: the index has one time",
+                                file.string(), pictures.frames.size()));
             pictures.frames.front().name = file.string();
             series.frames.push_back(pictures.frames.front());
             series.deep.insert(series.deep.end(), pictures.deep.begin(),
@@ -113,7 +115,8 @@ class Lister {
     void note_other_cameras(const fs::path& camera) {
         std::vector<std::string> others;
         if (camera.filename() != "cam0") return;
-        for (const auto& entry : fs::directory_iterator(camera.has_parent_path() ? camera.parent_path() : "."))
+        for (const auto& entry :
+             fs::directory_iterator(camera.has_parent_path() ? camera.parent_path() : "."))
             if (entry.path().filename() != "cam0" && is_camera_folder(entry.path().filename().string()) &&
                 entry.is_directory())
                 others.push_back(entry.path().filename().string());
@@ -131,8 +134,9 @@ class Lister {
         if (!recordings.empty()) {
             for (const fs::path& camera : recordings) add_index(camera);
             if (!found.images.empty())
-                list_.notes.push_back(fmt::format("{}: holds recordings, which are read; passed over: {} images",
-                                                  folder.string(), found.images.size()));
+                list_.notes.push_back(
+                    fmt::format("{}: holds recordings, which are read; passed over: {} images",
+                                folder.string(), found.images.size()));
             return;
         }
         if (!found.images.empty()) return add_images(folder, found);
@@ -140,9 +144,8 @@ class Lister {
     }
 
     void add_images(const fs::path& folder, const FolderOfImages& found) {
-        ImageSeries series;
-        for (const fs::path& file : found.images)
-            add_pictures(file, {.series = list_.series.size()}, series);
+        ImageSeries series{.name = folder.string()};
+        for (const fs::path& file : found.images) add_pictures(file, {.series = list_.series.size()}, series);
         if (auto note = take_times_of_names(folder, name_times_, series.frames); !note.empty())
             list_.notes.push_back(std::move(note));
         list_.series.push_back(std::move(series));
@@ -173,17 +176,17 @@ class Lister {
                                               cameras.front().string()));
             return add_images(cameras.front(), look_into(cameras.front()));
         }
-        const std::string none = fmt::format("{}: holds no image ({})", folder.string(),
-                                             fmt::join(image_endings(), " "));
+        const std::string none =
+            fmt::format("{}: holds no image ({})", folder.string(), fmt::join(image_endings(), " "));
         if (cameras.size() > 1)
             throw InputError(fmt::format("{}: holds several cameras: {}: give the folder of one of them",
                                          folder.string(), some_of(with_images)));
         if (!with_images.empty())
-            throw InputError(fmt::format("{}, but folders that do: {}: give those", none, some_of(with_images)));
+            throw InputError(
+                fmt::format("{}, but folders that do: {}: give those", none, some_of(with_images)));
         if (!found.videos.empty())
             throw InputError(fmt::format("{}, but videos: {}: give those", none, some_of(found.videos)));
-        if (!found.others.empty())
-            throw InputError(fmt::format("{}, but: {}", none, some_of(found.others)));
+        if (!found.others.empty()) throw InputError(fmt::format("{}, but: {}", none, some_of(found.others)));
         throw InputError(none);
     }
 
@@ -213,7 +216,8 @@ FolderOfImages look_into(const fs::path& folder) {
             found.others.push_back(name);
     }
     std::ranges::sort(found.images, by_natural_order);
-    for (auto* names : {&found.videos, &found.folders, &found.others}) std::ranges::sort(*names, natural_less);
+    for (auto* names : {&found.videos, &found.folders, &found.others})
+        std::ranges::sort(*names, natural_less);
     return found;
 }
 

@@ -12,10 +12,11 @@ namespace fidservo {
 
 /// Frames that belong together.
 struct ImageSeries {
-    std::vector<ImageFrame> frames{};      ///< without those that are missing
-    std::vector<DeepImage> deep{};         ///< those of them whose samples may have more than 8 bits
-    std::vector<std::string> missing{};    ///< names of frames that an index lists and that are not there
-    std::filesystem::path video{};         ///< in place of frames
+    std::string name{};                  ///< the file or folder that it is of
+    std::vector<ImageFrame> frames{};    ///< without those that are missing
+    std::vector<DeepImage> deep{};       ///< those of them whose samples may have more than 8 bits
+    std::vector<std::string> missing{};  ///< names of frames that an index lists and that are not there
+    std::filesystem::path video{};       ///< in place of frames
 };
 
 struct ImageList {

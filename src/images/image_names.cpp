@@ -58,9 +58,9 @@ const std::vector<std::string_view>& image_endings() {
 
 const std::vector<std::string_view>& video_endings() {
     static const std::vector<std::string_view> endings{
-        ".mp4", ".m4v", ".avi", ".mkv",  ".mov",   ".webm", ".mjpg", ".mjpeg", ".mpg",  ".mpeg",
-        ".ts",  ".mts", ".m2ts", ".wmv", ".asf",   ".flv",  ".ogv",  ".3gp",   ".h264", ".264",
-        ".h265", ".265", ".hevc", ".y4m", ".ivf",  ".mxf",  ".nut",  ".vob",   ".dv"};
+        ".mp4",  ".m4v", ".avi",  ".mkv", ".mov", ".webm", ".mjpg", ".mjpeg", ".mpg",  ".mpeg",
+        ".ts",   ".mts", ".m2ts", ".wmv", ".asf", ".flv",  ".ogv",  ".3gp",   ".h264", ".264",
+        ".h265", ".265", ".hevc", ".y4m", ".ivf", ".mxf",  ".nut",  ".vob",   ".dv"};
     return endings;
 }
 

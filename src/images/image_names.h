@@ -1,5 +1,6 @@
 #pragma once
-// What names of images and videos tell: their kind, their order, and times where people write them into names.
+// What names of images and videos tell: their kind, their order, and times where people write them into
+// names.
 #include "core/time.h"
 
 #include <filesystem>
@@ -30,8 +31,8 @@ enum class NameTimes {
     ns
 };
 
-/// A name without its ending as a time: digits, and for s, ms and us a fraction if there is one, in that unit.
-/// Digits beyond the nanosecond are dropped. Empty: it is no such number, or beyond what TimeNs holds.
+/// A name without its ending as a time: digits, and for s, ms and us a fraction if there is one, in that
+/// unit. Digits beyond the nanosecond are dropped. Empty: it is no such number, or beyond what TimeNs holds.
 std::optional<TimeNs> time_in_name(std::string_view stem, NameTimes unit);
 
 /// What names, without their endings, are by the look of them:

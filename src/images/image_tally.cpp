@@ -50,9 +50,10 @@ std::string ImageTally::first_reason() const {
 std::vector<std::string> ImageTally::notes() const {
     std::vector<std::string> notes;
     if (!turned_.empty())
-        notes.push_back(fmt::format("{} of {} images have an orientation tag by which other programs turn them; "
-                                    "here pixels are where the file has them: {}",
-                                    turned_.size(), read_, first_names(turned_)));
+        notes.push_back(
+            fmt::format("{} of {} images have an orientation tag by which other programs turn them; "
+                        "here pixels are where the file has them: {}",
+                        turned_.size(), read_, first_names(turned_)));
     if (!with_more_.empty())
         notes.push_back(fmt::format("only the first picture is read of files that hold several: {}",
                                     first_names(with_more_)));

@@ -34,7 +34,8 @@ const ImageFrame* first_of_same_time(const std::vector<ImageFrame>& frames) {
 }
 
 /// Names of which most, not all, are times; the first that is not one.
-const ImageFrame* exception_among(const std::vector<ImageFrame>& frames, const std::vector<std::string>& stems) {
+const ImageFrame* exception_among(const std::vector<ImageFrame>& frames,
+                                  const std::vector<std::string>& stems) {
     std::vector<std::string> times;
     const ImageFrame* exception = nullptr;
     for (std::size_t k = 0; k < stems.size(); ++k) {
@@ -57,8 +58,9 @@ std::string take_times_of_names(const std::filesystem::path& folder, NameTimes u
     if (!asked) unit = names_unit(stems);
     if (unit == NameTimes::none) {
         if (could_be_times(stems))
-            return fmt::format("{}: names look like times: none are taken; say which by --name-times ms or us",
-                               folder.string());
+            return fmt::format(
+                "{}: names look like times: none are taken; say which by --name-times ms or us",
+                folder.string());
         if (const ImageFrame* exception = exception_among(frames, stems); exception != nullptr)
             return fmt::format("{}: names look like times, but {} does not: none are taken", folder.string(),
                                exception->file.filename().string());
@@ -68,8 +70,8 @@ std::string take_times_of_names(const std::filesystem::path& folder, NameTimes u
     for (ImageFrame& frame : timed) {
         frame.time_ns = time_in_name(stem_of(frame), unit);
         if (!frame.time_ns)
-            throw InputError(fmt::format("{}: --name-times {}: its name is not such a time", frame.file.string(),
-                                         word_for(unit)));
+            throw InputError(fmt::format("{}: --name-times {}: its name is not such a time",
+                                         frame.file.string(), word_for(unit)));
     }
     std::ranges::stable_sort(timed, {}, &ImageFrame::time_ns);
     if (const ImageFrame* same = first_of_same_time(timed); same != nullptr) {

@@ -31,7 +31,7 @@ class SavedImages {
 
     std::filesystem::path folder_;
     std::map<std::string, std::filesystem::path> files_;  ///< by name without the extension
-    int bits_ = 16;  ///< of samples of more than 8 bits, in all of them
+    int bits_ = 16;                                       ///< of samples of more than 8 bits, in all of them
 };
 
 /// One site, its images measured; those that are missing or show no fiducial are `not_measured`.

@@ -17,8 +17,8 @@ struct ReplayCount {
 /// Finds the tags of all frames on `threads` cores, and writes detections.csv and displacements.csv into a
 /// folder that exists, in the frames' order. One timed series gives files with times, as in a recording;
 /// anything else has the image's name in the first column instead. Displacements are those of
-/// vision/displacement.h, counted from each series' own first frames. A frame that cannot be read is left out;
-/// the count names it. Throws RunFault if the disk fails.
+/// vision/displacement.h, counted from each series' own first frames. A frame that cannot be read is left
+/// out; the count names it. Throws RunFault if the disk fails.
 /// @param camera  that took the frames of its size, if it is known
 ReplayCount replay(ImageFrames& frames, double tag_side_mm, const std::filesystem::path& folder,
                    unsigned threads, const std::optional<CameraParameters>& camera = {});

@@ -12,7 +12,7 @@
 namespace fidservo {
 
 struct FrameResult {
-    ImageFrame frame;                        ///< without its image
+    ImageFrame frame;                         ///< without its image
     std::vector<TagDetection> tags;           ///< all, with refined corners where there are any
     std::vector<vision::RefinedTag> refined;  ///< those whose border is large and clear enough to be measured
 };

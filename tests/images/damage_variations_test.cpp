@@ -1,5 +1,5 @@
-// Files that are cut short or of which a byte is wrong. What is cut short is never taken for whole. A wrong byte
-// is found where the format has a checksum; elsewhere the image at least has the right size.
+// Files that are cut short or of which a byte is wrong. What is cut short is never taken for whole. A wrong
+// byte is found where the format has a checksum; elsewhere the image at least has the right size.
 #include "tests/src/temporary_folder.h"
 #include "tests/variations.h"
 #include "vision/images/image_file.h"
@@ -17,16 +17,19 @@ using testing::TemporaryFolder;
 struct Format {
     const char* name;
     bool has_checksum;
+    int type = -1;  ///< -1: grey or colour
 };
 
-constexpr Format formats[] = {{"a.png", true},  {"a.jpg", false}, {"a.tif", false}, {"a.bmp", false},
-                              {"a.pgm", false}, {"a.ppm", false}, {"a.webp", false}, {"a.jp2", false}};
+constexpr Format formats[] = {{"a.png", true},   {"a.jpg", false},          {"a.tif", false},
+                              {"a.bmp", false},  {"a.pgm", false, CV_8UC1}, {"a.ppm", false, CV_8UC3},
+                              {"a.webp", false}, {"a.jp2", false}};
 
 Outcome judged_damage(std::mt19937_64& random) {
     const TemporaryFolder folder;
     const Format format = formats[random() % std::size(formats)];
-    cv::Mat image(16 + static_cast<int>(random() % 40), 16 + static_cast<int>(random() % 40),
-                  random() % 2 == 0 ? CV_8UC1 : CV_8UC3);
+    const int type = random() % 2 == 0 ? CV_8UC1 : CV_8UC3;
+    cv::Mat image(64 + static_cast<int>(random() % 40), 64 + static_cast<int>(random() % 40),
+                  format.type < 0 ? type : format.type);
     cv::RNG noise(random());
     noise.fill(image, cv::RNG::UNIFORM, 0, 256);
     cv::imwrite((folder / format.name).string(), image);
@@ -55,10 +58,14 @@ TEST(DamageVariations, FilesCutShortOrWithAWrongByte_AreNeverTakenForWhole) {
 TEST(Damage, FlatImagesCutShort_AreRefused) {
     const TemporaryFolder folder;
     for (const Format& format : formats) {
-        cv::imwrite((folder / format.name).string(), cv::Mat(64, 64, CV_8UC3, cv::Scalar(40, 90, 200)));
+        const int type = format.type < 0 ? CV_8UC3 : format.type;
+        ASSERT_TRUE(
+            cv::imwrite((folder / format.name).string(), cv::Mat(64, 64, type, cv::Scalar(40, 90, 200))));
         const std::string bytes = testing::text_of(folder / format.name);
         for (const double share : {0.5, 0.8, 0.95}) {
-            folder.write(format.name, bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size()))));
+            folder.write(
+                format.name,
+                bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size()))));
             EXPECT_FALSE(vision::read_grey(folder / format.name)) << format.name << " " << share;
         }
     }

@@ -49,7 +49,9 @@ enum class Format { png, stated_png, colour_png, tiff, packed_tiff, pgm, jpeg_20
 constexpr int formats = 7;
 
 void write_frame(const fs::path& folder, int number, const cv::Mat& grey, Format format, int bits) {
-    const auto name = [&](const char* ending) { return (folder / fmt::format("f{}.{}", number, ending)).string(); };
+    const auto name = [&](const char* ending) {
+        return (folder / fmt::format("f{}.{}", number, ending)).string();
+    };
     switch (format) {
         case Format::png:
             cv::imwrite(name("png"), grey);
@@ -84,16 +86,17 @@ Outcome judged_sequence(std::mt19937_64& random) {
     const int bits = 8 + static_cast<int>(random() % 9);
     const auto format = static_cast<Format>(random() % formats);
     if (format == Format::packed_tiff && bits < 9) return Outcome::right();  // is of 8 bits
-    const bool stated = format == Format::stated_png || format == Format::packed_tiff;
+    const bool stated = format == Format::stated_png || (format == Format::packed_tiff && bits < 16);
     const int count = 1 + static_cast<int>(random() % 4);
     const int brightest = static_cast<int>(random() % static_cast<unsigned>(count));
     std::vector<cv::Mat> frames;
     for (int k = 0; k < count; ++k) {
-        cv::Mat grey(24, 32, CV_16UC1);
+        cv::Mat grey(64, 80, CV_16UC1);
         cv::RNG noise(random());
         noise.fill(grey, cv::RNG::UNIFORM, 0, 1 << (bits - 1 - static_cast<int>(random() % 3)));
         if (k == brightest && !stated)
-            grey.at<std::uint16_t>(5, 5) = static_cast<std::uint16_t>((1 << bits) - 1 - static_cast<int>(random() % 20));
+            grey.at<std::uint16_t>(5, 5) =
+                static_cast<std::uint16_t>((1 << bits) - 1 - static_cast<int>(random() % 20));
         write_frame(folder.path(), k, grey, format, bits);
         frames.push_back(grey);
     }
@@ -108,7 +111,8 @@ Outcome judged_sequence(std::mt19937_64& random) {
         const double worst = cv::norm(expected, read, cv::NORM_INF);
         const double rounding = format == Format::colour_png ? 1.01 : 0.501;
         if (worst > rounding)
-            return Outcome::wrong(fmt::format("format {}, {} bits: by {}", static_cast<int>(format), bits, worst));
+            return Outcome::wrong(
+                fmt::format("format {}, {} bits: by {}", static_cast<int>(format), bits, worst));
     }
     return Outcome::right();
 }

@@ -23,6 +23,13 @@ AVPixelFormat pixels_of(const Film& film) {
     return film.frames.front().depth() == CV_16U ? AV_PIX_FMT_GRAY16LE : AV_PIX_FMT_GRAY8;
 }
 
+/// 0 to 255 as television's 16 to 235.
+cv::Mat limited(const cv::Mat& grey) {
+    cv::Mat luma;
+    grey.convertTo(luma, CV_8U, 219.0 / 255.0, 16.0);
+    return luma;
+}
+
 void fill(AVFrame& frame, const cv::Mat& grey) {
     for (int row = 0; row < grey.rows; ++row)
         std::memcpy(frame.data[0] + static_cast<std::ptrdiff_t>(row) * frame.linesize[0], grey.ptr(row),
@@ -109,7 +116,8 @@ void write_film(const std::filesystem::path& file, const Film& film) {
     must(av_frame_get_buffer(frame, 0), "memory");
     for (std::size_t k = 0; k < film.frames.size(); ++k) {
         must(av_frame_make_writable(frame), "memory");
-        fill(*frame, film.frames[k]);
+        fill(*frame,
+             writer.encoder().pix_fmt == AV_PIX_FMT_YUV420P ? limited(film.frames[k]) : film.frames[k]);
         frame->pts = film.times[k];
         frame->quality = FF_QP2LAMBDA;
         writer.write(frame);

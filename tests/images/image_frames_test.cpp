@@ -21,19 +21,20 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
 using testing::message_of;
+using ::testing::Not;
 using testing::TemporaryFolder;
 
 void write_image(const fs::path& file, int grey, int type = CV_8UC1) {
     fs::create_directories(file.parent_path());
-    ASSERT_TRUE(cv::imwrite(file.string(), cv::Mat(24, 32, type, cv::Scalar::all(grey)))) << file;
+    ASSERT_TRUE(cv::imwrite(file.string(), cv::Mat(64, 80, type, cv::Scalar::all(grey)))) << file;
 }
 
 /// Grey levels of the frames, -1 for one that cannot be read.
 std::vector<int> greys_of(ImageFrames& frames) {
     std::vector<int> greys;
-    while (auto frame = frames.next()) greys.push_back(load(*frame) ? frame->decoded.at<unsigned char>(5, 5) : -1);
+    while (auto frame = frames.next())
+        greys.push_back(load(*frame) ? frame->decoded.at<unsigned char>(5, 5) : -1);
     return greys;
 }
 
@@ -45,7 +46,8 @@ std::vector<int> greys_of(const fs::path& input) {
 TEST(ImageFrames, Folder_ComesInNaturalOrderAndSaysWhatItPassesOver) {
     const TemporaryFolder folder;
     for (const int number : {10, 9, 2}) write_image(folder / fmt::format("frame{}.png", number), 10 * number);
-    for (const char* name : {"notes.txt", "b.json", "film.avi", ".hidden.png"}) folder.write(name, "no image");
+    for (const char* name : {"notes.txt", "b.json", "film.avi", ".hidden.png"})
+        folder.write(name, "no image");
     fs::create_directory(folder / "more");
     ImageFrames frames({folder.path()});
     EXPECT_EQ(frames.size(), 3U);
@@ -57,8 +59,8 @@ TEST(ImageFrames, Folder_ComesInNaturalOrderAndSaysWhatItPassesOver) {
 
 TEST(ImageFrames, EveryFormatThatIsReadAlone_IsReadInAFolder) {
     const TemporaryFolder folder;
-    const std::vector<std::string> endings{"png", "jpg", "jpeg", "jpe", "tif", "tiff", "bmp",
-                                           "dib", "webp", "pgm", "pnm", "jp2"};
+    const std::vector<std::string> endings{"png", "jpg", "jpeg", "jpe", "tif", "tiff",
+                                           "bmp", "dib", "webp", "pgm", "pnm", "jp2"};
     for (const std::string& ending : endings) write_image(folder / ("f." + ending), 77);
     write_image(folder / "f.ppm", 77, CV_8UC3);
     write_image(folder / "f.ras", 77, CV_8UC3);
@@ -177,8 +179,13 @@ TEST(ImageFrames, OrientationAndFurtherPictures_AreSaid) {
     const cv::Mat image(24, 32, CV_8UC1, cv::Scalar(9));
     const std::vector<unsigned char> jpeg = vision::encode_jpeg(image, 90);
     std::string turned(jpeg.begin(), jpeg.begin() + 2);
-    turned += std::string("\xff\xe1\x00\x22" "Exif\0\0" "MM\0*\0\0\0\x08" "\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0"
-                          "\0\0\0\0", 36);
+    turned += std::string(
+        "\xff\xe1\x00\x22"
+        "Exif\0\0"
+        "MM\0*\0\0\0\x08"
+        "\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0"
+        "\0\0\0\0",
+        36);
     turned.append(jpeg.begin() + 2, jpeg.end());
     folder.write("a.jpg", turned);
     ImageFrames frames({folder / "a.jpg"});

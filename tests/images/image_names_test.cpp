@@ -68,7 +68,8 @@ Outcome judged_order(std::mt19937_64& random) {
         const auto frame = frames.next();
         const std::string expected = fmt::format("{}{:0{}}{}.png", prefix, number, digits, suffix);
         if (!frame || frame->file.filename() != expected)
-            return Outcome::wrong(fmt::format("{} where {} should be", frame ? frame->name : "nothing", expected));
+            return Outcome::wrong(
+                fmt::format("{} where {} should be", frame ? frame->name : "nothing", expected));
     }
     return Outcome::right();
 }

@@ -33,7 +33,8 @@ cv::Mat tag_image(int steps) {
     cv::Mat image(8 * cell_px + 2 * edge_px, 8 * cell_px + 2 * edge_px + 100, CV_8UC1, cv::Scalar(230));
     for (int row = 0; row < pattern.cells; ++row)
         for (int column = 0; column < pattern.cells; ++column)
-            image(cv::Rect(edge_px + steps * steps_px + column * cell_px, edge_px + row * cell_px, cell_px, cell_px))
+            image(cv::Rect(edge_px + steps * steps_px + column * cell_px, edge_px + row * cell_px, cell_px,
+                           cell_px))
                 .setTo(pattern[static_cast<std::size_t>(row * pattern.cells + column)] ? 230 : 25);
     cv::GaussianBlur(image, image, {0, 0}, 0.8);
     return image;
@@ -108,7 +109,8 @@ TEST_F(ReplayOf, TenAndTwelveBitsInSixteen_AreMeasuredAsEightAre) {
             save(fmt::format("b{}/f{}.png", bits, k), deep);
         }
         const ProgramRun run = replay(fmt::format("b{}", bits));
-        EXPECT_THAT(run.err, HasSubstr(fmt::format("{} of 16 bits are used: {} is white", bits, (1 << bits) - 1)));
+        EXPECT_THAT(run.err,
+                    HasSubstr(fmt::format("{} of 16 bits are used: {} is white", bits, (1 << bits) - 1)));
         expect_steps({0, 1});
     }
 }
@@ -142,12 +144,13 @@ TEST_F(ReplayOf, NothingThatCanBeRead_IsWrongInputAndLeavesNothing) {
     folder.write("f/b.png", "no");
     const ProgramRun run = replay("f");
     EXPECT_EQ(run.exit_code, 2);
-    EXPECT_THAT(run.err, HasSubstr("0 of 2 images; 2 damaged: a.png, b.png; the first: f/a.png: cannot be read"));
+    EXPECT_THAT(run.err,
+                HasSubstr("0 of 2 images; 2 damaged: a.png, b.png; the first: f/a.png: cannot be read"));
     EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 TEST_F(ReplayOf, FolderOfManyFormats_IsReadWhole) {
-    const char* names[] = {"f0.png", "f1.ppm", "f2.webp", "f3.jp2", "f4.bmp"};
+    const char* names[] = {"f0.png", "f1.pgm", "f2.webp", "f3.jp2", "f4.bmp"};
     for (int k = 0; k < 5; ++k) save(fs::path("f") / names[k], tag_image(k));
     folder.write("f/notes.txt", "notes");
     const ProgramRun run = replay("f");

@@ -30,7 +30,8 @@ std::vector<unsigned char> packed(const TiffPage& page, int row, int column, int
             for (held_bits += page.bits; held_bits >= 8; held_bits -= 8)
                 bytes.push_back(static_cast<unsigned char>(held >> static_cast<unsigned>(held_bits - 8)));
         }
-    if (held_bits > 0) bytes.push_back(static_cast<unsigned char>(held << static_cast<unsigned>(8 - held_bits)));
+    if (held_bits > 0)
+        bytes.push_back(static_cast<unsigned char>(held << static_cast<unsigned>(8 - held_bits)));
     return bytes;
 }
 
@@ -78,7 +79,8 @@ void write_page(TIFF* tiff, const TiffPage& page) {
 
 }  // namespace
 
-void write_tiff(const std::filesystem::path& file, const std::string& mode, const std::vector<TiffPage>& pages) {
+void write_tiff(const std::filesystem::path& file, const std::string& mode,
+                const std::vector<TiffPage>& pages) {
     TIFF* tiff = TIFFOpen(file.c_str(), mode.c_str());
     if (tiff == nullptr) throw std::runtime_error(file.string() + ": cannot be written");
     for (const TiffPage& page : pages) write_page(tiff, page);

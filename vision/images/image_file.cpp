@@ -87,11 +87,11 @@ Result<StoredImage> decode_other(const std::filesystem::path& file, std::string_
 
 Result<StoredImage> read_unnamed(const std::filesystem::path& file, std::uint64_t page) {
     std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) return failure(Reason::device, "there is no such file");
+    if (!std::filesystem::is_regular_file(file, error))
+        return failure(Reason::device, "there is no such file");
     if (is_tiff(beginning_of(file))) return read_tiff_page(file, page);
     if (const auto size = std::filesystem::file_size(file, error); !error && size > most_file_bytes)
-        return failure(Reason::device,
-                       fmt::format("{} bytes: at most {} are read", size, most_file_bytes));
+        return failure(Reason::device, fmt::format("{} bytes: at most {} are read", size, most_file_bytes));
     const std::string content = bytes_of(file, most_file_bytes);
     const auto bytes = std::as_bytes(std::span(content));
     if (content.empty()) return failure(Reason::device, "it is empty or cannot be opened");

@@ -27,7 +27,7 @@ inline constexpr std::uintmax_t most_file_bytes = std::uintmax_t{1} << 31;
 /// An image with the samples that its file has, as grey: colour becomes luma (ITU-R BT.601), transparency is
 /// dropped.
 struct StoredImage {
-    cv::Mat grey;         ///< CV_8UC1, 255 is white; or CV_16UC1, of which to_8_bits() has to be told the range
+    cv::Mat grey;  ///< CV_8UC1, 255 is white; or CV_16UC1, of which to_8_bits() has to be told the range
     int stated_bits = 0;  ///< of CV_16UC1: how many bits the file says that it uses, 8 to 16; 0: it does not
     bool white_is_zero = false;      ///< of CV_16UC1: 0 is white
     int orientation = 1;             ///< as EXIF numbers them, 1 to 8; the pixels are not turned
@@ -48,11 +48,12 @@ constexpr int bits_for(unsigned largest) {
     return std::clamp(static_cast<int>(std::bit_width(largest)), 8, 16);
 }
 
-/// The bits of an image alone: those that the file states or, if these are more, that its largest value needs.
+/// The bits of an image alone: those that the file states or, if these are more, that its largest value
+/// needs.
 int bits_of(const StoredImage& stored);
 
-/// CV_8UC1 of an image whose full scale is 2^bits - 1: that becomes 255, rounded to nearest; what is above it,
-/// too. An image of 8 bits is as it was.
+/// CV_8UC1 of an image whose full scale is 2^bits - 1: that becomes 255, rounded to nearest; what is above
+/// it, too. An image of 8 bits is as it was.
 cv::Mat to_8_bits(const StoredImage& stored, int bits);
 
 /// An image alone, as CV_8UC1, full scale as bits_of() has it. Fails as read_stored() does.

@@ -70,9 +70,8 @@ Result<cv::Mat> JpegDecoder::decode(std::span<const std::byte> jpeg) {
     const bool for_print = colours == TJCS_CMYK || colours == TJCS_YCCK;
     cv::Mat pixels(height, width, for_print ? CV_8UC4 : CV_8UC1);
     // Not TJFLAG_STOPONWARNING: what is wrong at the end of the data is said as well without it.
-    if (tjDecompress2(impl_->turbo, data, jpeg.size(), pixels.data, width,
-                      static_cast<int>(pixels.step[0]), height, for_print ? TJPF_CMYK : TJPF_GRAY,
-                      TJFLAG_ACCURATEDCT) != 0)
+    if (tjDecompress2(impl_->turbo, data, jpeg.size(), pixels.data, width, static_cast<int>(pixels.step[0]),
+                      height, for_print ? TJPF_CMYK : TJPF_GRAY, TJFLAG_ACCURATEDCT) != 0)
         return impl_->damaged();
     return for_print ? luma_of_print(pixels) : pixels;
 }

@@ -12,8 +12,8 @@ namespace fidservo::vision {
 
 bool is_jpeg(std::span<const std::byte> bytes);
 
-/// JPEG to grey: of YCbCr the luma alone is decoded; those for print (CMYK, inverted as all programs write it)
-/// become the luma of their red, green and blue. A frame without Huffman tables has the standard's, as in
+/// JPEG to grey: of YCbCr the luma alone is decoded; those for print (CMYK, inverted as all programs write
+/// it) become the luma of their red, green and blue. A frame without Huffman tables has the standard's, as in
 /// motion-JPEG. Single-threaded.
 class JpegDecoder {
   public:

@@ -67,8 +67,8 @@ Answer ask(Answer (*MediaModule::*question)(Arguments...), Arguments... argument
 Result<std::unique_ptr<Video>> open_video(const std::filesystem::path& file) {
     auto video = ask(&MediaModule::open_video, file.c_str());
     if (!video)
-        return failure(Reason::device, fmt::format("{}: cannot be read as a video: {}", file.string(),
-                                                   video.error().text));
+        return failure(Reason::device,
+                       fmt::format("{}: cannot be read as a video: {}", file.string(), video.error().text));
     return video;
 }
 

@@ -20,9 +20,10 @@ namespace fidservo::vision {
 class Video {
   public:
     struct Picture {
-        StoredImage image{};             ///< if it is not damaged
+        StoredImage image{};              ///< if it is not damaged
         std::optional<TimeNs> time_ns{};  ///< its own time stamp, on the container's time line
-        std::string damage{};  ///< why there is no image; so it is said of frames that build on a damaged one, too
+        std::string
+            damage{};  ///< why there is no image; so it is said of frames that build on a damaged one, too
     };
 
     Video() = default;

@@ -124,14 +124,17 @@ Result<StatedSize> pnm_size(std::string_view file) {
         header.largest > most_largest)
         return failure(Reason::device, "its header is damaged");
     const bool deep = header.largest > most_of_8_bits;
-    const StatedSize stated{deep, deep ? static_cast<int>(std::bit_width(header.largest)) : 0};
+    // Programs that do not know better write the largest number of 16 bits: it states nothing.
+    const bool states_bits = deep && header.largest < most_largest;
+    const StatedSize stated{deep, states_bits ? static_cast<int>(std::bit_width(header.largest)) : 0};
     const std::uint64_t samples = header.width * header.height * header.channels;
     if (!header.is_text) {
-        const std::uint64_t row = header.is_bitmap ? (header.width + 7) / 8
-                                                   : header.width * header.channels * (deep ? 2 : 1);
+        const std::uint64_t row =
+            header.is_bitmap ? (header.width + 7) / 8 : header.width * header.channels * (deep ? 2 : 1);
         const std::uint64_t end = header.end + row * header.height;
         if (file.size() > end && file[end] != 'P' && !std::isspace(static_cast<unsigned char>(file[end])))
-            return failure(Reason::device, fmt::format("{} bytes where its header says {}", file.size(), end));
+            return failure(Reason::device,
+                           fmt::format("{} bytes where its header says {}", file.size(), end));
         return whole_if(file, end, stated);
     }
     std::uint64_t found = 0;
@@ -217,7 +220,8 @@ Result<StatedSize> sun_raster_size(std::string_view file) {
     if (auto sized = demand_size(width, height); !sized) return tl::make_unexpected(sized.error());
     if (bits == 8 && field(7) == 0)
         return failure(Reason::device, "a Sun raster of grey without a colour map is not read");
-    const std::uint64_t pixels = kind == run_length_encoded ? field(4) : (width * bits + 15) / 16 * 2 * height;
+    const std::uint64_t pixels =
+        kind == run_length_encoded ? field(4) : (width * bits + 15) / 16 * 2 * height;
     return whole_if(file, header_bytes + field(7) + pixels);
 }
 
@@ -247,8 +251,7 @@ Result<StatedSize> stated_size(std::span<const std::byte> bytes) {
     const std::string_view file = text_of(bytes);
     for (const std::string_view of_floats : {"#?RADIANCE", "#?RGBE", "PF\n", "Pf\n", "\x76\x2f\x31\x01"})
         if (begins(file, of_floats))
-            return failure(Reason::device,
-                           "floating-point samples have no white: save it with 8 or 16 bits");
+            return failure(Reason::device, "floating-point samples have no white: save it with 8 or 16 bits");
     if (is_pnm(file)) return pnm_size(file);
     if (begins(file, "BM")) return bmp_size(file);
     if (begins(file, "RIFF")) return webp_size(file);

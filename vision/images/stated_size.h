@@ -10,7 +10,7 @@ namespace fidservo::vision {
 
 struct StatedSize {
     bool is_deep = false;  ///< samples may have more than 8 bits
-    int bits = 0;          ///< of samples of more than 8 bits: those that the header says are used; 0: it does not
+    int bits = 0;  ///< of samples of more than 8 bits: those that the header says are used; 0: it does not
 };
 
 /// Of PNM and PAM, BMP, WebP, JPEG 2000 and Sun raster, from the whole file: fails with Reason::device if it

@@ -1,7 +1,6 @@
 // The module's door: the only place that sees OpenCV's image codecs, libtiff and FFmpeg's libraries.
-#include "vision/images/media.h"
-
 #include "core/failure.h"
+#include "vision/images/media.h"
 #include "vision/images/module/parts.h"
 
 #include <opencv2/imgcodecs.hpp>

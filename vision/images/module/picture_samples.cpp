@@ -80,8 +80,8 @@ cv::Mat luma_of(const AVFrame& frame, const AVPixFmtDescriptor& kind, int type, 
     cv::Mat image(frame.height, frame.width, type);
     for (int row = 0; row < frame.height; ++row) {
         for (std::size_t k = 0; k < components; ++k)
-            av_read_image_line2(rows[k].data(), planes.data(), frame.linesize, &kind, 0, row, static_cast<int>(k),
-                                frame.width, 0, sizeof(std::uint16_t));
+            av_read_image_line2(rows[k].data(), planes.data(), frame.linesize, &kind, 0, row,
+                                static_cast<int>(k), frame.width, 0, sizeof(std::uint16_t));
         auto* to = image.ptr<Sample>(row);
         for (int column = 0; column < frame.width; ++column)
             to[column] = components == 1 ? static_cast<Sample>(level(0, column))

@@ -1,74 +1,22 @@
 #include "core/failure.h"
 #include "vision/images/module/parts.h"
+#include "vision/images/module/tiff_file.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstdarg>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <span>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
-#include <tiffio.h>
 
 namespace fidservo::vision {
 namespace {
 
-/// No single piece of a file takes more memory: most_pixels of four samples of 16 bits.
-constexpr std::size_t most_bytes_at_once = most_pixels * 8;
-
-/// The first thing that libtiff complains of.
-int note_error(TIFF* /*tiff*/, void* to, const char* /*where*/, const char* format, va_list arguments) {
-    auto& why = *static_cast<std::string*>(to);
-    if (!why.empty()) return 1;
-    char line[256];
-    std::vsnprintf(line, sizeof line, format, arguments);
-    why = line;
-    return 1;
+tl::unexpected<Failure> damaged(const Tiff& tiff) {
+    return failure(Reason::device, "damaged TIFF: " + tiff.why());
 }
-
-int pass_over_warning(TIFF*, void*, const char*, const char*, va_list) {
-    return 1;
-}
-
-class Tiff {
-  public:
-    explicit Tiff(const char* file) {
-        TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
-        TIFFOpenOptionsSetMaxSingleMemAlloc(options, static_cast<tmsize_t>(most_bytes_at_once));
-        TIFFOpenOptionsSetErrorHandlerExtR(options, &note_error, &why_);
-        TIFFOpenOptionsSetWarningHandlerExtR(options, &pass_over_warning, nullptr);
-        constexpr const char* read_without_mapping = "rm";  // a file may shrink while it is mapped
-        tiff_ = TIFFOpenExt(file, read_without_mapping, options);
-        TIFFOpenOptionsFree(options);
-    }
-    ~Tiff() {
-        if (tiff_ != nullptr) TIFFClose(tiff_);
-    }
-    Tiff(const Tiff&) = delete;
-    Tiff& operator=(const Tiff&) = delete;
-
-    TIFF* get() const { return tiff_; }
-    bool is_open() const { return tiff_ != nullptr; }
-    bool has_failed() const { return !why_.empty(); }
-    tl::unexpected<Failure> damaged() const {
-        return failure(Reason::device, "damaged TIFF: " + (why_.empty() ? "cut short" : why_));
-    }
-    const std::string& why() const { return why_; }
-
-    template <class Value>
-    Value field(std::uint32_t tag, Value otherwise) const {
-        Value value = otherwise;
-        return TIFFGetFieldDefaulted(tiff_, tag, &value) == 1 ? value : otherwise;
-    }
-
-  private:
-    std::string why_;
-    TIFF* tiff_ = nullptr;
-};
 
 /// Is it a smaller copy of another page, or a mask for one?
 bool is_companion(const Tiff& tiff) {
@@ -110,9 +58,9 @@ Layout layout_of(const Tiff& tiff) {
     layout.photometric = tiff.field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
     layout.format = tiff.field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
     layout.compression = tiff.field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE);
-    layout.is_planar = tiff.field<std::uint16_t>(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) ==
-                           PLANARCONFIG_SEPARATE &&
-                       layout.samples > 1;
+    layout.is_planar =
+        tiff.field<std::uint16_t>(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE &&
+        layout.samples > 1;
     layout.is_tiled = TIFFIsTiled(tiff.get()) != 0;
     if (layout.photometric == PHOTOMETRIC_YCBCR && layout.compression == COMPRESSION_JPEG) {
         TIFFSetField(tiff.get(), TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
@@ -145,14 +93,15 @@ Status demand_reasonable(const Tiff& tiff, const Layout& layout) {
     if (pixels > most_pixels)
         return failure(Reason::device, fmt::format("{}: at most {} px are read", size, most_pixels));
     if (layout.format == SAMPLEFORMAT_IEEEFP || layout.bits > 16)
-        return failure(Reason::device,
-                       fmt::format("samples of {} bits{} have no white that is known: save it with 8 or 16 bits",
-                                   layout.bits,
-                                   layout.format == SAMPLEFORMAT_IEEEFP ? ", floating-point," : ""));
+        return failure(
+            Reason::device,
+            fmt::format("samples of {} bits{} have no white that is known: save it with 8 or 16 bits",
+                        layout.bits, layout.format == SAMPLEFORMAT_IEEEFP ? ", floating-point," : ""));
     const std::uint64_t most = most_out_of_a_byte(layout.compression);
-    const auto file_bytes = static_cast<std::uint64_t>(TIFFGetSizeProc(tiff.get())(TIFFClientdata(tiff.get())));
-    if (most > 0 && pixels / 8 * static_cast<std::uint64_t>(layout.bits * layout.samples) / most > file_bytes)
-        return failure(Reason::device, fmt::format("damaged TIFF: {} are not in {} bytes", size, file_bytes));
+    const auto bits = static_cast<std::uint64_t>(layout.bits * layout.samples);
+    if (most > 0 && pixels / 8 * bits / most > tiff.file_bytes())
+        return failure(Reason::device,
+                       fmt::format("damaged TIFF: {} are not in {} bytes", size, tiff.file_bytes()));
     return {};
 }
 
@@ -233,11 +182,12 @@ class PageSamples {
         const auto height = tiff_.field<std::uint32_t>(TIFFTAG_TILELENGTH, 0);
         const tmsize_t bytes = TIFFTileSize(tiff_.get()), row_bytes = TIFFTileRowSize(tiff_.get());
         if (width == 0 || height == 0 || !holds(row_bytes, width)) return false;
-        if (bytes / row_bytes < height || static_cast<std::size_t>(bytes) > most_bytes_at_once) return false;
+        if (bytes / row_bytes < height || static_cast<std::size_t>(bytes) > most_file_bytes) return false;
         std::vector<unsigned char> tile(static_cast<std::size_t>(bytes));
         for (std::uint32_t top = 0; top < layout_.height; top += height)
             for (std::uint32_t left = 0; left < layout_.width; left += width) {
-                if (TIFFReadTile(tiff_.get(), tile.data(), left, top, 0, static_cast<std::uint16_t>(plane)) < 0)
+                if (TIFFReadTile(tiff_.get(), tile.data(), left, top, 0, static_cast<std::uint16_t>(plane)) <
+                    0)
                     return false;
                 const std::uint32_t lines = std::min(height, layout_.height - top);
                 for (std::uint32_t line = 0; line < lines; ++line)
@@ -263,8 +213,8 @@ std::vector<unsigned char> palette_of(const Tiff& tiff, int bits) {
     const double scale = largest < 256 ? 1.0 : 1.0 / 257.0;
     std::vector<unsigned char> greys(count);
     for (std::size_t k = 0; k < count; ++k)
-        greys[k] = cv::saturate_cast<unsigned char>(scale *
-                                                    (0.299 * red[k] + 0.587 * green[k] + 0.114 * blue[k]));
+        greys[k] =
+            cv::saturate_cast<unsigned char>(scale * (0.299 * red[k] + 0.587 * green[k] + 0.114 * blue[k]));
     return greys;
 }
 
@@ -312,7 +262,7 @@ Result<StoredImage> read_plain(const Tiff& tiff, const Layout& layout) {
     if (layout.is_palette() && palette.empty())
         return failure(Reason::device, "damaged TIFF: it has no colour map");
     PageSamples page(tiff, layout);
-    if (!page.read()) return tiff.damaged();
+    if (!page.read()) return damaged(tiff);
     if (layout.format == SAMPLEFORMAT_INT && has_negative(page.samples(), layout.bits))
         return failure(Reason::device, "it has negative samples: what is black is not known");
     StoredImage image;
@@ -338,7 +288,7 @@ Result<StoredImage> read_colours(const Tiff& tiff, const Layout& layout) {
     if (TIFFReadRGBAImageOriented(tiff.get(), layout.width, layout.height, raster.ptr<std::uint32_t>(),
                                   as_stored, stop_on_error) == 0 ||
         tiff.has_failed())
-        return tiff.damaged();
+        return damaged(tiff);
     StoredImage image;
     cv::cvtColor(raster, image.grey, cv::COLOR_RGBA2GRAY);
     return image;
@@ -350,8 +300,8 @@ bool has_pictures_without_directory(const Tiff& tiff) {
     if (TIFFGetField(tiff.get(), TIFFTAG_IMAGEDESCRIPTION, &text) != 1 || text == nullptr) return false;
     const std::string_view description(text);
     return description.starts_with("ImageJ=") && description.find("\nimages=") != std::string_view::npos &&
-           description.find("\nimages=1\n") == std::string_view::npos &&
-           TIFFLastDirectory(tiff.get()) != 0 && TIFFCurrentDirectory(tiff.get()) == 0;
+           description.find("\nimages=1\n") == std::string_view::npos && TIFFLastDirectory(tiff.get()) != 0 &&
+           TIFFCurrentDirectory(tiff.get()) == 0;
 }
 
 }  // namespace
@@ -369,18 +319,16 @@ Result<std::vector<PageOfFile>> tiff_pages(const char* file) {
             return failure(Reason::device, fmt::format("more pages than the {} that are read", most_pages));
         if (TIFFLastDirectory(tiff.get()) != 0) break;
         if (TIFFReadDirectory(tiff.get()) == 1) continue;
-        pages.push_back({.damage = fmt::format("damaged TIFF: its list of pages is broken off here: {}",
-                                               tiff.why().empty() ? "cut short" : tiff.why())});
+        pages.push_back(
+            {.damage = fmt::format("damaged TIFF: its list of pages is broken off here: {}", tiff.why())});
         break;
     }
     return pages.empty() ? companions : pages;
 }
 
 Result<StoredImage> tiff_page(const char* file, std::uint64_t page) {
-    const Tiff tiff(file);
-    if (!tiff.is_open()) return tiff.damaged();
-    if (page != 0 && TIFFCurrentDirOffset(tiff.get()) != page && TIFFSetSubDirectory(tiff.get(), page) != 1)
-        return tiff.damaged();
+    const Tiff tiff(file, page);
+    if (!tiff.is_open()) return damaged(tiff);
     const Layout layout = layout_of(tiff);
     if (auto reasonable = demand_reasonable(tiff, layout); !reasonable)
         return tl::make_unexpected(reasonable.error());

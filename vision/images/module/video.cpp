@@ -7,6 +7,7 @@
 #include <deque>
 #include <filesystem>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -41,7 +42,20 @@ struct Container {
     Owned<AVFormatContext> format;
     AVStream* stream = nullptr;
     const AVCodec* codec = nullptr;
+    int width = 0, height = 0;  ///< of its pictures
 };
+
+std::vector<AVCodecParameters> parameters_of(const AVFormatContext& format) {
+    std::vector<AVCodecParameters> parameters;
+    for (unsigned k = 0; k < format.nb_streams; ++k) parameters.push_back(*format.streams[k]->codecpar);
+    return parameters;
+}
+
+/// Does no picture of it build on another one?
+bool stands_alone(AVCodecID id) {
+    const AVCodecDescriptor* codec = avcodec_descriptor_get(id);
+    return codec != nullptr && (codec->props & AV_CODEC_PROP_INTRA_ONLY) != 0;
+}
 
 Result<Container> open_container(const char* file) {
     AVDictionary* options = nullptr;
@@ -52,6 +66,7 @@ Result<Container> open_container(const char* file) {
     if (error < 0) return failure(Reason::device, text_of_error(error));
     Container container;
     container.format.reset(opened);
+    const std::vector<AVCodecParameters> before = parameters_of(*opened);
     if (const int unknown = avformat_find_stream_info(opened, nullptr); unknown < 0)
         return failure(Reason::device, text_of_error(unknown));
     const int best = av_find_best_stream(opened, AVMEDIA_TYPE_VIDEO, -1, -1, &container.codec, 0);
@@ -59,6 +74,13 @@ Result<Container> open_container(const char* file) {
     if (best < 0) return failure(Reason::device, "there is no decoder for its stream of pictures");
     container.stream = opened->streams[best];
     const AVCodecParameters& stated = *container.stream->codecpar;
+    container.width = stated.width;
+    container.height = stated.height;
+    const auto number = static_cast<std::size_t>(best);
+    if (number < before.size() && stands_alone(stated.codec_id) && before[number].width > 0) {
+        container.width = before[number].width;  // FFmpeg puts a frame's own in place of what the file states
+        container.height = before[number].height;
+    }
     if (std::int64_t{stated.width} * stated.height > static_cast<std::int64_t>(most_pixels))
         return failure(Reason::device, fmt::format("{} x {} px: at most {} px are read", stated.width,
                                                    stated.height, most_pixels));
@@ -82,7 +104,7 @@ struct Survey {
     std::size_t packets = 0;
     std::size_t without_time = 0;
     bool times_rise = true;
-    int end = AVERROR_EOF;  ///< what ended them
+    int end = AVERROR_EOF;          ///< what ended them
     std::uint64_t bytes_short = 0;  ///< of what the file says that it has
 };
 
@@ -129,14 +151,20 @@ Survey survey(const Container& container, const char* file) {
 }
 
 bool is_turned(AVStream& stream) {
-    const auto* matrix =
-        reinterpret_cast<const std::int32_t*>(av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));
+    const auto* matrix = reinterpret_cast<const std::int32_t*>(
+        av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));
     if (matrix == nullptr) return false;
     return matrix[0] <= 0 || matrix[1] != 0 || matrix[3] != 0 || matrix[4] <= 0;
 }
 
+/// Raw streams, and pictures one behind the other: FFmpeg counts time there by a rate that nobody stated.
+bool has_no_time_stamps(const AVInputFormat& kind) {
+    const std::string_view name(kind.name);
+    return (kind.flags & AVFMT_NOTIMESTAMPS) != 0 || name.ends_with("_pipe") || name.starts_with("image2");
+}
+
 std::string reason_for_no_times(const Container& container, const Survey& survey) {
-    if ((container.format->iformat->flags & AVFMT_NOTIMESTAMPS) != 0) return "the stream has no time stamps";
+    if (has_no_time_stamps(*container.format->iformat)) return "the stream has no time stamps";
     if (survey.without_time > 0)
         return fmt::format("{} of {} frames have no time stamp", survey.without_time, survey.packets);
     return survey.times_rise ? "" : "its time stamps do not rise from frame to frame";
@@ -148,16 +176,16 @@ std::vector<std::string> notes_of(const Container& container, const Survey& surv
     for (unsigned k = 0; k < container.format->nb_streams; ++k)
         if (container.format->streams[k]->codecpar->codec_type == AVMEDIA_TYPE_VIDEO) ++streams;
     if (streams > 1)
-        notes.push_back(fmt::format("stream {} of its {} streams of pictures is read",
-                                    container.stream->index, streams));
+        notes.push_back(
+            fmt::format("stream {} of its {} streams of pictures is read", container.stream->index, streams));
     if (const std::string why = reason_for_no_times(container, survey); !why.empty())
         notes.push_back(fmt::format("no times are taken: {}", why));
     if (is_turned(*container.stream))
         notes.emplace_back("players turn its picture; here pixels are where the stream has them");
     const auto stated = static_cast<std::size_t>(std::max<std::int64_t>(0, container.stream->nb_frames));
     if (survey.end != AVERROR_EOF)
-        notes.push_back(fmt::format("it is cut short after {} frames: {}", survey.packets,
-                                    text_of_error(survey.end)));
+        notes.push_back(
+            fmt::format("it is cut short after {} frames: {}", survey.packets, text_of_error(survey.end)));
     else if (stated > survey.packets)
         notes.push_back(
             fmt::format("it is cut short: {} frames where its header says {}", survey.packets, stated));
@@ -174,10 +202,8 @@ class FfmpegVideo final : public Video {
           decoder_(std::move(decoder)),
           packets_(survey.packets),
           has_times_(reason_for_no_times(container_, survey).empty()),
-          notes_(notes_of(container_, survey)) {
-        const AVCodecDescriptor* codec = avcodec_descriptor_get(decoder_->codec_id);
-        builds_on_others_ = codec == nullptr || (codec->props & AV_CODEC_PROP_INTRA_ONLY) == 0;
-    }
+          notes_(notes_of(container_, survey)),
+          builds_on_others_(!stands_alone(decoder_->codec_id)) {}
 
     std::optional<Picture> next() override {
         while (true) {
@@ -193,9 +219,9 @@ class FfmpegVideo final : public Video {
     std::size_t packets() const override { return packets_; }
     bool has_times() const override { return has_times_; }
     bool has_open_range() const override {
-        const auto* kind = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(container_.stream->codecpar->format));
-        return kind != nullptr &&
-               has_open_range_of(*kind, container_.stream->codecpar->bits_per_raw_sample);
+        const auto* kind =
+            av_pix_fmt_desc_get(static_cast<AVPixelFormat>(container_.stream->codecpar->format));
+        return kind != nullptr && has_open_range_of(*kind, container_.stream->codecpar->bits_per_raw_sample);
     }
     std::vector<std::string> notes() const override { return notes_; }
 
@@ -224,6 +250,9 @@ class FfmpegVideo final : public Video {
     std::optional<Picture> picture() {
         if (frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0)
             return damaged("its data are damaged");
+        if (frame_->width != container_.width || frame_->height != container_.height)
+            return damaged(fmt::format("{} x {} px where the stream has {} x {} px", frame_->width,
+                                       frame_->height, container_.width, container_.height));
         if (frame_->key_frame != 0) builds_on_damage_ = false;
         if (builds_on_damage_) return damaged("it builds on a damaged frame");
         Picture picture;
@@ -245,7 +274,8 @@ class FfmpegVideo final : public Video {
     std::size_t packets_;
     bool has_times_;
     std::vector<std::string> notes_;
-    bool builds_on_others_ = true, builds_on_damage_ = false;
+    bool builds_on_others_;
+    bool builds_on_damage_ = false;
     std::int64_t last_pts_ = std::numeric_limits<std::int64_t>::min();
     Owned<AVPacket> packet_{av_packet_alloc()};
     Owned<AVFrame> frame_{av_frame_alloc()};
