@@ -19,7 +19,7 @@ void must(int result, const char* what) {
 
 AVPixelFormat pixels_of(const Film& film) {
     if (film.codec == "mjpeg") return AV_PIX_FMT_YUVJ420P;
-    if (film.codec == "mpeg4") return AV_PIX_FMT_YUV420P;
+    if (film.codec == "mpeg4" || film.codec == "libx264") return AV_PIX_FMT_YUV420P;
     return film.frames.front().depth() == CV_16U ? AV_PIX_FMT_GRAY16LE : AV_PIX_FMT_GRAY8;
 }
 
@@ -56,9 +56,10 @@ class Writer {
         encoder_->time_base = {film.unit_ms, 1000};
         encoder_->framerate = {1000, film.unit_ms};
         encoder_->global_quality = FF_QP2LAMBDA;
-        encoder_->flags |= AV_CODEC_FLAG_QSCALE;
+        if (film.codec != "libx264") encoder_->flags |= AV_CODEC_FLAG_QSCALE;
         if ((format_->oformat->flags & AVFMT_GLOBALHEADER) != 0)
             encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+        if (film.codec == "libx264") encoder_->max_b_frames = 3;
         must(avcodec_open2(encoder_, codec, nullptr), "encoder");
         stream_ = avformat_new_stream(format_, nullptr);
         must(avcodec_parameters_from_context(stream_->codecpar, encoder_), "stream");

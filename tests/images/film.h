@@ -10,10 +10,11 @@
 namespace fidservo::testing {
 
 struct Film {
-    std::string codec = "ffv1";   ///< ffv1, mjpeg or mpeg4
-    std::string container = {};   ///< by the file's ending, if empty
-    std::vector<cv::Mat> frames;  ///< CV_8UC1, all of one size; for ffv1 CV_16UC1, too. mpeg4's luma has the
-                                  ///< range of television
+    std::string codec = "ffv1";  ///< ffv1, mjpeg, mpeg4 or libx264, of which frames build on later ones
+    std::string container = {};  ///< by the file's ending, if empty
+    /// CV_8UC1, all of one size; for ffv1 CV_16UC1, too. The luma of mpeg4 and libx264 has television's
+    /// range.
+    std::vector<cv::Mat> frames;
     std::vector<std::int64_t> times;  ///< in units of `unit_ms`, one a frame
     int unit_ms = 1;
     bool is_turned = false;  ///< has a display matrix of a quarter turn

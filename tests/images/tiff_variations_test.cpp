@@ -31,7 +31,7 @@ TiffPage drawn_page(std::mt19937_64& random) {
     TiffPage page;
     page.bits = one_of(random, depths);
     page.compression = one_of(random, compressions);
-    page.photometric = static_cast<int>(random() % 3);
+    page.photometric = static_cast<int>(random() % (page.bits <= 8 ? 4 : 3));
     const bool colour = page.photometric == PHOTOMETRIC_RGB;
     page.is_planar = colour && random() % 2 == 0;
     page.is_tiled = random() % 2 == 0;
@@ -56,7 +56,8 @@ double worst_difference(const TiffPage& page, const cv::Mat& frame, int bits) {
                                      : sample[0];
             const int own_bits = page.bits > 8 ? bits : page.bits;
             double grey = 255.0 * std::min(1.0, value / ((1 << own_bits) - 1));
-            if (page.photometric == PHOTOMETRIC_MINISWHITE) grey = 255.0 - grey;
+            if (page.photometric == PHOTOMETRIC_MINISWHITE || page.photometric == PHOTOMETRIC_PALETTE)
+                grey = 255.0 - grey;
             worst = std::max(worst, std::abs(grey - frame.at<unsigned char>(row, column)));
         }
     return worst;

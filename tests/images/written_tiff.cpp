@@ -73,6 +73,12 @@ void write_page(TIFF* tiff, const TiffPage& page) {
     } else {
         TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, page.rows_per_strip);
     }
+    if (page.photometric == PHOTOMETRIC_PALETTE) {  // greys that fall as the index rises
+        std::vector<std::uint16_t> greys(std::size_t{1} << static_cast<unsigned>(page.bits));
+        for (std::size_t k = 0; k < greys.size(); ++k)
+            greys[k] = static_cast<std::uint16_t>(65535 - 65535 * k / (greys.size() - 1));
+        TIFFSetField(tiff, TIFFTAG_COLORMAP, greys.data(), greys.data(), greys.data());
+    }
     write_pixels(tiff, page);
     TIFFWriteDirectory(tiff);
 }

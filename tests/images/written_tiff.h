@@ -13,7 +13,7 @@ struct TiffPage {
     cv::Mat samples{};    ///< CV_16UC1 or CV_16UC3: values below 2^bits
     int bits = 8;         ///< 1, 4, 8, or 9 to 16; not 8 or 16: packed
     int compression = 1;  ///< libtiff's number
-    int photometric = 1;  ///< 0: 0 is white, 1: 0 is black, 2: red, green, blue
+    int photometric = 1;  ///< 0: 0 is white, 1: 0 is black, 2: red, green, blue, 3: by a palette
     bool is_tiled = false;
     bool is_planar = false;   ///< colours in planes
     bool is_reduced = false;  ///< a smaller copy of another page
