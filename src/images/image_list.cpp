@@ -202,15 +202,12 @@ FolderOfImages look_into(const fs::path& folder) {
         const fs::path& path = entry.path();
         const std::string name = path.filename().string();
         std::error_code error;
+        const bool is_file = entry.is_regular_file(error) && !name.starts_with(".");
         if (entry.is_directory(error))
             found.folders.push_back(name);
-        else if (name.starts_with(".") || !entry.is_regular_file(error))
-            found.others.push_back(name);
-        else if (is_named_as_image(path))
-            found.images.push_back(path);
-        else if (is_named_as_video(path))
+        else if (is_file && is_named_as_video(path))
             found.videos.push_back(name);
-        else if (vision::begins_as_an_image(path))
+        else if (is_file && (is_named_as_image(path) || vision::begins_as_an_image(path)))
             found.images.push_back(path);
         else
             found.others.push_back(name);

@@ -100,6 +100,38 @@ TEST(TiffVariations, PagesOfEveryLayout_AreAllRead) {
                             judged_stack);
 }
 
+TEST(Tiff, ReducedCopyOfAPictureElsewhere_IsNotTakenForIt) {
+    const TemporaryFolder folder;
+    std::vector<TiffPage> pages(2);
+    for (TiffPage& page : pages) page.samples = cv::Mat(20, 20, CV_16UC1, cv::Scalar(9));
+    pages[0].is_reduced = true;
+    pages[0].has_subdirectory = true;
+    write_tiff(folder / "raw.dng", "w", pages);
+    ImageFrames frames({folder.path()});
+    ASSERT_EQ(frames.size(), 1U);
+    auto frame = frames.next();
+    EXPECT_FALSE(load(*frame));
+    EXPECT_THAT(frame->damage, HasSubstr("raw.dng: only a reduced copy of its picture is a page"));
+}
+
+TEST(Tiff, JpegInside_IsRead) {
+    const TemporaryFolder folder;
+    for (const int photometric : {PHOTOMETRIC_MINISBLACK, PHOTOMETRIC_YCBCR}) {
+        TiffPage page;
+        page.compression = COMPRESSION_JPEG;
+        page.photometric = photometric;
+        page.rows_per_strip = 16;
+        page.samples.create(48, 64, photometric == PHOTOMETRIC_YCBCR ? CV_16UC3 : CV_16UC1);
+        page.samples.setTo(cv::Scalar(200, 100, 50));
+        testing::write_tiff(folder / "a.tif", "w", {page});
+        const double grey = photometric == PHOTOMETRIC_YCBCR ? 0.299 * 200 + 0.587 * 100 + 0.114 * 50 : 200.0;
+        ImageFrames frames({folder / "a.tif"});
+        auto frame = frames.next();
+        ASSERT_TRUE(load(*frame)) << frame->damage;
+        EXPECT_NEAR(cv::mean(frame->decoded)[0], grey, 2.0);
+    }
+}
+
 TEST(Tiff, PageThatIsDamaged_IsLeftOutAndNamed) {
     const TemporaryFolder folder;
     std::mt19937_64 random(3);

@@ -65,8 +65,11 @@ void write_page(TIFF* tiff, const TiffPage& page) {
     TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, page.photometric);
     TIFFSetField(tiff, TIFFTAG_COMPRESSION, page.compression);
     TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, page.is_planar ? PLANARCONFIG_SEPARATE : PLANARCONFIG_CONTIG);
+    if (page.photometric == PHOTOMETRIC_YCBCR) TIFFSetField(tiff, TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
     if (page.orientation != 1) TIFFSetField(tiff, TIFFTAG_ORIENTATION, page.orientation);
     if (page.is_reduced) TIFFSetField(tiff, TIFFTAG_SUBFILETYPE, FILETYPE_REDUCEDIMAGE);
+    const std::uint64_t place_to_be_filled = 0;
+    if (page.has_subdirectory) TIFFSetField(tiff, TIFFTAG_SUBIFD, 1, &place_to_be_filled);
     if (page.is_tiled) {
         TIFFSetField(tiff, TIFFTAG_TILEWIDTH, 32);
         TIFFSetField(tiff, TIFFTAG_TILELENGTH, 32);

@@ -15,8 +15,9 @@ struct TiffPage {
     int compression = 1;  ///< libtiff's number
     int photometric = 1;  ///< 0: 0 is white, 1: 0 is black, 2: red, green, blue, 3: by a palette
     bool is_tiled = false;
-    bool is_planar = false;   ///< colours in planes
-    bool is_reduced = false;  ///< a smaller copy of another page
+    bool is_planar = false;         ///< colours in planes
+    bool is_reduced = false;        ///< a smaller copy of another page
+    bool has_subdirectory = false;  ///< the page after it is below it
     int orientation = 1;
     int rows_per_strip = 7;
 };

@@ -24,7 +24,9 @@ Result<cv::Mat> read_image(const char* file) {
     } catch (const cv::Exception&) {
         return failure(Reason::device, "its header is damaged");
     }
-    if (grey.empty()) return failure(Reason::device, "it is damaged, or of no format that is known");
+    if (grey.empty())
+        return failure(Reason::device,
+                       is_image(file) ? "it is damaged" : "it is of no format of images that is read");
     if (grey.type() != CV_8UC1 && grey.type() != CV_16UC1)
         return failure(Reason::device,
                        "its samples are not whole numbers of 8 or 16 bits: save it with those");

@@ -28,6 +28,13 @@ bool is_companion(const Tiff& tiff) {
            old_kind == OFILETYPE_REDUCEDIMAGE;
 }
 
+/// Has the page directories below it, where cameras' raw files (TIFF/EP, DNG) keep the picture?
+bool has_directories_of_its_own(const Tiff& tiff) {
+    std::uint16_t count = 0;
+    const std::uint64_t* places = nullptr;
+    return TIFFGetField(tiff.get(), TIFFTAG_SUBIFD, &count, &places) == 1 && count > 0;
+}
+
 struct Layout {
     std::uint32_t width = 0, height = 0;
     int bits = 1, samples = 1;
@@ -98,7 +105,7 @@ Status demand_reasonable(const Tiff& tiff, const Layout& layout) {
             fmt::format("samples of {} bits{} have no white that is known: save it with 8 or 16 bits",
                         layout.bits, layout.format == SAMPLEFORMAT_IEEEFP ? ", floating-point," : ""));
     const std::uint64_t most = most_out_of_a_byte(layout.compression);
-    const auto bits = static_cast<std::uint64_t>(layout.bits * layout.samples);
+    const auto bits = static_cast<std::uint64_t>(layout.bits) * static_cast<std::uint64_t>(layout.samples);
     if (most > 0 && pixels / 8 * bits / most > tiff.file_bytes())
         return failure(Reason::device,
                        fmt::format("damaged TIFF: {} are not in {} bytes", size, tiff.file_bytes()));
@@ -161,7 +168,8 @@ class PageSamples {
 
     /// Whether rows of so many pixels are in so many bytes, as they would be if no tag contradicts another.
     bool holds(tmsize_t bytes, std::uint64_t pixels) const {
-        const auto bits = static_cast<std::uint64_t>(layout_.bits * samples_in_a_plane());
+        const auto bits =
+            static_cast<std::uint64_t>(layout_.bits) * static_cast<std::uint64_t>(samples_in_a_plane());
         return bytes > 0 && static_cast<std::uint64_t>(bytes) >= (pixels * bits + 7) / 8;
     }
 
@@ -310,7 +318,9 @@ Result<std::vector<PageOfFile>> tiff_pages(const char* file) {
     const Tiff tiff(file);
     if (!tiff.is_open()) return std::vector<PageOfFile>{{.damage = "damaged TIFF: " + tiff.why()}};
     std::vector<PageOfFile> pages, companions;
+    bool holds_its_picture_elsewhere = false;
     while (true) {
+        holds_its_picture_elsewhere = holds_its_picture_elsewhere || has_directories_of_its_own(tiff);
         const bool companion = is_companion(tiff);
         (companion ? companions : pages)
             .push_back({.page = TIFFCurrentDirOffset(tiff.get()),
@@ -323,7 +333,12 @@ Result<std::vector<PageOfFile>> tiff_pages(const char* file) {
             {.damage = fmt::format("damaged TIFF: its list of pages is broken off here: {}", tiff.why())});
         break;
     }
-    return pages.empty() ? companions : pages;
+    if (!pages.empty()) return pages;
+    if (holds_its_picture_elsewhere)
+        return std::vector<PageOfFile>{{.damage = "only a reduced copy of its picture is a page; the picture "
+                                                  "itself (a camera's raw data, say) "
+                                                  "is not read"}};
+    return companions;
 }
 
 Result<StoredImage> tiff_page(const char* file, std::uint64_t page) {
