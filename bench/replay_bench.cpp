@@ -85,7 +85,7 @@ struct Round {
 };
 
 void decode_and_detect(const fs::path& input, Round& round) {
-    ReplayFrames frames({input});
+    ImageFrames frames({input});
     vision::TagDetector machine(vision::machine_camera_options()), thorough(vision::thorough_options());
     const double begin_s = core_time_s(CLOCK_THREAD_CPUTIME_ID);
     while (const auto frame = frames.next()) {
@@ -100,7 +100,7 @@ void replay_all(const fs::path& input, const fs::path& out, unsigned cores, Roun
     fs::create_directories(out);
     const double begin_core_s = core_time_s(CLOCK_PROCESS_CPUTIME_ID);
     const auto begin = std::chrono::steady_clock::now();
-    ReplayFrames frames({input});
+    ImageFrames frames({input});
     replay(frames, tag_side_mm, out, cores);
     round.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     round.core_s = core_time_s(CLOCK_PROCESS_CPUTIME_ID) - begin_core_s;

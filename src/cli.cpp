@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <string>
 #include <string_view>
@@ -79,7 +78,6 @@ int parse_and_run(CLI::App& app, int& exit_code, int argc, const char* const* ar
 void silence_libraries() {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
-    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
 }
 
 /// Notes go to stderr: stdout is for results, which scripts read.

@@ -1,5 +1,5 @@
 #pragma once
-// The boundary to a camera: V4L2, simulated, or images on disk.
+// The boundary to a camera: V4L2 or simulated.
 #include "core/result.h"
 #include "core/time.h"
 
@@ -16,7 +16,7 @@ struct Frame {
     TimeNs time_ns = 0;     ///< middle of the exposure
     TimeNs arrival_ns = 0;  ///< when the program could first have it
     std::uint64_t sequence = 0;
-    std::string source;  ///< file name, where there is one
+    std::string source;  ///< file name, of an image on disk
 };
 
 /// What became of the frames that a camera took.

@@ -17,6 +17,7 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace fidservo {
 
@@ -132,6 +133,7 @@ int calibrate_camera(const CalibrateCameraOptions& options) {
                                      options.rig_file.string()));
     const CameraTarget target = target_of(options, rig);
     const CalibrationImages images = read_calibration_images(options.inputs, target);
+    for (const std::string& note : images.notes) spdlog::info("{}", note);
 
     calib::ImageCalibrationOptions how;
     how.lens.width_px = images.width_px;

@@ -1,8 +1,9 @@
 #include "src/calibrate/camera_images.h"
 
 #include "core/input_error.h"
-#include "src/replay/images.h"
-#include "src/replay/ordered_work.h"
+#include "src/images/image_frames.h"
+#include "src/images/image_tally.h"
+#include "src/images/ordered_work.h"
 #include "vision/tag_detector.h"
 
 #include <algorithm>
@@ -99,7 +100,8 @@ class Collector {
 
 CalibrationImages read_calibration_images(const std::vector<std::filesystem::path>& inputs,
                                           const CameraTarget& target) {
-    ReplayFrames frames(inputs);
+    ImageFrames frames(inputs, {.one_range = true});
+    ImageTally tally(frames.missing());
     CalibrationImages images;
     Collector collector(target, images);
     const auto options = [&](bool thorough) {
@@ -110,16 +112,24 @@ CalibrationImages read_calibration_images(const std::vector<std::filesystem::pat
     };
     const auto make_worker = [&] {
         return [machine = vision::TagDetector(options(false)),
-                thorough = vision::TagDetector(options(true))](const ReplayFrame& frame) mutable {
-            calib::TargetImage image{frame.name, decode(frame), {}};
+                thorough = vision::TagDetector(options(true))](ImageFrame frame) mutable {
+            if (!load(frame)) return std::pair(std::move(frame), calib::TargetImage{});
+            calib::TargetImage image{frame.name, frame.decoded, {}};
             vision::TagDetector& detector = frame.from_recording ? machine : thorough;
             image.found = detector.detect(image.grey, frame.time_ns.value_or(0));
-            return image;
+            return std::pair(std::move(frame), std::move(image));
         };
     };
-    run_in_order([&] { return frames.next(); }, make_worker,
-                 [&](const calib::TargetImage& image) { collector.take(image); },
+    const auto take = [&](const std::pair<ImageFrame, calib::TargetImage>& result) {
+        tally.add(result.first);
+        if (result.first.damage.empty()) collector.take(result.second);
+    };
+    run_in_order([&] { return frames.next(); }, make_worker, take,
                  std::max(1u, std::thread::hardware_concurrency()));
+    if (tally.read() == 0) throw InputError(tally.first_reason());
+    images.notes = frames.notes();
+    for (const std::string& note : tally.notes()) images.notes.push_back(note);
+    if (tally.read() < tally.all()) images.notes.push_back(tally.text());
     collector.end();
     if (images.views.empty())
         throw InputError(fmt::format("{}: no tag of the target ({}) is in any of its {} image{}",
@@ -129,7 +139,7 @@ CalibrationImages read_calibration_images(const std::vector<std::filesystem::pat
 }
 
 std::vector<cv::Mat> read_burst(const std::filesystem::path& folder) {
-    ReplayFrames frames({folder});
+    ImageFrames frames({folder}, {.one_range = true});
     std::vector<cv::Mat> burst;
     while (const auto frame = frames.next()) {
         burst.push_back(decode(*frame).clone());

@@ -4,6 +4,7 @@
 #include "src/calibrate/camera_target.h"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <opencv2/core/mat.hpp>
@@ -16,14 +17,16 @@ struct CalibrationImages {
     std::size_t images = 0;
     std::size_t without_target = 0;
     int width_px = 0, height_px = 0;
+    std::vector<std::string> notes{};  ///< what was passed over or left out, one line each
 };
 
-/// Finds the target in all images of folders, recordings and videos. Throws InputError: an input that cannot
-/// be read, images of different sizes, tags that the target does not have (a wrong grid), no tag at all.
+/// Finds the target in all images of folders, recordings and videos; those that are damaged or missing are
+/// left out. Grey levels have one range in all of them. Throws InputError: an input that cannot be read,
+/// images of different sizes, tags that the target does not have (a wrong grid), no tag at all.
 CalibrationImages read_calibration_images(const std::vector<std::filesystem::path>& inputs,
                                           const CameraTarget& target);
 
-/// All images of a folder as one burst. Throws InputError.
+/// All images of a folder as one burst; each has to be readable. Throws InputError.
 std::vector<cv::Mat> read_burst(const std::filesystem::path& folder);
 
 }  // namespace fidservo

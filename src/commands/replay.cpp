@@ -6,6 +6,7 @@
 #include "src/commands/commands.h"
 #include "src/config/rig_file.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace fidservo {
 
@@ -25,25 +27,43 @@ struct ReplayOptions {
     std::filesystem::path rig_file;
     bool rig_is_given = false;
     std::filesystem::path out = "replay-out";
+    std::string name_times;
 };
+
+void print_notes(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) spdlog::info("{}", note);
+}
+
+NameTimes name_times_of(const std::string& word) {
+    constexpr std::pair<const char*, NameTimes> words[] = {
+        {"", NameTimes::automatic}, {"none", NameTimes::none}, {"s", NameTimes::s},
+        {"ms", NameTimes::ms},      {"us", NameTimes::us},     {"ns", NameTimes::ns}};
+    const auto known = std::ranges::find(words, word, [](const auto& one) { return one.first; });
+    if (known == std::end(words))
+        throw InputError(fmt::format("--name-times: {}: must be none, s, ms, us or ns", word));
+    return known->second;
+}
 
 int run_replay(const ReplayOptions& options) {
     const Rig rig = load_rig(options.rig_file);
     if (!rig.fiducials)
         throw InputError(fmt::format("{}: fiducials: missing: their side_mm is the scale of displacements",
                                      options.rig_file.string()));
-    ReplayFrames frames(options.inputs);
+    ImageFrames frames(options.inputs, {.name_times = name_times_of(options.name_times)});
+    print_notes(frames.notes());
     make_output_folder(options.out);
-    try {
-        const ReplayCount count = replay(frames, rig.fiducials->side_mm, options.out,
-                                         std::max(1u, std::thread::hardware_concurrency()),
-                                         options.rig_is_given ? rig.camera : std::nullopt);
-        fmt::print("{} tags in {} images: {}, {}\n", count.tags, count.images,
-                   (options.out / "detections.csv").string(), (options.out / "displacements.csv").string());
-    } catch (const InputError&) {
-        std::filesystem::remove_all(options.out);
-        throw;
+    const ReplayCount count =
+        replay(frames, rig.fiducials->side_mm, options.out, std::max(1u, std::thread::hardware_concurrency()),
+               options.rig_is_given ? rig.camera : std::nullopt);
+    print_notes(count.images.notes());
+    if (count.images.read() == 0) {
+        std::filesystem::remove_all(options.out);  // its tables have no row
+        throw InputError(count.images.all() == 1 ? count.images.first_reason()
+                                                 : fmt::format("{}; the first: {}", count.images.text(),
+                                                               count.images.first_reason()));
     }
+    fmt::print("{} tags in {}: {}, {}\n", count.tags, count.images.text(),
+               (options.out / "detections.csv").string(), (options.out / "displacements.csv").string());
     return exit_done;
 }
 
@@ -56,10 +76,16 @@ void add_replay(CLI::App& app, int& exit_code) {
         "Find the fiducials in images that exist; writes detections.csv (px) and displacements.csv (um)");
     command
         ->add_option("INPUT", options->inputs,
-                     "Recording folders (EuRoC layout), image folders, videos, images")
+                     "Recording folders (EuRoC layout), image folders, videos, images, stacks (TIFF)")
         ->required()
         ->option_text("...");
     add_rig_option(*command, options->rig_file);
+    command
+        ->add_option(
+            "--name-times", options->name_times,
+            "What the images' names in a folder are times in; else taken where they have 19 digits (ns) "
+            "or 10 and a fraction (s)")
+        ->type_name("none|s|ms|us|ns");
     command->add_option("--out", options->out, "New folder for the results")
         ->type_name("DIR")
         ->capture_default_str();

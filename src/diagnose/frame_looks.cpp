@@ -1,8 +1,9 @@
 #include "src/diagnose/frame_looks.h"
 
-#include "core/input_error.h"
 #include "gap/evidence/parallel.h"
-#include "src/replay/images.h"
+#include "src/images/grey_range.h"
+#include "src/images/image_frame.h"
+#include "vision/images/image_file.h"
 #include "vision/tag_appearance.h"
 
 #include <algorithm>
@@ -45,18 +46,25 @@ struct Task {
     std::size_t recording;
     std::filesystem::path file;
     Detections detections;
+    int bits = 16;  ///< of samples of more than 8 bits, in all frames of the recording
     std::vector<TagAppearance> looks = {};
     bool is_readable = true;
 };
 
 void measure(Task& task) {
-    task.is_readable = std::filesystem::exists(task.file);
-    if (!task.is_readable) return;
-    try {
-        task.looks = looks_of(task.detections, decode({.name = task.file.string(), .file = task.file}));
-    } catch (const InputError&) {
-        task.is_readable = false;
-    }
+    ImageFrame frame{.name = task.file.string(), .file = task.file, .bits = task.bits};
+    task.is_readable = load(frame);
+    if (task.is_readable) task.looks = looks_of(task.detections, frame.decoded);
+}
+
+/// One range for the frames of a recording.
+void decide_bits(std::span<Task> tasks) {
+    std::vector<DeepImage> deep;
+    for (const Task& task : tasks)
+        if (const auto pages = vision::list_pages(task.file); pages && pages->front().is_deep)
+            deep.push_back({task.file, pages->front().page});
+    const int bits = levels_of(deep).bits();
+    for (Task& task : tasks) task.bits = bits;
 }
 
 }  // namespace
@@ -120,11 +128,13 @@ std::vector<std::string> measure_frames(std::span<Recording> recordings,
             continue;
         }
         const std::map<TimeNs, Detections> detections = by_frame(recording);
+        const std::size_t first = tasks.size();
         for (const FrameName& frame :
              chosen_frames(recording, most_frames / static_cast<std::size_t>(with_frames)))
             tasks.push_back({.recording = k,
                              .file = folders[k] / "cam0" / "data" / frame.filename,
                              .detections = detections.at(frame.time_ns)});
+        decide_bits(std::span(tasks).subspan(first));
     }
     gap::parallel_for(tasks.size(), [&](std::size_t k) { measure(tasks[k]); });
     std::map<std::size_t, std::size_t> missing;

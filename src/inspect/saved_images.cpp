@@ -3,7 +3,9 @@
 #include "core/camera_parameters.h"
 #include "core/failure.h"
 #include "core/input_error.h"
-#include "vision/image_sequence.h"
+#include "src/images/grey_range.h"
+#include "src/images/image_list.h"
+#include "vision/images/image_file.h"
 
 #include <string_view>
 
@@ -31,8 +33,13 @@ SavedImages::SavedImages(const fs::path& folder, const Recipe& recipe) : folder_
     if (fs::is_directory(folder / "images", error)) folder_ = folder / "images";
     if (!fs::is_directory(folder_, error))
         throw InputError(fmt::format("--camera images:{}: no such folder", folder.string()));
-    for (const auto& entry : fs::directory_iterator(folder_))
-        if (vision::is_image_file(entry.path())) files_[entry.path().stem().string()] = entry.path();
+    std::vector<DeepImage> deep;
+    for (const fs::path& file : look_into(folder_).images) {
+        files_[file.stem().string()] = file;
+        const auto pages = vision::list_pages(file);
+        if (pages && pages->front().is_deep) deep.push_back({file, pages->front().page});
+    }
+    bits_ = levels_of(deep).bits();
     for (const Site& site : recipe.sites)
         for (const View& view : site.views)
             if (find(site.tag_id, view.name) != nullptr) return;
@@ -57,13 +64,16 @@ Result<vision::Frame> SavedImages::image_of(const Site& site, const View& view,
         return failure(
             Reason::no_image,
             fmt::format("no image {} in {}", stem_of(site.tag_id, false, view.name), folder_.string()));
-    auto frame = vision::load_frame({.file = *file});
-    if (!frame) throw InputError(frame.error().text);
+    const auto stored = vision::read_stored(*file);
+    if (!stored) throw InputError(stored.error().text);
     const CameraGeometry& geometry = camera.geometry;
-    if (frame->image.cols != geometry.width_px || frame->image.rows != geometry.height_px)
+    if (stored->grey.cols != geometry.width_px || stored->grey.rows != geometry.height_px)
         throw InputError(fmt::format("{}: {} x {} px; the rig's camera has {} x {} px", file->string(),
-                                     frame->image.cols, frame->image.rows, geometry.width_px,
+                                     stored->grey.cols, stored->grey.rows, geometry.width_px,
                                      geometry.height_px));
+    vision::Frame frame;
+    frame.image = vision::to_8_bits(*stored, bits_);
+    frame.source = file->filename().string();
     return frame;
 }
 

@@ -2,6 +2,7 @@
 // `--camera images:DIR`: the images of an earlier run measured again, by today's recipe; nothing moves.
 #include "core/result.h"
 #include "src/inspect/measure/site_measurement.h"
+#include "vision/camera.h"
 
 #include <filesystem>
 #include <map>
@@ -30,6 +31,7 @@ class SavedImages {
 
     std::filesystem::path folder_;
     std::map<std::string, std::filesystem::path> files_;  ///< by name without the extension
+    int bits_ = 16;                                       ///< of samples of more than 8 bits, in all of them
 };
 
 /// One site, its images measured; those that are missing or show no fiducial are `not_measured`.

@@ -3,11 +3,11 @@
 #include "core/camera_parameters.h"
 #include "core/input_error.h"
 #include "core/result.h"
+#include "src/images/ordered_work.h"
 #include "src/progress.h"
 #include "src/recording/durable_file.h"
 #include "src/recording/layout.h"
 #include "src/recording/row_format.h"
-#include "src/replay/ordered_work.h"
 #include "src/replay/tag_finder.h"
 #include "vision/displacement.h"
 
@@ -93,22 +93,28 @@ class ReplayTables {
 
 }  // namespace
 
-ReplayCount replay(ReplayFrames& frames, double tag_side_mm, const std::filesystem::path& folder,
+ReplayCount replay(ImageFrames& frames, double tag_side_mm, const std::filesystem::path& folder,
                    unsigned threads, const std::optional<CameraParameters>& camera) {
     const OpenCvInCallersThread one_image_a_core;
     std::map<std::size_t, vision::DisplacementTracker> trackers;  // by series
     ReplayTables tables(folder, frames.is_one_timed_series());
     Progress progress("images", frames.size());
-    ReplayCount count;
-    run_in_order([&] { return frames.next(); }, [&] { return TagFinder(camera); },
-                 [&](const FrameResult& result) {
-                     auto& tracker = trackers.try_emplace(result.frame.series, tag_side_mm).first->second;
-                     tables.add(result, tracker.add(result.refined));
-                     ++count.images;
-                     count.tags += result.tags.size();
-                     progress.advance();
-                 },
-                 threads);
+    ReplayCount count{ImageTally(frames.missing())};
+    const auto make_worker = [&] {
+        return [finder = TagFinder(camera)](ImageFrame frame) mutable {
+            return load(frame) ? finder(std::move(frame))
+                               : FrameResult{.frame = std::move(frame), .tags = {}, .refined = {}};
+        };
+    };
+    const auto take = [&](const FrameResult& result) {
+        count.images.add(result.frame);
+        progress.advance();
+        if (!result.frame.damage.empty()) return;
+        auto& tracker = trackers.try_emplace(result.frame.series, tag_side_mm).first->second;
+        tables.add(result, tracker.add(result.refined));
+        count.tags += result.tags.size();
+    };
+    run_in_order([&] { return frames.next(); }, make_worker, take, threads);
     tables.close();
     progress.finish();
     return count;

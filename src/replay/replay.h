@@ -1,6 +1,7 @@
 #pragma once
 #include "core/camera_parameters.h"
-#include "src/replay/images.h"
+#include "src/images/image_frames.h"
+#include "src/images/image_tally.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -9,17 +10,17 @@
 namespace fidservo {
 
 struct ReplayCount {
-    std::size_t images = 0;
+    ImageTally images;
     std::size_t tags = 0;
 };
 
 /// Finds the tags of all frames on `threads` cores, and writes detections.csv and displacements.csv into a
 /// folder that exists, in the frames' order. One timed series gives files with times, as in a recording;
 /// anything else has the image's name in the first column instead. Displacements are those of
-/// vision/displacement.h, counted from each series' own first frames. Throws InputError on a frame that
-/// cannot be read, RunFault if the disk fails.
+/// vision/displacement.h, counted from each series' own first frames. A frame that cannot be read is left
+/// out; the count names it. Throws RunFault if the disk fails.
 /// @param camera  that took the frames of its size, if it is known
-ReplayCount replay(ReplayFrames& frames, double tag_side_mm, const std::filesystem::path& folder,
+ReplayCount replay(ImageFrames& frames, double tag_side_mm, const std::filesystem::path& folder,
                    unsigned threads, const std::optional<CameraParameters>& camera = {});
 
 }  // namespace fidservo

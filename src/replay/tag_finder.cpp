@@ -24,7 +24,7 @@ vision::RefinementOptions refinement_for(const std::optional<CameraParameters>& 
 TagFinder::TagFinder(const std::optional<CameraParameters>& camera)
     : camera_(camera), machine_(vision::machine_camera_options()), thorough_(vision::thorough_options()) {}
 
-std::vector<TagDetection> TagFinder::find(const cv::Mat& image, const ReplayFrame& frame) {
+std::vector<TagDetection> TagFinder::find(const cv::Mat& image, const ImageFrame& frame) {
     const TimeNs time_ns = frame.time_ns.value_or(0);
     if (!frame.from_recording) return thorough_.detect(image, time_ns);
     std::vector<TagDetection> tags;
@@ -37,7 +37,7 @@ std::vector<TagDetection> TagFinder::find(const cv::Mat& image, const ReplayFram
     return tags;
 }
 
-FrameResult TagFinder::operator()(ReplayFrame frame) {
+FrameResult TagFinder::operator()(ImageFrame frame) {
     const cv::Mat image = decode(frame);
     FrameResult result{.frame = {}, .tags = find(image, frame), .refined = {}};
     const vision::RefinementOptions options = refinement_for(camera_, image);

@@ -2,7 +2,7 @@
 // From a frame to its fiducials, as precise as they can be had.
 #include "core/camera_parameters.h"
 #include "core/detection.h"
-#include "src/replay/images.h"
+#include "src/images/image_frame.h"
 #include "vision/tag_detector.h"
 #include "vision/tag_refinement.h"
 
@@ -12,7 +12,7 @@
 namespace fidservo {
 
 struct FrameResult {
-    ReplayFrame frame;                        ///< without its image
+    ImageFrame frame;                         ///< without its image
     std::vector<TagDetection> tags;           ///< all, with refined corners where there are any
     std::vector<vision::RefinedTag> refined;  ///< those whose border is large and clear enough to be measured
 };
@@ -25,10 +25,10 @@ class TagFinder {
   public:
     explicit TagFinder(const std::optional<CameraParameters>& camera = {});
     /// Throws InputError if the frame cannot be read.
-    FrameResult operator()(ReplayFrame frame);
+    FrameResult operator()(ImageFrame frame);
 
   private:
-    std::vector<TagDetection> find(const cv::Mat& image, const ReplayFrame& frame);
+    std::vector<TagDetection> find(const cv::Mat& image, const ImageFrame& frame);
 
     std::optional<CameraParameters> camera_;
     vision::TagDetector machine_;

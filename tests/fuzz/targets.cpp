@@ -14,8 +14,10 @@
 #include "src/recording/reader.h"
 #include "src/simulation/experiment_file.h"
 #include "tests/inspect/small_recipe.h"
-#include "vision/image_sequence.h"
+#include "vision/images/image_file.h"
+#include "vision/images/media.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -113,7 +115,24 @@ void read_camera_target(std::string_view bytes) {
 
 void read_image(std::string_view bytes) {
     const fs::path file = folder().write("image.png", bytes);
-    (void)vision::load_frame({file, 0, false, 0});
+    (void)vision::read_grey(file);
+}
+
+void read_stack(std::string_view bytes) {
+    constexpr std::size_t most_pages_tried = 20;
+    const fs::path file = folder().write("stack.tif", bytes);
+    const auto pages = vision::list_pages(file);
+    if (!pages) return;
+    for (std::size_t k = 0; k < std::min(most_pages_tried, pages->size()); ++k)
+        (void)vision::read_stored(file, (*pages)[k].page);
+}
+
+void read_video(std::string_view bytes) {
+    constexpr int most_frames_tried = 50;
+    const auto video = vision::open_video(folder().write("video", bytes));
+    if (!video) return;
+    for (int k = 0; k < most_frames_tried; ++k)
+        if (!(*video)->next()) return;
 }
 
 void read_table(std::string_view bytes) {

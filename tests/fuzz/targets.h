@@ -19,6 +19,9 @@ void read_camera_info(std::string_view bytes);
 /// kalibr's file of a calibration target.
 void read_camera_target(std::string_view bytes);
 void read_image(std::string_view bytes);
+/// The pages of a TIFF.
+void read_stack(std::string_view bytes);
+void read_video(std::string_view bytes);
 /// A text table as `identify --table` reads it, with and without what its options say, and a table of
 /// first-order descending curves.
 void read_table(std::string_view bytes);
@@ -40,6 +43,8 @@ inline constexpr std::array targets{
     NamedTarget{"camera_info", read_camera_info},
     NamedTarget{"camera_target", read_camera_target},
     NamedTarget{"image", read_image},
+    NamedTarget{"stack", read_stack},
+    NamedTarget{"video", read_video},
     NamedTarget{"table", read_table},
     NamedTarget{"frame_index", read_frame_index},
     NamedTarget{"journal", read_journal},

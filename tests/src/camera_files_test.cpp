@@ -80,8 +80,22 @@ TEST(CameraFiles, ModelsThatAreNotRead_AreNamed) {
                 HasSubstr("has 3 coefficients; allowed: none"));
     EXPECT_THAT(refusal_of(ros_file("", "  rows: 2\n  cols: 2\n  data: [1, 0, 0, 0]\n")),
                 HasSubstr("one row or one column"));
-    EXPECT_THAT(refusal_of(ros_file("fisheye_model: 1\n", four)),
-                HasSubstr("fisheye_model: 1: this distortion model is not supported"));
+}
+
+TEST(CameraFiles, EquidistantLens_IsReadAsEachProgramNamesIt) {
+    const std::string four = "  rows: 4\n  cols: 1\n  data: [-0.03, 0.01, 1e-3, 2e-3]\n";
+    const std::string pinhole =
+        "camera_model: pinhole\nintrinsics: [430.25, 430.5, 311.5, 221.0]\nresolution: [640, 480]\n";
+    for (const CameraInfo& info :
+         {info_of(ros_file("distortion_model: equidistant\n", four)),
+          info_of(ros_file("fisheye_model: 1\n", four)),
+          info_of(pinhole +
+                  "distortion_model: equidistant\ndistortion_coefficients: [-0.03, 0.01, 1e-3, 2e-3]\n")}) {
+        EXPECT_EQ(info.distortion.model, LensModel::equidistant);
+        EXPECT_EQ(numbers_of(info.distortion), (std::vector<double>{-0.03, 0.01, 1e-3, 2e-3}));
+    }
+    EXPECT_THAT(refusal_of(ros_file("fisheye_model: 1\n", "  rows: 1\n  cols: 5\n  data: [0, 0, 0, 0, 0]\n")),
+                HasSubstr("has 5 coefficients; allowed of an equidistant lens"));
 }
 
 TEST(CameraFiles, MatrixOfAnotherImage_IsRefused) {

@@ -9,9 +9,26 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <opencv2/core.hpp>
 #include <turbojpeg.h>
 
 namespace fidservo::vision {
+namespace {
+
+/// Ink is stored inverted: 255 is none. What the colours leave of the light, black takes its share of.
+cv::Mat luma_of_print(const cv::Mat& inks) {
+    constexpr double red = 0.299, green = 0.587, blue = 0.114, none = 255.0;
+    cv::Mat grey(inks.size(), CV_8UC1);
+    for (int row = 0; row < inks.rows; ++row)
+        for (int column = 0; column < inks.cols; ++column) {
+            const auto& ink = inks.at<cv::Vec4b>(row, column);
+            const double colours = red * ink[0] + green * ink[1] + blue * ink[2];
+            grey.at<unsigned char>(row, column) = cv::saturate_cast<unsigned char>(colours * ink[3] / none);
+        }
+    return grey;
+}
+
+}  // namespace
 
 struct JpegDecoder::Impl {
     tjhandle turbo = tjInitDecompress();
@@ -25,20 +42,10 @@ struct JpegDecoder::Impl {
     }
 };
 
-bool is_jpeg_of_luma(std::span<const std::byte> bytes) {
+bool is_jpeg(std::span<const std::byte> bytes) {
     constexpr std::byte signature[] = {std::byte{0xff}, std::byte{0xd8}, std::byte{0xff}};
-    if (bytes.size() < std::size(signature) ||
-        !std::equal(std::begin(signature), std::end(signature), bytes.begin()))
-        return false;
-    const std::unique_ptr<void, int (*)(tjhandle)> turbo(tjInitDecompress(), &tjDestroy);
-    FIDSERVO_DEMAND(turbo != nullptr);
-    int width = 0;
-    int height = 0;
-    int subsampling = 0;
-    int colours = 0;
-    const bool header = tjDecompressHeader3(turbo.get(), reinterpret_cast<const unsigned char*>(bytes.data()),
-                                            bytes.size(), &width, &height, &subsampling, &colours) == 0;
-    return !header || (colours != TJCS_CMYK && colours != TJCS_YCCK);
+    return bytes.size() >= std::size(signature) &&
+           std::equal(std::begin(signature), std::end(signature), bytes.begin());
 }
 
 JpegDecoder::JpegDecoder() : impl_(std::make_unique<Impl>()) {
@@ -58,13 +65,15 @@ Result<cv::Mat> JpegDecoder::decode(std::span<const std::byte> jpeg) {
     if (tjDecompressHeader3(impl_->turbo, data, jpeg.size(), &width, &height, &subsampling, &colours) != 0)
         return impl_->damaged();
     if (static_cast<std::size_t>(width) * static_cast<std::size_t>(height) > most_pixels)
-        return failure(Reason::device, fmt::format("damaged JPEG: {} x {} px", width, height));
-    cv::Mat grey(height, width, CV_8UC1);
+        return failure(Reason::device,
+                       fmt::format("{} x {} px: at most {} px are read", width, height, most_pixels));
+    const bool for_print = colours == TJCS_CMYK || colours == TJCS_YCCK;
+    cv::Mat pixels(height, width, for_print ? CV_8UC4 : CV_8UC1);
     // Not TJFLAG_STOPONWARNING: what is wrong at the end of the data is said as well without it.
-    if (tjDecompress2(impl_->turbo, data, jpeg.size(), grey.data, width, static_cast<int>(grey.step[0]),
-                      height, TJPF_GRAY, TJFLAG_ACCURATEDCT) != 0)
+    if (tjDecompress2(impl_->turbo, data, jpeg.size(), pixels.data, width, static_cast<int>(pixels.step[0]),
+                      height, for_print ? TJPF_CMYK : TJPF_GRAY, TJFLAG_ACCURATEDCT) != 0)
         return impl_->damaged();
-    return grey;
+    return for_print ? luma_of_print(pixels) : pixels;
 }
 
 }  // namespace fidservo::vision

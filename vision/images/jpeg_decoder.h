@@ -10,10 +10,10 @@
 
 namespace fidservo::vision {
 
-/// Is this a JPEG whose first channel is the luma: grey or YCbCr? Those for print (CMYK) are not.
-bool is_jpeg_of_luma(std::span<const std::byte> bytes);
+bool is_jpeg(std::span<const std::byte> bytes);
 
-/// JPEG to grey: the luma alone is decoded. A frame without Huffman tables has the standard's, as in
+/// JPEG to grey: of YCbCr the luma alone is decoded; those for print (CMYK, inverted as all programs write
+/// it) become the luma of their red, green and blue. A frame without Huffman tables has the standard's, as in
 /// motion-JPEG. Single-threaded.
 class JpegDecoder {
   public:

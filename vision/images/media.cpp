@@ -47,30 +47,46 @@ Loaded load() {
     return {nullptr, fmt::format("there is no {} beside the program's libraries", name)};
 }
 
-Result<const MediaModule*> media(const std::filesystem::path& wanted_for) {
+Result<const MediaModule*> media() {
     static const Loaded loaded = load();
     if (loaded.module != nullptr) return loaded.module;
-    return failure(Reason::device, fmt::format("{}: the module for this format cannot be loaded: {}",
-                                               wanted_for.string(), loaded.why));
+    return failure(Reason::device,
+                   fmt::format("the module for this format cannot be loaded: {}", loaded.why));
+}
+
+/// What the module answers; the failure to load it, if there is none.
+template <class Answer, class... Arguments>
+Answer ask(Answer (*MediaModule::*question)(Arguments...), Arguments... arguments) {
+    const auto module = media();
+    if (!module) return tl::make_unexpected(module.error());
+    return ((*module)->*question)(arguments...);
 }
 
 }  // namespace
 
 Result<std::unique_ptr<Video>> open_video(const std::filesystem::path& file) {
-    const auto module = media(file);
-    if (!module) return tl::make_unexpected(module.error());
-    std::unique_ptr<Video> video((*module)->open_video(file.c_str()));
-    if (!video) return failure(Reason::device, fmt::format("{}: cannot be read as a video", file.string()));
+    auto video = ask(&MediaModule::open_video, file.c_str());
+    if (!video)
+        return failure(Reason::device,
+                       fmt::format("{}: cannot be read as a video: {}", file.string(), video.error().text));
     return video;
 }
 
-Result<cv::Mat> read_grey_with_opencv(const std::filesystem::path& file) {
-    const auto module = media(file);
-    if (!module) return tl::make_unexpected(module.error());
-    cv::Mat grey = (*module)->read_grey(file.c_str());
-    if (grey.empty())
-        return failure(Reason::device, fmt::format("{}: cannot be read as an image", file.string()));
-    return grey;
+Result<cv::Mat> read_with_opencv(const std::filesystem::path& file) {
+    return ask(&MediaModule::read_image, file.c_str());
+}
+
+bool is_image_for_opencv(const std::filesystem::path& file) {
+    const auto module = media();
+    return module && (*module)->is_image(file.c_str());
+}
+
+Result<std::vector<PageOfFile>> list_tiff_pages(const std::filesystem::path& file) {
+    return ask(&MediaModule::list_tiff_pages, file.c_str());
+}
+
+Result<StoredImage> read_tiff_page(const std::filesystem::path& file, std::uint64_t page) {
+    return ask(&MediaModule::read_tiff_page, file.c_str(), page);
 }
 
 }  // namespace fidservo::vision

@@ -4,12 +4,15 @@
 
 #include "core/demand.h"
 #include "core/failure.h"
+#include "vision/images/exif.h"
 #include "vision/images/image_file.h"
 
 #include <algorithm>
+#include <bit>
 #include <csetjmp>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -66,12 +69,13 @@ class Reader {
         return true;
     }
 
-    /// Asks libpng for one byte of grey a pixel, whatever is stored.
+    /// Asks libpng for one sample of grey a pixel, whatever is stored: of 16 bits where these are stored,
+    /// else of 8.
     bool ask_for_grey() {
         constexpr double red_weight = 0.299, green_weight = 0.587;
         constexpr int without_warning = 1;
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
-        png_set_strip_16(png_);
+        if (is_deep() && std::endian::native == std::endian::little) png_set_swap(png_);
         png_set_strip_alpha(png_);
         const auto stored = png_get_color_type(png_, info_);
         if (stored == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png_);
@@ -85,8 +89,26 @@ class Reader {
     bool read_rows(png_bytep* rows) {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
         png_read_image(png_, rows);
-        png_read_end(png_, nullptr);
+        png_read_end(png_, info_);
         return true;
+    }
+
+    bool is_deep() const { return png_get_bit_depth(png_, info_) == 16; }
+
+    /// As the chunk sBIT states them: the most of any channel; 0 without the chunk.
+    int stated_bits() const {
+        png_color_8p significant = nullptr;
+        if (png_get_sBIT(png_, info_, &significant) == 0) return 0;
+        const bool colour = (png_get_color_type(png_, info_) & PNG_COLOR_MASK_COLOR) != 0;
+        return colour ? std::max({significant->red, significant->green, significant->blue})
+                      : significant->gray;
+    }
+
+    int orientation() const {
+        png_uint_32 count = 0;
+        png_bytep exif = nullptr;
+        if (png_get_eXIf_1(png_, info_, &count, &exif) == 0) return 1;
+        return orientation_of_exif(std::as_bytes(std::span(exif, count)));
     }
 
     std::uint32_t width() const { return png_get_image_width(png_, info_); }
@@ -121,6 +143,21 @@ std::vector<png_bytep> rows_of(const cv::Mat& grey) {
     return rows;
 }
 
+/// Has it a chunk acTL? That stands before the pixels.
+bool is_animated(std::span<const std::byte> png) {
+    constexpr std::size_t length_bytes = 4, name_bytes = 4, sum_bytes = 4;
+    const std::string_view text(reinterpret_cast<const char*>(png.data()), png.size());
+    for (std::size_t at = signature_bytes; at + length_bytes + name_bytes <= text.size();) {
+        const std::string_view name = text.substr(at + length_bytes, name_bytes);
+        if (name == "acTL" || name == "IDAT") return name == "acTL";
+        std::size_t length = 0;
+        for (const char byte : text.substr(at, length_bytes))
+            length = length << 8U | static_cast<unsigned char>(byte);
+        at += length_bytes + name_bytes + length + sum_bytes;
+    }
+    return false;
+}
+
 tl::unexpected<Failure> damaged(const std::string& why) {
     return failure(Reason::device, fmt::format("damaged PNG: {}", why));
 }
@@ -132,17 +169,32 @@ bool is_png(std::span<const std::byte> bytes) {
            png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, signature_bytes) == 0;
 }
 
-Result<cv::Mat> decode_png(std::span<const std::byte> png) {
+bool is_deep_png(std::span<const std::byte> beginning) {
+    constexpr std::size_t depth_at = 24;
+    return beginning.size() > depth_at && beginning[depth_at] == std::byte{16};
+}
+
+Result<StoredImage> decode_png(std::span<const std::byte> png) {
+    constexpr std::size_t most_out_of_a_byte = 1032;  // of zlib's compression: 258 bytes out of two bits
     Reader reader(png);
     if (!reader.read_header()) return damaged(reader.why());
+    const std::string size = fmt::format("{} x {} px", reader.width(), reader.height());
     if (std::size_t{reader.width()} * reader.height() > most_pixels)
-        return damaged(fmt::format("{} x {} px", reader.width(), reader.height()));
+        return failure(Reason::device, fmt::format("{}: at most {} px are read", size, most_pixels));
+    if (std::size_t{reader.height()} * reader.row_bytes() / most_out_of_a_byte > png.size())
+        return damaged(fmt::format("{} are not in {} bytes", size, png.size()));
     if (!reader.ask_for_grey()) return damaged(reader.why());
-    FIDSERVO_DEMAND(reader.row_bytes() == reader.width());
-    cv::Mat grey(static_cast<int>(reader.height()), static_cast<int>(reader.width()), CV_8UC1);
-    std::vector<png_bytep> rows = rows_of(grey);
+    const bool deep = reader.is_deep();
+    FIDSERVO_DEMAND(reader.row_bytes() == std::size_t{reader.width()} * (deep ? 2 : 1));
+    StoredImage image;
+    image.grey.create(static_cast<int>(reader.height()), static_cast<int>(reader.width()),
+                      deep ? CV_16UC1 : CV_8UC1);
+    std::vector<png_bytep> rows = rows_of(image.grey);
     if (!reader.read_rows(rows.data())) return damaged(reader.why());
-    return grey;
+    image.stated_bits = deep ? reader.stated_bits() : 0;
+    image.orientation = reader.orientation();
+    image.has_more_pictures = is_animated(png);
+    return image;
 }
 
 std::vector<unsigned char> encode_png(const cv::Mat& grey, int compression) {

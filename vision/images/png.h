@@ -1,18 +1,20 @@
 #pragma once
 
 #include "core/result.h"
+#include "vision/images/image_file.h"
 
 #include <cstddef>
 #include <span>
-
-#include <opencv2/core/mat.hpp>
 
 namespace fidservo::vision {
 
 bool is_png(std::span<const std::byte> bytes);
 
-/// A PNG as CV_8UC1, as read_grey() says. Fails with Reason::device for data that are damaged anywhere or cut
-/// short, or of more than most_pixels.
-Result<cv::Mat> decode_png(std::span<const std::byte> png);
+/// Does the beginning of a PNG say that its samples have 16 bits?
+bool is_deep_png(std::span<const std::byte> beginning);
+
+/// A PNG as read_stored() says; its chunk sBIT states the bits that are used. Fails with Reason::device for
+/// data that are damaged anywhere or cut short, or of more than most_pixels.
+Result<StoredImage> decode_png(std::span<const std::byte> png);
 
 }  // namespace fidservo::vision

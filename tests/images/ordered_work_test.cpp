@@ -1,4 +1,4 @@
-#include "src/replay/ordered_work.h"
+#include "src/images/ordered_work.h"
 
 #include <atomic>
 #include <stdexcept>

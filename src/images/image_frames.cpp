@@ -1,0 +1,129 @@
+#include "src/images/image_frames.h"
+
+#include "core/input_error.h"
+#include "core/result.h"
+#include "src/images/grey_range.h"
+#include "vision/images/image_file.h"
+#include "vision/images/media.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace fidservo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::unique_ptr<vision::Video> opened(const fs::path& file) {
+    auto video = vision::open_video(file);
+    if (!video) throw InputError(video.error().text);
+    return *std::move(video);
+}
+
+}  // namespace
+
+class ImageFrames::OpenVideo {
+  public:
+    OpenVideo(fs::path file, std::size_t series)
+        : file_(std::move(file)), series_(series), decoder_(opened(file_)) {}
+
+    const vision::Video& decoder() const { return *decoder_; }
+    void set_bits(int bits) { bits_ = bits; }
+
+    std::optional<ImageFrame> next() {
+        const auto picture = decoder_->next();
+        if (!picture) return std::nullopt;
+        ImageFrame frame;
+        frame.name = fmt::format("{}#{}", file_.string(), next_index_++);
+        frame.series = series_;
+        frame.time_ns = picture->time_ns;
+        frame.file = file_;
+        frame.bits = bits_ > 0 ? bits_ : vision::bits_of(picture->image);
+        if (picture->damage.empty())
+            frame.decoded = vision::to_8_bits(picture->image, frame.bits);
+        else
+            frame.damage = fmt::format("{}: {}", frame.name, picture->damage);
+        return frame;
+    }
+
+    /// Decodes another copy of the video to its end.
+    GreyLevels levels() const {
+        GreyLevels levels;
+        const auto again = opened(file_);
+        while (const auto picture = again->next())
+            if (picture->damage.empty()) levels.add(picture->image);
+        return levels;
+    }
+
+  private:
+    fs::path file_;
+    std::size_t series_;
+    std::unique_ptr<vision::Video> decoder_;
+    int bits_ = 0;  ///< 0: each frame's own statement
+    std::size_t next_index_ = 0;
+};
+
+ImageFrames::ImageFrames(const std::vector<fs::path>& inputs, const ImageOptions& options) {
+    for (const fs::path& input : inputs) list_images(input, options.name_times, list_);
+    open_videos();
+    for (const ImageSeries& series : list_.series) {
+        size_ += series.frames.size();
+        missing_.insert(missing_.end(), series.missing.begin(), series.missing.end());
+    }
+    decide_ranges(options.one_range);
+}
+
+ImageFrames::~ImageFrames() = default;
+
+void ImageFrames::open_videos() {
+    for (std::size_t k = 0; k < list_.series.size(); ++k) {
+        const fs::path& file = list_.series[k].video;
+        videos_.push_back(file.empty() ? nullptr : std::make_unique<OpenVideo>(file, k));
+        if (file.empty()) continue;
+        size_ += videos_.back()->decoder().packets();
+        for (const std::string& note : videos_.back()->decoder().notes())
+            list_.notes.push_back(fmt::format("{}: {}", file.string(), note));
+    }
+}
+
+void ImageFrames::decide_ranges(bool one_range) {
+    std::vector<GreyLevels> levels;
+    for (std::size_t k = 0; k < list_.series.size(); ++k) {
+        const bool open_video = videos_[k] && videos_[k]->decoder().has_open_range();
+        levels.push_back(open_video ? videos_[k]->levels() : levels_of(list_.series[k].deep));
+    }
+    GreyLevels all;
+    if (one_range)
+        for (const GreyLevels& one : levels) all.add(one);
+    for (std::size_t k = 0; k < list_.series.size(); ++k) {
+        if (levels[k].is_empty()) continue;
+        const GreyLevels& decided = one_range ? all : levels[k];
+        for (ImageFrame& frame : list_.series[k].frames) frame.bits = decided.bits();
+        if (videos_[k]) videos_[k]->set_bits(decided.bits());
+        if (!one_range) list_.notes.push_back(fmt::format("{}: {}", list_.series[k].name, decided.text()));
+    }
+    if (!all.is_empty()) list_.notes.push_back("all images: " + all.text());
+}
+
+bool ImageFrames::is_one_timed_series() const {
+    if (list_.series.size() != 1) return false;
+    if (videos_.front()) return videos_.front()->decoder().has_times();
+    return std::ranges::all_of(list_.series.front().frames,
+                               [](const ImageFrame& frame) { return frame.time_ns.has_value(); });
+}
+
+std::optional<ImageFrame> ImageFrames::next() {
+    for (; current_series_ < list_.series.size(); ++current_series_, current_frame_ = 0) {
+        if (videos_[current_series_]) {
+            if (auto frame = videos_[current_series_]->next()) return frame;
+        } else if (const auto& frames = list_.series[current_series_].frames;
+                   current_frame_ < frames.size()) {
+            return frames[current_frame_++];
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace fidservo

@@ -1,0 +1,55 @@
+#pragma once
+// The one reader of images: recordings, folders, stacks, videos and single images as one ordered sequence.
+#include "src/images/image_frame.h"
+#include "src/images/image_list.h"
+#include "src/images/image_names.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fidservo {
+
+struct ImageOptions {
+    NameTimes name_times = NameTimes::automatic;
+    bool one_range = false;  ///< of grey levels for all inputs together, not one for each series
+};
+
+/// The frames of all inputs (image_list.h), in order.
+class ImageFrames {
+  public:
+    /// Looks at every input. Images whose samples have more than 8 bits, and videos of 16 bits that do not
+    /// say how many are used, are decoded once for their range: full scale is decided for a series, not for
+    /// each frame. Throws InputError if an input does not exist, cannot be read or holds no image.
+    explicit ImageFrames(const std::vector<std::filesystem::path>& inputs, const ImageOptions& options = {});
+    ~ImageFrames();
+
+    /// How many frames there are, damaged ones among them; of a video, how many packets it has.
+    std::size_t size() const { return size_; }
+    /// Frames that an index lists and that are not there.
+    const std::vector<std::string>& missing() const { return missing_; }
+    /// All frames belong to one series and have times.
+    bool is_one_timed_series() const;
+    /// The next frame; empty after the last. Videos are decoded here; images by load().
+    std::optional<ImageFrame> next();
+    /// What a user would want to know: what was passed over, where times come from and why there are none,
+    /// how many bits are used, that players turn a picture. One line each.
+    const std::vector<std::string>& notes() const { return list_.notes; }
+
+  private:
+    class OpenVideo;
+
+    void open_videos();
+    void decide_ranges(bool one_range);
+
+    ImageList list_;
+    std::vector<std::unique_ptr<OpenVideo>> videos_;  ///< by series; null where images are
+    std::vector<std::string> missing_;
+    std::size_t size_ = 0;
+    std::size_t current_series_ = 0;
+    std::size_t current_frame_ = 0;
+};
+
+}  // namespace fidservo

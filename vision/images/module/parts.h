@@ -1,0 +1,11 @@
+#pragma once
+// The parts of the module, as vision/images/media.h says.
+#include "vision/images/media.h"
+
+namespace fidservo::vision {
+
+Result<std::vector<PageOfFile>> tiff_pages(const char* file);
+Result<StoredImage> tiff_page(const char* file, std::uint64_t page);
+Result<std::unique_ptr<Video>> ffmpeg_video(const char* file);
+
+}  // namespace fidservo::vision

@@ -1,0 +1,10 @@
+#pragma once
+#include <cstdint>
+
+namespace fidservo::vision {
+
+/// How many bytes a Matroska (WebM) or AVI file must have by the lengths that its outermost elements state; 0
+/// if it is of another kind or does not state them.
+std::uint64_t stated_length(const char* file);
+
+}  // namespace fidservo::vision
