@@ -51,7 +51,8 @@ std::vector<calib::MacroTrace> traces_of(const IdentifyInput& input, Identified&
                 fmt::format("{}: identify macro needs macro_command [V] and encoder [count] or position [mm]",
                             recording.name));
         identified.recordings.push_back(recording.name);
-        for (calib::MacroTrace& trace : calib::macro_traces(recording, input.rig.macro.encoder_resolution_mm))
+        for (calib::MacroTrace& trace : calib::macro_traces(recording, input.rig.macro.encoder_resolution_mm,
+                                                            identified.recordings.size() - 1))
             traces.push_back(std::move(trace));
     }
     return traces;
@@ -143,6 +144,14 @@ Identified identify_macro(const IdentifyInput& input) {
     add_values(identified, *found, input.rig, build.dead_zone);
     identified.residuals.push_back({"encoder", "count", found->residual_count, rounding_count});
     add_notes(identified, *found, build, traces);
+    if (found->missed_share) identified.notes.push_back(fmt::format("MISSED {:.3g}", *found->missed_share));
+    for (auto& m : found->missing)
+        identified.notes.push_back(fmt::format("MISSING {} {:.3g}", m.depends_on, m.share));
+    for (auto& m : found->contradictions)
+        identified.notes.push_back(fmt::format("CONTRA {} {:.3g}", m.figure, m.apart));
+    for (auto& m : found->rivals)
+        identified.notes.push_back(fmt::format("RIVAL {} {:.3g}", m.slope_mm_per_s_per_V, m.time_constant_s));
+    identified.notes.push_back(fmt::format("REV {} coast {:.3g}", found->reversals, found->coasted_s));
     return identified;
 }
 
