@@ -1,6 +1,8 @@
 #include "calib/actuator/heater_fit.h"
 
-#include "calib/actuator/preisach_data.h"
+#include "calib/batch_variance.h"
+#include "calib/heterogeneity.h"
+#include "calib/tails.h"
 #include "core/failure.h"
 #include "core/micro_parameters.h"
 
@@ -88,6 +90,30 @@ class Residuals {
         return residual;
     }
 
+    /// Residuals of each run, in their order.
+    std::vector<int> run_counts() const {
+        std::vector<int> counts;
+        for (const HeaterRun& run : runs_) {
+            counts.push_back(0);
+            for (std::size_t k = 0; k < run.reading.size(); k += stride_)
+                counts.back() += weight(run, k) > 0.0;
+        }
+        return counts;
+    }
+
+    /// Weighted squares of the readings about their weighted mean.
+    double variation() const {
+        double sum = 0.0, first = 0.0, second = 0.0;
+        for (const HeaterRun& run : runs_)
+            for (std::size_t k = 0; k < run.reading.size(); k += stride_) {
+                const double w = weight(run, k) * weight(run, k);
+                sum += w;
+                first += w * run.reading[k];
+                second += w * run.reading[k] * run.reading[k];
+            }
+        return sum > 0.0 ? std::max(0.0, second - first * first / sum) : 0.0;
+    }
+
     double weight_squares() const {
         double sum = 0.0;
         for (const HeaterRun& run : runs_)
@@ -142,8 +168,15 @@ bool solve(const Residuals& residuals, const Free& is_free, bool onset_bounded, 
     return summary.IsSolutionUsable() && x.allFinite();
 }
 
-/// Standard errors in the scale's units; held numbers 0.
-Vector standard_errors(const Residuals& residuals, const Free& is_free, const Vector& x, double variance) {
+/// By how much each reading moved x, a column a reading; rows of held numbers are 0.
+struct HeaterInfluences {
+    Eigen::Matrix<double, numbers, Eigen::Dynamic> readings;
+    Eigen::Matrix<double, numbers, numbers> claimed;  ///< covariance if errors were independent
+    std::vector<int> run_counts;
+    std::size_t fitted = 0;
+};
+
+HeaterInfluences influences_at(const Residuals& residuals, const Free& is_free, const Vector& x) {
     constexpr double step = 1e-6;  // crosses hardly any of the kinks between the cells of the table
     constexpr double prior = 1e-8;
     Eigen::Matrix<double, Eigen::Dynamic, numbers> jacobian(residuals.count(), numbers);
@@ -154,18 +187,61 @@ Vector standard_errors(const Residuals& residuals, const Free& is_free, const Ve
         jacobian.col(i) = (residuals.at(up) - residuals.at(down)) / (2.0 * step);
         if (!is_free[static_cast<std::size_t>(i)]) jacobian.col(i).setZero();
     }
-    Eigen::Matrix<double, numbers, numbers> information = jacobian.transpose() * jacobian / variance;
-    information.diagonal().array() += prior;
-    Vector std = information.inverse().diagonal().cwiseMax(0.0).cwiseSqrt();
+    const Eigen::VectorXd residual = residuals.at(x);
+    const double variance = std::max(residual.squaredNorm() / residuals.count(), 1e-300);
+    Eigen::Matrix<double, numbers, numbers> information = jacobian.transpose() * jacobian;
+    information.diagonal().array() += prior * variance;
+    Eigen::Matrix<double, numbers, numbers> inverse = information.inverse();
+    HeaterInfluences result{{}, {}, residuals.run_counts(), 0};
+    for (int i = 0; i < numbers; ++i) {
+        result.fitted += is_free[static_cast<std::size_t>(i)] ? 1 : 0;
+        if (is_free[static_cast<std::size_t>(i)]) continue;
+        inverse.row(i).setZero();
+        inverse.col(i).setZero();
+    }
+    result.claimed = variance * inverse;
+    result.readings = -inverse * jacobian.transpose() * residual.asDiagonal();
+    return result;
+}
+
+BatchVariance variance_along(const HeaterInfluences& influences, const Vector& gradient) {
+    std::vector<std::vector<double>> series;
+    Eigen::Index begin = 0;
+    for (const int count : influences.run_counts) {
+        const Eigen::RowVectorXd along = gradient.transpose() * influences.readings.middleCols(begin, count);
+        series.emplace_back(along.data(), along.data() + count);
+        begin += count;
+    }
+    BatchVariance result = batch_variance(series, influences.fitted);
+    result.variance = std::max(result.variance, gradient.dot(influences.claimed * gradient));
+    return result;
+}
+
+Vector parameter_stds(const HeaterInfluences& influences) {
+    Vector std;
     for (int i = 0; i < numbers; ++i)
-        if (!is_free[static_cast<std::size_t>(i)]) std(i) = 0.0;
+        std(i) = std::sqrt(std::max(0.0, variance_along(influences, Vector::Unit(i)).variance));
     return std;
+}
+
+/// Derivative of a number by x.
+Vector gradient_of(const Scale& scale, const Vector& x, int number) {
+    constexpr double step = 1e-4;
+    Vector gradient;
+    for (int i = 0; i < numbers; ++i) {
+        Vector up = x, down = x;
+        up(i) += step;
+        down(i) -= step;
+        gradient(i) = (number_of(scale.at(up.data()), number) - number_of(scale.at(down.data()), number)) /
+                      (2.0 * step);
+    }
+    return gradient;
 }
 
 struct Solution {
     HeaterFit fit;
     Vector x;
-    double squares;
+    Free is_free;
 };
 
 std::string useless(HeaterNumber number, const Scale& scale, const Vector& x, double std) {
@@ -176,6 +252,40 @@ std::string useless(HeaterNumber number, const Scale& scale, const Vector& x, do
         std::abs(number_of(scale.at(beside.data()), i) - number_of(scale.at(x.data()), i)) / 0.1;
     return fmt::format("the data leave it at {:.4g} +- {:.2g}: it hardly shows, or not apart from the others",
                        number_of(scale.at(x.data()), i), unit * std);
+}
+
+/// Mean of the commands that heat.
+double mean_heating_command(const std::vector<HeaterRun>& runs, const HeaterParameters& heater) {
+    double sum = 0.0, count = 0.0;
+    for (const HeaterRun& run : runs)
+        for (const double command : run.command)
+            if (command > heater.onset_V) sum += command, ++count;
+    return count > 0.0 ? sum / count : heater.onset_V;
+}
+
+/// Where a number is not determined: what is, of it and of the number that it is mistaken for.
+void add_combination(HeaterFit& fit, HeaterNumber number, const Scale& scale, const Vector& x,
+                     const HeaterInfluences& influences, double command) {
+    constexpr double fifth = 0.2;
+    const HeaterParameters heater = scale.at(x.data());
+    const auto gradient = [&](HeaterNumber of) { return gradient_of(scale, x, static_cast<int>(of)); };
+    const auto add = [&](HeaterCombination combination, const Vector& relative) {
+        const double std = std::sqrt(variance_along(influences, relative).variance);
+        if (!(std < fifth) || !std::isfinite(combination.value)) return;
+        combination.std = std::abs(combination.value) * std;
+        fit.combinations.push_back(std::move(combination));
+    };
+    const Vector of_gain = gradient(HeaterNumber::gain) / heater.gain_degC_per_V;
+    if (number == HeaterNumber::onset || number == HeaterNumber::gain) {
+        const double above = command - heater.onset_V;
+        if (above > 0.0)
+            add({fmt::format("gain_times_{:.4g}_less_onset", command), "degC", heater.gain_degC_per_V * above,
+                 0.0},
+                of_gain - gradient(HeaterNumber::onset) / above);
+    }
+    if (number != HeaterNumber::onset && number != HeaterNumber::ambient)
+        add({"gain_over_heating_tau", "degC/s", heater.gain_degC_per_V / heater.heating_tau_s, 0.0},
+            of_gain - gradient(HeaterNumber::heating_tau) / heater.heating_tau_s);
 }
 
 /// Fits from x on, and while a standard error is useless holds the worst number at the scale's start and fits
@@ -196,8 +306,6 @@ Result<Solution> fit_determined(const std::vector<HeaterRun>& runs, const Predic
         const Eigen::VectorXd residual = residuals.at(x);
         if (!residual.allFinite())
             return failure(Reason::no_convergence, "the heater's fit did not converge");
-        fit.correlation_samples =
-            correlation_length({residual.data(), static_cast<std::size_t>(residual.size())});
         const double squares = residual.squaredNorm();
         if (scale.by_itself && is_free[0] && x(0) < 1e-6) {
             fit.refused.push_back({HeaterNumber::onset, "the heater heats from the least command on"});
@@ -207,19 +315,14 @@ Result<Solution> fit_determined(const std::vector<HeaterRun>& runs, const Predic
             continue;
         }
         fit.residual_rms = std::sqrt(squares / residuals.weight_squares());
-        const double variance = std::max(squares / residuals.count(), 1e-300) * fit.correlation_samples;
-        const Vector std = standard_errors(residuals, is_free, x, variance);
+        const double variation = residuals.variation();
+        fit.missed_share = variation > 0.0 ? std::sqrt(squares / variation) : 1.0;
+        const HeaterInfluences influences = influences_at(residuals, is_free, x);
+        const Vector std = parameter_stds(influences);
         int worst = 0;
         if (std.maxCoeff(&worst) <= 1.0) {
             fit.heater = scale.at(x.data());
-            for (int i = 0; i < numbers; ++i) {
-                Vector beside = x;
-                beside(i) += 1e-3;
-                const double unit = (number_of(scale.at(beside.data()), i) - number_of(fit.heater, i)) / 1e-3;
-                const auto k = static_cast<std::size_t>(i);
-                fit.std[k] = is_free[k] ? std(i) * std::abs(unit) : std::nan("");
-            }
-            return Solution{fit, x, squares};
+            return Solution{fit, x, is_free};
         }
         if (scale.by_itself) {
             Vector can_be_held = std;
@@ -230,11 +333,77 @@ Result<Solution> fit_determined(const std::vector<HeaterRun>& runs, const Predic
         if (scale.by_itself && (number == HeaterNumber::gain || number == HeaterNumber::cooling_tau))
             return failure(Reason::not_identifiable,
                            fmt::format("{}: {}", name_of(number), useless(number, scale, x, std(worst))));
+        add_combination(fit, number, scale, x, influences, mean_heating_command(runs, scale.at(x.data())));
         fit.refused.push_back({number, useless(number, scale, x, std(worst))});
         is_free[static_cast<std::size_t>(worst)] = false;
         begin(worst) = 0.0;
         x = begin;
     }
+}
+
+/// What each run says of the numbers by itself, from the common solution on.
+using OwnNumbers = std::array<std::vector<RecordingEstimate>, heater_numbers>;
+using OwnRuns = std::array<std::vector<std::size_t>, heater_numbers>;
+
+void fit_each_run(const std::vector<HeaterRun>& runs, const Predict& predict, const Scale& scale,
+                  const Solution& common, OwnNumbers& own, OwnRuns& of_run) {
+    for (std::size_t r = 0; r < runs.size() && runs.size() > 1; ++r) {
+        const std::vector<HeaterRun> alone{runs[r]};
+        const Residuals residuals(alone, predict, scale);
+        Vector x = common.x;
+        if (residuals.count() < static_cast<int>(least_rows) ||
+            !solve(residuals, common.is_free, scale.by_itself, x) || !residuals.at(x).allFinite())
+            continue;
+        const HeaterInfluences influences = influences_at(residuals, common.is_free, x);
+        const Vector useful = parameter_stds(influences);
+        for (int i = 0; i < numbers; ++i) {
+            const BatchVariance variance = variance_along(influences, gradient_of(scale, x, i));
+            const auto k = static_cast<std::size_t>(i);
+            if (!common.is_free[k] || !(useful(i) <= 1.0) || !(variance.variance > 0.0)) continue;
+            own[k].push_back(
+                {number_of(scale.at(x.data()), i), std::sqrt(variance.variance), variance.freedom});
+            of_run[k].push_back(r);
+        }
+    }
+}
+
+/// Standard errors of the common solution; numbers on which runs contradict each other, 1 % over all numbers,
+/// and of which no common value is known to what makes it useful, are refused.
+HeaterFit with_errors(const std::vector<HeaterRun>& runs, const Predict& predict, const Scale& scale,
+                      const Solution& common) {
+    constexpr double level = 0.01, both_tails = 0.05, normal_95 = 1.96;
+    HeaterFit fit = common.fit;
+    OwnNumbers own;
+    OwnRuns of_run;
+    fit_each_run(runs, predict, scale, common, own, of_run);
+    const HeaterInfluences influences =
+        influences_at(Residuals(runs, predict, scale), common.is_free, common.x);
+    for (int i = 0; i < numbers; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        fit.std[k] = fit.freedom[k] = std::nan("");
+        if (!common.is_free[k]) continue;
+        const Vector gradient = gradient_of(scale, common.x, i);
+        VarianceSum sum;
+        const BatchVariance batches = variance_along(influences, gradient);
+        sum.add(batches.variance, batches.freedom);
+        const Heterogeneity scatter = heterogeneity(own[k]);
+        if (scatter.added_variance > 0.0) sum.add(scatter.added_variance, scatter.added_freedom);
+        fit.std[k] = std::sqrt(sum.variance);
+        fit.freedom[k] = sum.freedom;
+        if (own[k].size() < 2 || scatter.probability >= level / numbers) continue;
+        const RecordingEstimate &low = own[k][scatter.low], &high = own[k][scatter.high];
+        const auto number = static_cast<HeaterNumber>(i);
+        fit.contradictions.push_back({number, scatter.apart, of_run[k][scatter.low], of_run[k][scatter.high],
+                                      low.value, low.std, high.value, high.std});
+        const double unit = std::abs(gradient(i));
+        if (student_bound(sum.freedom, both_tails) * fit.std[k] <= normal_95 * unit) continue;
+        fit.refused.push_back(
+            {number, fmt::format("the recordings contradict each other by {:.1f} standard errors, {:.4g} +- "
+                                 "{:.2g} and {:.4g} +- {:.2g}: no common value",
+                                 scatter.apart, low.value, low.std, high.value, high.std)});
+        fit.std[k] = fit.freedom[k] = std::nan("");
+    }
+    return fit;
 }
 
 /// The solution with the least squares from several time constants.
@@ -355,7 +524,7 @@ Result<HeaterFit> fit_heater(const MicroModel& model, const std::vector<HeaterRu
     };
     auto best = fit_determined(runs, predict, scale, x);
     if (!best) return tl::make_unexpected(best.error());
-    return best->fit;
+    return with_errors(runs, predict, scale, *best);
 }
 
 Result<HeaterFit> fit_heater_to_temperature(const std::vector<HeaterRun>& runs) {
@@ -383,7 +552,7 @@ Result<HeaterFit> fit_heater_to_temperature(const std::vector<HeaterRun>& runs) 
                       true};
     auto best = fit_determined(started, predict_temperature, scale, best_of_starts(started, scale));
     if (!best) return tl::make_unexpected(best.error());
-    return best->fit;
+    return with_errors(started, predict_temperature, scale, *best);
 }
 
 }  // namespace fidservo::calib

@@ -139,12 +139,8 @@ double MacroEstimator::loss(const MacroPoint& point) const {
 double MacroEstimator::residual_count(const MacroPoint& point) const {
     double squares = 0.0, ticks = 0.0;
     for (std::size_t w = 0; w < windows_.size(); ++w) {
-        const std::vector<double> place_count = predict(w, point.motion, point.starts[w]);
-        for (std::size_t k = 0; k < place_count.size(); ++k) {
-            const double error = place_count[k] - windows_[w].position_mm[k] / resolution_mm_;
-            squares += error * error;
-        }
-        ticks += static_cast<double>(place_count.size());
+        for (const double error : errors_count(w, point)) squares += error * error;
+        ticks += static_cast<double>(windows_[w].position_mm.size());
     }
     return std::sqrt(squares / ticks);
 }
@@ -284,6 +280,12 @@ MacroEstimator::Linearised MacroEstimator::linearised(std::size_t w, const Macro
     result.own = jacobian.leftCols<macro_parameter_count>() -
                  result.starts * (sums.start_curvature.inverse() * sums.cross.transpose());
     return result;
+}
+
+std::vector<double> MacroEstimator::errors_count(std::size_t w, const MacroPoint& point) const {
+    std::vector<double> errors = predict(w, point.motion, point.starts[w]);
+    for (std::size_t k = 0; k < errors.size(); ++k) errors[k] -= windows_[w].position_mm[k] / resolution_mm_;
+    return errors;
 }
 
 std::vector<MacroMotionState> MacroEstimator::course(std::size_t w, const MacroPoint& point) const {

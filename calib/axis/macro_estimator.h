@@ -84,6 +84,9 @@ class MacroEstimator {
     };
     Linearised linearised(std::size_t window, const MacroPoint& point, const MacroActive& active) const;
 
+    /// Prediction minus reading over a window.
+    std::vector<double> errors_count(std::size_t window, const MacroPoint& point) const;
+
     /// Position and velocity of the model at each tick of a window.
     std::vector<MacroMotionState> course(std::size_t window, const MacroPoint& point) const;
 

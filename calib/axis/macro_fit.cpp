@@ -1,6 +1,7 @@
 #include "calib/axis/macro_fit.h"
 
 #include "calib/axis/macro_rivals.h"
+#include "calib/tails.h"
 #include "core/failure.h"
 
 #include <algorithm>
@@ -113,32 +114,23 @@ void settle(const MacroEstimator& estimator, const MacroBuild& build, MacroFit& 
     }
 }
 
+/// Whether friction lies at its bound of 0: nearer than a hundredth of its standard error.
 bool at_bound(const MacroFit& fit) {
-    return fit.active[macro_index::friction] && fit.point.motion.friction_mm_per_s <= 0.0;
-}
-
-/// Another minimum takes the place of a fit that it is better than; those that the data do not exclude are
-/// kept as rivals.
-void compare_minima(const MacroEstimator& estimator, const MacroBuild& build, MacroFit& fit) {
-    std::vector<MacroMinimum> others = other_minima(estimator, fit);
-    if (!others.empty() && others.front().above < 0.0) {
-        MacroMinimum before{fit.point, -others.front().above};
-        fit.point = others.front().point;
-        settle(estimator, build, fit);
-        others.front() = before;
-    }
-    const double allowance = loss_allowance(fit);
-    for (const MacroMinimum& other : others)
-        if (other.above < allowance) fit.rivals.push_back(other.point.motion);
+    constexpr double share = 0.01;
+    return fit.active[macro_index::friction] &&
+           fit.point.motion.friction_mm_per_s <= share * parameter_std(fit, macro_index::friction);
 }
 
 /// Friction and offset that the data cannot tell from the rest leave the fit, so that the rest is determined.
 void drop_undetermined(const MacroEstimator& estimator, const MacroBuild& build, MacroFit& fit) {
-    constexpr double most_share = 0.2;
+    constexpr double most_share = 0.2, level = 0.01;
     const double drive_V = mean_drive_V(estimator.windows(), fit.point.motion);
-    const auto drop = [&](int index, double most_std, std::optional<double>& left_std) {
-        if (!fit.active[static_cast<std::size_t>(index)] || parameter_std(fit, index) <= most_std) return;
-        left_std = parameter_std(fit, index);
+    const auto drop = [&](int index, double most_std, std::optional<MacroFit::Dropped>& dropped) {
+        if (!fit.active[static_cast<std::size_t>(index)]) return;
+        const BatchVariance variance = variance_along(fit.influences, MacroVector::Unit(index));
+        const double std = std::sqrt(variance.variance), value = vector_of(fit.point.motion)[index];
+        if (std <= most_std || std::abs(value) > student_bound(variance.freedom, level) * std) return;
+        dropped = {value, std, fit.point.motion};
         if (index == macro_index::friction) fit.friction_at_bound = at_bound(fit);
         fit.active[static_cast<std::size_t>(index)] = false;
         MacroVector parameters = vector_of(fit.point.motion);
@@ -146,8 +138,8 @@ void drop_undetermined(const MacroEstimator& estimator, const MacroBuild& build,
         fit.point.motion = with_parameters(fit.point.motion, parameters);
         settle(estimator, build, fit);
     };
-    drop(macro_index::friction, most_share * estimator.fastest_mm_per_s(), fit.friction_left_std);
-    drop(macro_index::offset, most_share * drive_V, fit.offset_left_std);
+    drop(macro_index::friction, most_share * estimator.fastest_mm_per_s(), fit.friction_dropped);
+    drop(macro_index::offset, most_share * drive_V, fit.offset_dropped);
 }
 
 }  // namespace
@@ -233,9 +225,21 @@ MacroFit fit_macro_windows(const MacroEstimator& estimator, const MacroBuild& bu
     fit.active[macro_index::offset] = fit.both_ways;
     settle(estimator, build, fit);
     drop_undetermined(estimator, build, fit);
-    compare_minima(estimator, build, fit);
     fit.friction_at_bound = fit.friction_at_bound || at_bound(fit);
     return fit;
+}
+
+void compare_minima(const MacroEstimator& estimator, const MacroBuild& build, MacroFit& fit) {
+    std::vector<MacroMinimum> others = other_minima(estimator, fit);
+    if (!others.empty() && others.front().above < 0.0) {
+        MacroMinimum before{fit.point, -others.front().above};
+        fit.point = others.front().point;
+        settle(estimator, build, fit);
+        others.front() = before;
+    }
+    const double allowance = loss_allowance(fit);
+    for (const MacroMinimum& other : others)
+        if (other.above < allowance) fit.rivals.push_back(other.point.motion);
 }
 
 }  // namespace fidservo::calib

@@ -18,8 +18,12 @@ struct MacroFit {
     ThresholdInterval forward, backward;
     MacroInfluences influences;
     bool both_ways = false;  ///< driven to both sides
-    /// Standard errors with which friction (mm/s) and offset (V) left the fit.
-    std::optional<double> friction_left_std, offset_left_std;
+    /// What friction (mm/s) and offset (V) were when they left the fit, and the model that had them.
+    struct Dropped {
+        double value, std;
+        MacroMotion with;
+    };
+    std::optional<Dropped> friction_dropped, offset_dropped;
     bool friction_at_bound = false;  ///< the fit would have it below 0
     /// Other minima of the loss that the data do not exclude.
     std::vector<MacroMotion> rivals;
@@ -47,7 +51,12 @@ double mean_drive_V(const std::vector<MacroWindow>& windows, const MacroMotion& 
 void refine_with_noise(const MacroEstimator& estimator, MacroPoint& point, const MacroActive& active);
 
 /// Friction and offset leave the fit, and are zero, where their standard errors exceed a fifth of the largest
-/// speed or of the mean driving command; an offset also where the carriage was driven to one side only.
+/// speed or of the mean driving command and they do not differ from zero at a level of 1 %; an offset also
+/// where the carriage was driven to one side only.
 MacroFit fit_macro_windows(const MacroEstimator& estimator, const MacroBuild& build);
+
+/// Another minimum takes the place of a fit that it is better than; those that the data do not exclude are
+/// kept as its rivals.
+void compare_minima(const MacroEstimator& estimator, const MacroBuild& build, MacroFit& fit);
 
 }  // namespace fidservo::calib

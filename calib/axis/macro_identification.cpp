@@ -79,8 +79,21 @@ struct Knowledge {
     MacroFigures most_std;  ///< beyond it, a figure is no figure
     std::array<VarianceSum, macro_figure_count> variance;
     std::array<MacroAgreement, macro_figure_count> agreement;
-    std::vector<MacroLack> lacks;
+    MacroLacks lacks;
 };
+
+/// What taking friction or offset as zero may have done to a figure: its shift from the model that had them,
+/// weighted by that model's weight (Akaike's, as in shift_variance()).
+double variance_of_assumption(const MacroFit& fit, const MacroVector& gradient) {
+    double variance = 0.0;
+    for (const auto& dropped : {fit.friction_dropped, fit.offset_dropped}) {
+        if (!dropped) continue;
+        const double odds = std::exp(0.5 * std::pow(dropped->value / dropped->std, 2) - 1.0);
+        const MacroVector shift = vector_of(dropped->with) - vector_of(fit.point.motion);
+        variance += odds / (1.0 + odds) * std::pow(gradient.dot(shift), 2);
+    }
+    return variance;
+}
 
 Knowledge knowledge_of(const MacroEstimator& estimator, const MacroFit& fit, const MacroBuild& build,
                        const Threshold& threshold) {
@@ -98,10 +111,8 @@ Knowledge knowledge_of(const MacroEstimator& estimator, const MacroFit& fit, con
         sum.add(batches.variance, batches.freedom);
         const Heterogeneity& scatter = known.agreement[static_cast<std::size_t>(i)].scatter;
         if (scatter.added_variance > 0.0) sum.add(scatter.added_variance, scatter.added_freedom);
-        double shift = 0.0;
-        for (const MacroLack& lack : known.lacks)
-            shift = std::max(shift, std::abs(gradient.row(i).dot(lack.shift)));
-        sum.add(shift * shift, infinity);
+        sum.add(variance_of_assumption(fit, gradient.row(i).transpose()), infinity);
+        sum.add(shift_variance(known.lacks.found, gradient.row(i).transpose()), infinity);
     }
     const auto zone_offset = static_cast<std::size_t>(MacroFigure::zone_offset);
     known.variance[zone_offset].add(
@@ -248,12 +259,16 @@ std::string friction_refusal(const MacroFit& fit, const MacroIdentification& res
     if (result.reversals == 0 && result.coasted_s == 0.0)
         return "friction and drive cannot be told apart: the carriage neither coasted nor reversed; taken as "
                "zero";
-    const std::string seen = fmt::format("though the carriage reversed {} times and coasted for {:.2g} s",
-                                         result.reversals, result.coasted_s);
-    const std::string left =
-        fmt::format("known to no better than {:.2g} mm/s of speed lost to it, {}; taken as zero",
-                    fit.friction_left_std.value_or(0.0), seen);
-    return fit.friction_at_bound ? "it came out at its bound of 0 and is " + left : left;
+    const std::string seen = result.coasted_s > 0.0
+                                 ? fmt::format("the carriage reversed {} times and coasted for {:.2g} s",
+                                               result.reversals, result.coasted_s)
+                                 : fmt::format("the carriage reversed {} times", result.reversals);
+    if (!fit.friction_dropped) return "it does not show, though " + seen + "; taken as zero";
+    const std::string value = fit.friction_at_bound ? "it came out at its bound of 0"
+                                                    : fmt::format("it came out at {:.3g} mm/s of speed lost",
+                                                                  fit.friction_dropped->value);
+    return fmt::format("{} with a standard error of {:.2g} mm/s, though {}; taken as zero", value,
+                       fit.friction_dropped->std, seen);
 }
 
 MacroIdentification identification(const MacroEstimator& estimator, const MacroFit& fit,
@@ -291,8 +306,10 @@ MacroIdentification identification(const MacroEstimator& estimator, const MacroF
     result.friction_at_bound = fit.friction_at_bound;
     result.motion = motion;
     result.rivals = fit.rivals;
-    for (const MacroLack& lack : known.lacks) result.missing.push_back({lack.depends_on, lack.share});
-    result.missed_share = missed_share(estimator, fit);
+    for (const MacroLack& lack : known.lacks.found) result.missing.push_back({lack.depends_on, lack.share});
+    const MacroMissed missed = missed_share(estimator, fit, known.lacks.drive_squares_count2);
+    result.missed_share = missed.share;
+    result.white_noise_mm = missed.noise_count * build.resolution_mm;
     if (!result.gain_mm_per_s_per_V || !result.time_constant_s)
         result.acceleration_mm_per_s2_per_V = ratio_of_gain_and_time_constant(fit, build, known);
     return result;
@@ -339,11 +356,12 @@ Result<MacroIdentification> identify_macro(std::span<const MacroTrace> traces, c
         if (const Status usable = check_macro_windows(windows, build.resolution_mm); !usable)
             return tl::make_unexpected(usable.error());
         const MacroEstimator estimator(windows, build.resolution_mm);
-        const MacroFit fit = fit_macro_windows(estimator, build);
+        MacroFit fit = fit_macro_windows(estimator, build);
         if (!fit.influences.inverse.allFinite() || !vector_of(fit.point.motion).allFinite())
             return failure(Reason::no_convergence,
                            "no model with finite parameters follows these recordings");
         if (estimator.noise_count(fit.point) > 1.0 && window_s > shortest_window_s) continue;
+        compare_minima(estimator, build, fit);
         MacroIdentification result = identification(estimator, fit, build, recording_names(limited));
         result.residual_count = estimator.residual_count(fit.point);
         result.window_s = window_s;

@@ -66,9 +66,11 @@ struct MacroIdentification {
     /// Where gain and time constant cannot be told apart: their ratio, the acceleration that a volt gives.
     std::optional<MacroEstimate> acceleration_mm_per_s2_per_V;
     std::vector<MacroContradiction> contradictions;
-    std::vector<MacroMissing> missing;   ///< the largest share first
-    std::optional<double> missed_share;  ///< of the motion, see missed_share() in macro_recordings.h
-    std::vector<MacroMotion> rivals;     ///< other minima that the data do not exclude
+    std::vector<MacroMissing> missing;  ///< the largest share first
+    /// Of the force, integrated over windows: see missed_share() in macro_recordings.h.
+    std::optional<double> missed_share;
+    double white_noise_mm;            ///< of the readings, as residuals show it from tick to tick
+    std::vector<MacroMotion> rivals;  ///< other minima that the data do not exclude
     int reversals = 0;
     double coasted_s = 0.0;
 

@@ -28,7 +28,7 @@ constexpr std::array lack_groups{Group{"position", 0, 7},
                                  Group{"the side of the command", 13, 1},
                                  Group{"the commands before", 14, 2},
                                  Group{"time", 16, 2}};
-constexpr int lack_columns = 18;
+constexpr int drive_column = 18, lack_columns = 19;
 
 struct Ranges {
     double low_mm = std::numeric_limits<double>::infinity();
@@ -81,6 +81,7 @@ Eigen::Matrix<double, lack_columns, 1> forces_at(const MacroMotion& motion, cons
     const double age = (window.start_s + static_cast<double>(k) * window.tick_s) / ranges.duration_s - 0.5;
     g[16] = fastest * age;
     g[17] = drive * age;
+    g[drive_column] = drive;
     return g;
 }
 
@@ -190,7 +191,7 @@ Test test_of(const Group& group, const std::vector<Eigen::MatrixXd>& scores,
 
 }  // namespace
 
-std::vector<MacroLack> lacks_of(const MacroEstimator& estimator, const MacroFit& fit) {
+MacroLacks lacks_of(const MacroEstimator& estimator, const MacroFit& fit) {
     constexpr std::size_t least_pieces = 32;
     const Ranges ranges = ranges_of(estimator);
     const std::size_t windows = estimator.windows().size();
@@ -198,10 +199,12 @@ std::vector<MacroLack> lacks_of(const MacroEstimator& estimator, const MacroFit&
     Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(macro_parameter_count, lack_columns);
     double squares = 0.0;
     std::size_t recordings = 0;
+    MacroLacks lacks{{}, 0.0};
     for (std::size_t w = 0; w < windows; ++w) {
         const Window window = window_of(estimator, w, fit, ranges);
         information += window.fit.own.transpose() * window.fit.curvatures.asDiagonal() * window.fit.own;
         cross += window.fit.own.transpose() * window.fit.curvatures.asDiagonal() * window.extra;
+        lacks.drive_squares_count2 += window.extra.col(drive_column).squaredNorm();
         recordings = std::max(recordings, estimator.windows()[w].recording + 1);
     }
     const Eigen::MatrixXd followed = information.ldlt().solve(cross);
@@ -234,7 +237,6 @@ std::vector<MacroLack> lacks_of(const MacroEstimator& estimator, const MacroFit&
         for (std::size_t j = 0; j < of_recording.size(); ++j)
             all.col(static_cast<Eigen::Index>(j)) = of_recording[j];
     }
-    std::vector<MacroLack> lacks;
     for (const Group& group : lack_groups) {
         const Test test = test_of(group, by_recording, free);
         if (test.probability > lack_level / static_cast<double>(lack_groups.size()) || squares <= 0.0)
@@ -242,10 +244,20 @@ std::vector<MacroLack> lacks_of(const MacroEstimator& estimator, const MacroFit&
         MacroVector shift = -followed.middleCols(group.first, group.count) * test.multiplier;
         for (int i = 0; i < macro_parameter_count; ++i)
             if (!fit.active[static_cast<std::size_t>(i)]) shift[i] = 0.0;
-        lacks.push_back({group.depends_on, test.probability, std::min(1.0, test.gain / squares), shift});
+        lacks.found.push_back(
+            {group.depends_on, test.probability, std::min(1.0, test.gain / squares), shift});
     }
-    std::ranges::sort(lacks, std::greater<>(), &MacroLack::share);
+    std::ranges::sort(lacks.found, std::greater<>(), &MacroLack::share);
     return lacks;
+}
+
+double shift_variance(const std::vector<MacroLack>& lacks, const MacroVector& gradient) {
+    double squares = 0.0, shares = 0.0;
+    for (const MacroLack& lack : lacks) {
+        squares += lack.share * std::pow(gradient.dot(lack.shift), 2);
+        shares += lack.share;
+    }
+    return shares > 0.0 ? squares / shares : 0.0;
 }
 
 }  // namespace fidservo::calib

@@ -19,7 +19,19 @@ struct MacroLack {
     MacroVector shift;       ///< by how much the parameters would move if the model had it
 };
 
-/// The forces that are there at a level of 1 % over all that are tried, the largest share first.
-std::vector<MacroLack> lacks_of(const MacroEstimator& estimator, const MacroFit& fit);
+struct MacroLacks {
+    /// The forces that are there at a level of 1 % over all that are tried, the largest share first.
+    std::vector<MacroLack> found;
+    /// Squares over all windows of how far the drive moves the carriage, the starts having followed,
+    /// counts^2.
+    double drive_squares_count2;
+};
+
+MacroLacks lacks_of(const MacroEstimator& estimator, const MacroFit& fit);
+
+/// Variance of a figure's shifts, weighted by the shares of the residual that the forces would remove: the
+/// uncertainty of what the model should have been (Buckland, Burnham, Augustin, Model selection: an integral
+/// part of inference, Biometrics 53(2), 1997).
+double shift_variance(const std::vector<MacroLack>& lacks, const MacroVector& gradient);
 
 }  // namespace fidservo::calib

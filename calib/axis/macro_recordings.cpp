@@ -34,21 +34,6 @@ bool drives_both_ways(const std::vector<MacroWindow>& windows) {
     return forward && backward;
 }
 
-/// Squares of the readings about the straight line through them, counts^2.
-double squares_about_line(const MacroWindow& window, double resolution_mm) {
-    const auto n = static_cast<double>(window.position_mm.size());
-    double sum = 0.0, first = 0.0, second = 0.0, moment = 0.0;
-    for (std::size_t k = 0; k < window.position_mm.size(); ++k) {
-        const double t = static_cast<double>(k) - 0.5 * (n - 1.0);
-        const double y = (window.position_mm[k] - window.position_mm[0]) / resolution_mm;
-        sum += y;
-        second += y * y;
-        first += t * y;
-        moment += t * t;
-    }
-    return std::max(0.0, second - sum * sum / n - first * first / std::max(moment, 1e-300));
-}
-
 std::size_t recordings_in(const MacroEstimator& estimator) {
     std::size_t count = 0;
     for (const MacroWindow& window : estimator.windows()) count = std::max(count, window.recording + 1);
@@ -91,30 +76,35 @@ std::array<MacroAgreement, macro_figure_count> macro_agreement(const MacroEstima
     return agreement;
 }
 
-std::optional<double> missed_share(const MacroEstimator& estimator, const MacroFit& fit) {
-    constexpr double rounding = 1.0 / 12.0;
-    double missed = 0.0, moved = 0.0, ticks = 0.0;
+MacroMissed missed_share(const MacroEstimator& estimator, const MacroFit& fit, double drive_squares_count2) {
+    constexpr double rounding = 1.0 / 12.0, third_differences = 20.0;  // of white noise of unit variance
+    double missed = 0.0, noise = 0.0, ticks = 0.0;
     for (std::size_t held_out = 0; held_out < 2; ++held_out) {
         const Part train = part_of(estimator, fit.point, [&](std::size_t w) { return w % 2 != held_out; });
         const Part test = part_of(estimator, fit.point, [&](std::size_t w) { return w % 2 == held_out; });
-        if (train.windows.empty()) return std::nullopt;
+        if (train.windows.empty() || test.windows.empty()) return {};
         const MacroEstimator fitted(train.windows, estimator.resolution_mm());
         MacroPoint point{fit.point.motion, train.starts, fit.point.noise_count};
         refine_with_noise(fitted, point, fit.active);
         const MacroEstimator judged(test.windows, estimator.resolution_mm());
         MacroPoint other{point.motion, test.starts, point.noise_count};
         refine_with_noise(judged, other, {});
-        double of_part = 0.0;
-        for (const MacroWindow& window : test.windows) {
-            moved += squares_about_line(window, estimator.resolution_mm());
-            of_part += static_cast<double>(window.position_mm.size());
+        for (std::size_t w = 0; w < test.windows.size(); ++w) {
+            const std::vector<double> error = judged.errors_count(w, other);
+            for (std::size_t k = 0; k < error.size(); ++k) {
+                missed += error[k] * error[k];
+                if (k < 3) continue;
+                const double third = error[k] - 3.0 * error[k - 1] + 3.0 * error[k - 2] - error[k - 3];
+                noise += third * third / third_differences;
+            }
+            ticks += static_cast<double>(error.size());
         }
-        missed += of_part * std::pow(judged.residual_count(other), 2);
-        ticks += of_part;
     }
-    const double motion = moved - rounding * ticks;
-    if (motion <= rounding * ticks) return std::nullopt;
-    return std::sqrt(std::max(0.0, missed - rounding * ticks) / motion);
+    const double of_noise = std::max(noise, rounding * ticks);
+    MacroMissed result{std::nullopt, std::sqrt(of_noise / ticks)};
+    if (drive_squares_count2 > of_noise)
+        result.share = std::sqrt(std::max(0.0, missed - of_noise) / drive_squares_count2);
+    return result;
 }
 
 MacroManoeuvres manoeuvres(const MacroEstimator& estimator, const MacroMotion& motion) {

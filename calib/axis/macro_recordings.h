@@ -20,12 +20,17 @@ std::array<MacroAgreement, macro_figure_count> macro_agreement(const MacroEstima
                                                                const MacroFit& fit, double unit_V,
                                                                double threshold_V);
 
-/// How much of the motion the model misses: r.m.s. over held-out windows of prediction minus reading, over
-/// the r.m.s. of what the drive and friction must explain, the motion less the steady one that fits the
-/// window best; rounding's variance is taken out of both. The model is fitted to every other window and
-/// judged by the rest, then the other way round. Empty where the motion is steady within rounding, or there
-/// are less than two windows.
-std::optional<double> missed_share(const MacroEstimator& estimator, const MacroFit& fit);
+/// How much of the force the model misses, integrated twice, which neither rounding nor noise drowns: r.m.s.
+/// over held-out windows of prediction minus reading, over the r.m.s. of how far the drive moves the
+/// carriage, the windows' starts having followed. The variance of noise that is white from tick to tick, as
+/// third differences show it, and of rounding is taken out. The model is fitted to every other window and
+/// judged by the rest, then the other way round. The share is empty with less than two windows, or where the
+/// drive moves the carriage by no more than noise.
+struct MacroMissed {
+    std::optional<double> share;
+    double noise_count = 0.0;  ///< standard deviation of that noise
+};
+MacroMissed missed_share(const MacroEstimator& estimator, const MacroFit& fit, double drive_squares_count2);
 
 /// How often the carriage turned round, by more than four counts each way, and how long it coasted: moved
 /// at a tenth of its largest speed or faster while nothing drove it.

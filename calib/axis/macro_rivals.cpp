@@ -8,7 +8,7 @@ namespace fidservo::calib {
 namespace {
 
 constexpr std::size_t most_windows = 60;
-constexpr int iterations = 40;
+constexpr int most_iterations = 200;
 
 bool differs(const MacroEstimator& estimator, const MacroFit& fit, const MacroMotion& other, double drive_V) {
     constexpr double share = 0.2, errors = 4.0;
@@ -20,6 +20,14 @@ bool differs(const MacroEstimator& estimator, const MacroFit& fit, const MacroMo
             std::abs(there[i] - here[i]) > std::max(share * size[i], errors * parameter_std(fit, i)))
             return true;
     return false;
+}
+
+/// Whether the loss half way between is above both: not one valley in which a search has not ended.
+bool ridge_between(const MacroEstimator& estimator, const MacroPoint& a, const MacroPoint& b) {
+    MacroPoint between = a;
+    between.motion = with_parameters(a.motion, 0.5 * (vector_of(a.motion) + vector_of(b.motion)));
+    estimator.refine(between, {}, most_iterations);
+    return estimator.loss(between) > std::max(estimator.loss(a), estimator.loss(b));
 }
 
 }  // namespace
@@ -42,17 +50,18 @@ std::vector<MacroMinimum> other_minima(const MacroEstimator& estimator, const Ma
         motion.friction_mm_per_s *= factor;
         MacroPoint point = thinned.start_at(motion);
         point.noise_count = fit.point.noise_count;
-        thinned.refine(point, fit.active, iterations);
+        thinned.refine(point, fit.active, most_iterations);
         if (!differs(estimator, fit, point.motion, drive_V)) continue;
         MacroPoint all = estimator.start_at(point.motion);
         all.noise_count = fit.point.noise_count;
-        estimator.refine(all, fit.active, iterations);
+        estimator.refine(all, fit.active, most_iterations);
         const bool known = std::ranges::any_of(found, [&](const MacroMinimum& minimum) {
             MacroFit same = fit;
             same.point.motion = minimum.point.motion;
             return !differs(estimator, same, all.motion, drive_V);
         });
         if (known || !differs(estimator, fit, all.motion, drive_V)) continue;
+        if (!ridge_between(estimator, fit.point, all)) continue;
         const double above = estimator.loss(all) - here;
         if (std::isfinite(above)) found.push_back({std::move(all), above});
     }
