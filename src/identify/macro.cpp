@@ -132,7 +132,7 @@ void add_values(Identified& identified, const calib::MacroIdentification& found,
 constexpr double most_missed = 0.2;
 
 std::string percent(double share) {
-    return fmt::format("{:.2g} %", 100.0 * share);
+    return share < 0.1 ? fmt::format("{:.2g} %", 100.0 * share) : fmt::format("{:.0f} %", 100.0 * share);
 }
 
 std::string remainder(const calib::MacroIdentification& found) {
