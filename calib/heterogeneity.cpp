@@ -11,6 +11,22 @@ namespace fidservo::calib {
 
 namespace {
 
+/// The mean of recordings that have values of their own.
+void find_mean(std::span<const RecordingEstimate> recordings, Heterogeneity& found) {
+    double weights = 0.0, scatter = 0.0;
+    const auto weight = [&](const RecordingEstimate& of) {
+        return 1.0 / (of.std * of.std + found.between_std * found.between_std);
+    };
+    for (const RecordingEstimate& recording : recordings) {
+        weights += weight(recording);
+        found.mean += weight(recording) * recording.value;
+    }
+    found.mean /= weights;
+    for (const RecordingEstimate& recording : recordings)
+        scatter += weight(recording) * std::pow(recording.value - found.mean, 2);
+    found.mean_variance = std::max(1.0, scatter / found.added_freedom) / weights;
+}
+
 /// The two recordings with the largest difference in its standard errors.
 void find_farthest(std::span<const RecordingEstimate> recordings, Heterogeneity& found) {
     for (std::size_t i = 0; i < recordings.size(); ++i)
@@ -27,7 +43,9 @@ void find_farthest(std::span<const RecordingEstimate> recordings, Heterogeneity&
 }  // namespace
 
 Heterogeneity heterogeneity(std::span<const RecordingEstimate> recordings) {
-    Heterogeneity found{recordings.size(), 0.0, 1.0, 0.0, 0.0, 1.0, 0, 0, 0.0};
+    Heterogeneity found{};
+    found.recordings = recordings.size();
+    found.probability = found.added_freedom = 1.0;
     if (recordings.size() < 2) return found;
     double weights = 0.0, squares = 0.0, mean = 0.0;
     for (const RecordingEstimate& recording : recordings) {
@@ -53,6 +71,7 @@ Heterogeneity heterogeneity(std::span<const RecordingEstimate> recordings) {
     found.between_std = std::sqrt(variance);
     found.added_variance = variance * squares / (weights * weights);
     found.added_freedom = between;
+    find_mean(recordings, found);
     find_farthest(recordings, found);
     return found;
 }

@@ -22,7 +22,11 @@ struct Heterogeneity {
     double between_std;  ///< of the recordings' own values about their mean, DerSimonian and Laird
     /// What they add to the variance of an estimate from all the data: between_std^2 sum (w / sum w)^2.
     double added_variance;
-    double added_freedom;   ///< its degrees of freedom, k - 1
+    double added_freedom;  ///< its degrees of freedom, k - 1
+    /// Mean with weights 1 / (std^2 + between_std^2), and its variance by the scatter about it (Hartung, An
+    /// alternative method for meta-analysis, Biometrical Journal 41(8), 1999), at least by the weights; its
+    /// degrees of freedom are k - 1.
+    double mean, mean_variance;
     std::size_t low, high;  ///< of the recordings, the two that are farthest apart
     double apart;           ///< their distance in standard errors of the difference
 };

@@ -1,5 +1,6 @@
 #include "calib/axis/macro_fit.h"
 
+#include "calib/axis/macro_recordings.h"
 #include "calib/axis/macro_rivals.h"
 #include "calib/tails.h"
 #include "core/failure.h"
@@ -114,6 +115,19 @@ void settle(const MacroEstimator& estimator, const MacroBuild& build, MacroFit& 
     }
 }
 
+/// Whether the carriage was driven by one size of command alone, to a twentieth.
+bool has_one_amplitude(const std::vector<MacroWindow>& windows, const MacroMotion& motion) {
+    constexpr double twentieth = 0.05;
+    double low_V = std::numeric_limits<double>::infinity(), high_V = 0.0;
+    for (const MacroWindow& window : windows)
+        for (const double u : window.command_V) {
+            if (drive_speed_mm_per_s(motion, u) == 0.0 || u == 0.0) continue;
+            low_V = std::min(low_V, std::abs(u));
+            high_V = std::max(high_V, std::abs(u));
+        }
+    return !(high_V - low_V > twentieth * 0.5 * (high_V + low_V));
+}
+
 /// Whether friction lies at its bound of 0: nearer than a hundredth of its standard error.
 bool at_bound(const MacroFit& fit) {
     constexpr double share = 0.01;
@@ -223,7 +237,20 @@ MacroFit fit_macro_windows(const MacroEstimator& estimator, const MacroBuild& bu
     if (build.dead_zone) scan_thresholds(estimator, fit);
     fit.both_ways = drives_both_ways(estimator.windows(), fit.point.motion);
     fit.active[macro_index::offset] = fit.both_ways;
+    const auto [reversals, coasted_s] = manoeuvres(estimator, fit.point.motion);
+    // One speed tells the drive less friction, and no more.
+    fit.active[macro_index::friction] = reversals > 0 || coasted_s > 0.0 || build.dead_zone ||
+                                        !has_one_amplitude(estimator.windows(), fit.point.motion);
+    if (!fit.active[macro_index::friction]) fit.point.motion.friction_mm_per_s = 0.0;
     settle(estimator, build, fit);
+    constexpr double shows = 0.2;  // of the largest speed
+    if (!fit.both_ways && !build.dead_zone && at_bound(fit) &&
+        parameter_std(fit, macro_index::friction) < shows * estimator.fastest_mm_per_s()) {
+        fit.offset_less_friction = true;
+        fit.active[macro_index::friction] = false;
+        fit.active[macro_index::offset] = true;
+        settle(estimator, build, fit);
+    }
     drop_undetermined(estimator, build, fit);
     fit.friction_at_bound = fit.friction_at_bound || at_bound(fit);
     return fit;

@@ -18,6 +18,9 @@ struct MacroFit {
     ThresholdInterval forward, backward;
     MacroInfluences influences;
     bool both_ways = false;  ///< driven to both sides
+    /// Driven to one side, by more than the command: the offset in the fit is net of friction, which is not
+    /// in it.
+    bool offset_less_friction = false;
     /// What friction (mm/s) and offset (V) were when they left the fit, and the model that had them.
     struct Dropped {
         double value, std;

@@ -1,9 +1,7 @@
 #include "calib/axis/macro_identification.h"
 
-#include "calib/axis/macro_figures.h"
 #include "calib/axis/macro_fit.h"
-#include "calib/axis/macro_lack.h"
-#include "calib/axis/macro_recordings.h"
+#include "calib/axis/macro_knowledge.h"
 #include "calib/tails.h"
 #include "core/demand.h"
 #include "core/failure.h"
@@ -70,70 +68,18 @@ Threshold find_threshold(const MacroFit& fit, const MacroBuild& build) {
             build.threshold_V, 0.0, true};
 }
 
-constexpr std::array<const char*, macro_figure_count> figure_names{
-    "gain", "time constant", "offset of the dead zone", "slope of the dead zone", "friction", "drive offset"};
-
-/// All that says how well each figure is known.
-struct Knowledge {
-    MacroFigures value;
-    MacroFigures most_std;  ///< beyond it, a figure is no figure
-    std::array<VarianceSum, macro_figure_count> variance;
-    std::array<MacroAgreement, macro_figure_count> agreement;
-    MacroLacks lacks;
-};
-
-/// What taking friction or offset as zero may have done to a figure: its shift from the model that had them,
-/// weighted by that model's weight (Akaike's, as in shift_variance()).
-double variance_of_assumption(const MacroFit& fit, const MacroVector& gradient) {
-    double variance = 0.0;
-    for (const auto& dropped : {fit.friction_dropped, fit.offset_dropped}) {
-        if (!dropped) continue;
-        const double odds = std::exp(0.5 * std::pow(dropped->value / dropped->std, 2) - 1.0);
-        const MacroVector shift = vector_of(dropped->with) - vector_of(fit.point.motion);
-        variance += odds / (1.0 + odds) * std::pow(gradient.dot(shift), 2);
-    }
-    return variance;
-}
-
-Knowledge knowledge_of(const MacroEstimator& estimator, const MacroFit& fit, const MacroBuild& build,
-                       const Threshold& threshold) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const MacroMotion& motion = fit.point.motion;
-    Knowledge known{figures_of(motion, build.unit_V, threshold.value_V), {}, {}, {}, {}};
-    known.most_std = largest_useful_std(known.value, estimator.fastest_mm_per_s(),
-                                        mean_drive_V(estimator.windows(), motion));
-    known.agreement = macro_agreement(estimator, fit, build.unit_V, threshold.value_V);
-    known.lacks = lacks_of(estimator, fit);
-    const MacroFigureGradient gradient = figure_gradient(motion, build.unit_V, threshold.value_V);
-    for (int i = 0; i < macro_figure_count; ++i) {
-        VarianceSum& sum = known.variance[static_cast<std::size_t>(i)];
-        const BatchVariance batches = variance_along(fit.influences, gradient.row(i).transpose());
-        sum.add(batches.variance, batches.freedom);
-        const Heterogeneity& scatter = known.agreement[static_cast<std::size_t>(i)].scatter;
-        if (scatter.added_variance > 0.0) sum.add(scatter.added_variance, scatter.added_freedom);
-        sum.add(variance_of_assumption(fit, gradient.row(i).transpose()), infinity);
-        sum.add(shift_variance(known.lacks.found, gradient.row(i).transpose()), infinity);
-    }
-    const auto zone_offset = static_cast<std::size_t>(MacroFigure::zone_offset);
-    known.variance[zone_offset].add(
-        std::pow(known.value[static_cast<int>(MacroFigure::zone_slope)] * threshold.std_V, 2), infinity);
-    return known;
-}
-
-MacroEstimate estimate_of(const Knowledge& known, MacroFigure figure) {
-    const VarianceSum& sum = known.variance[static_cast<std::size_t>(figure)];
-    return {known.value[static_cast<int>(figure)], std::sqrt(std::max(0.0, sum.variance)), sum.freedom};
-}
-
 /// Whether an interval of 95 % is wider than one of a normal law with such a standard error.
 bool wider_than(const MacroEstimate& estimate, double std) {
     constexpr double normal_95 = 1.96;
     return !(std::isfinite(estimate.value) && estimate.reach_95() <= normal_95 * std);
 }
 
+constexpr std::array<const char*, macro_figure_count> figure_names{
+    "gain", "time constant", "offset of the dead zone", "slope of the dead zone", "friction", "drive offset"};
+
 /// K / tau where that is known to a fifth.
 std::optional<MacroEstimate> ratio_of_gain_and_time_constant(const MacroFit& fit, const MacroBuild& build,
-                                                             const Knowledge& known) {
+                                                             const MacroKnowledge& known) {
     constexpr double fifth = 0.2;
     const MacroFigureGradient gradient = figure_gradient(fit.point.motion, build.unit_V, 0.0);
     const double gain = known.value[0], tau_s = known.value[1];
@@ -149,19 +95,7 @@ std::string with_std(const MacroEstimate& estimate) {
     return fmt::format("{:.4g} +- {:.2g}", estimate.value, estimate.std);
 }
 
-/// The figures on which recordings contradict each other.
-std::vector<std::size_t> contradicted(const Knowledge& known) {
-    constexpr double level = 0.01;
-    double tested = 0.0;
-    for (const MacroAgreement& figure : known.agreement) tested += figure.own.size() > 1 ? 1.0 : 0.0;
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < known.agreement.size(); ++i)
-        if (known.agreement[i].own.size() > 1 && known.agreement[i].scatter.probability < level / tested)
-            found.push_back(i);
-    return found;
-}
-
-MacroContradiction contradiction_on(const Knowledge& known, std::size_t figure,
+MacroContradiction contradiction_on(const MacroKnowledge& known, std::size_t figure,
                                     const std::vector<std::string>& names) {
     const MacroAgreement& agreement = known.agreement[figure];
     const auto own = [&](std::size_t i) {
@@ -177,7 +111,7 @@ MacroContradiction contradiction_on(const Knowledge& known, std::size_t figure,
 }
 
 /// Another minimum's value where it is another.
-std::optional<double> rival_value(const MacroFit& fit, const Knowledge& known, MacroFigure figure,
+std::optional<double> rival_value(const MacroFit& fit, const MacroKnowledge& known, MacroFigure figure,
                                   double unit_V, double threshold_V) {
     const auto i = static_cast<int>(figure);
     for (const MacroMotion& rival : fit.rivals) {
@@ -190,7 +124,7 @@ std::optional<double> rival_value(const MacroFit& fit, const Knowledge& known, M
 /// A figure, or why these data do not determine it.
 class Judge {
   public:
-    Judge(const MacroFit& fit, const MacroBuild& build, const Knowledge& known, double threshold_V,
+    Judge(const MacroFit& fit, const MacroBuild& build, const MacroKnowledge& known, double threshold_V,
           const std::vector<MacroContradiction>& contradictions)
         : fit_(fit),
           build_(build),
@@ -222,7 +156,7 @@ class Judge {
   private:
     const MacroFit& fit_;
     const MacroBuild& build_;
-    const Knowledge& known_;
+    const MacroKnowledge& known_;
     double threshold_V_;
     const std::vector<MacroContradiction>& contradictions_;
 };
@@ -254,8 +188,20 @@ void give_dead_zone(MacroIdentification& result, const MacroFit& fit, const Macr
     result.threshold_assumed = threshold.assumed && result.zone_offset_V.has_value();
 }
 
+/// The carriage was driven to one side only, by more than the command: only a difference is fixed.
+std::string net_offset_refusal(const MacroKnowledge& known) {
+    return fmt::format(
+        "the carriage was driven to one side only: drive offset less friction is {} V, each alone "
+        "is not determined",
+        with_std(estimate_of(known, MacroFigure::drive_offset)));
+}
+
 /// Why friction left the fit; a cause is named only where it is there.
 std::string friction_refusal(const MacroFit& fit, const MacroIdentification& result) {
+    if (fit.offset_less_friction)
+        return "the carriage was driven to one side only: drive offset less friction is determined, each "
+               "alone is "
+               "not";
     if (result.reversals == 0 && result.coasted_s == 0.0)
         return "friction and drive cannot be told apart: the carriage neither coasted nor reversed; taken as "
                "zero";
@@ -275,7 +221,7 @@ MacroIdentification identification(const MacroEstimator& estimator, const MacroF
                                    const MacroBuild& build, const std::vector<std::string>& names) {
     const Threshold threshold = build.dead_zone ? find_threshold(fit, build) : Threshold{};
     const MacroMotion& motion = fit.point.motion;
-    const Knowledge known = knowledge_of(estimator, fit, build, threshold);
+    const MacroKnowledge known = knowledge_of(estimator, fit, build, threshold.value_V, threshold.std_V);
     MacroIdentification result{};
     for (const std::size_t figure : contradicted(known))
         result.contradictions.push_back(contradiction_on(known, figure, names));
@@ -298,7 +244,8 @@ MacroIdentification identification(const MacroEstimator& estimator, const MacroF
                             ? judged(MacroFigure::friction, "it hardly shows, or not apart from the others")
                             : failure(Reason::not_identifiable, friction_refusal(fit, result));
     result.drive_offset_V =
-        fit.active[macro_index::offset]
+        fit.offset_less_friction ? failure(Reason::not_identifiable, net_offset_refusal(known))
+        : fit.active[macro_index::offset]
             ? judged(MacroFigure::drive_offset, "it hardly shows, or not apart from the others")
             : failure(Reason::not_identifiable,
                       fit.both_ways ? "offset and friction cannot be told apart in these data; taken as zero"
@@ -307,9 +254,8 @@ MacroIdentification identification(const MacroEstimator& estimator, const MacroF
     result.motion = motion;
     result.rivals = fit.rivals;
     for (const MacroLack& lack : known.lacks.found) result.missing.push_back({lack.depends_on, lack.share});
-    const MacroMissed missed = missed_share(estimator, fit, known.lacks.drive_squares_count2);
-    result.missed_share = missed.share;
-    result.white_noise_mm = missed.noise_count * build.resolution_mm;
+    result.missed_share = known.missed.share;
+    result.white_noise_mm = known.missed.noise_count * build.resolution_mm;
     if (!result.gain_mm_per_s_per_V || !result.time_constant_s)
         result.acceleration_mm_per_s2_per_V = ratio_of_gain_and_time_constant(fit, build, known);
     return result;

@@ -33,6 +33,11 @@ struct MacroEstimate {
     double std;                                                ///< one standard error
     double freedom = std::numeric_limits<double>::infinity();  ///< of Student's law for intervals
 
+    /// How far off it may be besides, if what the model lacks goes with the figure as much as it does not:
+    /// the residual beyond noise as one coherent error (Cauchy and Schwarz). 0 where there is no such
+    /// residual.
+    double systematic = 0.0;
+
     /// Half the width of the interval that holds the truth with 95 %.
     double reach_95() const;
 };

@@ -1,5 +1,7 @@
 #include "calib/axis/macro_recordings.h"
 
+#include "calib/significance.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,6 +34,18 @@ bool drives_both_ways(const std::vector<MacroWindow>& windows) {
             backward = backward || u < 0.0;
         }
     return forward && backward;
+}
+
+/// Of a sum of squares over `ticks` ticks, of which windows have taken up two a window with their starts.
+double beyond_noise(double squares, double of_noise, double ticks, double windows) {
+    constexpr double level_of_noise = 0.01;
+    // Squares of third differences of white noise are correlated: 1 + 2 (15^2 + 6^2 + 1) / 20^2 to one.
+    constexpr double correlated = 2.31;
+    const double freedom = ticks - 2.0 * windows;
+    if (freedom < 10.0 || of_noise <= 0.0) return 0.0;
+    const double ratio = squares / freedom / (of_noise / ticks);
+    const double bound = mean_square_ratio_bound(freedom, freedom / correlated, level_of_noise);
+    return ratio > bound ? 1.0 - bound / ratio : 0.0;
 }
 
 std::size_t recordings_in(const MacroEstimator& estimator) {
@@ -102,6 +116,8 @@ MacroMissed missed_share(const MacroEstimator& estimator, const MacroFit& fit, d
     }
     const double of_noise = std::max(noise, rounding * ticks);
     MacroMissed result{std::nullopt, std::sqrt(of_noise / ticks)};
+    result.beyond_noise =
+        beyond_noise(missed, of_noise, ticks, static_cast<double>(estimator.windows().size()));
     if (drive_squares_count2 > of_noise)
         result.share = std::sqrt(std::max(0.0, missed - of_noise) / drive_squares_count2);
     return result;

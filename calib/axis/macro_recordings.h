@@ -29,6 +29,8 @@ std::array<MacroAgreement, macro_figure_count> macro_agreement(const MacroEstima
 struct MacroMissed {
     std::optional<double> share;
     double noise_count = 0.0;  ///< standard deviation of that noise
+    /// Share of the residual's squares that is beyond that noise, as far as that is significant at 1 %.
+    double beyond_noise = 0.0;
 };
 MacroMissed missed_share(const MacroEstimator& estimator, const MacroFit& fit, double drive_squares_count2);
 

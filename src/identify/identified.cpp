@@ -30,6 +30,8 @@ std::string describe(const IdentifiedValue& value) {
     std::string text = fmt::format("{} {}", with_error(value.value, value.std), value.unit);
     if (value.interval)
         text += fmt::format(" (95 %: {:.4g} to {:.4g})", value.interval->low, value.interval->high);
+    if (value.systematic > value.std)
+        text += fmt::format(", by up to {:.2g} more if what the model lacks goes with it", value.systematic);
     return text;
 }
 
@@ -98,7 +100,8 @@ void write_identification_json(const std::filesystem::path& file, const Identifi
                                   {"unit", value.unit},
                                   {"value", finite_or_null(value.value)},
                                   {"std", finite_or_null(value.std)},
-                                  {"interval_95", interval_of(value)}});
+                                  {"interval_95", interval_of(value)},
+                                  {"systematic", value.systematic}});
     for (const FitResidual& residual : identified.residuals)
         json["residuals"].push_back({{"signal", residual.signal},
                                      {"unit", residual.unit},

@@ -24,6 +24,7 @@ struct IdentifiedValue {
     bool in_rig_file = true;
     /// Where the standard error alone does not give it: few degrees of freedom, a value at its bound.
     std::optional<Interval95> interval = {};
+    double systematic = 0.0;  ///< how far off it may be besides, by what the model lacks
 };
 
 /// Two recordings that say different things of one number.

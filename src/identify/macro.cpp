@@ -32,8 +32,8 @@ std::optional<Interval95> wide_interval(const calib::MacroEstimate& estimate) {
 void add(Identified& identified, const std::string& key, const std::string& unit, const Estimate& estimate,
          bool in_rig_file = true) {
     if (estimate)
-        identified.values.push_back(
-            {key, unit, estimate->value, estimate->std, in_rig_file, wide_interval(*estimate)});
+        identified.values.push_back({key, unit, estimate->value, estimate->std, in_rig_file,
+                                     wide_interval(*estimate), estimate->systematic});
     else
         identified.undetermined.push_back({key, estimate.error().text});
 }
@@ -43,7 +43,8 @@ Estimate velocity_pole(const Estimate& time_constant_s, double tick_s) {
     if (!time_constant_s) return time_constant_s;
     const double pole = std::exp(-tick_s / time_constant_s->value);
     const double slope_per_s = pole * tick_s / (time_constant_s->value * time_constant_s->value);
-    return calib::MacroEstimate{pole, slope_per_s * time_constant_s->std, time_constant_s->freedom};
+    return calib::MacroEstimate{pole, slope_per_s * time_constant_s->std, time_constant_s->freedom,
+                                slope_per_s * time_constant_s->systematic};
 }
 
 /// Friction or offset that stands out of its standard error by three times belongs into the rig file.

