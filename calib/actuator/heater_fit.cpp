@@ -1,6 +1,6 @@
 #include "calib/actuator/heater_fit.h"
 
-#include "calib/actuator/preisach_data.h"
+#include "calib/actuator/heater_errors.h"
 #include "core/failure.h"
 #include "core/micro_parameters.h"
 
@@ -10,166 +10,16 @@
 #include <limits>
 
 #include <Eigen/Dense>
-#include <ceres/dynamic_numeric_diff_cost_function.h>
-#include <ceres/manifold.h>
-#include <ceres/problem.h>
-#include <ceres/solver.h>
 #include <fmt/format.h>
 
 namespace fidservo::calib {
 
 namespace {
 
-constexpr int numbers = static_cast<int>(heater_numbers);
-constexpr std::size_t most_heater_rows = 40'000;
-constexpr std::size_t least_rows = 50;
 constexpr double least_share_of_stroke = 0.1;
 
-using Vector = Eigen::Matrix<double, numbers, 1>;
-using Predict = std::function<std::vector<double>(const HeaterParameters&, const HeaterRun&)>;
-
-/// Numbers relative to a start, in units in which a standard error of one is useless: a fifth of gain and of
-/// time constants, a twentieth of the commands' range, 1 degC.
-struct Scale {
-    HeaterParameters start;
-    double command_range;
-    /// No rig file behind it: the onset is not below the start's, the third number is the heating tau over
-    /// the cooling tau, and gain and cooling tau cannot be held for want of a value.
-    bool by_itself = false;
-
-    HeaterParameters at(const double* x) const {
-        constexpr double fifth = 0.2, twentieth = 0.05, ambient_degC = 1.0;
-        HeaterParameters heater = start;
-        heater.onset_V += twentieth * command_range * x[0];
-        heater.gain_degC_per_V *= std::exp(fifth * x[1]);
-        heater.heating_tau_s *= std::exp(fifth * (by_itself ? x[2] + x[3] : x[2]));
-        heater.cooling_tau_s *= std::exp(fifth * x[3]);
-        heater.ambient_degC += ambient_degC * x[4];
-        return heater;
-    }
-};
-
-double number_of(const HeaterParameters& heater, int i) {
-    const std::array<double, heater_numbers> all{heater.onset_V, heater.gain_degC_per_V, heater.heating_tau_s,
-                                                 heater.cooling_tau_s, heater.ambient_degC};
-    return all[static_cast<std::size_t>(i)];
-}
-
-/// Weighted residuals of all runs, every stride-th row; rows without weight are left out.
-class Residuals {
-  public:
-    Residuals(const std::vector<HeaterRun>& runs, const Predict& predict, const Scale& scale)
-        : runs_(runs), predict_(predict), scale_(scale) {
-        std::size_t all = 0;
-        for (const HeaterRun& run : runs) all += run.reading.size();
-        stride_ = 1 + all / most_heater_rows;
-        for (const HeaterRun& run : runs)
-            for (std::size_t k = 0; k < run.reading.size(); k += stride_) count_ += weight(run, k) > 0.0;
-    }
-
-    int count() const { return count_; }
-
-    bool operator()(double const* const* blocks, double* residual) const {
-        const HeaterParameters heater = scale_.at(blocks[0]);
-        int next = 0;
-        for (const HeaterRun& run : runs_) {
-            const std::vector<double> model = predict_(heater, run);
-            for (std::size_t k = 0; k < run.reading.size(); k += stride_)
-                if (const double w = weight(run, k); w > 0.0)
-                    residual[next++] = w * (model[k] - run.reading[k]);
-        }
-        return std::all_of(residual, residual + next, [](double r) { return std::isfinite(r); });
-    }
-
-    Eigen::VectorXd at(const Vector& x) const {
-        Eigen::VectorXd residual(count_);
-        const double* block = x.data();
-        (*this)(&block, residual.data());
-        return residual;
-    }
-
-    double weight_squares() const {
-        double sum = 0.0;
-        for (const HeaterRun& run : runs_)
-            for (std::size_t k = 0; k < run.reading.size(); k += stride_)
-                sum += weight(run, k) * weight(run, k);
-        return sum;
-    }
-
-  private:
-    static double weight(const HeaterRun& run, std::size_t k) {
-        return run.weight.empty() ? 1.0 : run.weight[k];
-    }
-
-    const std::vector<HeaterRun>& runs_;
-    const Predict& predict_;
-    const Scale& scale_;
-    std::size_t stride_ = 1;
-    int count_ = 0;
-};
-
-using Free = std::array<bool, heater_numbers>;
-
-/// Least squares over the free numbers. @return false if it did not converge to something usable
-bool solve(const Residuals& residuals, const Free& is_free, bool onset_bounded, Vector& x) {
-    ceres::Problem::Options ownership;
-    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::DynamicNumericDiffCostFunction<Residuals, ceres::CENTRAL> cost(&residuals,
-                                                                          ceres::DO_NOT_TAKE_OWNERSHIP);
-    cost.AddParameterBlock(numbers);
-    cost.SetNumResiduals(residuals.count());
-    ceres::Problem problem(ownership);
-    problem.AddResidualBlock(&cost, nullptr, x.data());
-    std::vector<int> held;
-    held.reserve(heater_numbers);
-    for (int i = 0; i < numbers; ++i) {
-        constexpr double farthest = 30.0;
-        problem.SetParameterLowerBound(x.data(), i, i == 0 && onset_bounded ? 0.0 : -farthest);
-        problem.SetParameterUpperBound(x.data(), i, farthest);
-        if (!is_free[static_cast<std::size_t>(i)]) held.push_back(i);
-    }
-    if (held.size() == heater_numbers) return true;
-    if (!held.empty()) problem.SetManifold(x.data(), new ceres::SubsetManifold(numbers, held));
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.max_num_iterations = 100;
-    options.function_tolerance = 1e-12;
-    options.parameter_tolerance = 1e-10;
-    options.gradient_tolerance = 1e-14;
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-    return summary.IsSolutionUsable() && x.allFinite();
-}
-
-/// Standard errors in the scale's units; held numbers 0.
-Vector standard_errors(const Residuals& residuals, const Free& is_free, const Vector& x, double variance) {
-    constexpr double step = 1e-6;  // crosses hardly any of the kinks between the cells of the table
-    constexpr double prior = 1e-8;
-    Eigen::Matrix<double, Eigen::Dynamic, numbers> jacobian(residuals.count(), numbers);
-    for (int i = 0; i < numbers; ++i) {
-        Vector up = x, down = x;
-        up(i) += step;
-        down(i) -= step;
-        jacobian.col(i) = (residuals.at(up) - residuals.at(down)) / (2.0 * step);
-        if (!is_free[static_cast<std::size_t>(i)]) jacobian.col(i).setZero();
-    }
-    Eigen::Matrix<double, numbers, numbers> information = jacobian.transpose() * jacobian / variance;
-    information.diagonal().array() += prior;
-    Vector std = information.inverse().diagonal().cwiseMax(0.0).cwiseSqrt();
-    for (int i = 0; i < numbers; ++i)
-        if (!is_free[static_cast<std::size_t>(i)]) std(i) = 0.0;
-    return std;
-}
-
-struct Solution {
-    HeaterFit fit;
-    Vector x;
-    double squares;
-};
-
-std::string useless(HeaterNumber number, const Scale& scale, const Vector& x, double std) {
-    Vector beside = x;
+std::string useless(HeaterNumber number, const HeaterScale& scale, const HeaterVector& x, double std) {
+    HeaterVector beside = x;
     const auto i = static_cast<int>(number);
     beside(i) += 0.1;
     const double unit =
@@ -180,24 +30,22 @@ std::string useless(HeaterNumber number, const Scale& scale, const Vector& x, do
 
 /// Fits from x on, and while a standard error is useless holds the worst number at the scale's start and fits
 /// again.
-Result<Solution> fit_determined(const std::vector<HeaterRun>& runs, const Predict& predict,
-                                const Scale& scale, Vector begin) {
-    const Residuals residuals(runs, predict, scale);
-    if (residuals.count() < static_cast<int>(least_rows))
+Result<HeaterSolution> fit_determined(const std::vector<HeaterRun>& runs, const HeaterPredict& predict,
+                                      const HeaterScale& scale, HeaterVector begin) {
+    const HeaterResiduals residuals(runs, predict, scale);
+    if (residuals.count() < static_cast<int>(least_heater_rows))
         return failure(Reason::not_identifiable,
-                       fmt::format("{} usable rows: {} are needed", residuals.count(), least_rows));
-    Free is_free{true, true, true, true, true};
-    Vector x = begin;
+                       fmt::format("{} usable rows: {} are needed", residuals.count(), least_heater_rows));
+    HeaterFree is_free{true, true, true, true, true};
+    HeaterVector x = begin;
     HeaterFit fit{};
     fit.samples = static_cast<std::size_t>(residuals.count());
     for (;;) {
-        if (!solve(residuals, is_free, scale.by_itself, x))
+        if (!solve_heater(residuals, is_free, scale.by_itself, x))
             return failure(Reason::no_convergence, "the heater's fit did not converge");
         const Eigen::VectorXd residual = residuals.at(x);
         if (!residual.allFinite())
             return failure(Reason::no_convergence, "the heater's fit did not converge");
-        fit.correlation_samples =
-            correlation_length({residual.data(), static_cast<std::size_t>(residual.size())});
         const double squares = residual.squaredNorm();
         if (scale.by_itself && is_free[0] && x(0) < 1e-6) {
             fit.refused.push_back({HeaterNumber::onset, "the heater heats from the least command on"});
@@ -207,22 +55,17 @@ Result<Solution> fit_determined(const std::vector<HeaterRun>& runs, const Predic
             continue;
         }
         fit.residual_rms = std::sqrt(squares / residuals.weight_squares());
-        const double variance = std::max(squares / residuals.count(), 1e-300) * fit.correlation_samples;
-        const Vector std = standard_errors(residuals, is_free, x, variance);
+        const double variation = residuals.variation();
+        fit.missed_share = variation > 0.0 ? std::sqrt(squares / variation) : 1.0;
+        const HeaterInfluences influences = influences_at(residuals, is_free, x);
+        const HeaterVector std = parameter_stds(influences);
         int worst = 0;
         if (std.maxCoeff(&worst) <= 1.0) {
             fit.heater = scale.at(x.data());
-            for (int i = 0; i < numbers; ++i) {
-                Vector beside = x;
-                beside(i) += 1e-3;
-                const double unit = (number_of(scale.at(beside.data()), i) - number_of(fit.heater, i)) / 1e-3;
-                const auto k = static_cast<std::size_t>(i);
-                fit.std[k] = is_free[k] ? std(i) * std::abs(unit) : std::nan("");
-            }
-            return Solution{fit, x, squares};
+            return HeaterSolution{fit, x, is_free};
         }
         if (scale.by_itself) {
-            Vector can_be_held = std;
+            HeaterVector can_be_held = std;
             can_be_held(1) = can_be_held(3) = 0.0;
             if (can_be_held.maxCoeff() > 0.0) can_be_held.maxCoeff(&worst);
         }
@@ -230,6 +73,7 @@ Result<Solution> fit_determined(const std::vector<HeaterRun>& runs, const Predic
         if (scale.by_itself && (number == HeaterNumber::gain || number == HeaterNumber::cooling_tau))
             return failure(Reason::not_identifiable,
                            fmt::format("{}: {}", name_of(number), useless(number, scale, x, std(worst))));
+        add_combination(fit, number, scale, x, influences, mean_heating_command(runs, scale.at(x.data())));
         fit.refused.push_back({number, useless(number, scale, x, std(worst))});
         is_free[static_cast<std::size_t>(worst)] = false;
         begin(worst) = 0.0;
@@ -238,16 +82,16 @@ Result<Solution> fit_determined(const std::vector<HeaterRun>& runs, const Predic
 }
 
 /// The solution with the least squares from several time constants.
-Vector best_of_starts(const std::vector<HeaterRun>& runs, const Scale& scale) {
-    const Predict predict = predict_temperature;
-    const Residuals residuals(runs, predict, scale);
-    Vector best = Vector::Zero();
+HeaterVector best_of_starts(const std::vector<HeaterRun>& runs, const HeaterScale& scale) {
+    const HeaterPredict predict = predict_temperature;
+    const HeaterResiduals residuals(runs, predict, scale);
+    HeaterVector best = HeaterVector::Zero();
     if (residuals.count() == 0) return best;
     double least = std::numeric_limits<double>::infinity();
     for (const double share : {0.03, 0.1, 0.3, 1.0, 3.0}) {
-        Vector x = Vector::Zero();
+        HeaterVector x = HeaterVector::Zero();
         x(3) = std::log(share) / 0.2;
-        if (!solve(residuals, {true, true, false, true, false}, scale.by_itself, x)) continue;
+        if (!solve_heater(residuals, {true, true, false, true, false}, scale.by_itself, x)) continue;
         const double squares = residuals.at(x).squaredNorm();
         if (squares < least) best = x, least = squares;
     }
@@ -345,17 +189,17 @@ Result<HeaterFit> fit_heater(const MicroModel& model, const std::vector<HeaterRu
                               hall_lsb_V(model.hall);
     if (adc.size() < least_share_of_stroke * stroke_lsb)
         return failure(Reason::not_identifiable, "the platform moved by less than a tenth of its stroke");
-    const Scale scale{model.heater, std::max(model.heater.limit_V - model.heater.onset_V, 1e-3)};
-    Vector x = Vector::Zero();
+    const HeaterScale scale{model.heater, std::max(model.heater.limit_V - model.heater.onset_V, 1e-3)};
+    HeaterVector x = HeaterVector::Zero();
     // A start that the data make; where it cannot be had, the model's own numbers are one too.
     if (const auto start = fit_determined(inferred_runs(model, runs), predict_temperature, scale, x))
         x = start->x;
-    const Predict predict = [&](const HeaterParameters& heater, const HeaterRun& run) {
+    const HeaterPredict predict = [&](const HeaterParameters& heater, const HeaterRun& run) {
         return predict_hall(model, heater, run);
     };
     auto best = fit_determined(runs, predict, scale, x);
     if (!best) return tl::make_unexpected(best.error());
-    return best->fit;
+    return with_errors(runs, predict, scale, *best);
 }
 
 Result<HeaterFit> fit_heater_to_temperature(const std::vector<HeaterRun>& runs) {
@@ -373,17 +217,17 @@ Result<HeaterFit> fit_heater_to_temperature(const std::vector<HeaterRun>& runs) 
     const HeaterRun& first = started.front();
     const double rest_degC =
         first.reading.front() - (first.ambient_degC.empty() ? 0.0 : first.ambient_degC.front());
-    const Scale scale{{.onset_V = command.low,
-                       .limit_V = command.high,
-                       .gain_degC_per_V = temp.size() / command.size(),
-                       .heating_tau_s = 0.1 * longest_s,
-                       .cooling_tau_s = 0.1 * longest_s,
-                       .ambient_degC = rest_degC},
-                      command.size(),
-                      true};
+    const HeaterScale scale{{.onset_V = command.low,
+                             .limit_V = command.high,
+                             .gain_degC_per_V = temp.size() / command.size(),
+                             .heating_tau_s = 0.1 * longest_s,
+                             .cooling_tau_s = 0.1 * longest_s,
+                             .ambient_degC = rest_degC},
+                            command.size(),
+                            true};
     auto best = fit_determined(started, predict_temperature, scale, best_of_starts(started, scale));
     if (!best) return tl::make_unexpected(best.error());
-    return best->fit;
+    return with_errors(started, predict_temperature, scale, *best);
 }
 
 }  // namespace fidservo::calib

@@ -26,14 +26,33 @@ struct HeaterRefusal {
     std::string reason;
 };
 
+/// Two runs that, each by itself, say different things of a number.
+struct HeaterContradiction {
+    HeaterNumber number;
+    double apart;           ///< in standard errors of the difference
+    std::size_t low, high;  ///< of the runs
+    double low_value, low_std, high_value, high_std;
+};
+
+/// What is determined of numbers that are not, each by itself.
+struct HeaterCombination {
+    std::string name, unit;  ///< per V, or per unit of the drive
+    double value, std;
+};
+
 struct HeaterFit {
     /// Numbers that the data do not determine are those of the model given.
     HeaterParameters heater;
-    /// Standard errors in the order of HeaterNumber; NaN for numbers that are not determined.
+    /// Standard errors in the order of HeaterNumber; NaN for numbers that are not determined. They count
+    /// errors correlated over time (calib/batch_variance.h) and runs that differ (calib/heterogeneity.h).
     std::array<double, heater_numbers> std;
+    std::array<double, heater_numbers> freedom;  ///< of Student's law for intervals
     std::vector<HeaterRefusal> refused;
     double residual_rms;  ///< of the readings that have weight, in their unit
-    double correlation_samples;
+    /// R.m.s. of the residual over that of the readings about their mean, both weighted.
+    double missed_share;
+    std::vector<HeaterContradiction> contradictions;
+    std::vector<HeaterCombination> combinations;
     std::size_t samples;
 };
 

@@ -139,12 +139,8 @@ double MacroEstimator::loss(const MacroPoint& point) const {
 double MacroEstimator::residual_count(const MacroPoint& point) const {
     double squares = 0.0, ticks = 0.0;
     for (std::size_t w = 0; w < windows_.size(); ++w) {
-        const std::vector<double> place_count = predict(w, point.motion, point.starts[w]);
-        for (std::size_t k = 0; k < place_count.size(); ++k) {
-            const double error = place_count[k] - windows_[w].position_mm[k] / resolution_mm_;
-            squares += error * error;
-        }
-        ticks += static_cast<double>(place_count.size());
+        for (const double error : errors_count(w, point)) squares += error * error;
+        ticks += static_cast<double>(windows_[w].position_mm.size());
     }
     return std::sqrt(squares / ticks);
 }
@@ -263,41 +259,92 @@ void MacroEstimator::refine(MacroPoint& point, const MacroActive& active, int mo
     }
 }
 
-MacroMatrix MacroEstimator::covariance(const MacroPoint& point, const MacroActive& active) const {
+MacroEstimator::Linearised MacroEstimator::linearised(std::size_t w, const MacroPoint& point,
+                                                      const MacroActive& active) const {
+    const Eigen::MatrixXd jacobian = sensitivities(w, point, active);
+    Linearised result{predict(w, point.motion, point.starts[w]),
+                      Eigen::VectorXd(jacobian.rows()),
+                      Eigen::VectorXd(jacobian.rows()),
+                      {},
+                      jacobian.rightCols<2>(),
+                      {}};
+    for (Eigen::Index k = 0; k < jacobian.rows(); ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        const RoundingLoss loss = rounding_loss(
+            result.prediction_count[i] - windows_[w].position_mm[i] / resolution_mm_, point.noise_count);
+        result.slopes[k] = loss.slope;
+        result.curvatures[k] = loss.curvature;
+    }
+    const Sums sums = sum_up(w, point, active);
+    result.start_information = sums.start_curvature;
+    result.own = jacobian.leftCols<macro_parameter_count>() -
+                 result.starts * (sums.start_curvature.inverse() * sums.cross.transpose());
+    return result;
+}
+
+std::vector<double> MacroEstimator::errors_count(std::size_t w, const MacroPoint& point) const {
+    std::vector<double> errors = predict(w, point.motion, point.starts[w]);
+    for (std::size_t k = 0; k < errors.size(); ++k) errors[k] -= windows_[w].position_mm[k] / resolution_mm_;
+    return errors;
+}
+
+std::vector<MacroMotionState> MacroEstimator::course(std::size_t w, const MacroPoint& point) const {
+    const MacroPropagation propagation(point.motion, windows_[w].tick_s);
+    std::vector<MacroMotionState> states;
+    states.reserve(windows_[w].command_V.size());
+    MacroMotionState state = point.starts[w];
+    for (const double command_V : windows_[w].command_V) {
+        states.push_back(state);
+        propagation.advance(state, command_V);
+    }
+    return states;
+}
+
+MacroInfluences MacroEstimator::influences(const MacroPoint& point, const MacroActive& active) const {
     constexpr int n = macro_parameter_count;
-    MacroMatrix curvature = prior_std_.cwiseAbs2().cwiseInverse().asDiagonal();
-    MacroMatrix scatter = curvature;
-    double blocks = 0.0;
+    MacroMatrix curvature = prior_information();
+    std::vector<std::vector<MacroVector>> scores;
     for (std::size_t w = 0; w < windows_.size(); ++w) {
         const Sums sums = sum_up(w, point, active);
-        const Eigen::Matrix<double, 2, n> carried = sums.start_curvature.inverse() * sums.cross.transpose();
-        curvature += sums.curvature - sums.cross * carried;
-        const Eigen::MatrixXd jacobian = sensitivities(w, point, active);
-        const Eigen::MatrixXd own = jacobian.leftCols<n>() - jacobian.rightCols<2>() * carried;
-        const std::vector<double> place_count = predict(w, point.motion, point.starts[w]);
-        for (std::size_t begin = 0; begin < place_count.size(); ++blocks) {
+        const Linearised window = linearised(w, point, active);
+        curvature += sums.curvature - sums.cross * (sums.start_curvature.inverse() * sums.cross.transpose());
+        if (scores.size() <= windows_[w].recording) scores.resize(windows_[w].recording + 1);
+        for (std::size_t begin = 0; begin < windows_[w].position_mm.size();) {
             const std::size_t end = end_of_block(windows_[w], begin);
             MacroVector score = MacroVector::Zero();
-            for (; begin < end; ++begin)
-                score += rounding_loss(place_count[begin] - windows_[w].position_mm[begin] / resolution_mm_,
-                                       point.noise_count)
-                             .slope *
-                         own.row(static_cast<Eigen::Index>(begin)).transpose();
-            scatter += score * score.transpose();
+            for (; begin < end; ++begin) {
+                const auto k = static_cast<Eigen::Index>(begin);
+                score -= window.slopes[k] * window.own.row(k).transpose();
+            }
+            scores[windows_[w].recording].push_back(score);
         }
     }
-    const double unbiased = blocks > n + 1 ? blocks / (blocks - n - 1) : blocks;
     // In units of the priors: the parameters' own differ by many powers of ten.
     const auto unit = prior_std_.asDiagonal();
-    const MacroMatrix inverse = unit * MacroMatrix(unit * curvature * unit).inverse() * unit;
-    MacroMatrix result = inverse * (unbiased * scatter) * inverse;
-    const MacroVector widened = inverse.diagonal().cwiseQuotient(result.diagonal()).cwiseSqrt().cwiseMax(1.0);
-    result = widened.asDiagonal() * result * widened.asDiagonal();
+    MacroInfluences result{unit * MacroMatrix(unit * curvature * unit).inverse() * unit, {}, 0};
     for (int i = 0; i < n; ++i) {
+        result.fitted += active[static_cast<std::size_t>(i)] ? 1 : 0;
         if (active[static_cast<std::size_t>(i)]) continue;
-        result.row(i).setZero();
-        result.col(i).setZero();
+        result.inverse.row(i).setZero();
+        result.inverse.col(i).setZero();
     }
+    for (const std::vector<MacroVector>& of_recording : scores) {
+        auto& blocks = result.blocks.emplace_back(n, static_cast<Eigen::Index>(of_recording.size()));
+        for (std::size_t j = 0; j < of_recording.size(); ++j)
+            blocks.col(static_cast<Eigen::Index>(j)) = result.inverse * of_recording[j];
+    }
+    return result;
+}
+
+BatchVariance variance_along(const MacroInfluences& influences, const MacroVector& gradient) {
+    std::vector<std::vector<double>> series;
+    series.reserve(influences.blocks.size());
+    for (const auto& blocks : influences.blocks) {
+        const Eigen::RowVectorXd along = gradient.transpose() * blocks;
+        series.emplace_back(along.data(), along.data() + along.size());
+    }
+    BatchVariance result = batch_variance(series, influences.fitted);
+    result.variance = std::max(result.variance, gradient.dot(influences.inverse * gradient));
     return result;
 }
 

@@ -7,6 +7,7 @@
 // from adding up, as it would without bound behind an integrator.
 #include "calib/axis/macro_motion.h"
 #include "calib/axis/macro_trace.h"
+#include "calib/batch_variance.h"
 
 #include <array>
 #include <vector>
@@ -35,6 +36,19 @@ struct MacroPoint {
     double noise_count = 1.0;
 };
 
+/// What the standard errors of a fit are made of.
+struct MacroInfluences {
+    MacroMatrix inverse = MacroMatrix::Zero();  ///< inverse information; zero for parameters not fitted
+    /// By recording, a column a block of 50 ms, longer where the reading stands still (the error of rounding
+    /// stays the same while the reading does): by how much the block moved each parameter.
+    std::vector<Eigen::Matrix<double, macro_parameter_count, Eigen::Dynamic>> blocks;
+    std::size_t fitted = 0;  ///< number of active parameters
+};
+
+/// Variance of a figure with this gradient by the parameters: of batches of blocks (calib/batch_variance.h),
+/// at least what the likelihood claims.
+BatchVariance variance_along(const MacroInfluences& influences, const MacroVector& gradient);
+
 class MacroEstimator {
   public:
     /// @param windows  not empty; what they show must outlive the estimator
@@ -57,14 +71,31 @@ class MacroEstimator {
     /// Standard deviation before rounding that explains the residual, at least a twentieth of a count.
     double noise_count(const MacroPoint& point) const;
 
-    /// Covariance of the active parameters, zero elsewhere: the sandwich H^-1 (sum of g g') H^-1 over blocks
-    /// of 50 ms, longer where the reading stands still, which holds when errors are correlated over less than
-    /// a block or the noise is not as assumed; widened to H^-1, the likelihood's own claim, where blocks are
-    /// few.
-    MacroMatrix covariance(const MacroPoint& point, const MacroActive& active) const;
+    /// How the readings pull at the active parameters, and what the likelihood claims to know of them.
+    MacroInfluences influences(const MacroPoint& point, const MacroActive& active) const;
+
+    /// A window's prediction linearised: what lack-of-fit tests add columns to.
+    struct Linearised {
+        std::vector<double> prediction_count;
+        Eigen::VectorXd slopes, curvatures;  ///< of -log likelihood by the predicted place, per count
+        Eigen::MatrixXd own;     ///< derivative of the place by each parameter, the start having followed
+        Eigen::MatrixXd starts;  ///< derivative by the start's position and velocity
+        Eigen::Matrix2d start_information;
+    };
+    Linearised linearised(std::size_t window, const MacroPoint& point, const MacroActive& active) const;
+
+    /// Prediction minus reading over a window.
+    std::vector<double> errors_count(std::size_t window, const MacroPoint& point) const;
+
+    /// Position and velocity of the model at each tick of a window.
+    std::vector<MacroMotionState> course(std::size_t window, const MacroPoint& point) const;
+
+    /// Precision of the priors, so that information from the data can be added to it.
+    MacroMatrix prior_information() const { return prior_std_.cwiseAbs2().cwiseInverse().asDiagonal(); }
 
     const std::vector<MacroWindow>& windows() const { return windows_; }
     double fastest_mm_per_s() const { return fastest_mm_per_s_; }
+    double resolution_mm() const { return resolution_mm_; }
 
   private:
     struct Sums;

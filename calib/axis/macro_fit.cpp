@@ -1,5 +1,8 @@
 #include "calib/axis/macro_fit.h"
 
+#include "calib/axis/macro_recordings.h"
+#include "calib/axis/macro_rivals.h"
+#include "calib/tails.h"
 #include "core/failure.h"
 
 #include <algorithm>
@@ -13,19 +16,6 @@ namespace fidservo::calib {
 namespace {
 
 constexpr double least_piece_s = 0.06;
-
-/// Mean size of the commands that drive.
-double mean_drive_V(const std::vector<MacroWindow>& windows, const MacroMotion& motion) {
-    double sum_V = 0.0, ticks = 0.0;
-    for (const MacroWindow& window : windows) {
-        for (const double u : window.command_V) {
-            if (u == 0.0 || (u < motion.forward_threshold_V && -u < motion.backward_threshold_V)) continue;
-            sum_V += std::abs(u);
-            ++ticks;
-        }
-    }
-    return ticks > 0.0 ? sum_V / ticks : 1.0;
-}
 
 /// Whether the carriage was driven to both sides for 20 ms in all.
 bool drives_both_ways(const std::vector<MacroWindow>& windows, const MacroMotion& motion) {
@@ -108,50 +98,102 @@ void scan_thresholds(const MacroEstimator& estimator, MacroFit& fit) {
     }
 }
 
-/// Parameters and noise in turn, until neither changes any more; then the thresholds, and again.
+/// Parameters and noise; then the thresholds, and again.
 void settle(const MacroEstimator& estimator, const MacroBuild& build, MacroFit& fit) {
-    constexpr int most_rounds = 6, iterations = 30;
-    constexpr double same = 0.02;
-    const auto refine = [&] {
-        for (int round = 0; round < most_rounds; ++round) {
-            const double noise_count = fit.point.noise_count;
-            fit.point.noise_count = estimator.noise_count(fit.point);
-            estimator.refine(fit.point, fit.active, iterations);
-            if (std::abs(noise_count - fit.point.noise_count) < same * noise_count) break;
-        }
-    };
+    const auto refine = [&] { refine_with_noise(estimator, fit.point, fit.active); };
     refine();
     if (build.dead_zone) {
         search_thresholds(estimator, fit.point, fit.active);
         refine();
         search_thresholds(estimator, fit.point, fit.active);
-        fit.forward = threshold_interval(estimator, fit.point, fit.active, +1.0);
-        fit.backward = threshold_interval(estimator, fit.point, fit.active, -1.0);
     }
-    fit.covariance = estimator.covariance(fit.point, fit.active);
+    fit.influences = estimator.influences(fit.point, fit.active);
+    if (build.dead_zone) {
+        const double allowance = loss_allowance(fit);
+        fit.forward = threshold_interval(estimator, fit.point, fit.active, +1.0, allowance);
+        fit.backward = threshold_interval(estimator, fit.point, fit.active, -1.0, allowance);
+    }
 }
 
-double std_of(const MacroFit& fit, int index) {
-    return std::sqrt(std::max(0.0, fit.covariance(index, index)));
+/// Whether the carriage was driven by one size of command alone, to a twentieth.
+bool has_one_amplitude(const std::vector<MacroWindow>& windows, const MacroMotion& motion) {
+    constexpr double twentieth = 0.05;
+    double low_V = std::numeric_limits<double>::infinity(), high_V = 0.0;
+    for (const MacroWindow& window : windows)
+        for (const double u : window.command_V) {
+            if (drive_speed_mm_per_s(motion, u) == 0.0 || u == 0.0) continue;
+            low_V = std::min(low_V, std::abs(u));
+            high_V = std::max(high_V, std::abs(u));
+        }
+    return !(high_V - low_V > twentieth * 0.5 * (high_V + low_V));
+}
+
+/// Whether friction lies at its bound of 0: nearer than a hundredth of its standard error.
+bool at_bound(const MacroFit& fit) {
+    constexpr double share = 0.01;
+    return fit.active[macro_index::friction] &&
+           fit.point.motion.friction_mm_per_s <= share * parameter_std(fit, macro_index::friction);
 }
 
 /// Friction and offset that the data cannot tell from the rest leave the fit, so that the rest is determined.
 void drop_undetermined(const MacroEstimator& estimator, const MacroBuild& build, MacroFit& fit) {
-    constexpr double most_share = 0.2;
+    constexpr double most_share = 0.2, level = 0.01;
     const double drive_V = mean_drive_V(estimator.windows(), fit.point.motion);
-    const auto drop = [&](int index, double most_std) {
-        if (!fit.active[static_cast<std::size_t>(index)] || std_of(fit, index) <= most_std) return;
+    const auto drop = [&](int index, double most_std, std::optional<MacroFit::Dropped>& dropped) {
+        if (!fit.active[static_cast<std::size_t>(index)]) return;
+        const BatchVariance variance = variance_along(fit.influences, MacroVector::Unit(index));
+        const double std = std::sqrt(variance.variance), value = vector_of(fit.point.motion)[index];
+        if (std <= most_std || std::abs(value) > student_bound(variance.freedom, level) * std) return;
+        dropped = {value, std, fit.point.motion};
+        if (index == macro_index::friction) fit.friction_at_bound = at_bound(fit);
         fit.active[static_cast<std::size_t>(index)] = false;
         MacroVector parameters = vector_of(fit.point.motion);
         parameters[index] = 0.0;
         fit.point.motion = with_parameters(fit.point.motion, parameters);
         settle(estimator, build, fit);
     };
-    drop(macro_index::friction, most_share * estimator.fastest_mm_per_s());
-    drop(macro_index::offset, most_share * drive_V);
+    drop(macro_index::friction, most_share * estimator.fastest_mm_per_s(), fit.friction_dropped);
+    drop(macro_index::offset, most_share * drive_V, fit.offset_dropped);
 }
 
 }  // namespace
+
+double mean_drive_V(const std::vector<MacroWindow>& windows, const MacroMotion& motion) {
+    double sum_V = 0.0, ticks = 0.0;
+    for (const MacroWindow& window : windows) {
+        for (const double u : window.command_V) {
+            if (u == 0.0 || (u < motion.forward_threshold_V && -u < motion.backward_threshold_V)) continue;
+            sum_V += std::abs(u);
+            ++ticks;
+        }
+    }
+    return ticks > 0.0 ? sum_V / ticks : 1.0;
+}
+
+double loss_allowance(const MacroFit& fit) {
+    constexpr double independent = 2.0;
+    double largest = 1.0;
+    for (int i = 0; i < macro_parameter_count; ++i)
+        if (const double claimed = fit.influences.inverse(i, i); claimed > 0.0)
+            largest =
+                std::max(largest, variance_along(fit.influences, MacroVector::Unit(i)).variance / claimed);
+    return independent * largest;
+}
+
+double parameter_std(const MacroFit& fit, int index) {
+    return std::sqrt(variance_along(fit.influences, MacroVector::Unit(index)).variance);
+}
+
+void refine_with_noise(const MacroEstimator& estimator, MacroPoint& point, const MacroActive& active) {
+    constexpr int most_rounds = 6, iterations = 30;
+    constexpr double same = 0.02;
+    for (int round = 0; round < most_rounds; ++round) {
+        const double noise_count = point.noise_count;
+        point.noise_count = estimator.noise_count(point);
+        estimator.refine(point, active, iterations);
+        if (std::abs(noise_count - point.noise_count) < same * noise_count) break;
+    }
+}
 
 std::vector<MacroWindow> macro_windows(std::span<const MacroTrace> traces, const MacroBuild& build,
                                        double window_s) {
@@ -195,9 +237,36 @@ MacroFit fit_macro_windows(const MacroEstimator& estimator, const MacroBuild& bu
     if (build.dead_zone) scan_thresholds(estimator, fit);
     fit.both_ways = drives_both_ways(estimator.windows(), fit.point.motion);
     fit.active[macro_index::offset] = fit.both_ways;
+    const auto [reversals, coasted_s] = manoeuvres(estimator, fit.point.motion);
+    // One speed tells the drive less friction, and no more.
+    fit.active[macro_index::friction] = reversals > 0 || coasted_s > 0.0 || build.dead_zone ||
+                                        !has_one_amplitude(estimator.windows(), fit.point.motion);
+    if (!fit.active[macro_index::friction]) fit.point.motion.friction_mm_per_s = 0.0;
     settle(estimator, build, fit);
+    constexpr double shows = 0.2;  // of the largest speed
+    if (!fit.both_ways && !build.dead_zone && at_bound(fit) &&
+        parameter_std(fit, macro_index::friction) < shows * estimator.fastest_mm_per_s()) {
+        fit.offset_less_friction = true;
+        fit.active[macro_index::friction] = false;
+        fit.active[macro_index::offset] = true;
+        settle(estimator, build, fit);
+    }
     drop_undetermined(estimator, build, fit);
+    fit.friction_at_bound = fit.friction_at_bound || at_bound(fit);
     return fit;
+}
+
+void compare_minima(const MacroEstimator& estimator, const MacroBuild& build, MacroFit& fit) {
+    std::vector<MacroMinimum> others = other_minima(estimator, fit);
+    if (!others.empty() && others.front().above < 0.0) {
+        MacroMinimum before{fit.point, -others.front().above};
+        fit.point = others.front().point;
+        settle(estimator, build, fit);
+        others.front() = before;
+    }
+    const double allowance = loss_allowance(fit);
+    for (const MacroMinimum& other : others)
+        if (other.above < allowance) fit.rivals.push_back(other.point.motion);
 }
 
 }  // namespace fidservo::calib

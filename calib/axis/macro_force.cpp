@@ -38,6 +38,20 @@ std::vector<double> smoothed(const std::vector<double>& values, const std::vecto
     return result;
 }
 
+/// Variance of  tau a + v  for readings with white noise of unit variance: the filter's squared weights.
+double noise_gain(double tick_s, double time_constant_s) {
+    std::vector<double> weights = bell(tick_s);
+    weights.insert(weights.begin(), 2, 0.0);
+    weights.insert(weights.end(), 2, 0.0);
+    double gain = 0.0;
+    for (std::size_t i = 1; i + 1 < weights.size(); ++i) {
+        const double speed = (weights[i + 1] - weights[i - 1]) / (2.0 * tick_s);
+        const double acceleration = (weights[i + 1] - 2.0 * weights[i] + weights[i - 1]) / (tick_s * tick_s);
+        gain += std::pow(time_constant_s * acceleration + speed, 2);
+    }
+    return gain;
+}
+
 struct ForceSample {
     double speed_mm_per_s;
     double drive_mm_per_s;
@@ -72,7 +86,8 @@ void append_samples(std::vector<ForceSample>& samples, const MacroTrace& trace, 
 
 }  // namespace
 
-Result<double> relative_force_error(std::span<const MacroTrace> traces, const MacroMotion& motion) {
+Result<double> relative_force_error(std::span<const MacroTrace> traces, const MacroMotion& motion,
+                                    double white_noise_mm) {
     constexpr double slowest_share = 0.05, least_s = 0.1;
     std::vector<ForceSample> samples;
     for (const MacroTrace& trace : traces) append_samples(samples, trace, motion);
@@ -87,7 +102,9 @@ Result<double> relative_force_error(std::span<const MacroTrace> traces, const Ma
     }
     if (traces.empty() || used * traces.front().tick_s < least_s || drives == 0.0)
         return failure(Reason::not_identifiable, "less than 100 ms of motion to judge the force by");
-    return std::sqrt(errors / drives);
+    const double noise =
+        used * std::pow(white_noise_mm, 2) * noise_gain(traces.front().tick_s, motion.time_constant_s);
+    return std::sqrt(std::max(0.0, errors - noise) / drives);
 }
 
 }  // namespace fidservo::calib

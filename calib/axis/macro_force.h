@@ -12,10 +12,13 @@ namespace fidservo::calib {
 
 /// Relative error of the force, r.m.s. of  KV(u) - C sgn(v) - (tau a + v)  over r.m.s. of  KV(u).
 ///
+/// The variance that white noise of the readings has in the numerator is taken out of it.
+///
 /// Position, drive and friction pass through the same zero-phase bell-shaped low-pass of 5 ms standard
 /// deviation, the position's second differences too, so that the filter cancels. Ticks slower than a
 /// twentieth of the fastest are left out: friction at rest is not the model's to tell. Fails with
 /// Reason::not_identifiable if less than 100 ms of motion remains.
-Result<double> relative_force_error(std::span<const MacroTrace> traces, const MacroMotion& motion);
+Result<double> relative_force_error(std::span<const MacroTrace> traces, const MacroMotion& motion,
+                                    double white_noise_mm = 0.0);
 
 }  // namespace fidservo::calib

@@ -1,11 +1,14 @@
 #include "calib/axis/macro_identification.h"
 
 #include "calib/axis/macro_fit.h"
+#include "calib/axis/macro_knowledge.h"
+#include "calib/tails.h"
 #include "core/demand.h"
 #include "core/failure.h"
 #include "core/macro_parameters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -16,7 +19,7 @@ namespace {
 
 constexpr double longest_window_s = 1.0, shortest_window_s = 0.125;
 
-/// A relative standard error beyond which a figure is no figure.
+/// A relative standard error beyond which a threshold is no figure.
 constexpr double most_relative_std = 0.2;
 
 std::vector<MacroTrace> within_limit(std::span<const MacroTrace> traces, double limit_V) {
@@ -65,51 +68,101 @@ Threshold find_threshold(const MacroFit& fit, const MacroBuild& build) {
             build.threshold_V, 0.0, true};
 }
 
-/// What people call the fitted speeds: K, tau, a0, delta, F, b.
-using Figures = Eigen::Matrix<double, 6, 1>;
-
-Figures figures_of(const MacroMotion& motion, double unit_V, double threshold_V) {
-    const auto line = [&](double size_V) {
-        return motion.speed_mm_per_s + motion.slope_mm_per_s_per_V * (size_V - motion.centre_V);
-    };
-    const double gain = line(unit_V);
-    return {gain,
-            motion.time_constant_s,
-            line(threshold_V) / gain,
-            motion.slope_mm_per_s_per_V / gain,
-            motion.friction_mm_per_s / gain,
-            motion.offset_V};
+/// Whether an interval of 95 % is wider than one of a normal law with such a standard error.
+bool wider_than(const MacroEstimate& estimate, double std) {
+    constexpr double normal_95 = 1.96;
+    return !(std::isfinite(estimate.value) && estimate.reach_95() <= normal_95 * std);
 }
 
-/// First-order propagation of the fit's covariance and of the threshold's standard error.
-Figures figure_stds(const MacroFit& fit, double unit_V, const Threshold& threshold) {
-    const MacroVector here = vector_of(fit.point.motion);
-    const auto at = [&](const MacroVector& parameters) {
-        MacroMotion motion = with_parameters(fit.point.motion, parameters);
-        motion.friction_mm_per_s = parameters[macro_index::friction];
-        return figures_of(motion, unit_V, threshold.value_V);
+constexpr std::array<const char*, macro_figure_count> figure_names{
+    "gain", "time constant", "offset of the dead zone", "slope of the dead zone", "friction", "drive offset"};
+
+/// K / tau where that is known to a fifth.
+std::optional<MacroEstimate> ratio_of_gain_and_time_constant(const MacroFit& fit, const MacroBuild& build,
+                                                             const MacroKnowledge& known) {
+    constexpr double fifth = 0.2;
+    const MacroFigureGradient gradient = figure_gradient(fit.point.motion, build.unit_V, 0.0);
+    const double gain = known.value[0], tau_s = known.value[1];
+    const MacroVector relative = (gradient.row(0) / gain - gradient.row(1) / tau_s).transpose();
+    const BatchVariance variance = variance_along(fit.influences, relative);
+    const double std = std::sqrt(variance.variance);
+    if (!(std < fifth) || known.agreement[0].scatter.added_variance > 0.0) return std::nullopt;
+    const double ratio = gain / tau_s;
+    return MacroEstimate{ratio, std::abs(ratio) * std, variance.freedom};
+}
+
+std::string with_std(const MacroEstimate& estimate) {
+    return fmt::format("{:.4g} +- {:.2g}", estimate.value, estimate.std);
+}
+
+MacroContradiction contradiction_on(const MacroKnowledge& known, std::size_t figure,
+                                    const std::vector<std::string>& names) {
+    const MacroAgreement& agreement = known.agreement[figure];
+    const auto own = [&](std::size_t i) {
+        return MacroEstimate{agreement.own[i].value, agreement.own[i].std, agreement.own[i].freedom};
     };
-    Eigen::Matrix<double, 6, macro_parameter_count> gradient;
-    for (int i = 0; i < macro_parameter_count; ++i) {
-        const double step = 1e-6 * std::max(1e-3, std::abs(here[i]));
-        MacroVector above = here, below = here;
-        above[i] += step;
-        below[i] -= step;
-        gradient.col(i) = (at(above) - at(below)) / (2.0 * step);
+    const auto [low, high] = std::pair(agreement.scatter.low, agreement.scatter.high);
+    return {figure_names[figure],
+            agreement.scatter.apart,
+            names[agreement.recordings[low]],
+            names[agreement.recordings[high]],
+            own(low),
+            own(high)};
+}
+
+/// Another minimum's value where it is another.
+std::optional<double> rival_value(const MacroFit& fit, const MacroKnowledge& known, MacroFigure figure,
+                                  double unit_V, double threshold_V) {
+    const auto i = static_cast<int>(figure);
+    for (const MacroMotion& rival : fit.rivals) {
+        const double value = figures_of(rival, unit_V, threshold_V)[i];
+        if (std::abs(value - known.value[i]) > estimate_of(known, figure).reach_95()) return value;
     }
-    Figures variance = (gradient * fit.covariance * gradient.transpose()).diagonal();
-    const double zone_slope = figures_of(fit.point.motion, unit_V, threshold.value_V)[3];
-    variance[2] += std::pow(zone_slope * threshold.std_V, 2);
-    return variance.cwiseMax(0.0).cwiseSqrt();
+    return std::nullopt;
 }
 
-Result<MacroEstimate> judged(double value, double std, double most_std, const std::string& why_not) {
-    if (std::isfinite(value) && std <= most_std) return MacroEstimate{value, std};
-    return failure(Reason::not_identifiable, fmt::format("{} (standard error {:.2g})", why_not, std));
-}
+/// A figure, or why these data do not determine it.
+class Judge {
+  public:
+    Judge(const MacroFit& fit, const MacroBuild& build, const MacroKnowledge& known, double threshold_V,
+          const std::vector<MacroContradiction>& contradictions)
+        : fit_(fit),
+          build_(build),
+          known_(known),
+          threshold_V_(threshold_V),
+          contradictions_(contradictions) {}
+
+    Result<MacroEstimate> operator()(MacroFigure figure, const std::string& too_wide) const {
+        const MacroEstimate estimate = estimate_of(known_, figure);
+        const auto i = static_cast<int>(figure);
+        if (const auto other = rival_value(fit_, known_, figure, build_.unit_V, threshold_V_))
+            return failure(
+                Reason::not_identifiable,
+                fmt::format("two values fit about equally well, {:.4g} and {:.4g}: the data do not "
+                            "decide",
+                            estimate.value, *other));
+        if (!wider_than(estimate, known_.most_std[i])) return estimate;
+        for (const MacroContradiction& found : contradictions_)
+            if (found.figure == figure_names[static_cast<std::size_t>(i)])
+                return failure(Reason::not_identifiable,
+                               fmt::format("the recordings contradict each other by {:.1f} standard errors, "
+                                           "{} says {}, {} says {}: no common value",
+                                           found.apart, found.low_recording, with_std(found.low),
+                                           found.high_recording, with_std(found.high)));
+        return failure(Reason::not_identifiable,
+                       fmt::format("{} (standard error {:.2g})", too_wide, estimate.std));
+    }
+
+  private:
+    const MacroFit& fit_;
+    const MacroBuild& build_;
+    const MacroKnowledge& known_;
+    double threshold_V_;
+    const std::vector<MacroContradiction>& contradictions_;
+};
 
 void give_dead_zone(MacroIdentification& result, const MacroFit& fit, const MacroBuild& build,
-                    const Figures& value, const Figures& std, const Threshold& threshold) {
+                    const Judge& judged, const Threshold& threshold) {
     if (!build.dead_zone) {
         const auto none = failure(Reason::not_identifiable, "the rig has no dead zone");
         result.threshold_V = none;
@@ -122,7 +175,7 @@ void give_dead_zone(MacroIdentification& result, const MacroFit& fit, const Macr
         "the commands that drove lie too close around {:.3g} V to tell a0 from delta: several amplitudes "
         "would",
         fit.point.motion.centre_V);
-    result.zone_slope = judged(value[3], std[3], most_relative_std * std::abs(value[3]), one_amplitude);
+    result.zone_slope = judged(MacroFigure::zone_slope, one_amplitude);
     const bool in_bounds = !fit.forward.bounded() || (build.threshold_V > fit.forward.above_V &&
                                                       build.threshold_V <= fit.forward.most_V);
     if (threshold.assumed && !in_bounds)
@@ -131,42 +184,90 @@ void give_dead_zone(MacroIdentification& result, const MacroFit& fit, const Macr
             "a0 is the effective voltage at the threshold, which these data leave open and the rig file "
             "gives outside of what they allow");
     else
-        result.zone_offset_V = judged(value[2], std[2], most_relative_std, one_amplitude);
+        result.zone_offset_V = judged(MacroFigure::zone_offset, one_amplitude);
     result.threshold_assumed = threshold.assumed && result.zone_offset_V.has_value();
 }
 
-MacroIdentification identification(const MacroFit& fit, const MacroBuild& build) {
+/// The carriage was driven to one side only, by more than the command: only a difference is fixed.
+std::string net_offset_refusal(const MacroKnowledge& known) {
+    return fmt::format(
+        "the carriage was driven to one side only: drive offset less friction is {} V, each alone "
+        "is not determined",
+        with_std(estimate_of(known, MacroFigure::drive_offset)));
+}
+
+/// Why friction left the fit; a cause is named only where it is there.
+std::string friction_refusal(const MacroFit& fit, const MacroIdentification& result) {
+    if (fit.offset_less_friction)
+        return "the carriage was driven to one side only: drive offset less friction is determined, each "
+               "alone is "
+               "not";
+    if (result.reversals == 0 && result.coasted_s == 0.0)
+        return "friction and drive cannot be told apart: the carriage neither coasted nor reversed; taken as "
+               "zero";
+    const std::string seen = result.coasted_s > 0.0
+                                 ? fmt::format("the carriage reversed {} times and coasted for {:.2g} s",
+                                               result.reversals, result.coasted_s)
+                                 : fmt::format("the carriage reversed {} times", result.reversals);
+    if (!fit.friction_dropped) return "it does not show, though " + seen + "; taken as zero";
+    const std::string value = fit.friction_at_bound ? "it came out at its bound of 0"
+                                                    : fmt::format("it came out at {:.3g} mm/s of speed lost",
+                                                                  fit.friction_dropped->value);
+    return fmt::format("{} with a standard error of {:.2g} mm/s, though {}; taken as zero", value,
+                       fit.friction_dropped->std, seen);
+}
+
+MacroIdentification identification(const MacroEstimator& estimator, const MacroFit& fit,
+                                   const MacroBuild& build, const std::vector<std::string>& names) {
     const Threshold threshold = build.dead_zone ? find_threshold(fit, build) : Threshold{};
     const MacroMotion& motion = fit.point.motion;
-    const Figures value = figures_of(motion, build.unit_V, threshold.value_V);
-    const Figures std = figure_stds(fit, build.unit_V, threshold);
+    const MacroKnowledge known = knowledge_of(estimator, fit, build, threshold.value_V, threshold.std_V);
     MacroIdentification result{};
+    for (const std::size_t figure : contradicted(known))
+        result.contradictions.push_back(contradiction_on(known, figure, names));
+    const Judge judged(fit, build, known, threshold.value_V, result.contradictions);
+    const auto [reversals, coasted_s] = manoeuvres(estimator, motion);
+    result.reversals = reversals;
+    result.coasted_s = coasted_s;
     result.gain_mm_per_s_per_V =
-        judged(value[0], std[0], most_relative_std * std::abs(value[0]),
+        judged(MacroFigure::gain,
                build.dead_zone
                    ? fmt::format(
                          "the gain is the speed at {:.3g} V, and the commands that drove lie around {:.3g} V",
                          build.unit_V, motion.centre_V)
                    : "the motion is too short or too slow to show the speed it tends to");
     result.time_constant_s = judged(
-        value[1], std[1], most_relative_std * value[1],
+        MacroFigure::time_constant,
         "no start, stop or reversal shows how fast the speed changes: too short, too slow, or too coarse");
-    give_dead_zone(result, fit, build, value, std, threshold);
-    result.friction_V =
-        fit.active[macro_index::friction]
-            ? Result<MacroEstimate>(MacroEstimate{value[4], std[4]})
-            : failure(
-                  Reason::not_identifiable,
-                  "friction and drive cannot be told apart without the carriage coasting or reversing; taken "
-                  "as zero");
+    give_dead_zone(result, fit, build, judged, threshold);
+    result.friction_V = fit.active[macro_index::friction]
+                            ? judged(MacroFigure::friction, "it hardly shows, or not apart from the others")
+                            : failure(Reason::not_identifiable, friction_refusal(fit, result));
     result.drive_offset_V =
-        fit.active[macro_index::offset]
-            ? Result<MacroEstimate>(MacroEstimate{value[5], std[5]})
+        fit.offset_less_friction ? failure(Reason::not_identifiable, net_offset_refusal(known))
+        : fit.active[macro_index::offset]
+            ? judged(MacroFigure::drive_offset, "it hardly shows, or not apart from the others")
             : failure(Reason::not_identifiable,
                       fit.both_ways ? "offset and friction cannot be told apart in these data; taken as zero"
                                     : "the carriage was driven to one side only; taken as zero");
+    result.friction_at_bound = fit.friction_at_bound;
     result.motion = motion;
+    result.rivals = fit.rivals;
+    for (const MacroLack& lack : known.lacks.found) result.missing.push_back({lack.depends_on, lack.share});
+    result.missed_share = known.missed.share;
+    result.white_noise_mm = known.missed.noise_count * build.resolution_mm;
+    if (!result.gain_mm_per_s_per_V || !result.time_constant_s)
+        result.acceleration_mm_per_s2_per_V = ratio_of_gain_and_time_constant(fit, build, known);
     return result;
+}
+
+std::vector<std::string> recording_names(std::span<const MacroTrace> traces) {
+    std::vector<std::string> names;
+    for (const MacroTrace& trace : traces) {
+        if (names.size() <= trace.recording) names.resize(trace.recording + 1);
+        names[trace.recording] = trace.name;
+    }
+    return names;
 }
 
 double recorded_s(std::span<const MacroTrace> traces) {
@@ -177,6 +278,11 @@ double recorded_s(std::span<const MacroTrace> traces) {
 }
 
 }  // namespace
+
+double MacroEstimate::reach_95() const {
+    constexpr double both_tails = 0.05;
+    return std > 0.0 ? student_bound(freedom, both_tails) * std : std;
+}
 
 MacroBuild macro_build(const MacroParameters& macro) {
     const DeadZone& zone = macro.dead_zone;
@@ -196,12 +302,13 @@ Result<MacroIdentification> identify_macro(std::span<const MacroTrace> traces, c
         if (const Status usable = check_macro_windows(windows, build.resolution_mm); !usable)
             return tl::make_unexpected(usable.error());
         const MacroEstimator estimator(windows, build.resolution_mm);
-        const MacroFit fit = fit_macro_windows(estimator, build);
-        if (!fit.covariance.allFinite() || !vector_of(fit.point.motion).allFinite())
+        MacroFit fit = fit_macro_windows(estimator, build);
+        if (!fit.influences.inverse.allFinite() || !vector_of(fit.point.motion).allFinite())
             return failure(Reason::no_convergence,
                            "no model with finite parameters follows these recordings");
         if (estimator.noise_count(fit.point) > 1.0 && window_s > shortest_window_s) continue;
-        MacroIdentification result = identification(fit, build);
+        compare_minima(estimator, build, fit);
+        MacroIdentification result = identification(estimator, fit, build, recording_names(limited));
         result.residual_count = estimator.residual_count(fit.point);
         result.window_s = window_s;
         result.windows = static_cast<int>(windows.size());

@@ -6,7 +6,11 @@
 #include "core/macro_parameters.h"
 #include "core/result.h"
 
+#include <limits>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace fidservo::calib {
 
@@ -26,7 +30,30 @@ MacroBuild macro_build(const MacroParameters& macro);
 
 struct MacroEstimate {
     double value;
-    double std;  ///< one standard error
+    double std;                                                ///< one standard error
+    double freedom = std::numeric_limits<double>::infinity();  ///< of Student's law for intervals
+
+    /// How far off it may be besides, if what the model lacks goes with the figure as much as it does not:
+    /// the residual beyond noise as one coherent error (Cauchy and Schwarz). 0 where there is no such
+    /// residual.
+    double systematic = 0.0;
+
+    /// Half the width of the interval that holds the truth with 95 %.
+    double reach_95() const;
+};
+
+/// Two recordings that contradict each other.
+struct MacroContradiction {
+    std::string figure;  ///< "gain", "time constant", ...
+    double apart;        ///< in standard errors of the difference
+    std::string low_recording, high_recording;
+    MacroEstimate low, high;
+};
+
+/// A force that the recordings show and the model does not have.
+struct MacroMissing {
+    std::string depends_on;
+    double share;  ///< of the residual's squares
 };
 
 /// Each of these is determined or refused by itself (Reason::not_identifiable).
@@ -39,6 +66,18 @@ struct MacroIdentification {
     Result<MacroEstimate> friction_V;     ///< Coulomb friction in effective volts
     Result<MacroEstimate> drive_offset_V;
     bool threshold_assumed = false;  ///< a0 is for the rig file's threshold
+    bool friction_at_bound = false;  ///< friction came out at 0, below which it cannot be
+
+    /// Where gain and time constant cannot be told apart: their ratio, the acceleration that a volt gives.
+    std::optional<MacroEstimate> acceleration_mm_per_s2_per_V;
+    std::vector<MacroContradiction> contradictions;
+    std::vector<MacroMissing> missing;  ///< the largest share first
+    /// Of the force, integrated over windows: see missed_share() in macro_recordings.h.
+    std::optional<double> missed_share;
+    double white_noise_mm;            ///< of the readings, as residuals show it from tick to tick
+    std::vector<MacroMotion> rivals;  ///< other minima that the data do not exclude
+    int reversals = 0;
+    double coasted_s = 0.0;
 
     MacroMotion motion;     ///< the fitted model
     double residual_count;  ///< r.m.s. of prediction minus reading over the windows
@@ -53,8 +92,13 @@ struct MacroIdentification {
 /// Windows last 1 s; where the model leaves more than a count unexplained in them, they are halved, down to
 /// 0.125 s, because an unmodelled force moves a prediction by the square of time while rounding does not
 /// grow. A Coulomb friction or offset that the data cannot tell from the rest is taken as zero and refused.
-/// Fails with Reason::not_identifiable if there are no usable data at all: too short, no command, no motion;
-/// with Reason::no_convergence if no finite model follows them.
+/// Standard errors count what makes estimates scatter: errors correlated over time (calib/batch_variance.h),
+/// recordings that differ (calib/heterogeneity.h), and a force that the model lacks (macro_lack.h), by as
+/// much as the figure would move if the model had it. A figure is refused where the data leave it wider than
+/// a fifth, where recordings contradict each other (1 % over all figures) so that no common value is known to
+/// a fifth, or where another minimum is about as likely. Fails with Reason::not_identifiable if there are no
+/// usable data at all: too short, no command, no motion; with Reason::no_convergence if no finite model
+/// follows them.
 /// @param traces  may be empty; commands and positions finite, as macro_traces gives them
 Result<MacroIdentification> identify_macro(std::span<const MacroTrace> traces, const MacroBuild& build);
 

@@ -126,8 +126,7 @@ void search_thresholds(const MacroEstimator& estimator, MacroPoint& point, const
 }
 
 ThresholdInterval threshold_interval(const MacroEstimator& estimator, const MacroPoint& point,
-                                     const MacroActive& active, double side) {
-    constexpr double allowance = 2.0;
+                                     const MacroActive& active, double side, double allowance) {
     constexpr int iterations = 4;
     const std::vector<double> levels = command_levels_V(estimator.windows(), side);
     if (levels.empty()) return {0.0, infinity};

@@ -28,8 +28,9 @@ ThresholdInterval threshold_from_rest(const std::vector<MacroWindow>& windows, d
 void search_thresholds(const MacroEstimator& estimator, MacroPoint& point, const MacroActive& active);
 
 /// The commands between which one direction's threshold lies: over which the loss, refitted, does not exceed
-/// its least by more than 2 (about two standard deviations).
+/// its least by more than an allowance (2, for a likelihood of independent errors, is about two standard
+/// deviations).
 ThresholdInterval threshold_interval(const MacroEstimator& estimator, const MacroPoint& point,
-                                     const MacroActive& active, double side);
+                                     const MacroActive& active, double side, double allowance);
 
 }  // namespace fidservo::calib

@@ -36,7 +36,7 @@ bool is_impact(const MacroTrace& trace, std::size_t k, std::size_t end, double r
 
 }  // namespace
 
-std::vector<MacroTrace> macro_traces(const Recording& recording, double resolution_mm) {
+std::vector<MacroTrace> macro_traces(const Recording& recording, double resolution_mm, std::size_t index) {
     constexpr double late = 1.5;  // ticks between rows from which on one is missing
     std::vector<MacroTrace> traces;
     bool open = false;
@@ -46,7 +46,7 @@ std::vector<MacroTrace> macro_traces(const Recording& recording, double resoluti
             recording.columns.encoder ? row.encoder_count * resolution_mm : row.position_mm;
         const bool usable = std::isfinite(position_mm) && std::isfinite(row.macro_command_V);
         const bool follows = open && seconds(row.time_ns - last_ns) < late * recording.tick_s;
-        if (usable && !follows) traces.push_back({recording.name, recording.tick_s, {}, {}});
+        if (usable && !follows) traces.push_back({recording.name, recording.tick_s, {}, {}, index});
         if (usable) {
             traces.back().command_V.push_back(row.macro_command_V);
             traces.back().position_mm.push_back(position_mm);
@@ -90,7 +90,8 @@ std::vector<MacroWindow> cut_windows(const MacroTrace& trace, const std::vector<
         for (std::size_t i = 0; i < pieces && length >= least; ++i) {
             const std::size_t from = begin + length * i / pieces, to = begin + length * (i + 1) / pieces;
             windows.push_back({std::span(trace.command_V).subspan(from, to - from),
-                               std::span(trace.position_mm).subspan(from, to - from), trace.tick_s});
+                               std::span(trace.position_mm).subspan(from, to - from), trace.tick_s,
+                               trace.recording, static_cast<double>(from) * trace.tick_s});
         }
         begin = end + 1;
     }

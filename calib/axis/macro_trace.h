@@ -15,11 +15,13 @@ struct MacroTrace {
     double tick_s = 0.0;
     std::vector<double> command_V;
     std::vector<double> position_mm;  ///< count times resolution where the encoder counts
+    std::size_t recording = 0;        ///< which one; traces of one recording share it
 };
 
 /// The stretches of a recording that have a command and a position in every row, at its tick.
 /// @param resolution_mm  of the encoder, for recordings in counts
-std::vector<MacroTrace> macro_traces(const Recording& recording, double resolution_mm);
+/// @param index  the recording's, as the traces will hold it
+std::vector<MacroTrace> macro_traces(const Recording& recording, double resolution_mm, std::size_t index = 0);
 
 /// Where the carriage can be: the ends of travel in the encoder's frame, which may be infinite.
 struct Travel {
@@ -38,6 +40,8 @@ struct MacroWindow {
     std::span<const double> command_V;
     std::span<const double> position_mm;
     double tick_s;
+    std::size_t recording = 0;
+    double start_s = 0.0;  ///< since the trace's first tick
 };
 
 /// Cuts the free ticks into windows of about `window_s`; pieces shorter than `least_s` are left out.

@@ -160,6 +160,7 @@ void RigEdit::set_provenance(const RigProvenance& provenance) {
     part["recordings"] = provenance.recordings;
     part["standard_errors"] = map_of(provenance.standard_errors);
     part["residual_rms"] = map_of(provenance.residuals);
+    if (!provenance.contradictions.empty()) part["contradictions"] = provenance.contradictions;
 }
 
 void RigEdit::save(const fs::path& file) const {

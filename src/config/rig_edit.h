@@ -18,6 +18,7 @@ struct RigProvenance {
     std::vector<std::string> recordings;
     std::vector<std::pair<std::string, double>> standard_errors;  ///< of keys, in their units
     std::vector<std::pair<std::string, double>> residuals;        ///< r.m.s. by "signal_unit"
+    std::vector<std::string> contradictions = {};                 ///< between recordings, in words
 };
 
 /// A copy of a rig file whose values are changed one by one. Keys keep their order; comments are lost.

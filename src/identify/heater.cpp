@@ -1,4 +1,5 @@
 #include "calib/actuator/heater_fit.h"
+#include "calib/tails.h"
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/result.h"
@@ -56,10 +57,24 @@ void state(const calib::HeaterFit& fit, const HeaterParameters& heater, Identifi
         const bool refused = std::ranges::any_of(fit.refused, [&](const calib::HeaterRefusal& r) {
             return static_cast<std::size_t>(r.number) == i;
         });
-        if (!refused)
-            identified.values.push_back(
-                {keys[i].name, volts ? keys[i].unit : "", values[i], fit.std[i], volts});
+        if (refused) continue;
+        identified.values.push_back({keys[i].name, volts ? keys[i].unit : "", values[i], fit.std[i], volts});
+        constexpr double both_tails = 0.05, normal_95 = 1.96, wider = 1.1;
+        if (const double bound = calib::student_bound(fit.freedom[i], both_tails); bound > wider * normal_95)
+            identified.values.back().interval = {values[i] - bound * fit.std[i],
+                                                 values[i] + bound * fit.std[i]};
     }
+    for (const calib::HeaterCombination& combination : fit.combinations)
+        identified.values.push_back(
+            {combination.name, volts ? combination.unit : "", combination.value, combination.std, false});
+    if (!fit.combinations.empty())
+        identified.notes.emplace_back("of numbers that are not determined each by itself, a combination is");
+    for (const calib::HeaterContradiction& found : fit.contradictions)
+        identified.contradictions.push_back(
+            {keys[static_cast<std::size_t>(found.number)].name,
+             found.apart,
+             {identified.recordings[found.low], found.low_value, found.low_std},
+             {identified.recordings[found.high], found.high_value, found.high_std}});
     for (const calib::HeaterRefusal& refusal : fit.refused)
         identified.undetermined.push_back(
             {keys[static_cast<std::size_t>(refusal.number)].name, refusal.reason});
@@ -67,6 +82,19 @@ void state(const calib::HeaterFit& fit, const HeaterParameters& heater, Identifi
 
 void refuse_all(const Failure& failed, Identified& identified) {
     for (const Key& key : keys) identified.undetermined.push_back({key.name, failed.text});
+}
+
+/// The largest share of the signal that a model may miss, r.m.s.: what it misses may be of the shape of what
+/// a number does, and a number that is off by more than a fifth is not determined.
+constexpr double most_missed_signal = 0.2;
+
+bool misses_too_much(const calib::HeaterFit& fit, Identified& identified) {
+    identified.missed_share = fit.missed_share;
+    if (fit.missed_share <= most_missed_signal) return false;
+    refuse_all({Reason::not_identifiable,
+                fmt::format("the model misses {:.2g} % of what the sensor shows", 100.0 * fit.missed_share)},
+               identified);
+    return true;
 }
 
 Identified heater_from_recordings(const IdentifyInput& input) {
@@ -102,6 +130,7 @@ Identified heater_from_recordings(const IdentifyInput& input) {
         refuse_all(fit.error(), identified);
         return identified;
     }
+    if (misses_too_much(*fit, identified)) return identified;
     state(*fit, fit->heater, identified, true);
     identified.residuals.push_back(
         {"hall", "adc", fit->residual_rms, std::hypot(model.hall.noise_lsb, 1.0 / std::sqrt(12.0))});
@@ -160,6 +189,7 @@ Identified heater_from_table(const IdentifyInput& input) {
         refuse_all(fit.error(), identified);
         return identified;
     }
+    if (misses_too_much(*fit, identified)) return identified;
     const bool volts = input.table->find("input")->unit == "V";
     state(*fit, fit->heater, identified, volts && run.ambient_degC.empty());
     if (!run.ambient_degC.empty())

@@ -26,6 +26,26 @@ std::string with_error(double value, double std) {
     return fmt::format("{:.{}f} +- {:.{}f}", value, decimals, std, decimals);
 }
 
+std::string describe(const IdentifiedValue& value) {
+    std::string text = fmt::format("{} {}", with_error(value.value, value.std), value.unit);
+    if (value.interval)
+        text += fmt::format(" (95 %: {:.4g} to {:.4g})", value.interval->low, value.interval->high);
+    if (value.systematic > value.std)
+        text += fmt::format(", by up to {:.2g} more if what the model lacks goes with it", value.systematic);
+    return text;
+}
+
+nlohmann::json interval_of(const IdentifiedValue& value) {
+    constexpr double normal_95 = 1.96;
+    if (value.interval) return {finite_or_null(value.interval->low), finite_or_null(value.interval->high)};
+    if (!std::isfinite(value.std)) return {};
+    return {value.value - normal_95 * value.std, value.value + normal_95 * value.std};
+}
+
+nlohmann::ordered_json json_of(const Contradiction::Side& side) {
+    return {{"recording", side.recording}, {"value", side.value}, {"std", side.std}};
+}
+
 std::string describe(const FitResidual& residual) {
     std::string text = fmt::format("{} {:.4g} {} r.m.s.", residual.signal, residual.rms, residual.unit);
     if (residual.floor) text += fmt::format(" (noise and rounding: {:.4g})", *residual.floor);
@@ -39,15 +59,24 @@ bool fits_a_rig_file(const Identified& identified) {
            std::ranges::any_of(identified.values, &IdentifiedValue::in_rig_file);
 }
 
+std::string sides_of(const Contradiction& contradiction) {
+    const auto side = [](const Contradiction::Side& of) {
+        return fmt::format("{} says {}", of.recording, with_error(of.value, of.std));
+    };
+    return side(contradiction.low) + ", " + side(contradiction.high);
+}
+
 std::string describe(const Identified& identified) {
     std::size_t width = 0;
     for (const IdentifiedValue& value : identified.values) width = std::max(width, value.key.size());
     std::string text = fmt::format("{}, from {}\n", identified.part, fmt::join(identified.recordings, ", "));
     for (const IdentifiedValue& value : identified.values)
-        text += fmt::format("  {:<{}}  {} {}\n", value.key, width, with_error(value.value, value.std),
-                            value.unit);
+        text += fmt::format("  {:<{}}  {}\n", value.key, width, describe(value));
     for (const FitResidual& residual : identified.residuals)
         text += fmt::format("  residual: {}\n", describe(residual));
+    for (const Contradiction& found : identified.contradictions)
+        text += fmt::format("  the recordings contradict each other by {:.1f} standard errors: {}: {}\n",
+                            found.standard_errors, found.key, sides_of(found));
     for (const std::string& note : identified.notes) text += fmt::format("  {}\n", note);
     for (const Undetermined& undetermined : identified.undetermined)
         text += fmt::format("  not determined: {}: {}\n", undetermined.key, undetermined.reason);
@@ -55,16 +84,24 @@ std::string describe(const Identified& identified) {
 }
 
 void write_identification_json(const std::filesystem::path& file, const Identified& identified) {
-    nlohmann::ordered_json json{
-        {"format", "fidservo-identification/1"}, {"part", identified.part},
-        {"recordings", identified.recordings},   {"values", nlohmann::json::array()},
-        {"residuals", nlohmann::json::array()},  {"undetermined", nlohmann::json::array()},
-        {"effects", nlohmann::json::array()},    {"notes", identified.notes}};
+    nlohmann::ordered_json json{{"format", "fidservo-identification/1"},
+                                {"part", identified.part},
+                                {"recordings", identified.recordings},
+                                {"values", nlohmann::json::array()},
+                                {"residuals", nlohmann::json::array()},
+                                {"undetermined", nlohmann::json::array()},
+                                {"contradictions", nlohmann::json::array()},
+                                {"missing", nlohmann::json::array()},
+                                {"missed_share", finite_or_null(identified.missed_share.value_or(NAN))},
+                                {"effects", nlohmann::json::array()},
+                                {"notes", identified.notes}};
     for (const IdentifiedValue& value : identified.values)
         json["values"].push_back({{"key", value.key},
                                   {"unit", value.unit},
                                   {"value", finite_or_null(value.value)},
-                                  {"std", finite_or_null(value.std)}});
+                                  {"std", finite_or_null(value.std)},
+                                  {"interval_95", interval_of(value)},
+                                  {"systematic", value.systematic}});
     for (const FitResidual& residual : identified.residuals)
         json["residuals"].push_back({{"signal", residual.signal},
                                      {"unit", residual.unit},
@@ -72,6 +109,13 @@ void write_identification_json(const std::filesystem::path& file, const Identifi
                                      {"floor", finite_or_null(residual.floor.value_or(NAN))}});
     for (const Undetermined& undetermined : identified.undetermined)
         json["undetermined"].push_back({{"key", undetermined.key}, {"reason", undetermined.reason}});
+    for (const Contradiction& found : identified.contradictions)
+        json["contradictions"].push_back({{"key", found.key},
+                                          {"standard_errors", found.standard_errors},
+                                          {"low", json_of(found.low)},
+                                          {"high", json_of(found.high)}});
+    for (const Missing& missing : identified.missing)
+        json["missing"].push_back({{"depends_on", missing.depends_on}, {"share", missing.share}});
     for (const StatedEffect& effect : identified.effects) {
         nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
         for (const StatedEffect::Parameter& parameter : effect.parameters)
@@ -84,7 +128,9 @@ void write_identification_json(const std::filesystem::path& file, const Identifi
 void write_identified_rig(const std::filesystem::path& file, const std::filesystem::path& source_rig_file,
                           const Identified& identified) {
     RigEdit edit(source_rig_file);
-    RigProvenance provenance{identified.part, identified.recordings, {}, {}};
+    RigProvenance provenance{identified.part, identified.recordings, {}, {}, {}};
+    for (const Contradiction& found : identified.contradictions)
+        provenance.contradictions.push_back(fmt::format("{}: {}", found.key, sides_of(found)));
     for (const IdentifiedValue& value : identified.values) {
         if (!value.in_rig_file) continue;
         edit.set(value.key, value.value);

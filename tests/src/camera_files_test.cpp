@@ -1,6 +1,6 @@
 // Files of intrinsics and of calibration targets that other programs write.
 #include "core/input_error.h"
-#include "core/plumb_bob.h"
+#include "core/lens.h"
 #include "src/calibrate/camera_target.h"
 #include "src/config/camera_info.h"
 #include "tests/src/message_of.h"
@@ -41,7 +41,7 @@ std::string ros_file(const std::string& model, const std::string& coefficients) 
            model + "distortion_coefficients:\n" + coefficients;
 }
 
-void expect_lens(const CameraInfo& info, const DistortionNumbers& numbers) {
+void expect_lens(const CameraInfo& info, const std::vector<double>& numbers) {
     EXPECT_EQ(info.width_px, 640);
     EXPECT_EQ(info.height_px, 480);
     EXPECT_EQ(info.focal_px, Eigen::Vector2d(430.25, 430.5));
@@ -200,7 +200,7 @@ TEST(CameraTargetFile, TypeIsLookedAtBeforeTheKeys) {
 
 struct DrawnCamera {
     std::string text;
-    DistortionNumbers lens{};
+    std::vector<double> lens{};
     double focal_px = 0.0;
     bool must_be_refused = false;
 };

@@ -1,0 +1,111 @@
+#include "calib/actuator/heater_errors.h"
+
+#include "calib/heterogeneity.h"
+#include "calib/tails.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace fidservo::calib {
+
+namespace {
+
+/// What each run says of the numbers by itself, from the common solution on.
+using OwnNumbers = std::array<std::vector<RecordingEstimate>, heater_numbers>;
+using OwnRuns = std::array<std::vector<std::size_t>, heater_numbers>;
+
+void fit_each_run(const std::vector<HeaterRun>& runs, const HeaterPredict& predict, const HeaterScale& scale,
+                  const HeaterSolution& common, OwnNumbers& own, OwnRuns& of_run) {
+    for (std::size_t r = 0; r < runs.size() && runs.size() > 1; ++r) {
+        const std::vector<HeaterRun> alone{runs[r]};
+        const HeaterResiduals residuals(alone, predict, scale);
+        HeaterVector x = common.x;
+        if (residuals.count() < static_cast<int>(least_heater_rows) ||
+            !solve_heater(residuals, common.is_free, scale.by_itself, x) || !residuals.at(x).allFinite())
+            continue;
+        const HeaterInfluences influences = influences_at(residuals, common.is_free, x);
+        const HeaterVector useful = parameter_stds(influences);
+        for (int i = 0; i < heater_count; ++i) {
+            const BatchVariance variance = variance_along(influences, gradient_of(scale, x, i));
+            const auto k = static_cast<std::size_t>(i);
+            if (!common.is_free[k] || !(useful(i) <= 1.0) || !(variance.variance > 0.0)) continue;
+            own[k].push_back(
+                {number_of(scale.at(x.data()), i), std::sqrt(variance.variance), variance.freedom});
+            of_run[k].push_back(r);
+        }
+    }
+}
+
+}  // namespace
+
+HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& predict,
+                      const HeaterScale& scale, const HeaterSolution& common) {
+    constexpr double level = 0.01, both_tails = 0.05, normal_95 = 1.96;
+    HeaterFit fit = common.fit;
+    OwnNumbers own;
+    OwnRuns of_run;
+    fit_each_run(runs, predict, scale, common, own, of_run);
+    const HeaterInfluences influences =
+        influences_at(HeaterResiduals(runs, predict, scale), common.is_free, common.x);
+    for (int i = 0; i < heater_count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        fit.std[k] = fit.freedom[k] = std::nan("");
+        if (!common.is_free[k]) continue;
+        const HeaterVector gradient = gradient_of(scale, common.x, i);
+        VarianceSum sum;
+        const BatchVariance batches = variance_along(influences, gradient);
+        sum.add(batches.variance, batches.freedom);
+        const Heterogeneity scatter = heterogeneity(own[k]);
+        if (scatter.added_variance > 0.0) sum.add(scatter.added_variance, scatter.added_freedom);
+        fit.std[k] = std::sqrt(sum.variance);
+        fit.freedom[k] = sum.freedom;
+        if (own[k].size() < 2 || scatter.probability >= level / heater_count) continue;
+        const RecordingEstimate &low = own[k][scatter.low], &high = own[k][scatter.high];
+        const auto number = static_cast<HeaterNumber>(i);
+        fit.contradictions.push_back({number, scatter.apart, of_run[k][scatter.low], of_run[k][scatter.high],
+                                      low.value, low.std, high.value, high.std});
+        const double unit = std::abs(gradient(i));
+        if (student_bound(sum.freedom, both_tails) * fit.std[k] <= normal_95 * unit) continue;
+        fit.refused.push_back(
+            {number, fmt::format("the recordings contradict each other by {:.1f} standard errors, {:.4g} +- "
+                                 "{:.2g} and {:.4g} +- {:.2g}: no common value",
+                                 scatter.apart, low.value, low.std, high.value, high.std)});
+        fit.std[k] = fit.freedom[k] = std::nan("");
+    }
+    return fit;
+}
+
+double mean_heating_command(const std::vector<HeaterRun>& runs, const HeaterParameters& heater) {
+    double sum = 0.0, count = 0.0;
+    for (const HeaterRun& run : runs)
+        for (const double command : run.command)
+            if (command > heater.onset_V) sum += command, ++count;
+    return count > 0.0 ? sum / count : heater.onset_V;
+}
+
+void add_combination(HeaterFit& fit, HeaterNumber number, const HeaterScale& scale, const HeaterVector& x,
+                     const HeaterInfluences& influences, double command) {
+    constexpr double fifth = 0.2;
+    const HeaterParameters heater = scale.at(x.data());
+    const auto gradient = [&](HeaterNumber of) { return gradient_of(scale, x, static_cast<int>(of)); };
+    const auto add = [&](HeaterCombination combination, const HeaterVector& relative) {
+        const double std = std::sqrt(variance_along(influences, relative).variance);
+        if (!(std < fifth) || !std::isfinite(combination.value)) return;
+        combination.std = std::abs(combination.value) * std;
+        fit.combinations.push_back(std::move(combination));
+    };
+    const HeaterVector of_gain = gradient(HeaterNumber::gain) / heater.gain_degC_per_V;
+    if (number == HeaterNumber::onset || number == HeaterNumber::gain) {
+        const double above = command - heater.onset_V;
+        if (above > 0.0)
+            add({fmt::format("gain_times_{:.4g}_less_onset", command), "degC", heater.gain_degC_per_V * above,
+                 0.0},
+                of_gain - gradient(HeaterNumber::onset) / above);
+    }
+    if (number != HeaterNumber::onset && number != HeaterNumber::ambient)
+        add({"gain_over_heating_tau", "degC/s", heater.gain_degC_per_V / heater.heating_tau_s, 0.0},
+            of_gain - gradient(HeaterNumber::heating_tau) / heater.heating_tau_s);
+}
+
+}  // namespace fidservo::calib

@@ -1,0 +1,116 @@
+// What identify heater says when recordings contradict each other, fix a combination only, or are missed.
+#include "calib/actuator/heater_fit.h"
+#include "calib/significance.h"
+#include "calib/tails.h"
+#include "core/random.h"
+#include "core/result.h"
+#include "tests/variations.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace fidservo::calib {
+namespace {
+
+constexpr HeaterParameters wire{0.4, 10.0, 6.0, 12.0, 25.0, 22.0};
+
+/// Steps of four heights, heated and cooled for `half_s` each, read by a thermometer whose noise remembers.
+HeaterRun heated(const HeaterParameters& heater, double half_s, std::uint64_t seed, double memory = 0.0,
+                 double noise_degC = 0.1) {
+    constexpr double tick_s = 0.5;
+    HeaterRun run{.tick_s = tick_s, .command = {}, .reading = {}};
+    const auto half = static_cast<int>(half_s / tick_s);
+    for (int k = 0; k < 8 * half; ++k)
+        run.command.push_back((k / half) % 2 == 0 ? 1.0 + 0.4 * static_cast<double>(k / (2 * half)) : 0.0);
+    run.reading = predict_temperature(heater, run);
+    run.start_degC = run.reading.front();
+    NoiseStream noise(seed, "thermometer");
+    double state = noise.normal();
+    for (double& value : run.reading) {
+        value += noise_degC * state;
+        state = memory * state + std::sqrt(1.0 - memory * memory) * noise.normal();
+    }
+    return run;
+}
+
+std::array<double, heater_numbers> numbers_of(const HeaterParameters& heater) {
+    return {heater.onset_V, heater.gain_degC_per_V, heater.heating_tau_s, heater.cooling_tau_s,
+            heater.ambient_degC};
+}
+
+TEST(SlowHeaterIntervals, WhiteAndCorrelatedNoise_AreCovered) {
+    constexpr int campaigns = 150;
+    for (const double memory : {0.0, 0.8}) {
+        int hits = 0, stated = 0;
+        for (int seed = 1; seed <= campaigns; ++seed) {
+            const auto fit =
+                fit_heater_to_temperature({heated(wire, 40.0, static_cast<std::uint64_t>(seed), memory)});
+            ASSERT_TRUE(fit) << fit.error().text;
+            const auto found = numbers_of(fit->heater), truth = numbers_of(wire);
+            for (std::size_t i = 0; i < heater_numbers; ++i) {
+                if (!std::isfinite(fit->std[i])) continue;
+                ++stated;
+                hits += std::abs(found[i] - truth[i]) <= student_bound(fit->freedom[i], 0.05) * fit->std[i];
+            }
+        }
+        const double share = static_cast<double>(hits) / stated;
+        fmt::print("coverage of 95 % intervals | heater, noise of correlation {} | {:.1f} % of {}\n", memory,
+                   100.0 * share, stated);
+        // The five numbers of a campaign are not independent: the width of as many campaigns as there are.
+        const double reach = normal_bound(0.0005) * std::sqrt(0.95 * 0.05 / campaigns);
+        EXPECT_NEAR(share, 0.95, reach);
+    }
+}
+
+TEST(HeaterOwnsUp, GainThatDiffersBetweenRecordings_IsNamed) {
+    HeaterParameters other = wire;
+    other.gain_degC_per_V = 14.0;
+    const auto fit = fit_heater_to_temperature({heated(wire, 40.0, 1), heated(other, 40.0, 2)});
+    ASSERT_TRUE(fit) << fit.error().text;
+    const auto found =
+        std::ranges::find(fit->contradictions, HeaterNumber::gain, &HeaterContradiction::number);
+    ASSERT_NE(found, fit->contradictions.end());
+    EXPECT_GT(found->apart, 10.0);
+    EXPECT_EQ(found->low, 0U);
+    EXPECT_TRUE(std::isnan(fit->std[1])) << fit->std[1];
+    EXPECT_TRUE(std::ranges::any_of(fit->refused, [](const HeaterRefusal& refusal) {
+        return refusal.number == HeaterNumber::gain &&
+               refusal.reason.find("contradict each other") != std::string::npos;
+    }));
+}
+
+TEST(SlowHeaterVariations, RecordingsThatContradictEachOther_AreOwnedUpTo) {
+    expect_right_or_refused("identify heater: recordings that contradict", 200, [](std::mt19937_64& random) {
+        std::uniform_real_distribution<double> unit(-1.0, 1.0);
+        const auto which = 1 + random() % 3, count = 2 + random() % 2;
+        const double spread = 0.2 * (1.0 + unit(random));
+        std::vector<HeaterRun> runs;
+        std::array<double, heater_numbers> mean{};
+        for (std::size_t i = 0; i < count; ++i) {
+            HeaterParameters own = wire;
+            const double factor = 1.0 + spread * unit(random);
+            (which == 1 ? own.gain_degC_per_V : which == 2 ? own.heating_tau_s : own.cooling_tau_s) *= factor;
+            runs.push_back(heated(own, 30.0, random()));
+            for (std::size_t k = 0; k < heater_numbers; ++k)
+                mean[k] += numbers_of(own)[k] / static_cast<double>(count);
+        }
+        const auto fit = fit_heater_to_temperature(runs);
+        if (!fit) return Outcome::refused(fit.error().text);
+        constexpr double far = 4.0, normal_95 = 1.96;
+        bool any = false;
+        for (std::size_t k = 0; k < heater_numbers; ++k) {
+            if (!std::isfinite(fit->std[k])) continue;
+            any = true;
+            const double reach = far / normal_95 * student_bound(fit->freedom[k], 0.05) * fit->std[k];
+            if (std::abs(numbers_of(fit->heater)[k] - mean[k]) <= reach || !fit->contradictions.empty())
+                continue;
+            return Outcome::wrong(fmt::format("{}: {} +- {}, truth {}", name_of(static_cast<HeaterNumber>(k)),
+                                              numbers_of(fit->heater)[k], fit->std[k], mean[k]));
+        }
+        return any ? Outcome::right() : Outcome::refused("all numbers are refused");
+    });
+}
+
+}  // namespace
+}  // namespace fidservo::calib
