@@ -200,7 +200,7 @@ TEST(CameraTargetFile, TypeIsLookedAtBeforeTheKeys) {
 
 struct DrawnCamera {
     std::string text;
-    std::vector<double> lens{};
+    std::vector<double> lens = std::vector<double>(5);
     double focal_px = 0.0;
     bool must_be_refused = false;
 };
