@@ -54,7 +54,7 @@ class Collector {
             throw InputError(fmt::format("{}: {} x {} px: the images before it have {} x {} px", image.name,
                                          image.grey.cols, image.grey.rows, images_.width_px,
                                          images_.height_px));
-        if (target_.border_cells == 2) demand_tags_of(target_, image);
+        if (!target_.is_rigs_plate) demand_tags_of(target_, image);
         if (image.found.empty()) {
             ++images_.without_target;
             return;
@@ -102,15 +102,10 @@ CalibrationImages read_calibration_images(const std::vector<std::filesystem::pat
     ReplayFrames frames(inputs);
     CalibrationImages images;
     Collector collector(target, images);
-    const auto options = [&](bool thorough) {
-        vision::TagDetectorOptions with =
-            thorough ? vision::thorough_options() : vision::machine_camera_options();
-        with.border_cells = target.border_cells;
-        return with;
-    };
+    const vision::TagReading reading{target.print()};
     const auto make_worker = [&] {
-        return [machine = vision::TagDetector(options(false)),
-                thorough = vision::TagDetector(options(true))](const ReplayFrame& frame) mutable {
+        return [machine = vision::TagDetector(vision::machine_camera_options(reading)),
+                thorough = vision::TagDetector(vision::thorough_options(reading))](const ReplayFrame& frame) mutable {
             calib::TargetImage image{frame.name, decode(frame), {}};
             vision::TagDetector& detector = frame.from_recording ? machine : thorough;
             image.found = detector.detect(image.grey, frame.time_ns.value_or(0));

@@ -94,13 +94,14 @@ class ReplayTables {
 }  // namespace
 
 ReplayCount replay(ReplayFrames& frames, double tag_side_mm, const std::filesystem::path& folder,
-                   unsigned threads, const std::optional<CameraParameters>& camera) {
+                   unsigned threads, const std::optional<CameraParameters>& camera,
+                   const vision::TagReading& reading) {
     const OpenCvInCallersThread one_image_a_core;
     std::map<std::size_t, vision::DisplacementTracker> trackers;  // by series
     ReplayTables tables(folder, frames.is_one_timed_series());
     Progress progress("images", frames.size());
     ReplayCount count;
-    run_in_order([&] { return frames.next(); }, [&] { return TagFinder(camera); },
+    run_in_order([&] { return frames.next(); }, [&] { return TagFinder(camera, reading); },
                  [&](const FrameResult& result) {
                      auto& tracker = trackers.try_emplace(result.frame.series, tag_side_mm).first->second;
                      tables.add(result, tracker.add(result.refined));

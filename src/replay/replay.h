@@ -1,6 +1,7 @@
 #pragma once
 #include "core/camera_parameters.h"
 #include "src/replay/images.h"
+#include "vision/tag_book.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -19,7 +20,9 @@ struct ReplayCount {
 /// vision/displacement.h, counted from each series' own first frames. Throws InputError on a frame that
 /// cannot be read, RunFault if the disk fails.
 /// @param camera  that took the frames of its size, if it is known
+/// @param reading  as which tags are looked for
 ReplayCount replay(ReplayFrames& frames, double tag_side_mm, const std::filesystem::path& folder,
-                   unsigned threads, const std::optional<CameraParameters>& camera = {});
+                   unsigned threads, const std::optional<CameraParameters>& camera = {},
+                   const vision::TagReading& reading = {});
 
 }  // namespace fidservo

@@ -23,7 +23,8 @@ struct FrameResult {
 /// the tags. What is found in a frame depends on that frame alone.
 class TagFinder {
   public:
-    explicit TagFinder(const std::optional<CameraParameters>& camera = {});
+    explicit TagFinder(const std::optional<CameraParameters>& camera = {},
+                       const vision::TagReading& reading = {});
     /// Throws InputError if the frame cannot be read.
     FrameResult operator()(ReplayFrame frame);
 
