@@ -57,8 +57,9 @@ struct ReadingsScreen::Impl {
             for (std::size_t c = 0; c < 4; ++c)
                 seen.corners_px[c] = Eigen::Vector2d(tag->p[c][0] - library_px, tag->p[c][1] - library_px);
             if (reading.mirrored) seen.corners_px = mirrored(seen.corners_px);
-            if (explained_contrast(image, seen.corners_px, tag_pattern(reading.print, seen.tag_id)) <
-                least[seen.reading])
+            const TagPattern pattern = tag_pattern(reading.print, seen.tag_id);
+            if (explained_contrast(image, seen.corners_px, pattern) < least[seen.reading].of_tag ||
+                explained_code(image, seen.corners_px, pattern) < least[seen.reading].of_code)
                 continue;
             for (Eigen::Vector2d& corner : seen.corners_px) corner /= magnification;
             if (std::ranges::none_of(all, [&](const SeenAs& other) {
@@ -70,7 +71,7 @@ struct ReadingsScreen::Impl {
 
     std::vector<TagReading> readings;
     std::vector<std::shared_ptr<apriltag_family>> books;
-    std::vector<double> least;
+    std::vector<LeastExplained> least;
     std::unique_ptr<apriltag_detector_t, EndDetector> detector{apriltag_detector_create()};
 };
 

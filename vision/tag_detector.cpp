@@ -122,8 +122,14 @@ struct TagDetector::Impl {
         return tags;
     }
 
+    bool is_convincing(const cv::Mat& image, const TagDetection& tag) const {
+        const TagPattern pattern = tag_pattern(tag.print, tag.tag_id);
+        return explained_contrast(image, tag.corners_px, pattern) >= least.of_tag &&
+               (least.of_code == 0.0 || explained_code(image, tag.corners_px, pattern) >= least.of_code);
+    }
+
     TagDetectorOptions options;
-    double least = options.min_explained_contrast.value_or(least_explained(*options.reading.print.family));
+    LeastExplained least = least_explained(*options.reading.print.family);
     std::shared_ptr<apriltag_family_t> book = shared_tag_book(
         options.reading,
         std::min(options.max_corrected_bits, most_correctable_bits(*options.reading.print.family)));
@@ -160,7 +166,7 @@ std::vector<TagDetection> TagDetector::detect(const cv::Mat& image, TimeNs time_
         }
     }
     std::erase_if(tags, [&](const TagDetection& tag) {
-        return explained_contrast(image, tag.corners_px, tag_pattern(print, tag.tag_id)) < impl_->least;
+        return !impl_->is_convincing(image, tag);
     });
     std::sort(tags.begin(), tags.end(), by_id_from_left);
     return tags;

@@ -5,7 +5,6 @@
 #include "vision/tag_book.h"
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include <opencv2/core/mat.hpp>
@@ -21,9 +20,6 @@ struct TagDetectorOptions {
     double decimation = 1.0;
     /// Code bits that may differ from the code book; never more than most_correctable_bits().
     int max_corrected_bits = 2;
-    /// Tags whose pattern explains less of what is seen of them are refused. Empty: least_explained() of the
-    /// family.
-    std::optional<double> min_explained_contrast = {};
     /// Tags that are printed otherwise are not seen.
     TagReading reading = {};
     /// Look again at twice the resolution, for tags whose bits are about two pixels wide or less.
@@ -47,7 +43,7 @@ class TagDetector {
     TagDetector(TagDetector&&) noexcept;
     TagDetector& operator=(TagDetector&&) noexcept;
 
-    /// Every tag in the image, by_id_from_left. The same id may come twice: then it is there
+    /// Every tag in the image whose pattern explains enough of it (least_explained()), by_id_from_left. The same id may come twice: then it is there
     /// twice. Corners in px, pixel centres at integers (the library's own are at +0.5), as precise as the
     /// library's: tag_refinement.h does better.
     /// @param image    CV_8UC1; not modified

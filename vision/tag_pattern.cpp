@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Cholesky>
 
@@ -43,12 +44,15 @@ struct CellSums {
     std::array<int, TagPattern::most_cells * TagPattern::most_cells> count{};
 };
 
-CellSums sums_of_cells(const cv::Mat& image, const Eigen::Matrix3d& homography, const TagPattern& pattern) {
+/// @param code_alone  leaves out the cells that are alike on every tag
+CellSums sums_of_cells(const cv::Mat& image, const Eigen::Matrix3d& homography, const TagPattern& pattern,
+                       bool code_alone) {
     CellSums sums;
     const int cells = pattern.cells;
     for (int row = 0; row < cells; ++row)
         for (int column = 0; column < cells; ++column) {
             const int cell = row * cells + column;
+            if (code_alone && !pattern.code[static_cast<std::size_t>(cell)]) continue;
             for (const double dy : places_in_cell)
                 for (const double dx : places_in_cell) {
                     const Eigen::Vector2d at = on_tag(pattern, row, column, dx, dy);
@@ -88,27 +92,54 @@ void count_bits(const CellSums& sums, const Eigen::Vector4d& fit, const TagPatte
         }
 }
 
-}  // namespace
+struct PatternFit {
+    CellSums sums;
+    Eigen::Vector4d light;  ///< black, white - black, gx, gy
+    double explained;
+};
 
-PatternMatch match_pattern(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
-                           const TagPattern& pattern) {
+/// Empty if more than a quarter of the cells lie outside the image, or if black is brighter than white.
+std::optional<PatternFit> fit_pattern(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
+                                      const TagPattern& pattern, std::size_t cells, bool code_alone) {
     const std::array<int, 3> light_terms{0, 2, 3};
     const Eigen::Matrix3d homography = square_to_image(corners_px);
-    if (!homography.allFinite()) return {};
-    const CellSums sums = sums_of_cells(image, homography, pattern);
-    const auto points =
-        static_cast<double>(pattern.cells * pattern.cells * places_in_cell.size() * places_in_cell.size());
-    if (sums.normal(0, 0) < 0.75 * points) return {};
+    if (!homography.allFinite()) return std::nullopt;
+    const CellSums sums = sums_of_cells(image, homography, pattern, code_alone);
+    const auto points = static_cast<double>(cells * places_in_cell.size() * places_in_cell.size());
+    if (sums.normal(0, 0) < 0.75 * points) return std::nullopt;
     const Eigen::Vector4d fit = solve_normal(sums.normal, sums.right);
     const Eigen::Matrix3d light_normal = sums.normal(light_terms, light_terms);
     const Eigen::Vector3d light_right = sums.right(light_terms);
     const double left_by_light =
         sums.sum_of_squares - solve_normal(light_normal, light_right).dot(light_right);
-    if (!(left_by_light > 0) || !(fit(1) > 0)) return {};
+    if (!(left_by_light > 0) || !(fit(1) > 0)) return std::nullopt;
+    return PatternFit{sums, fit, 1.0 - (sums.sum_of_squares - fit.dot(sums.right)) / left_by_light};
+}
+
+/// The level at which chance agrees with a family as often as with the usual one.
+double level_for(const TagFamily& family, int cells, int usual_cells) {
+    constexpr double usual_level = 0.4;
+    constexpr int halvings = 20;
+    const double wanted = usual_tag_family().size() * chance_of_more(usual_level, usual_cells);
+    double low = 0.0, high = 1.0;
+    for (int k = 0; k < halvings; ++k) {
+        const double middle = 0.5 * (low + high);
+        (family.size() * chance_of_more(middle, cells) > wanted ? low : high) = middle;
+    }
+    return high;
+}
+
+}  // namespace
+
+PatternMatch match_pattern(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
+                           const TagPattern& pattern) {
     PatternMatch match;
-    match.explained = 1.0 - (sums.sum_of_squares - fit.dot(sums.right)) / left_by_light;
-    match.contrast = fit(1);
-    count_bits(sums, fit, pattern, match);
+    const auto cells = static_cast<std::size_t>(pattern.cells * pattern.cells);
+    const std::optional<PatternFit> fit = fit_pattern(image, corners_px, pattern, cells, false);
+    if (!fit) return match;
+    match.explained = fit->explained;
+    match.contrast = fit->light(1);
+    count_bits(fit->sums, fit->light, pattern, match);
     return match;
 }
 
@@ -117,21 +148,19 @@ double explained_contrast(const cv::Mat& image, const std::array<Eigen::Vector2d
     return match_pattern(image, corners_px, pattern).explained;
 }
 
-double least_explained(const TagFamily& family) {
-    constexpr double usual_level = 0.4;
+double explained_code(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
+                      const TagPattern& pattern) {
+    const std::optional<PatternFit> fit =
+        fit_pattern(image, corners_px, pattern, pattern.code.count(), true);
+    return fit ? fit->explained : 0.0;
+}
+
+LeastExplained least_explained(const TagFamily& family) {
     const TagFamily& usual = usual_tag_family();
-    if (&family == &usual) return usual_level;
-    const double wanted = usual.size() * chance_of_more(usual_level, usual.cells * usual.cells);
-    const auto is_too_often = [&](double level) {
-        return family.size() * chance_of_more(level, family.cells * family.cells) > wanted;
-    };
-    constexpr int halvings = 20;
-    double low = 0.0, high = 1.0;
-    for (int k = 0; k < halvings; ++k) {
-        const double middle = 0.5 * (low + high);
-        (is_too_often(middle) ? low : high) = middle;
-    }
-    return high;
+    if (&family == &usual) return {0.4, 0.0};
+    const auto bits = [](const TagFamily& of) { return static_cast<int>(std::ranges::count(of.layout, 'd')); };
+    return {level_for(family, family.cells * family.cells, usual.cells * usual.cells),
+            level_for(family, bits(family), bits(usual))};
 }
 
 }  // namespace fidservo::vision

@@ -37,16 +37,27 @@ PatternMatch match_pattern(const cv::Mat& image, const std::array<Eigen::Vector2
 double explained_contrast(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
                           const TagPattern& pattern);
 
-/// The least PatternMatch::explained that is taken for a tag. Where the levels of n cells are chance, the
-/// share R^2 that one given pattern explains beside level, x and y has the distribution Beta(1/2, (n - 4)/2),
-/// and a book of N codes tries 4 N patterns: small codes in large books agree with texture most easily. For
-/// every family it is the level at which
+/// The same over the code's cells alone: where a square that is dark all around has something else in it, its
+/// border says nothing about the code.
+double explained_code(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
+                      const TagPattern& pattern);
+
+/// The least that is taken for a tag.
+struct LeastExplained {
+    double of_tag;   ///< explained_contrast()
+    double of_code;  ///< explained_code()
+};
+
+/// Where the levels of n cells are chance, the share R^2 that one given pattern explains beside level, x and y
+/// has the distribution Beta(1/2, (n - 4)/2), and a book of N codes tries 4 N patterns: small codes in large
+/// books agree with chance most easily. Both levels are those at which
 ///
 ///     4 N P(R^2 > level)
 ///
-/// is what it is for tag36h11 at 0.4. Real tags of that family reach 0.43 at 1.5 px a cell and 0.95 on the
-/// machine; texture that reads as a code, 0.31 at most in 240 images of noise. A border wider than one cell
-/// adds nothing: its cells are alike.
-double least_explained(const TagFamily& family);
+/// is what it is for tag36h11 at 0.4, with the n cells of a tag with a border of one cell, and of its code
+/// (wider borders add nothing: their cells are alike). A tag36h11 is judged as a whole alone: real ones reach
+/// 0.43 at 1.5 px a cell and 0.95 on the machine; texture that reads as a code, 0.31 at most in 240 images of
+/// noise.
+LeastExplained least_explained(const TagFamily& family);
 
 }  // namespace fidservo::vision

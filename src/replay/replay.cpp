@@ -107,6 +107,7 @@ ReplayCount replay(ReplayFrames& frames, double tag_side_mm, const std::filesyst
                      tables.add(result, tracker.add(result.refined));
                      ++count.images;
                      count.tags += result.tags.size();
+                     count.sample.offer(result.grey, result.tags.size());
                      progress.advance();
                  },
                  threads);

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/camera_parameters.h"
 #include "src/replay/images.h"
+#include "src/replay/unread_tags.h"
 #include "vision/tag_book.h"
 
 #include <cstddef>
@@ -12,6 +13,7 @@ namespace fidservo {
 struct ReplayCount {
     std::size_t images = 0;
     std::size_t tags = 0;
+    FrameSample sample;  ///< of the frames that were searched
 };
 
 /// Finds the tags of all frames on `threads` cores, and writes detections.csv and displacements.csv into a

@@ -41,7 +41,7 @@ std::vector<TagDetection> TagFinder::find(const cv::Mat& image, const ReplayFram
 
 FrameResult TagFinder::operator()(ReplayFrame frame) {
     const cv::Mat image = decode(frame);
-    FrameResult result{.frame = {}, .tags = find(image, frame), .refined = {}};
+    FrameResult result{.frame = {}, .grey = image, .tags = find(image, frame), .refined = {}};
     const vision::RefinementOptions options = refinement_for(camera_, image);
     for (TagDetection& tag : result.tags) {
         const auto refined = vision::refine_tag(image, tag, options);

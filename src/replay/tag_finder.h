@@ -13,6 +13,7 @@ namespace fidservo {
 
 struct FrameResult {
     ReplayFrame frame;                        ///< without its image
+    cv::Mat grey;                             ///< the image that was searched
     std::vector<TagDetection> tags;           ///< all, with refined corners where there are any
     std::vector<vision::RefinedTag> refined;  ///< those whose border is large and clear enough to be measured
 };

@@ -13,9 +13,19 @@
 
 namespace fidservo {
 
+namespace {
+
+vision::TagTrackerOptions tracker_options(const Plate& nominal) {
+    vision::TagTrackerOptions options;
+    options.detector = vision::machine_camera_options({nominal.print()});
+    return options;
+}
+
+}  // namespace
+
 Sight::Sight(const CameraParameters& camera, const Plate& nominal)
     : camera_(camera.geometry), noise_(vision::grey_noise(camera)), nominal_(nominal),
-      tracker_({.detector = vision::machine_camera_options({nominal.print()})}) {}
+      tracker_(tracker_options(nominal)) {}
 
 /// Where a tag should be in the image, with room for what the registration does not know.
 vision::ExpectedTag Sight::expected(const PlateTag& tag, double s_mm) const {

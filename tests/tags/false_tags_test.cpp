@@ -54,10 +54,11 @@ std::size_t expect_nothing(const cv::Mat& image, const TagReading& reading, cons
 
 TEST(LeastExplained, OfEveryFamily_IsHigherForSmallerCodesInLargerBooks) {
     for (const TagFamily& family : tag_families())
-        fmt::print("{}: {} codes {} bits apart, {} corrected, explained at least {:.3f}\n", family.name,
-                   family.size(), family.least_distance, most_correctable_bits(family), least_explained(family));
-    EXPECT_EQ(least_explained(usual_tag_family()), 0.4);
-    const auto level = [](const char* name) { return least_explained(*find_tag_family(name)); };
+        fmt::print("{}: {} codes {} bits apart, {} corrected, explained at least {:.3f}, of the code {:.3f}\n",
+                   family.name, family.size(), family.least_distance, most_correctable_bits(family),
+                   least_explained(family).of_tag, least_explained(family).of_code);
+    EXPECT_EQ(least_explained(usual_tag_family()).of_tag, 0.4);
+    const auto level = [](const char* name) { return least_explained(*find_tag_family(name)).of_tag; };
     EXPECT_GT(level("DICT_4X4_1000"), level("DICT_4X4_50"));
     EXPECT_GT(level("DICT_4X4_50"), level("DICT_7X7_50"));
     EXPECT_NEAR(level("DICT_6X6_1000"), 0.4, 0.02);  // as many bits, nearly twice as many codes

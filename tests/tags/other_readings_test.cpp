@@ -42,11 +42,11 @@ struct Picture {
     cv::Mat1b image;
 };
 
-/// Six tags side by side, ids all different.
+/// Four tags side by side, ids all different.
 Picture picture_of(const TagReading& reading, std::mt19937_64& random) {
-    constexpr int columns = 3, rows = 2;
+    constexpr int columns = 2, rows = 2;
     const auto size = fidservo::testing::size_of(reading.print);
-    const double cell_px = between(4.0, 7.0, random);
+    const double cell_px = between(4.0, 6.0, random);
     const double pitch_px = 1.7 * cell_px * (size.all + 2);
     Picture picture;
     const int first_id = one_of(reading.print.family->size() - columns * rows, random);
