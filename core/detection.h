@@ -11,8 +11,8 @@
 namespace fidservo {
 
 /// The corners of the tag's own square, in the order in which detections list them. Tag frame: x to the
-/// right, y down on the tag as it is printed, upright; the outline's sides (the black border's outer edge; for
-/// other layouts see TagFamily) at +-1.
+/// right, y down on the tag as it is printed, upright; the outline's sides (the black border's outer edge;
+/// for other layouts see TagFamily) at +-1.
 inline const std::array<Eigen::Vector2d, 4> tag_corners{Eigen::Vector2d(-1, 1), Eigen::Vector2d(1, 1),
                                                         Eigen::Vector2d(1, -1), Eigen::Vector2d(-1, -1)};
 

@@ -38,7 +38,7 @@ const TagFamily* find_tag_family(std::string_view name);
 /// How tags are printed.
 struct TagPrint {
     const TagFamily* family = &usual_tag_family();
-    int border_cells = 1;   ///< width of the border; 2 on a kalibr AprilGrid, for families with a plain border
+    int border_cells = 1;  ///< width of the border; 2 on a kalibr AprilGrid, for families with a plain border
     bool inverted = false;  ///< black is white, white is black, the paper around too
 
     bool operator==(const TagPrint&) const = default;
@@ -59,13 +59,11 @@ struct TagPattern {
     std::bitset<most_cells * most_cells> white;
     std::bitset<most_cells * most_cells> code;  ///< the cells that tell the id
     bool paper_is_white = true;                 ///< around the tag
-    bool corners_are_free = true;  ///< of black squares, which touch them on an AprilGrid
+    bool corners_are_free = true;               ///< of black squares, which touch them on an AprilGrid
 
     bool operator[](std::size_t cell) const { return white[cell]; }
     int outline_cells() const { return cells - 2 * rim; }
-    bool is_white(int row, int column) const {
-        return white[static_cast<std::size_t>(row * cells + column)];
-    }
+    bool is_white(int row, int column) const { return white[static_cast<std::size_t>(row * cells + column)]; }
     /// Whether it is white just inside the outline, and black just outside.
     bool is_white_inside() const { return is_white(rim, rim); }
 };

@@ -124,7 +124,8 @@ ImagesSeen look_at(const std::vector<cv::Mat>& images) {
     seen.brightest_grey = level_below_which(0.99);
     seen.saturated_share = histogram[255] / pixels;
     seen.squares = outlines.size();
-    seen.patterned = static_cast<std::size_t>(std::ranges::count(outlines, true, &SquareOutline::has_pattern));
+    seen.patterned =
+        static_cast<std::size_t>(std::ranges::count(outlines, true, &SquareOutline::has_pattern));
     if (seen.patterned > 0)
         std::erase_if(outlines, [](const SquareOutline& outline) { return !outline.has_pattern; });
     if (outlines.empty()) return seen;
@@ -162,8 +163,7 @@ OtherReadings try_other_readings(std::span<const cv::Mat> images, const TagReadi
             reading.print.family = &smallest;
             found = found_as(bearable, reading);
         }
-        const std::size_t to_beat =
-            others.better.empty() ? others.tags + 1 : others.better.front().tags;
+        const std::size_t to_beat = others.better.empty() ? others.tags + 1 : others.better.front().tags;
         if (reading == tried || found.tags < to_beat) continue;
         if (!others.better.empty() && found.tags > to_beat) others.better.clear();
         others.better.push_back({reading, found.tags});
@@ -180,16 +180,19 @@ std::string text_of(const ImagesSeen& seen, const TagReading& tried) {
         add(fmt::format("the images are uniform, grey levels {:.0f} to {:.0f}", seen.darkest_grey,
                         seen.brightest_grey));
     else if (seen.brightest_grey < dark_grey)
-        add(fmt::format("the images are dark, 99 % of the pixels at grey level {:.0f} of 255 or below: more "
+        add(
+            fmt::format("the images are dark, 99 % of the pixels at grey level {:.0f} of 255 or below: more "
                         "light, or a longer exposure",
                         seen.brightest_grey));
     if (seen.saturated_share > most_saturated)
-        add(fmt::format("{:.0f} % of the pixels are saturated: a shorter exposure", 100.0 * seen.saturated_share));
+        add(fmt::format("{:.0f} % of the pixels are saturated: a shorter exposure",
+                        100.0 * seen.saturated_share));
     if (seen.squares == 0) {
         add("no square with four straight sides, 8 px long or more, is to be seen");
         return text;
     }
-    add(fmt::format("{} square{} with four straight sides seen, {} of them with something inside; typically "
+    add(
+        fmt::format("{} square{} with four straight sides seen, {} of them with something inside; typically "
                     "{:.0f} px a side, contrast {:.0f} grey levels, edges blurred by {:.1f} px",
                     seen.squares, seen.squares == 1 ? "" : "s", seen.patterned, seen.side_px,
                     seen.contrast_grey, seen.blur_px));
@@ -198,7 +201,8 @@ std::string text_of(const ImagesSeen& seen, const TagReading& tried) {
         add(fmt::format("a cell of {} would be {:.1f} px there, and {:.1f} are needed: come nearer",
                         tried.print.family->name, cell_px, least_cell_px));
     else if (seen.blur_px > most_blur_cells * cell_px)
-        add(fmt::format("a cell of {} would be {:.1f} px there, no more than the blur: focus, or expose for "
+        add(
+            fmt::format("a cell of {} would be {:.1f} px there, no more than the blur: focus, or expose for "
                         "less long",
                         tried.print.family->name, cell_px));
     if (seen.contrast_grey < faint_grey) add("the contrast is faint: more light");

@@ -20,8 +20,8 @@ constexpr double least_outline_contrast = 5.0;  ///< grey levels, as the thoroug
 using Outline = std::array<Eigen::Vector2d, 4>;
 
 /// Grey levels on a line across a side, from `reach` px inside to as far outside, in steps of half a pixel.
-std::vector<double> profile(const cv::Mat& image, const Eigen::Vector2d& at_px, const Eigen::Vector2d& outward,
-                            double reach_px) {
+std::vector<double> profile(const cv::Mat& image, const Eigen::Vector2d& at_px,
+                            const Eigen::Vector2d& outward, double reach_px) {
     std::vector<double> greys;
     for (double step = -reach_px; step <= reach_px; step += 0.5) {
         const Eigen::Vector2d place = at_px + step * outward;
@@ -77,9 +77,9 @@ bool varies_inside(const cv::Mat& image, const SquareOutline& outline) {
     double sum = 0.0, squares = 0.0, count = 0.0;
     for (int row = 0; row < points; ++row)
         for (int column = 0; column < points; ++column) {
-            const Eigen::Vector2d at_px =
-                map_point(homography, inside * Eigen::Vector2d(2.0 * column / (points - 1) - 1.0,
-                                                               2.0 * row / (points - 1) - 1.0));
+            const Eigen::Vector2d at_px = map_point(
+                homography,
+                inside * Eigen::Vector2d(2.0 * column / (points - 1) - 1.0, 2.0 * row / (points - 1) - 1.0));
             if (!can_sample(image, at_px)) continue;
             const double grey = sample(image, at_px);
             sum += grey;
@@ -139,9 +139,9 @@ std::vector<SquareOutline> square_outlines(const cv::Mat& image) {
         const int block = std::max(7, std::min(image.cols, image.rows) / divisor) | 1;
         for (const int type : {cv::THRESH_BINARY_INV, cv::THRESH_BINARY}) {
             cv::Mat mask;
-            cv::adaptiveThreshold(image, mask, 255, cv::ADAPTIVE_THRESH_MEAN_C, type, block,
-                                  type == cv::THRESH_BINARY ? -least_outline_contrast
-                                                            : least_outline_contrast);
+            cv::adaptiveThreshold(
+                image, mask, 255, cv::ADAPTIVE_THRESH_MEAN_C, type, block,
+                type == cv::THRESH_BINARY ? -least_outline_contrast : least_outline_contrast);
             add_outlines(image, mask, outlines);
             cv::erode(mask, mask, cv::Mat());
             add_outlines(image, mask, outlines);

@@ -55,8 +55,9 @@ double scan_place(int scan) {
     return first_scan + (1.0 - 2.0 * first_scan) * scan / (scans - 1);
 }
 
-/// The steepest fall from white to black (with `fall_sign` -1, the steepest rise) within reach of a point of the expected side: the largest difference
-/// of the means of `half` samples on either side of a pixel, between the samples by a parabola.
+/// The steepest fall from white to black (with `fall_sign` -1, the steepest rise) within reach of a point of
+/// the expected side: the largest difference of the means of `half` samples on either side of a pixel,
+/// between the samples by a parabola.
 Meeting scan(const cv::Mat& image, const Eigen::Vector2d& base_px, const Eigen::Vector2d& inwards,
              double reach_px, int half, double fall_sign) {
     std::array<double, most_samples> sum;  // sum[i]: of all samples before i
@@ -176,8 +177,8 @@ Corners corners_of(const ExpectedSides& sides, const SideLines& lines) {
 }
 
 /// The outline within reach of the expected one; empty if there is none.
-std::optional<Corners> find_outline(const cv::Mat& image, const ExpectedTag& expected,
-                                    bool white_inside, double least_contrast) {
+std::optional<Corners> find_outline(const cv::Mat& image, const ExpectedTag& expected, bool white_inside,
+                                    double least_contrast) {
     ExpectedSides sides;
     double shortest_px = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 4; ++k) {
@@ -229,7 +230,8 @@ Result<TagDetection> align_tag(const cv::Mat& image, TimeNs time_ns, const Expec
     const double fixed = cells - static_cast<double>(pattern.code.count());
     if (match.wrong_code_bits >
             std::min(options.most_wrong_bits, (expected.print.family->least_distance - 1) / 2) ||
-        match.wrong_fixed_cells > options.most_wrong_fixed * fixed || match.explained < options.least_explained || match.contrast < options.least_contrast)
+        match.wrong_fixed_cells > options.most_wrong_fixed * fixed ||
+        match.explained < options.least_explained || match.contrast < options.least_contrast)
         return failure(Reason::wrong_tag, "what is there does not read as the expected tag");
     return TagDetection{time_ns,      expected.tag_id, match.wrong_code_bits,
                         match.margin, *corners,        expected.print};

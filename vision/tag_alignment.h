@@ -23,8 +23,8 @@ struct AlignmentOptions {
     /// well: half of the family's least distance.
     int most_wrong_bits = 2;
     double most_wrong_fixed = 1.0 / 7.0;  ///< share of the cells that are alike on every tag
-    double least_explained = 0.6;     ///< of the picture inside the outline by the code (tag_pattern.h)
-    double least_contrast = 10.0;     ///< between black and white, grey levels
+    double least_explained = 0.6;         ///< of the picture inside the outline by the code (tag_pattern.h)
+    double least_contrast = 10.0;         ///< between black and white, grey levels
 };
 
 /// Finds the outline of an expected tag, and holds what is inside against the expected code.

@@ -137,7 +137,7 @@ struct Edge {
 };
 
 Edge edge_of(const SideCrossing& side, int half, int width, bool white_inside) {
-    constexpr double least_contrast = 20.0;  // grey levels
+    constexpr double least_contrast = 20.0;            // grey levels
     const double outward = white_inside ? -1.0 : 1.0;  // from black to white
     Edge edge{strip_of(side, half + 1, half + width), strip_of(side, -half - width, -half - 1)};
     if (white_inside) std::swap(edge.white, edge.black);

@@ -69,11 +69,11 @@ struct Book {
             const TagPattern pattern = tag_pattern(reading.print, id);
             std::uint64_t code = 0;
             for (const Cell& cell : cells)
-                code = 2 * code +
-                       (pattern.is_white(cell.row, reading.mirrored ? pattern.cells - 1 - cell.column
-                                                                    : cell.column)
-                            ? 1
-                            : 0);
+                code =
+                    2 * code + (pattern.is_white(cell.row, reading.mirrored ? pattern.cells - 1 - cell.column
+                                                                            : cell.column)
+                                    ? 1
+                                    : 0);
             codes.push_back(code);
         }
         const int quiet_zone = first.rim == 0 ? 2 : 0;

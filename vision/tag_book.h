@@ -16,8 +16,9 @@ struct TagReading {
     bool operator==(const TagReading&) const = default;
 };
 
-/// Code bits that may be corrected: fewer than half of those in which two codes differ, so that a code has one
-/// nearest; 2 at most, and no more than a table of a million words, which is kept in memory, has room for.
+/// Code bits that may be corrected: fewer than half of those in which two codes differ, so that a code has
+/// one nearest; 2 at most, and no more than a table of a million words, which is kept in memory, has room
+/// for.
 int most_correctable_bits(const TagFamily& family);
 
 /// The library decodes any family whose bits are listed so that a quarter turn moves each by a quarter of

@@ -165,9 +165,7 @@ std::vector<TagDetection> TagDetector::detect(const cv::Mat& image, TimeNs time_
             add_better(image, tags, thinner);
         }
     }
-    std::erase_if(tags, [&](const TagDetection& tag) {
-        return !impl_->is_convincing(image, tag);
-    });
+    std::erase_if(tags, [&](const TagDetection& tag) { return !impl_->is_convincing(image, tag); });
     std::sort(tags.begin(), tags.end(), by_id_from_left);
     return tags;
 }

@@ -43,9 +43,9 @@ class TagDetector {
     TagDetector(TagDetector&&) noexcept;
     TagDetector& operator=(TagDetector&&) noexcept;
 
-    /// Every tag in the image whose pattern explains enough of it (least_explained()), by_id_from_left. The same id may come twice: then it is there
-    /// twice. Corners in px, pixel centres at integers (the library's own are at +0.5), as precise as the
-    /// library's: tag_refinement.h does better.
+    /// Every tag in the image whose pattern explains enough of it (least_explained()), by_id_from_left. The
+    /// same id may come twice: then it is there twice. Corners in px, pixel centres at integers (the
+    /// library's own are at +0.5), as precise as the library's: tag_refinement.h does better.
     /// @param image    CV_8UC1; not modified
     /// @param time_ns  middle of the exposure, passed on to the detections
     /// @param region   where to look; empty: everywhere. It is cut to the image.

@@ -150,15 +150,16 @@ double explained_contrast(const cv::Mat& image, const std::array<Eigen::Vector2d
 
 double explained_code(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
                       const TagPattern& pattern) {
-    const std::optional<PatternFit> fit =
-        fit_pattern(image, corners_px, pattern, pattern.code.count(), true);
+    const std::optional<PatternFit> fit = fit_pattern(image, corners_px, pattern, pattern.code.count(), true);
     return fit ? fit->explained : 0.0;
 }
 
 LeastExplained least_explained(const TagFamily& family) {
     const TagFamily& usual = usual_tag_family();
     if (&family == &usual) return {0.4, 0.0};
-    const auto bits = [](const TagFamily& of) { return static_cast<int>(std::ranges::count(of.layout, 'd')); };
+    const auto bits = [](const TagFamily& of) {
+        return static_cast<int>(std::ranges::count(of.layout, 'd'));
+    };
     return {level_for(family, family.cells * family.cells, usual.cells * usual.cells),
             level_for(family, bits(family), bits(usual))};
 }

@@ -20,12 +20,12 @@ struct PatternMatch {
     /// edges inside the cells and levels in between, and stays far below a tag. 0 if more than a quarter of
     /// the tag lies outside the image, or if black is brighter than white.
     double explained = 0.0;
-    double contrast = 0.0;      ///< white - black, grey levels
+    double contrast = 0.0;  ///< white - black, grey levels
     /// Of the code, and of what is alike on every tag: those on the other side of the middle between black
     /// and white.
     int wrong_code_bits = TagPattern::most_cells * TagPattern::most_cells;
     int wrong_fixed_cells = TagPattern::most_cells * TagPattern::most_cells;
-    double margin = 0.0;        ///< mean distance of the code's cells from that middle, grey levels
+    double margin = 0.0;  ///< mean distance of the code's cells from that middle, grey levels
 };
 
 /// Cells outside the image count as wrong.
@@ -48,9 +48,9 @@ struct LeastExplained {
     double of_code;  ///< explained_code()
 };
 
-/// Where the levels of n cells are chance, the share R^2 that one given pattern explains beside level, x and y
-/// has the distribution Beta(1/2, (n - 4)/2), and a book of N codes tries 4 N patterns: small codes in large
-/// books agree with chance most easily. Both levels are those at which
+/// Where the levels of n cells are chance, the share R^2 that one given pattern explains beside level, x and
+/// y has the distribution Beta(1/2, (n - 4)/2), and a book of N codes tries 4 N patterns: small codes in
+/// large books agree with chance most easily. Both levels are those at which
 ///
 ///     4 N P(R^2 > level)
 ///

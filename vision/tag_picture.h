@@ -13,7 +13,8 @@ namespace fidservo::vision {
 
 /// From pixels to cells in two steps, for inner loops: q = cubic(u, v), then the projective map
 /// (x, y, 1) ~ m (q_x, q_y, 1), whose parameters are fitted. With a calibrated camera, q is the plate's plane
-/// as the camera shows it (mirrored, where the tag's picture is) and m a similarity; without one, q is the image and m any homography.
+/// as the camera shows it (mirrored, where the tag's picture is) and m a similarity; without one, q is the
+/// image and m any homography.
 class TagPicture {
   public:
     static constexpr int cubic_terms = 10;

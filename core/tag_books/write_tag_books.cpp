@@ -90,8 +90,7 @@ std::uint64_t turned(const Book& book, std::uint64_t code) {
         for (int column = 0; column < book.cells; ++column) {
             const int to = place[static_cast<std::size_t>(row * book.cells + column)];
             if (to < 0) continue;
-            const int from =
-                place[static_cast<std::size_t>((book.cells - 1 - column) * book.cells + row)];
+            const int from = place[static_cast<std::size_t>((book.cells - 1 - column) * book.cells + row)];
             out |= ((code >> (bits - 1 - from)) & 1U) << (bits - 1 - to);
         }
     return out;

@@ -75,8 +75,8 @@ void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_
             std::min<std::ptrdiff_t>(after - recording.rows.begin(), std::ssize(recording.rows) - 1);
         const double speed_mm_per_s = velocity_mm_per_s[static_cast<std::size_t>(row)];
         if (const auto tag = plate_tag(recording, rig, now.tag_id))
-            smear_cells[k] = exposure_s * std::abs(speed_mm_per_s) * tag->print.outline_cells() /
-                            tag->side_mm;
+            smear_cells[k] =
+                exposure_s * std::abs(speed_mm_per_s) * tag->print.outline_cells() / tag->side_mm;
         is_cut[k] = to_border_px(now, camera.geometry) < least_border_cells * cell_px(now);
         const auto [before, is_first] = last.try_emplace(now.tag_id, k);
         const std::size_t at = std::exchange(before->second, k);

@@ -10,8 +10,8 @@ namespace fidservo::plant::view {
 PrintedTag printed_tag(const PlateTag& tag) {
     const TagFamily& family = *tag.print.family;
     if (tag.id < 0 || tag.id >= family.size()) {
-        throw InputError("plate: tag id " + std::to_string(tag.id) + " is not in " + std::string(family.name) +
-                         "; allowed: 0.." + std::to_string(family.size() - 1));
+        throw InputError("plate: tag id " + std::to_string(tag.id) + " is not in " +
+                         std::string(family.name) + "; allowed: 0.." + std::to_string(family.size() - 1));
     }
     const TagPattern cells = tag_pattern(tag.print, tag.id);
     const int sheet = cells.paper_is_white ? 0 : 1;

@@ -1,8 +1,10 @@
 #include "src/calibrate/camera_images.h"
 
 #include "core/input_error.h"
+#include "src/config/tag_print_keys.h"
 #include "src/replay/images.h"
 #include "src/replay/ordered_work.h"
+#include "src/replay/unread_tags.h"
 #include "vision/tag_detector.h"
 
 #include <algorithm>
@@ -37,6 +39,21 @@ void demand_tags_of(const CameraTarget& target, const calib::TargetImage& image)
             throw InputError(fmt::format(
                 "{}: shows the tag {}, which the target does not have ({}, tags {} to {})", image.name,
                 tag.tag_id, target.text, target.tags.front().id, target.tags.back().id));
+}
+
+/// What is in images without a tag of the target, and how the target would have to be given.
+std::string instead_of_target(const FrameSample& sample, const CameraTarget& target) {
+    const vision::TagReading tried{target.print()};
+    const vision::OtherReadings others = vision::try_other_readings(sample.greys(), tried);
+    if (others.better.empty()) return what_was_seen_text(others, tried);
+    const vision::TriedReading& best = others.better.front();
+    const TagPrint april_grid_print{.border_cells = 2};
+    const std::string how = best.reading.mirrored ? "mirror the images"
+                            : best.reading.print == april_grid_print
+                                ? "give the AprilGrid, --grid or --target"
+                                : fmt::format("give a rig file whose fiducials have {}",
+                                              tag_print_yaml(best.reading.print, ", "));
+    return fmt::format("{} would be found: {}", tags_text(best), how);
 }
 
 /// Sorts images into views and bursts as they come.
@@ -102,10 +119,12 @@ CalibrationImages read_calibration_images(const std::vector<std::filesystem::pat
     ReplayFrames frames(inputs);
     CalibrationImages images;
     Collector collector(target, images);
+    FrameSample sample;
     const vision::TagReading reading{target.print()};
     const auto make_worker = [&] {
         return [machine = vision::TagDetector(vision::machine_camera_options(reading)),
-                thorough = vision::TagDetector(vision::thorough_options(reading))](const ReplayFrame& frame) mutable {
+                thorough = vision::TagDetector(vision::thorough_options(reading))](
+                   const ReplayFrame& frame) mutable {
             calib::TargetImage image{frame.name, decode(frame), {}};
             vision::TagDetector& detector = frame.from_recording ? machine : thorough;
             image.found = detector.detect(image.grey, frame.time_ns.value_or(0));
@@ -113,13 +132,16 @@ CalibrationImages read_calibration_images(const std::vector<std::filesystem::pat
         };
     };
     run_in_order([&] { return frames.next(); }, make_worker,
-                 [&](const calib::TargetImage& image) { collector.take(image); },
+                 [&](const calib::TargetImage& image) {
+                     sample.offer(image.grey, image.found.size());
+                     collector.take(image);
+                 },
                  std::max(1u, std::thread::hardware_concurrency()));
     collector.end();
     if (images.views.empty())
-        throw InputError(fmt::format("{}: no tag of the target ({}) is in any of its {} image{}",
+        throw InputError(fmt::format("{}: no tag of the target ({}) is in any of its {} image{}: {}",
                                      inputs.front().string(), target.text, images.images,
-                                     images.images == 1 ? "" : "s"));
+                                     images.images == 1 ? "" : "s", instead_of_target(sample, target)));
     return images;
 }
 

@@ -11,7 +11,7 @@ namespace fidservo {
 
 struct CameraTarget {
     std::vector<PlateTag> tags;
-    std::string text;   ///< for people
+    std::string text;    ///< for people
     bool is_rigs_plate;  ///< of a rig file
     TagPrint print() const { return tags.front().print; }
 };

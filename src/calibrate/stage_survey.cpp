@@ -83,7 +83,8 @@ void refine_again(const CameraParameters& rig_camera, const CameraGeometry& came
     std::erase_if(shots, [](const StageShot& shot) { return shot.tags.empty(); });
 }
 
-StageSurvey::StageSurvey(Pilot& pilot, const StagePlan& plan) : pilot_(pilot), plan_(plan), detector_(vision::machine_camera_options({pilot.nominal.print()})) {}
+StageSurvey::StageSurvey(Pilot& pilot, const StagePlan& plan)
+    : pilot_(pilot), plan_(plan), detector_(vision::machine_camera_options({pilot.nominal.print()})) {}
 
 std::size_t StageSurvey::expected_shots() const {
     constexpr int of_growing = 13;

@@ -89,9 +89,10 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->type_name("DIR")
         ->capture_default_str();
     command
-        ->add_option("--family", options->family,
-                     "Of the tags: tag36h11, tag25h9, tag16h5, tagStandard41h12, DICT_4X4_50 to DICT_7X7_1000; "
-                     "else the rig file's, if one is given, or tag36h11")
+        ->add_option(
+            "--family", options->family,
+            "Of the tags: tag36h11, tag25h9, tag16h5, tagStandard41h12, DICT_4X4_50 to DICT_7X7_1000; "
+            "else the rig file's, if one is given, or tag36h11")
         ->type_name("NAME");
     command
         ->add_option("--border-cells", options->border_cells,

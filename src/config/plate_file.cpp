@@ -57,9 +57,8 @@ std::vector<PlateTag> read_grid(const YamlValue& map, const TagPrint& print) {
                                   .rows = map.at("rows").integer(1, family_size),
                                   .first_id = read_tag_id(map.at("first_id"), print)};
     if (grid.first_id + grid.columns * grid.rows > family_size)
-        map.at("columns").fail(
-            fmt::format("columns, rows and first_id go beyond the last tag of {}, {}",
-                                       print.family->name, family_size - 1));
+        map.at("columns").fail(fmt::format("columns, rows and first_id go beyond the last tag of {}, {}",
+                                           print.family->name, family_size - 1));
     const auto origin = map.find("origin_mm");
     const Eigen::Vector2d origin_mm = origin ? read_point_mm(*origin) : Eigen::Vector2d(0.0, 0.0);
     std::vector<PlateTag> tags = plate_of(grid).tags;
@@ -111,8 +110,8 @@ Feature read_feature(const YamlValue& map, double ink_reflectance) {
 }
 
 Plate read_plate(const YamlValue& root) {
-    root.allow_only(
-        {"family", "border_cells", "inverted", "paper_reflectance", "ink_reflectance", "grid", "side_mm", "tags", "features"});
+    root.allow_only({"family", "border_cells", "inverted", "paper_reflectance", "ink_reflectance", "grid",
+                     "side_mm", "tags", "features"});
     Plate plate;
     const TagPrint print = read_tag_print(root);
     if (const auto paper = root.find("paper_reflectance"))
@@ -146,8 +145,7 @@ Plate load_plate(const std::filesystem::path& file) {
 }
 
 std::string plate_yaml(const std::vector<PlateTag>& tags) {
-    std::string text =
-        tag_print_yaml(tags.empty() ? TagPrint{} : tags.front().print, "\n") + "\ntags:\n";
+    std::string text = tag_print_yaml(tags.empty() ? TagPrint{} : tags.front().print, "\n") + "\ntags:\n";
     for (const PlateTag& tag : tags)
         text += fmt::format("  - {{ id: {}, centre_mm: [{}, {}], side_mm: {}, angle_deg: {} }}\n", tag.id,
                             tag.centre_mm.x(), tag.centre_mm.y(), tag.side_mm,

@@ -27,7 +27,8 @@ TagPrint read_tag_print(const YamlValue& map) {
 int read_tag_id(const YamlValue& value, const TagPrint& print) {
     const int last = print.family->size() - 1;
     const std::int64_t id = value.whole_number();
-    if (id < 0 || id > last) value.fail(fmt::format("must be 0 to {}, the tags of {}", last, print.family->name));
+    if (id < 0 || id > last)
+        value.fail(fmt::format("must be 0 to {}, the tags of {}", last, print.family->name));
     return static_cast<int>(id);
 }
 

@@ -1,7 +1,5 @@
 #include "src/replay/unread_tags.h"
 
-#include "vision/other_readings.h"
-
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -11,13 +9,6 @@ namespace fidservo {
 namespace {
 
 constexpr std::size_t most_sampled = 4;
-
-/// "a tag of tag16h5" or "36 tags of tag36h11 with a border of two cells".
-std::string tags_text(const vision::TriedReading& found) {
-    return fmt::format("{} {}{}", found.tags,
-                       found.tags == 1 ? "tag of " : "tags of ",
-                       (found.reading.mirrored ? "mirrored " : "") + text_of(found.reading.print));
-}
 
 }  // namespace
 
@@ -29,6 +20,12 @@ void FrameSample::offer(const cv::Mat& grey, std::size_t tags) {
     for (std::size_t k = 0; k < images_.size(); k += 2) fewer.push_back(images_[k]);
     images_ = std::move(fewer);
     every_ *= 2;
+}
+
+std::vector<cv::Mat> FrameSample::greys() const {
+    std::vector<cv::Mat> greys;
+    for (const Image& image : images_) greys.push_back(image.grey);
+    return greys;
 }
 
 std::string options_for(const vision::TagReading& reading, const vision::TagReading& tried) {
@@ -46,6 +43,18 @@ std::string options_for(const vision::TagReading& reading, const vision::TagRead
     return options;
 }
 
+std::string what_was_seen_text(const vision::OtherReadings& others, const vision::TagReading& tried) {
+    return fmt::format(
+        "seen: {}; tags of other families, with borders of one and two cells, inverted and "
+        "mirrored ones were looked for too",
+        vision::text_of(others.seen, tried));
+}
+
+std::string tags_text(const vision::TriedReading& found) {
+    return fmt::format("{} {} of {}{}", found.tags, found.tags == 1 ? "tag" : "tags",
+                       found.reading.mirrored ? "mirrored " : "", text_of(found.reading.print));
+}
+
 std::vector<std::string> unread_tags_text(const FrameSample& sample, std::size_t tags_in_all,
                                           const vision::TagReading& tried) {
     const bool looks_unread =
@@ -53,19 +62,14 @@ std::vector<std::string> unread_tags_text(const FrameSample& sample, std::size_t
             return vision::looks_unread(image.grey, image.tags);
         });
     if (!looks_unread || sample.images().empty()) return {};
-    std::vector<cv::Mat> images;
-    for (const FrameSample::Image& image : sample.images()) images.push_back(image.grey);
-    const vision::OtherReadings others = vision::try_other_readings(images, tried);
+    const vision::OtherReadings others = vision::try_other_readings(sample.greys(), tried);
     std::vector<std::string> lines;
     for (const vision::TriedReading& better : others.better)
-        lines.push_back(fmt::format("{}{} would be found{}: {}", lines.empty() ? "" : "or ", tags_text(better),
-                                    others.images == 1 ? "" : fmt::format(" in {} of the images", others.images),
-                                    options_for(better.reading, tried)));
-    if (lines.empty() && tags_in_all == 0) {
-        lines.push_back("in the images: " + vision::text_of(others.seen, tried));
         lines.push_back(
-            "not as tags of any other family either, nor with borders of one or two cells, inverted or mirrored");
-    }
+            fmt::format("{} would be found{}: {}", tags_text(better),
+                        others.images == 1 ? "" : fmt::format(" in a sample of {} images", others.images),
+                        options_for(better.reading, tried)));
+    if (lines.empty() && tags_in_all == 0) lines.push_back(what_was_seen_text(others, tried));
     return lines;
 }
 

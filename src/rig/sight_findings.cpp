@@ -125,9 +125,10 @@ void look_over_travel(const Rig& rig, std::vector<Finding>& findings) {
              at_end ? count : fmt::format("[{:g}, {:g}]", tags.pitch_x_mm, tags.pitch_y_mm),
              fmt::format("from {:.4g} to {:.4g} mm no tag is whole in the image{}", stretch.low_mm,
                          stretch.high_mm, at_end ? "" : ", and so between other tags"),
-             at_end ? fmt::format("tags up to the ends of the travel; these stand at 0 to {:g} mm", last_mm)
-                    : fmt::format("tags of {:g} mm at most {:.3g} mm apart", tags.side_mm,
-                                  view_mm(rig.camera->geometry) - tags.print.share_with_zone() * tags.side_mm)});
+             at_end
+                 ? fmt::format("tags up to the ends of the travel; these stand at 0 to {:g} mm", last_mm)
+                 : fmt::format("tags of {:g} mm at most {:.3g} mm apart", tags.side_mm,
+                               view_mm(rig.camera->geometry) - tags.print.share_with_zone() * tags.side_mm)});
         if (!at_end) return;
     }
 }

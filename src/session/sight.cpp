@@ -24,7 +24,9 @@ vision::TagTrackerOptions tracker_options(const Plate& nominal) {
 }  // namespace
 
 Sight::Sight(const CameraParameters& camera, const Plate& nominal)
-    : camera_(camera.geometry), noise_(vision::grey_noise(camera)), nominal_(nominal),
+    : camera_(camera.geometry),
+      noise_(vision::grey_noise(camera)),
+      nominal_(nominal),
       tracker_(tracker_options(nominal)) {}
 
 /// Where a tag should be in the image, with room for what the registration does not know.

@@ -104,8 +104,7 @@ cv::Mat1b draw(const std::vector<DrawnTag>& tags, cv::Size size_px, double blur_
         const std::array<Eigen::Vector2d, 4> from{Eigen::Vector2d(low, high), Eigen::Vector2d(high, high),
                                                   Eigen::Vector2d(high, low), Eigen::Vector2d(low, low)};
         std::array<Eigen::Vector2d, 4> to;
-        for (std::size_t k = 0; k < 4; ++k)
-            to[k] = (tag.corners_px[k].array() + 0.5) * fine - 0.5;
+        for (std::size_t k = 0; k < 4; ++k) to[k] = (tag.corners_px[k].array() + 0.5) * fine - 0.5;
         const cv::Mat map = cv::getPerspectiveTransform(points_of(from), points_of(to));
         cv::warpPerspective(texture, sheet, map, sheet.size(), cv::INTER_NEAREST, cv::BORDER_TRANSPARENT);
     }

@@ -1,5 +1,6 @@
 #pragma once
-// Pictures of tags of any family. Their cells are drawn by the libraries that define them, not by the program.
+// Pictures of tags of any family. Their cells are drawn by the libraries that define them, not by the
+// program.
 #include "core/detection.h"
 #include "vision/tag_book.h"
 
@@ -18,14 +19,14 @@ struct DrawnTag {
     vision::TagReading reading;
     int id;
     std::array<Eigen::Vector2d, 4> corners_px;  ///< of the outline, in detection order
-    bool corner_squares = false;  ///< as on an AprilGrid; for borders of two cells
+    bool corner_squares = false;                ///< as on an AprilGrid; for borders of two cells
 };
 
 /// Cells of all that is printed, 255 is white, without the paper around.
 cv::Mat1b cells_of(const TagPrint& print, int id);
 
-/// Tags on paper (on black, where they are inverted), at 36 samples a pixel, blurred by `blur_px`, with noise of
-/// 1 grey level.
+/// Tags on paper (on black, where they are inverted), at 36 samples a pixel, blurred by `blur_px`, with noise
+/// of 1 grey level.
 cv::Mat1b draw(const std::vector<DrawnTag>& tags, cv::Size size_px, double blur_px, std::mt19937_64& random);
 
 /// Any of `families` with an id at random, upright in the reading's own frame.

@@ -45,8 +45,8 @@ std::size_t expect_nothing(const cv::Mat& image, const TagReading& reading, cons
     std::size_t tags = 0;
     for (const TagDetection& tag : TagDetector(thorough_options(reading)).detect(image, 0)) {
         ++tags;
-        ADD_FAILURE() << what << ": " << (reading.mirrored ? "mirrored " : "") << text_of(reading.print) << " "
-                      << tag.tag_id << ", explained "
+        ADD_FAILURE() << what << ": " << (reading.mirrored ? "mirrored " : "") << text_of(reading.print)
+                      << " " << tag.tag_id << ", explained "
                       << explained_contrast(image, tag.corners_px, tag_pattern(reading.print, tag.tag_id));
     }
     return tags;
@@ -54,9 +54,10 @@ std::size_t expect_nothing(const cv::Mat& image, const TagReading& reading, cons
 
 TEST(LeastExplained, OfEveryFamily_IsHigherForSmallerCodesInLargerBooks) {
     for (const TagFamily& family : tag_families())
-        fmt::print("{}: {} codes {} bits apart, {} corrected, explained at least {:.3f}, of the code {:.3f}\n",
-                   family.name, family.size(), family.least_distance, most_correctable_bits(family),
-                   least_explained(family).of_tag, least_explained(family).of_code);
+        fmt::print(
+            "{}: {} codes {} bits apart, {} corrected, explained at least {:.3f}, of the code {:.3f}\n",
+            family.name, family.size(), family.least_distance, most_correctable_bits(family),
+            least_explained(family).of_tag, least_explained(family).of_code);
     EXPECT_EQ(least_explained(usual_tag_family()).of_tag, 0.4);
     const auto level = [](const char* name) { return least_explained(*find_tag_family(name)).of_tag; };
     EXPECT_GT(level("DICT_4X4_1000"), level("DICT_4X4_50"));
@@ -82,7 +83,8 @@ TEST(SlowFalseTags, PhotographsOfOtherThings_HoldNoTagOfAnyFamily) {
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the shared data are absent";
     std::size_t tags = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        const cv::Mat image = cv::imread(entry.path().string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+        const cv::Mat image =
+            cv::imread(entry.path().string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
         if (image.empty()) continue;
         for (const TagFamily& family : tag_families())
             if (&family != &usual_tag_family())

@@ -52,12 +52,14 @@ Picture picture_of(const TagReading& reading, std::mt19937_64& random) {
     const int first_id = one_of(reading.print.family->size() - columns * rows, random);
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column)
-            picture.tags.push_back({.reading = reading,
-                                    .id = first_id + row * columns + column,
-                                    .corners_px = random_corners({(column + 0.5) * pitch_px, (row + 0.5) * pitch_px},
-                                                                 cell_px * size.outline, reading.mirrored, random)});
-    picture.image = draw(picture.tags, {static_cast<int>(columns * pitch_px), static_cast<int>(rows * pitch_px)},
-                         between(0.6, 1.0, random), random);
+            picture.tags.push_back(
+                {.reading = reading,
+                 .id = first_id + row * columns + column,
+                 .corners_px = random_corners({(column + 0.5) * pitch_px, (row + 0.5) * pitch_px},
+                                              cell_px * size.outline, reading.mirrored, random)});
+    picture.image =
+        draw(picture.tags, {static_cast<int>(columns * pitch_px), static_cast<int>(rows * pitch_px)},
+             between(0.6, 1.0, random), random);
     return picture;
 }
 
@@ -80,9 +82,8 @@ TEST(SlowOtherReadings, TagsOfAnyOtherKind_AreFoundByTheReadingThatIsNamed) {
     expect_right_or_refused("hints", 200, [](std::mt19937_64& random) {
         const TagReading reading = unusual_reading(random);
         const Picture picture = picture_of(reading, random);
-        const std::string name =
-            fmt::format("{}{} from {}", reading.mirrored ? "mirrored " : "", text_of(reading.print),
-                        picture.tags.front().id);
+        const std::string name = fmt::format("{}{} from {}", reading.mirrored ? "mirrored " : "",
+                                             text_of(reading.print), picture.tags.front().id);
         std::string wrong;
         (void)right_tags(picture, {}, wrong);
         const std::vector<cv::Mat> images{picture.image};
@@ -116,8 +117,10 @@ TEST(ImagesSeen, WithoutTags_NamesOnlyWhatWasChecked) {
         EXPECT_TRUE(others.better.empty());
         return text_of(others.seen, {});
     };
-    EXPECT_THAT(said(cv::Mat1b(200, 300, static_cast<unsigned char>(120))), HasSubstr("uniform, grey levels 120 to 120"));
-    EXPECT_THAT(said(cv::Mat1b(200, 300, static_cast<unsigned char>(255))), HasSubstr("100 % of the pixels are saturated"));
+    EXPECT_THAT(said(cv::Mat1b(200, 300, static_cast<unsigned char>(120))),
+                HasSubstr("uniform, grey levels 120 to 120"));
+    EXPECT_THAT(said(cv::Mat1b(200, 300, static_cast<unsigned char>(255))),
+                HasSubstr("100 % of the pixels are saturated"));
     std::mt19937_64 random(4);
     Picture dark = picture_of({}, random);
     dark.image *= 0.02;
@@ -129,8 +132,9 @@ TEST(ImagesSeen, WithoutTags_NamesOnlyWhatWasChecked) {
 
     cv::Mat1b squares(240, 320, static_cast<unsigned char>(200));
     for (int k = 0; k < 3; ++k) squares(cv::Rect(20 + 100 * k, 60, 60, 60)).setTo(40);
-    EXPECT_THAT(said(squares), HasSubstr("3 squares with four straight sides seen, 0 of them with something inside; "
-                                         "typically 59 px a side, contrast 160 grey levels"));
+    EXPECT_THAT(said(squares),
+                HasSubstr("3 squares with four straight sides seen, 0 of them with something inside; "
+                          "typically 59 px a side, contrast 160 grey levels"));
 }
 
 TEST(SquareOutlines, OfDrawnTags_HaveTheirSizeContrastAndBlur) {
@@ -139,7 +143,8 @@ TEST(SquareOutlines, OfDrawnTags_HaveTheirSizeContrastAndBlur) {
     std::vector<SquareOutline> outlines = square_outlines(picture.image);
     std::erase_if(outlines, [](const SquareOutline& outline) { return !outline.has_pattern; });
     for (const DrawnTag& tag : picture.tags) {
-        const Eigen::Vector2d middle = 0.25 * (tag.corners_px[0] + tag.corners_px[1] + tag.corners_px[2] + tag.corners_px[3]);
+        const Eigen::Vector2d middle =
+            0.25 * (tag.corners_px[0] + tag.corners_px[1] + tag.corners_px[2] + tag.corners_px[3]);
         const double side_px = (tag.corners_px[0] - tag.corners_px[1]).norm();
         EXPECT_TRUE(std::ranges::any_of(outlines, [&](const SquareOutline& seen) {
             Eigen::Vector2d centre = Eigen::Vector2d::Zero();

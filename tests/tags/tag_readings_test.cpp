@@ -47,12 +47,15 @@ double most_off_px(const std::array<Eigen::Vector2d, 4>& a, const std::array<Eig
     return most;
 }
 
-const RefinementOptions as_drawn{
-    .camera = std::nullopt, .noise = {0.0, 1.0 + 1.0 / 12.0, 0.0}, .motion_px = Eigen::Vector2d::Zero(), .blur_px = 1.0};
+const RefinementOptions as_drawn{.camera = std::nullopt,
+                                 .noise = {0.0, 1.0 + 1.0 / 12.0, 0.0},
+                                 .motion_px = Eigen::Vector2d::Zero(),
+                                 .blur_px = 1.0};
 
 Outcome read_one(const TagReading& reading, std::mt19937_64& random, CornerErrors& errors) {
     const double side_px = between(6.0, 12.0, random) * fidservo::testing::size_of(reading.print).outline;
-    const int size_px = static_cast<int>(3.6 * side_px * (reading.print.family->has_plain_border() ? 0.6 : 1.0));
+    const int size_px =
+        static_cast<int>(3.6 * side_px * (reading.print.family->has_plain_border() ? 0.6 : 1.0));
     const Eigen::Vector2d centre_px(0.5 * size_px + between(-2.0, 2.0, random),
                                     0.5 * size_px + between(-2.0, 2.0, random));
     const DrawnTag tag{.reading = reading,
@@ -61,11 +64,12 @@ Outcome read_one(const TagReading& reading, std::mt19937_64& random, CornerError
                        .corner_squares = reading.print.border_cells == 2 && one_of(2, random) == 1};
     const cv::Mat image = draw({tag}, {size_px, size_px}, between(0.6, 1.0, random), random);
     const auto found = TagDetector(thorough_options(reading)).detect(image, 0);
-    const std::string name = fmt::format("{}{}, id {}", reading.mirrored ? "mirrored " : "",
-                                         text_of(reading.print), tag.id);
+    const std::string name =
+        fmt::format("{}{}, id {}", reading.mirrored ? "mirrored " : "", text_of(reading.print), tag.id);
     if (found.empty()) return Outcome::refused(name + ": not found");
     if (found.size() > 1 || found.front().tag_id != tag.id)
-        return Outcome::wrong(fmt::format("{}: {} tags found, the first {}", name, found.size(), found.front().tag_id));
+        return Outcome::wrong(
+            fmt::format("{}: {} tags found, the first {}", name, found.size(), found.front().tag_id));
     if (const double off = most_off_px(found.front().corners_px, tag.corners_px); off > 1.0)
         return Outcome::wrong(fmt::format("{}: corners found {:.2f} px off", name, off));
     const auto refined = refine_tag(image, found.front(), as_drawn);
@@ -103,9 +107,8 @@ TEST(TagReadings, UsualFamily_IsReadAndMeasured) {
 }
 
 TEST(TagReadings, AnyFamily_IsReadAndMeasured) {
-    expect_read("families", [](std::mt19937_64& random) {
-        return TagReading{fidservo::testing::random_print(random)};
-    });
+    expect_read("families",
+                [](std::mt19937_64& random) { return TagReading{fidservo::testing::random_print(random)}; });
 }
 
 TEST(TagReadings, BorderOfTwoCells_IsReadAndMeasured) {
@@ -158,8 +161,8 @@ TEST(TagReadings, MirroredUnderAKnownCamera_IsMeasuredAsWithout) {
 TEST(TagReadings, OutlineThatIsWhiteInside_HasItsBlurMeasured) {
     std::mt19937_64 random(6);
     double usual_px2 = 0.0;
-    for (const TagReading& reading :
-         {TagReading{}, TagReading{{&usual_tag_family(), 1, true}}, TagReading{{find_tag_family("tagStandard41h12")}}}) {
+    for (const TagReading& reading : {TagReading{}, TagReading{{&usual_tag_family(), 1, true}},
+                                      TagReading{{find_tag_family("tagStandard41h12")}}}) {
         constexpr double side_px = 160.0, blur_px = 1.5;
         DrawnTag tag{.reading = reading, .id = 3, .corners_px = {}};
         for (std::size_t k = 0; k < 4; ++k)
