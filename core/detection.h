@@ -1,5 +1,6 @@
 #pragma once
 // A fiducial found in a frame, and what it says about where the camera is.
+#include "core/tag_families.h"
 #include "core/time.h"
 
 #include <array>
@@ -10,21 +11,24 @@
 namespace fidservo {
 
 /// The corners of the tag's own square, in the order in which detections list them. Tag frame: x to the
-/// right, y down on an upright tag, the black border's outer edge at +-1.
+/// right, y down on the tag as it is printed, upright; the outline's sides (the black border's outer edge;
+/// for other layouts see TagFamily) at +-1.
 inline const std::array<Eigen::Vector2d, 4> tag_corners{Eigen::Vector2d(-1, 1), Eigen::Vector2d(1, 1),
                                                         Eigen::Vector2d(1, -1), Eigen::Vector2d(-1, -1)};
 
 /// Of each corner by itself, px^2. Corners that share an edge are off together, which is left out here.
 using CornerCovariances = std::array<Eigen::Matrix2d, 4>;
 
-/// Corners in px, pixel centres at integers, in plate order: (-,+), (+,+), (+,-), (-,-) in plate x, y.
+/// Corners in px, pixel centres at integers, in plate order: (-,+), (+,+), (+,-), (-,-) in plate x, y. They
+/// are those of the print: in a mirrored picture they go round the other way, and only by that it is known as
+/// one.
 struct TagDetection {
     TimeNs time_ns = 0;  ///< middle of the frame's exposure
     int tag_id = -1;
     int corrected_bits = 0;        ///< code bits that differ from the code book
     double decision_margin = 0.0;  ///< contrast between black and white bits, grey levels
     std::array<Eigen::Vector2d, 4> corners_px;
-    int border_cells = 1;  ///< width of the black border; 2 on a kalibr AprilGrid
+    TagPrint print;  ///< as which it was read
     /// Whether the corners were measured along the edges of the tag, or are as the detector found them;
     /// empty: not known.
     std::optional<bool> is_refined = {};

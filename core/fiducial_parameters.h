@@ -1,13 +1,13 @@
 #pragma once
 // The plate of a rig file (assets/rig.yaml), checked, in memory.
-#include <string>
+#include "core/tag_families.h"
 
 namespace fidservo {
 
 /// The grid of fiducials printed on the plate that the rig file describes: tag first_id + column +
 /// row * columns is centred at (column pitch_x, row pitch_y).
 struct FiducialParameters {
-    std::string family;
+    TagPrint print;
     double side_mm;
     double pitch_x_mm, pitch_y_mm;
     int columns, rows;

@@ -1,6 +1,8 @@
 #pragma once
 // The plate: fiducials and printed features at known places. Lengths in mm, plate frame (x along the stage
 // axis, y down in the image). Angles in rad, from x towards y.
+#include "core/tag_families.h"
+
 #include <string>
 #include <variant>
 #include <vector>
@@ -12,8 +14,9 @@ namespace fidservo {
 struct PlateTag {
     int id;
     Eigen::Vector2d centre_mm;
-    double side_mm;  ///< of the black border square
+    double side_mm;  ///< of the outline: the black border square, for families that have a plain border
     double angle_rad = 0.0;
+    TagPrint print = {};
 
     bool operator==(const PlateTag&) const = default;
 };
@@ -48,11 +51,13 @@ struct Feature {
 };
 
 struct Plate {
-    std::string family = "tag36h11";
     double paper_reflectance = 0.9;
     double ink_reflectance = 0.1;
-    std::vector<PlateTag> tags;
+    std::vector<PlateTag> tags;     ///< all printed alike
     std::vector<Feature> features;  ///< later ones lie over earlier ones
+
+    /// Of all its tags.
+    TagPrint print() const { return tags.empty() ? TagPrint{} : tags.front().print; }
 };
 
 }  // namespace fidservo

@@ -94,7 +94,8 @@ Failure explain_absence(const CameraGeometry& camera, const Plate& nominal, cons
         });
         if (const double share = saturated_share(image, place_px); share > options.most_saturated)
             return {Reason::glare, fmt::format("{:.1f} % of tag {} is saturated", 100 * share, expected.id)};
-        if (!another_is_there && explained_contrast(image, place_px, tag_pattern(expected.id)) > partly_seen)
+        if (!another_is_there &&
+            explained_contrast(image, place_px, tag_pattern(expected.print, expected.id)) > partly_seen)
             return {Reason::occluded,
                     fmt::format("tag {} is there, but too much of it is hidden", expected.id)};
     }

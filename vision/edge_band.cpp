@@ -10,12 +10,18 @@
 namespace fidservo::vision {
 namespace {
 
-/// 1 white, 0 black; the paper around the tag is white, but on an AprilGrid black squares touch its corners.
+/// 1 white, 0 black.
 float white_at(const TagPattern& pattern, int column, int row) {
     const bool beside = column < 0 || column >= pattern.cells, above = row < 0 || row >= pattern.cells;
-    if (beside && above && pattern.has_corner_squares()) return 0.0F;
-    if (beside || above) return 1.0F;
-    return pattern[row * pattern.cells + column] ? 1.0F : 0.0F;
+    const bool white = beside || above ? pattern.paper_is_white : pattern.is_white(row, column);
+    return white ? 1.0F : 0.0F;
+}
+
+/// What lies around a code that reaches to the print's edge is not known, nor whether squares touch the
+/// corners of a border of two cells, as on an AprilGrid.
+bool is_known(const TagPattern& pattern, int column, int row) {
+    const bool beside = column == 0 || column == pattern.cells, above = row == 0 || row == pattern.cells;
+    return pattern.rim > 0 ? !beside && !above : !(beside && above) || pattern.corners_are_free;
 }
 
 /// The crossing before cell (column, row); its pixels are not known yet.
@@ -267,6 +273,7 @@ void select_band(const cv::Mat& image, const TagPicture& picture, const TagPatte
     Choice choice(share);
     for (int row = 0; row <= pattern.cells; ++row)
         for (int column = 0; column <= pattern.cells; ++column) {
+            if (!is_known(pattern, column, row)) continue;
             const kernel::Node node = crossing(pattern, column, row);
             if (node.edge_up + node.edge_down + node.edge_left + node.edge_right > 0)
                 add_node(picture, reach, node, choice, writer, band);

@@ -29,6 +29,15 @@ Eigen::Vector2d centre_of(const std::array<Eigen::Vector2d, 4>& corners_px) {
     return map_point(square_to_image(corners_px), {0.0, 0.0});
 }
 
+bool is_mirrored(const std::array<Eigen::Vector2d, 4>& corners_px) {
+    const Eigen::Vector2d along = corners_px[2] - corners_px[0], across = corners_px[3] - corners_px[1];
+    return along.x() * across.y() - along.y() * across.x() > 0.0;
+}
+
+std::array<Eigen::Vector2d, 4> mirrored(const std::array<Eigen::Vector2d, 4>& corners_px) {
+    return {corners_px[1], corners_px[0], corners_px[3], corners_px[2]};
+}
+
 double longest_side_px(const std::array<Eigen::Vector2d, 4>& corners_px) {
     double longest = 0.0;
     for (std::size_t k = 0; k < 4; ++k)

@@ -21,6 +21,12 @@ inline Eigen::Vector2d map_point(const Eigen::Matrix3d& homography, const Eigen:
 /// Where the diagonals cross: the image of the tag's centre.
 Eigen::Vector2d centre_of(const std::array<Eigen::Vector2d, 4>& corners_px);
 
+/// Whether the picture is a mirrored one: the corners go round the other way.
+bool is_mirrored(const std::array<Eigen::Vector2d, 4>& corners_px);
+
+/// Corners of a tag that was read as the mirrored picture of its print, in the order of the print's.
+std::array<Eigen::Vector2d, 4> mirrored(const std::array<Eigen::Vector2d, 4>& corners_px);
+
 double longest_side_px(const std::array<Eigen::Vector2d, 4>& corners_px);
 
 /// Two finds of one printed tag: nearer to each other than two printed tags can be.

@@ -16,7 +16,6 @@
 namespace fidservo::vision {
 namespace {
 
-constexpr double cells_per_side = 8.0;
 constexpr double least_outline_side_px = 24.0;
 constexpr int scans = 9;                     ///< a side
 constexpr double first_scan = 0.14;          ///< of the side's length; the last one lies opposite
@@ -56,10 +55,11 @@ double scan_place(int scan) {
     return first_scan + (1.0 - 2.0 * first_scan) * scan / (scans - 1);
 }
 
-/// The steepest fall from white to black within reach of a point of the expected side: the largest difference
-/// of the means of `half` samples on either side of a pixel, between the samples by a parabola.
+/// The steepest fall from white to black (with `fall_sign` -1, the steepest rise) within reach of a point of
+/// the expected side: the largest difference of the means of `half` samples on either side of a pixel,
+/// between the samples by a parabola.
 Meeting scan(const cv::Mat& image, const Eigen::Vector2d& base_px, const Eigen::Vector2d& inwards,
-             double reach_px, int half) {
+             double reach_px, int half, double fall_sign) {
     std::array<double, most_samples> sum;  // sum[i]: of all samples before i
     constexpr int room_px = 2;  // an edge at the very end of the reach still has its slopes in sight
     const int each_way = static_cast<int>(std::ceil(reach_px)) + half + room_px;
@@ -69,7 +69,7 @@ Meeting scan(const cv::Mat& image, const Eigen::Vector2d& base_px, const Eigen::
     while (first <= each_way && !seen(first)) ++first;
     int count = 0;
     for (int step = first; step <= each_way && seen(step); ++step, ++count)
-        sum[count + 1] = sum[count] + sample(image, base_px + step * inwards);
+        sum[count + 1] = sum[count] + fall_sign * sample(image, base_px + step * inwards);
 
     const auto fall = [&](int i) { return (2 * sum[i] - sum[i - half] - sum[i + half]) / half; };
     int best = -1;
@@ -177,7 +177,7 @@ Corners corners_of(const ExpectedSides& sides, const SideLines& lines) {
 }
 
 /// The outline within reach of the expected one; empty if there is none.
-std::optional<Corners> find_outline(const cv::Mat& image, const ExpectedTag& expected,
+std::optional<Corners> find_outline(const cv::Mat& image, const ExpectedTag& expected, bool white_inside,
                                     double least_contrast) {
     ExpectedSides sides;
     double shortest_px = std::numeric_limits<double>::infinity();
@@ -186,7 +186,7 @@ std::optional<Corners> find_outline(const cv::Mat& image, const ExpectedTag& exp
         shortest_px = std::min(shortest_px, sides[k].along.norm());
     }
     if (!(shortest_px >= least_outline_side_px)) return std::nullopt;
-    const double cell_px = shortest_px / cells_per_side;
+    const double cell_px = shortest_px / expected.print.outline_cells();
     const double reach_px = std::min({std::max(expected.reach_px, 1.0), 0.45 * cell_px, most_reach_px});
     const int half = std::clamp(static_cast<int>(cell_px / 6.0), 1, 4);
 
@@ -195,7 +195,8 @@ std::optional<Corners> find_outline(const cv::Mat& image, const ExpectedTag& exp
     for (std::size_t k = 0; k < 4; ++k)
         for (int i = 0; i < scans; ++i) {
             const Eigen::Vector2d base_px = sides[k].from_px + scan_place(i) * sides[k].along;
-            meetings[k][i] = scan(image, base_px, sides[k].inwards, reach_px, half);
+            meetings[k][i] =
+                scan(image, base_px, sides[k].inwards, reach_px, half, white_inside ? -1.0 : 1.0);
             steps[k * scans + i] = meetings[k][i].step;
         }
     std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
@@ -221,14 +222,19 @@ std::optional<Corners> find_outline(const cv::Mat& image, const ExpectedTag& exp
 Result<TagDetection> align_tag(const cv::Mat& image, TimeNs time_ns, const ExpectedTag& expected,
                                const AlignmentOptions& options) {
     FIDSERVO_DEMAND(image.type() == CV_8UC1);
-    const auto corners = find_outline(image, expected, options.least_contrast);
+    const TagPattern pattern = tag_pattern(expected.print, expected.tag_id);
+    const auto corners = find_outline(image, expected, pattern.is_white_inside(), options.least_contrast);
     if (!corners) return failure(Reason::no_tag, "no tag where it is expected");
-    const PatternMatch match = match_pattern(image, *corners, tag_pattern(expected.tag_id));
-    if (match.wrong_code_bits > options.most_wrong_bits ||
-        match.wrong_border_cells > options.most_wrong_border_cells ||
+    const PatternMatch match = match_pattern(image, *corners, pattern);
+    const auto cells = static_cast<double>(pattern.cells * pattern.cells);
+    const double fixed = cells - static_cast<double>(pattern.code.count());
+    if (match.wrong_code_bits >
+            std::min(options.most_wrong_bits, (expected.print.family->least_distance - 1) / 2) ||
+        match.wrong_fixed_cells > options.most_wrong_fixed * fixed ||
         match.explained < options.least_explained || match.contrast < options.least_contrast)
         return failure(Reason::wrong_tag, "what is there does not read as the expected tag");
-    return TagDetection{time_ns, expected.tag_id, match.wrong_code_bits, match.margin, *corners};
+    return TagDetection{time_ns,      expected.tag_id, match.wrong_code_bits,
+                        match.margin, *corners,        expected.print};
 }
 
 }  // namespace fidservo::vision

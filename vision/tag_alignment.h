@@ -15,20 +15,22 @@ struct ExpectedTag {
     int tag_id;
     std::array<Eigen::Vector2d, 4> corners_px;  ///< in detection order
     double reach_px;                            ///< how far any of them may be off
+    TagPrint print = {};
 };
 
 struct AlignmentOptions {
-    /// Code bits that may differ from the expected code. Codes of the book and their turns are 11 bits apart,
-    /// so that 5 differences or fewer fit one alone.
+    /// Code bits that may differ from the expected code; never so many that they would fit another code as
+    /// well: half of the family's least distance.
     int most_wrong_bits = 2;
-    int most_wrong_border_cells = 4;  ///< of the 28 that are black on every tag
-    double least_explained = 0.6;     ///< of the picture inside the outline by the code (tag_pattern.h)
-    double least_contrast = 10.0;     ///< between black and white, grey levels
+    double most_wrong_fixed = 1.0 / 7.0;  ///< share of the cells that are alike on every tag
+    double least_explained = 0.6;         ///< of the picture inside the outline by the code (tag_pattern.h)
+    double least_contrast = 10.0;         ///< between black and white, grey levels
 };
 
 /// Finds the outline of an expected tag, and holds what is inside against the expected code.
 ///
-/// On scan lines across each side, from outside inwards, the steepest fall from white to black is the edge; a
+/// On scan lines across each side, from outside inwards, the steepest fall from white to black is the edge
+/// (the steepest rise, where the outline is white inside); a
 /// line that most scan lines of a side agree on is the side. A side that is hidden is placed by the others (a
 /// similarity from the expected outline). The picture inside must then read as the expected code, upright, to
 /// within `most_wrong_bits`: what is not surely the expected tag is refused.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -135,9 +136,11 @@ struct Edge {
     double slope = 0.0;  ///< of the edge against the side, px across per line
 };
 
-Edge edge_of(const SideCrossing& side, int half, int width) {
-    constexpr double least_contrast = 20.0;  // grey levels
+Edge edge_of(const SideCrossing& side, int half, int width, bool white_inside) {
+    constexpr double least_contrast = 20.0;            // grey levels
+    const double outward = white_inside ? -1.0 : 1.0;  // from black to white
     Edge edge{strip_of(side, half + 1, half + width), strip_of(side, -half - width, -half - 1)};
+    if (white_inside) std::swap(edge.white, edge.black);
     if (edge.white.is_saturated || edge.black.is_saturated ||
         edge.white.mean() - edge.black.mean() < least_contrast)
         return edge;
@@ -155,7 +158,7 @@ Edge edge_of(const SideCrossing& side, int half, int width) {
         double before = normalised(-half);
         for (int step = -half; step < half; ++step) {
             const double after = normalised(step + 1), q = side.way_px(line, step) + 0.5;
-            moment += (after - before) * Eigen::Vector3d(1.0, q, q * q);
+            moment += outward * (after - before) * Eigen::Vector3d(1.0, q, q * q);
             before = after;
         }
         const Eigen::Vector3d row(1.0, at, at * at);
@@ -194,7 +197,7 @@ int half_of(double variance_px2) {
 }
 
 /// Begins wide and closes in on the edge. Empty where the tag is too small, too blurred or not all visible.
-std::optional<Edge> measured(const SideCrossing& side, double border_px) {
+std::optional<Edge> measured(const SideCrossing& side, double border_px, bool white_inside) {
     constexpr int least_lines = 12, rounds = 6;
     constexpr double likely = 2.0;  // standard deviations
     // The border holds the edge's inner half, the strip, and the blur of the code's cells.
@@ -205,7 +208,7 @@ std::optional<Edge> measured(const SideCrossing& side, double border_px) {
     const auto strip_px = [&](int beside) {
         return std::clamp(room - 2 * beside, least_strip_px, most_strip_px);
     };
-    Edge edge = edge_of(side, half, strip_px(half));
+    Edge edge = edge_of(side, half, strip_px(half), white_inside);
     const double scale = side.cosine() * side.cosine();
     for (int round = 0; round < rounds && !std::isnan(edge.variance_px2); ++round) {
         if (round == 0 && half_of(edge.variance_px2 / scale) > half) return std::nullopt;
@@ -213,7 +216,7 @@ std::optional<Edge> measured(const SideCrossing& side, double border_px) {
         const int closer = std::max(asked, static_cast<int>(0.6 * half));
         if (closer >= half) break;
         half = closer;
-        edge = edge_of(side, half, strip_px(half));
+        edge = edge_of(side, half, strip_px(half), white_inside);
     }
     return edge;
 }
@@ -238,7 +241,7 @@ GreyNoiseSeen noise_of(const std::vector<const BorderStrip*>& strips) {
 }  // namespace
 
 TagAppearance tag_appearance(const cv::Mat& image, const TagDetection& tag) {
-    constexpr int code_cells = 6;
+    const bool white_inside = tag_pattern(tag.print, tag.tag_id).is_white_inside();
     TagAppearance seen{.time_ns = tag.time_ns, .tag_id = tag.tag_id, .sides = {}, .white = {}, .black = {}};
     Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
     for (const Eigen::Vector2d& corner : tag.corners_px) middle_px += 0.25 * corner;
@@ -246,10 +249,10 @@ TagAppearance tag_appearance(const cv::Mat& image, const TagDetection& tag) {
     std::vector<const BorderStrip*> white, black;
     for (std::size_t k = 0; k < 4; ++k) {
         const Eigen::Vector2d from_px = tag.corners_px[k], to_px = tag.corners_px[(k + 1) % 4];
-        const double cells = code_cells + 2.0 * tag.border_cells;
-        const double border_px = (to_px - from_px).norm() / cells * tag.border_cells;
+        const double border_px =
+            (to_px - from_px).norm() / tag.print.outline_cells() * tag.print.border_cells;
         const SideCrossing side(image, from_px, to_px, 0.5 * (from_px + to_px) - middle_px, border_px);
-        edges[k] = measured(side, border_px);
+        edges[k] = measured(side, border_px, white_inside);
         if (!edges[k]) continue;
         const Edge& edge = *edges[k];
         const double middle = side.half_length();

@@ -4,6 +4,7 @@
 // Every side of the black border is an edge from ink to paper. Along pixel rows (columns, where the side is
 // nearer to level) the grey levels g are normalised with the light, even across and bent along the side, that
 // is fitted to strips of ink and of paper on both sides of the edge, G = (g - black) / (white - black). The
+// (Where the outline is white inside and black outside, ink and paper change places.)  The
 // differences of neighbours are the slope of the profile, averaged over a pixel's pitch; with q their places
 // from a parabola that is fitted to the edge,
 //

@@ -11,11 +11,9 @@
 namespace fidservo::vision {
 namespace {
 
-constexpr double with_quiet_zone = 10.0 / 8.0;  // cells with it, of the 8 that the side has
-
 /// Half the width of the upright box around border and quiet zone, mm.
 double half_box_mm(const PlateTag& tag) {
-    return 0.5 * with_quiet_zone * tag.side_mm *
+    return 0.5 * tag.print.share_with_zone() * tag.side_mm *
            (std::abs(std::cos(tag.angle_rad)) + std::abs(std::sin(tag.angle_rad)));
 }
 
@@ -47,7 +45,7 @@ std::optional<ViewRange> straight_view_range(const CameraGeometry& camera, const
 /// negative: not wholly in view.
 double room_px(const CameraGeometry& camera, const PlateTag& tag, double s_mm) {
     constexpr double out_of_sight_px = -1e9;
-    const PlateTag with_zone{tag.id, tag.centre_mm, with_quiet_zone * tag.side_mm, tag.angle_rad};
+    const PlateTag with_zone{tag.id, tag.centre_mm, tag.print.share_with_zone() * tag.side_mm, tag.angle_rad};
     const std::array<Eigen::Vector2d, 4> corners = corners_mm(with_zone);
     double room = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 4; ++k)

@@ -14,7 +14,7 @@ namespace fidservo::vision {
 /// Corners of a tag's black border on the plate in mm, in the order of detections.
 std::array<Eigen::Vector2d, 4> corners_mm(const PlateTag& tag);
 
-/// Tags whose border and white quiet zone (one cell, an eighth of the side, all around) lie wholly in view
+/// Tags whose border and white quiet zone (one cell all around) lie wholly in view
 /// from camera position s; nearest to the optical axis first, then by id.
 std::vector<PlateTag> visible_tags(const CameraGeometry& camera, const Plate& plate, double s_mm);
 

@@ -6,11 +6,11 @@
 
 extern "C" {
 #include <apriltag/apriltag.h>
-#include <apriltag/tag36h11.h>
 }
 
 #include "core/demand.h"
 #include "vision/quad.h"
+#include "vision/tag_book.h"
 #include "vision/tag_pattern.h"
 
 #include <opencv2/imgproc.hpp>
@@ -33,6 +33,23 @@ void add_new(std::vector<TagDetection>& tags, const std::vector<TagDetection>& m
             tags.push_back(tag);
 }
 
+/// Those of `more` that are not among the tags yet, or fit the image better than the one that is.
+void add_better(const cv::Mat& image, std::vector<TagDetection>& tags,
+                const std::vector<TagDetection>& more) {
+    const auto explained = [&](const TagDetection& tag) {
+        return explained_contrast(image, tag.corners_px, tag_pattern(tag.print, tag.tag_id));
+    };
+    for (const TagDetection& tag : more) {
+        const auto same = std::find_if(tags.begin(), tags.end(), [&](const TagDetection& other) {
+            return same_place(tag.corners_px, other.corners_px);
+        });
+        if (same == tags.end())
+            tags.push_back(tag);
+        else if (explained(tag) > explained(*same))
+            *same = tag;
+    }
+}
+
 /// Moves all sides outwards, roughly.
 void widen(TagDetection& tag, double by_px) {
     const Eigen::Vector2d centre = centre_of(tag.corners_px);
@@ -40,30 +57,17 @@ void widen(TagDetection& tag, double by_px) {
         corner += std::numbers::sqrt2 * by_px * (corner - centre).normalized();
 }
 
-using Family = std::unique_ptr<apriltag_family_t, decltype(&tag36h11_destroy)>;
-
-/// The library's code book, its cells moved inwards to make room for a wider border.
-Family family_with_border(int border_cells) {
-    FIDSERVO_DEMAND(border_cells == 1 || border_cells == 2);
-    Family family(tag36h11_create(), tag36h11_destroy);
-    const int wider = border_cells - 1;
-    family->width_at_border += 2 * wider;
-    family->total_width += 2 * wider;
-    for (std::uint32_t bit = 0; bit < family->nbits; ++bit) {
-        family->bit_x[bit] += wider;
-        family->bit_y[bit] += wider;
-    }
-    return family;
-}
-
 }  // namespace
 
-TagDetectorOptions machine_camera_options() {
-    return {};
+TagDetectorOptions machine_camera_options(const TagReading& reading) {
+    TagDetectorOptions options;
+    options.reading = reading;
+    return options;
 }
 
-TagDetectorOptions thorough_options() {
+TagDetectorOptions thorough_options(const TagReading& reading) {
     TagDetectorOptions options;
+    options.reading = reading;
     options.min_contrast = 5;
     options.magnify = true;
     return options;
@@ -75,8 +79,16 @@ bool by_id_from_left(const TagDetection& a, const TagDetection& b) {
 }
 
 struct TagDetector::Impl {
+    struct EndDetector {
+        void operator()(apriltag_detector_t* ended) const {
+            zarray_clear(ended->tag_families);  // the book is not this detector's alone
+            apriltag_detector_destroy(ended);
+        }
+    };
+
     explicit Impl(const TagDetectorOptions& with) : options(with) {
-        apriltag_detector_add_family_bits(detector.get(), family.get(), options.max_corrected_bits);
+        apriltag_family_t* const family = book.get();
+        zarray_add(detector->tag_families, static_cast<const void*>(&family));
         detector->nthreads = 1;
         detector->quad_decimate = static_cast<float>(options.decimation);
         detector->quad_sigma = 0.0F;  // with decimation 1 the library would blur the caller's own image
@@ -98,20 +110,30 @@ struct TagDetector::Impl {
             tag.tag_id = seen->id;
             tag.corrected_bits = seen->hamming;
             tag.decision_margin = seen->decision_margin;
-            tag.border_cells = options.border_cells;
+            tag.print = options.reading.print;
+            std::array<Eigen::Vector2d, 4> corners_px;
             for (std::size_t c = 0; c < 4; ++c)
-                tag.corners_px[c] =
+                corners_px[c] =
                     Eigen::Vector2d(seen->p[c][0], seen->p[c][1]) / magnification +
                     Eigen::Vector2d(origin.x - library_pixel_centre, origin.y - library_pixel_centre);
+            tag.corners_px = options.reading.mirrored ? mirrored(corners_px) : corners_px;
             tags.push_back(tag);
         }
         return tags;
     }
 
+    bool is_convincing(const cv::Mat& image, const TagDetection& tag) const {
+        const TagPattern pattern = tag_pattern(tag.print, tag.tag_id);
+        return explained_contrast(image, tag.corners_px, pattern) >= least.of_tag &&
+               (least.of_code == 0.0 || explained_code(image, tag.corners_px, pattern) >= least.of_code);
+    }
+
     TagDetectorOptions options;
-    Family family = family_with_border(options.border_cells);
-    std::unique_ptr<apriltag_detector_t, decltype(&apriltag_detector_destroy)> detector{
-        apriltag_detector_create(), apriltag_detector_destroy};
+    LeastExplained least = least_explained(*options.reading.print.family);
+    std::shared_ptr<apriltag_family_t> book = shared_tag_book(
+        options.reading,
+        std::min(options.max_corrected_bits, most_correctable_bits(*options.reading.print.family)));
+    std::unique_ptr<apriltag_detector_t, EndDetector> detector{apriltag_detector_create()};
 };
 
 TagDetector::TagDetector(const TagDetectorOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -125,24 +147,25 @@ std::vector<TagDetection> TagDetector::detect(const cv::Mat& image, TimeNs time_
     const cv::Rect part = region.empty() ? whole : (region & whole);
     if (part.width < smallest_image_px || part.height < smallest_image_px) return {};
 
+    const TagPrint& print = impl_->options.reading.print;
     const cv::Mat view = image(part);
     std::vector<TagDetection> tags = impl_->search(view, time_ns, part.tl(), 1.0);
     if (impl_->options.magnify) {
         cv::Mat larger;
         cv::resize(view, larger, {}, 2.0, 2.0, cv::INTER_CUBIC);
         add_new(tags, impl_->search(larger, time_ns, part.tl(), 2.0));
-        if (impl_->options.border_cells == 2) {
-            // The squares between an AprilGrid's tags touch their corners; a wider white tears them apart.
-            cv::dilate(larger, larger, cv::Mat());
+        if (print.border_cells == 2) {
+            // The squares between an AprilGrid's tags touch their corners; wider paper tears them apart.
+            if (print.inverted)
+                cv::erode(larger, larger, cv::Mat());
+            else
+                cv::dilate(larger, larger, cv::Mat());
             std::vector<TagDetection> thinner = impl_->search(larger, time_ns, part.tl(), 2.0);
             for (TagDetection& tag : thinner) widen(tag, 0.5);
-            add_new(tags, thinner);
+            add_better(image, tags, thinner);
         }
     }
-    std::erase_if(tags, [&](const TagDetection& tag) {
-        return explained_contrast(image, tag.corners_px, tag_pattern(tag.tag_id, tag.border_cells)) <
-               impl_->options.min_explained_contrast;
-    });
+    std::erase_if(tags, [&](const TagDetection& tag) { return !impl_->is_convincing(image, tag); });
     std::sort(tags.begin(), tags.end(), by_id_from_left);
     return tags;
 }

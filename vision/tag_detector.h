@@ -1,7 +1,8 @@
 #pragma once
-// Fiducials (tag36h11, their border one cell wide, or two) in a grey image, found with libapriltag.
+// Fiducials of any family (core/tag_families.h) in a grey image, found with libapriltag.
 #include "core/detection.h"
 #include "core/time.h"
+#include "vision/tag_book.h"
 
 #include <memory>
 #include <vector>
@@ -17,23 +18,19 @@ struct TagDetectorOptions {
     int min_contrast = 30;
     /// The quad search runs on an image this much smaller (>= 1); corners then move with focus.
     double decimation = 1.0;
-    /// Code bits that may differ from the code book. The 587 codes are 11 bits apart.
+    /// Code bits that may differ from the code book; never more than most_correctable_bits().
     int max_corrected_bits = 2;
-    /// Tags whose pattern explains less of what is seen in their outline are refused (tag_pattern.h). Real
-    /// tags reach 0.43 at 1.5 px a bit and 0.95 on the machine; chance agreements of texture with the code
-    /// book, 0.31 at most in 240 images of noise.
-    double min_explained_contrast = 0.4;
-    /// Width of the tags' black border in cells: 1, or 2 on a kalibr AprilGrid. Others are not seen.
-    int border_cells = 1;
+    /// Tags that are printed otherwise are not seen.
+    TagReading reading = {};
     /// Look again at twice the resolution, for tags whose bits are about two pixels wide or less.
     bool magnify = false;
 };
 
 /// For the machine's own camera: large, well lit tags, every frame in time.
-TagDetectorOptions machine_camera_options();
+TagDetectorOptions machine_camera_options(const TagReading& reading = {});
 
 /// For arbitrary photographs: every tag that can be read, however small, at some ten times the cost.
-TagDetectorOptions thorough_options();
+TagDetectorOptions thorough_options(const TagReading& reading = {});
 
 /// The order in which detections are listed: by id, then from left to right.
 bool by_id_from_left(const TagDetection& a, const TagDetection& b);
@@ -46,9 +43,9 @@ class TagDetector {
     TagDetector(TagDetector&&) noexcept;
     TagDetector& operator=(TagDetector&&) noexcept;
 
-    /// Every tag in the image, by_id_from_left. The same id may come twice: then it is there
-    /// twice. Corners in px, pixel centres at integers (the library's own are at +0.5), as precise as the
-    /// library's: tag_refinement.h does better.
+    /// Every tag in the image whose pattern explains enough of it (least_explained()), by_id_from_left. The
+    /// same id may come twice: then it is there twice. Corners in px, pixel centres at integers (the
+    /// library's own are at +0.5), as precise as the library's: tag_refinement.h does better.
     /// @param image    CV_8UC1; not modified
     /// @param time_ns  middle of the exposure, passed on to the detections
     /// @param region   where to look; empty: everywhere. It is cut to the image.

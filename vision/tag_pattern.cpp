@@ -1,18 +1,12 @@
 #include "vision/tag_pattern.h"
 
-#include "core/demand.h"
 #include "core/normal_equations.h"
 #include "vision/quad.h"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <vector>
-
-extern "C" {
-#include <apriltag/apriltag.h>
-#include <apriltag/tag36h11.h>
-}
+#include <numbers>
+#include <optional>
 
 #include <Eigen/Cholesky>
 
@@ -20,30 +14,25 @@ namespace fidservo::vision {
 
 namespace {
 
-constexpr int code_cells = 6;
-constexpr int most_cells = code_cells + 2 * 2;
 constexpr std::array<double, 3> places_in_cell{-0.25, 0.0, 0.25};
 
-std::vector<TagPattern> read_book(int border_cells) {
-    constexpr int border_of_book = 1;
-    const std::unique_ptr<apriltag_family_t, decltype(&tag36h11_destroy)> book(tag36h11_create(),
-                                                                               tag36h11_destroy);
-    std::vector<TagPattern> patterns(book->ncodes);
-    for (std::uint32_t id = 0; id < book->ncodes; ++id) {
-        patterns[id].cells = code_cells + 2 * border_cells;
-        for (std::uint32_t bit = 0; bit < book->nbits; ++bit) {
-            const std::uint32_t row = book->bit_y[bit] - border_of_book + border_cells;
-            const std::uint32_t column = book->bit_x[bit] - border_of_book + border_cells;
-            patterns[id].white[patterns[id].cells * row + column] =
-                ((book->codes[id] >> (book->nbits - 1 - bit)) & 1U) != 0;
-        }
-    }
-    return patterns;
+/// In the tag's frame: a place in a cell, counted in cells from the cell's middle.
+Eigen::Vector2d on_tag(const TagPattern& pattern, int row, int column, double dx, double dy) {
+    const int side = pattern.outline_cells();
+    return {(column + 0.5 + dx - pattern.rim) * 2 / side - 1, (row + 0.5 + dy - pattern.rim) * 2 / side - 1};
 }
 
-bool is_border(const TagPattern& pattern, int row, int column) {
-    const int border = (pattern.cells - code_cells) / 2;
-    return std::min(row, column) < border || std::max(row, column) >= pattern.cells - border;
+/// P(R^2 > level) of one regressor among `cells` levels of chance that has only the right sign: half of
+/// I_(1 - level)((cells - 4)/2, 1/2), by the angle whose sine is R.
+double chance_of_more(double level, int cells) {
+    constexpr int steps = 2000;
+    const auto tail_from = [&](double angle) {
+        const double step = (0.5 * std::numbers::pi - angle) / steps;
+        double sum = 0.0;
+        for (int k = 0; k < steps; ++k) sum += std::pow(std::cos(angle + (k + 0.5) * step), cells - 5);
+        return sum * step;
+    };
+    return 0.5 * tail_from(std::asin(std::sqrt(level))) / tail_from(0.0);
 }
 
 /// Sums over the points of the cells, and over each cell alone.
@@ -51,20 +40,22 @@ struct CellSums {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();  ///< of the terms 1, pattern, x, y
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     double sum_of_squares = 0.0;
-    std::array<double, most_cells * most_cells> grey{};
-    std::array<int, most_cells * most_cells> count{};
+    std::array<double, TagPattern::most_cells * TagPattern::most_cells> grey{};
+    std::array<int, TagPattern::most_cells * TagPattern::most_cells> count{};
 };
 
-CellSums sums_of_cells(const cv::Mat& image, const Eigen::Matrix3d& homography, const TagPattern& pattern) {
+/// @param code_alone  leaves out the cells that are alike on every tag
+CellSums sums_of_cells(const cv::Mat& image, const Eigen::Matrix3d& homography, const TagPattern& pattern,
+                       bool code_alone) {
     CellSums sums;
     const int cells = pattern.cells;
     for (int row = 0; row < cells; ++row)
         for (int column = 0; column < cells; ++column) {
             const int cell = row * cells + column;
+            if (code_alone && !pattern.code[static_cast<std::size_t>(cell)]) continue;
             for (const double dy : places_in_cell)
                 for (const double dx : places_in_cell) {
-                    const Eigen::Vector2d at((column + 0.5 + dx) * 2 / cells - 1,
-                                             (row + 0.5 + dy) * 2 / cells - 1);
+                    const Eigen::Vector2d at = on_tag(pattern, row, column, dx, dy);
                     const Eigen::Vector2d at_px = map_point(homography, at);
                     if (!can_sample(image, at_px)) continue;
                     const double grey = sample(image, at_px);
@@ -83,58 +74,94 @@ CellSums sums_of_cells(const cv::Mat& image, const Eigen::Matrix3d& homography, 
 void count_bits(const CellSums& sums, const Eigen::Vector4d& fit, const TagPattern& pattern,
                 PatternMatch& match) {
     const int cells = pattern.cells;
-    match.wrong_code_bits = match.wrong_border_cells = 0;
+    match.wrong_code_bits = match.wrong_fixed_cells = 0;
+    const auto bits = static_cast<double>(pattern.code.count());
     for (int row = 0; row < cells; ++row)
         for (int column = 0; column < cells; ++column) {
             const int cell = row * cells + column;
-            const Eigen::Vector2d at((column + 0.5) * 2 / cells - 1, (row + 0.5) * 2 / cells - 1);
+            const Eigen::Vector2d at = on_tag(pattern, row, column, 0.0, 0.0);
             const double middle = fit(0) + 0.5 * fit(1) + fit.tail<2>().dot(at);
             const double above = sums.count[cell] > 0 ? sums.grey[cell] / sums.count[cell] - middle : 0.0;
             const double agrees = pattern[cell] ? above : -above;
-            if (is_border(pattern, row, column)) {
-                match.wrong_border_cells += agrees > 0 ? 0 : 1;
-            } else {
+            if (pattern.code[static_cast<std::size_t>(cell)]) {
                 match.wrong_code_bits += agrees > 0 ? 0 : 1;
-                match.margin += std::abs(above) / (code_cells * code_cells);
+                match.margin += std::abs(above) / bits;
+            } else {
+                match.wrong_fixed_cells += agrees > 0 ? 0 : 1;
             }
         }
 }
 
-}  // namespace
+struct PatternFit {
+    CellSums sums;
+    Eigen::Vector4d light;  ///< black, white - black, gx, gy
+    double explained;
+};
 
-TagPattern tag_pattern(int tag_id, int border_cells) {
-    static const std::array<std::vector<TagPattern>, 2> books{read_book(1), read_book(2)};
-    FIDSERVO_DEMAND(border_cells == 1 || border_cells == 2);
-    const std::vector<TagPattern>& book = books[static_cast<std::size_t>(border_cells - 1)];
-    FIDSERVO_DEMAND(tag_id >= 0 && tag_id < static_cast<int>(book.size()));
-    return book[static_cast<std::size_t>(tag_id)];
-}
-
-PatternMatch match_pattern(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
-                           const TagPattern& pattern) {
+/// Empty if more than a quarter of the cells lie outside the image, or if black is brighter than white.
+std::optional<PatternFit> fit_pattern(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
+                                      const TagPattern& pattern, std::size_t cells, bool code_alone) {
     const std::array<int, 3> light_terms{0, 2, 3};
     const Eigen::Matrix3d homography = square_to_image(corners_px);
-    if (!homography.allFinite()) return {};
-    const CellSums sums = sums_of_cells(image, homography, pattern);
-    const auto points =
-        static_cast<double>(pattern.cells * pattern.cells * places_in_cell.size() * places_in_cell.size());
-    if (sums.normal(0, 0) < 0.75 * points) return {};
+    if (!homography.allFinite()) return std::nullopt;
+    const CellSums sums = sums_of_cells(image, homography, pattern, code_alone);
+    const auto points = static_cast<double>(cells * places_in_cell.size() * places_in_cell.size());
+    if (sums.normal(0, 0) < 0.75 * points) return std::nullopt;
     const Eigen::Vector4d fit = solve_normal(sums.normal, sums.right);
     const Eigen::Matrix3d light_normal = sums.normal(light_terms, light_terms);
     const Eigen::Vector3d light_right = sums.right(light_terms);
     const double left_by_light =
         sums.sum_of_squares - solve_normal(light_normal, light_right).dot(light_right);
-    if (!(left_by_light > 0) || !(fit(1) > 0)) return {};
+    if (!(left_by_light > 0) || !(fit(1) > 0)) return std::nullopt;
+    return PatternFit{sums, fit, 1.0 - (sums.sum_of_squares - fit.dot(sums.right)) / left_by_light};
+}
+
+/// The level at which chance agrees with a family as often as with the usual one.
+double level_for(const TagFamily& family, int cells, int usual_cells) {
+    constexpr double usual_level = 0.4;
+    constexpr int halvings = 20;
+    const double wanted = usual_tag_family().size() * chance_of_more(usual_level, usual_cells);
+    double low = 0.0, high = 1.0;
+    for (int k = 0; k < halvings; ++k) {
+        const double middle = 0.5 * (low + high);
+        (family.size() * chance_of_more(middle, cells) > wanted ? low : high) = middle;
+    }
+    return high;
+}
+
+}  // namespace
+
+PatternMatch match_pattern(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
+                           const TagPattern& pattern) {
     PatternMatch match;
-    match.explained = 1.0 - (sums.sum_of_squares - fit.dot(sums.right)) / left_by_light;
-    match.contrast = fit(1);
-    count_bits(sums, fit, pattern, match);
+    const auto cells = static_cast<std::size_t>(pattern.cells * pattern.cells);
+    const std::optional<PatternFit> fit = fit_pattern(image, corners_px, pattern, cells, false);
+    if (!fit) return match;
+    match.explained = fit->explained;
+    match.contrast = fit->light(1);
+    count_bits(fit->sums, fit->light, pattern, match);
     return match;
 }
 
 double explained_contrast(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
                           const TagPattern& pattern) {
     return match_pattern(image, corners_px, pattern).explained;
+}
+
+double explained_code(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
+                      const TagPattern& pattern) {
+    const std::optional<PatternFit> fit = fit_pattern(image, corners_px, pattern, pattern.code.count(), true);
+    return fit ? fit->explained : 0.0;
+}
+
+LeastExplained least_explained(const TagFamily& family) {
+    const TagFamily& usual = usual_tag_family();
+    if (&family == &usual) return {0.4, 0.0};
+    const auto bits = [](const TagFamily& of) {
+        return static_cast<int>(std::ranges::count(of.layout, 'd'));
+    };
+    return {level_for(family, family.cells * family.cells, usual.cells * usual.cells),
+            level_for(family, bits(family), bits(usual))};
 }
 
 }  // namespace fidservo::vision

@@ -41,34 +41,36 @@ double reach_of(const std::array<Eigen::Vector2d, 4>& corners_px, const Eigen::V
 }  // namespace
 
 TagPicture::TagPicture(const std::array<Eigen::Vector2d, 4>& corners_px, int cells,
-                       const std::optional<CameraGeometry>& camera)
+                       const std::optional<CameraGeometry>& camera, int rim)
     : camera_(camera) {
     cubic_.origin_px = mean_of(corners_px);
     cubic_.unit_px = reach_of(corners_px, cubic_.origin_px);
     if (camera_)
-        follow_camera(corners_px, cells);
+        follow_camera(corners_px, cells, rim);
     else
         follow_image(corners_px, cells);
 }
 
 /// q: cells of a tag on the plate that fits the corners best up to a similarity; the cubic is fitted to where
 /// the camera shows a lattice of them.
-void TagPicture::follow_camera(const std::array<Eigen::Vector2d, 4>& corners_px, int cells) {
+void TagPicture::follow_camera(const std::array<Eigen::Vector2d, 4>& corners_px, int cells, int rim) {
+    const double x_sign = is_mirrored(corners_px) ? -1.0 : 1.0;
     std::array<Eigen::Vector2d, 4> on_plate_mm;
     for (std::size_t k = 0; k < 4; ++k) on_plate_mm[k] = back_project(*camera_, corners_px[k], 0.0);
     centre_mm_ = mean_of(on_plate_mm);
     double cosine = 0.0, sine = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
         const Eigen::Vector2d to = on_plate_mm[k] - centre_mm_;
-        cosine += tag_corners[k].dot(to);
-        sine += tag_corners[k].x() * to.y() - tag_corners[k].y() * to.x();
+        const Eigen::Vector2d corner(x_sign * tag_corners[k].x(), tag_corners[k].y());
+        cosine += corner.dot(to);
+        sine += corner.x() * to.y() - corner.y() * to.x();
     }
     const double mm_per_cell = 1.0 / (4.0 * cells);  // sum of squares of the corners 8, half a side cells / 2
-    mm_by_q_ << cosine, -sine, sine, cosine;
+    mm_by_q_ << x_sign * cosine, -sine, x_sign * sine, cosine;
     mm_by_q_ *= mm_per_cell;
 
     constexpr int nodes = 5;
-    const double reach = 0.5 * cells + 1.0;
+    const double reach = 0.5 * cells + rim + 1.0;
     Eigen::Matrix<double, cubic_terms, cubic_terms> normal =
         Eigen::Matrix<double, cubic_terms, cubic_terms>::Zero();
     Eigen::Matrix<double, cubic_terms, 2> right = Eigen::Matrix<double, cubic_terms, 2>::Zero();

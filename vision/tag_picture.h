@@ -13,7 +13,8 @@ namespace fidservo::vision {
 
 /// From pixels to cells in two steps, for inner loops: q = cubic(u, v), then the projective map
 /// (x, y, 1) ~ m (q_x, q_y, 1), whose parameters are fitted. With a calibrated camera, q is the plate's plane
-/// as the camera shows it and m a similarity; without one, q is the image and m any homography.
+/// as the camera shows it (mirrored, where the tag's picture is) and m a similarity; without one, q is the
+/// image and m any homography.
 class TagPicture {
   public:
     static constexpr int cubic_terms = 10;
@@ -27,10 +28,11 @@ class TagPicture {
         std::array<Eigen::Vector2d, cubic_terms> coefficients;
     };
 
-    /// @param corners_px  of the black border, in detection order
-    /// @param cells  on a side of the border square
+    /// @param corners_px  of the outline, in detection order
+    /// @param cells  on a side of the outline
+    /// @param rim  cells of the print beyond the outline
     TagPicture(const std::array<Eigen::Vector2d, 4>& corners_px, int cells,
-               const std::optional<CameraGeometry>& camera);
+               const std::optional<CameraGeometry>& camera, int rim = 0);
 
     /// 4: shift in x and y, scale, rotation. 8: then aspect, shear, two of perspective.
     int parameters() const { return camera_ ? 4 : most_parameters; }
@@ -51,7 +53,7 @@ class TagPicture {
     const Eigen::Matrix3d& m() const { return m_; }
 
   private:
-    void follow_camera(const std::array<Eigen::Vector2d, 4>& corners_px, int cells);
+    void follow_camera(const std::array<Eigen::Vector2d, 4>& corners_px, int cells, int rim);
     void follow_image(const std::array<Eigen::Vector2d, 4>& corners_px, int cells);
 
     std::optional<CameraGeometry> camera_;

@@ -74,8 +74,8 @@ class Fit {
         WorkingMemory& memory)
         : image_(image),
           options_(options),
-          pattern_(tag_pattern(found.tag_id, found.border_cells)),
-          picture_(found.corners_px, pattern_.cells, options.camera),
+          pattern_(tag_pattern(found.print, found.tag_id)),
+          picture_(found.corners_px, pattern_.outline_cells(), options.camera, pattern_.rim),
           band_(memory.band),
           residuals_(memory.residuals),
           judgement_(memory.judgement),
@@ -135,7 +135,7 @@ class Fit {
         const Eigen::MatrixXd of_geometry = covariance.topLeftCorner(geometry, geometry);
         Eigen::MatrixXd corners(8, geometry);
         for (int k = 0; k < 4; ++k) {
-            const Eigen::Vector2d corner = 0.5 * pattern_.cells * tag_corners[k];
+            const Eigen::Vector2d corner = 0.5 * pattern_.outline_cells() * tag_corners[k];
             tag.corners_px[k] = picture_.image_of(corner);
             corners.middleRows<2>(2 * k) = picture_.image_by_parameters(corner);
         }
@@ -338,7 +338,7 @@ Result<RefinedTag> fit_picture(const cv::Mat& image, const TagDetection& found,
     RefinedTag refined = fit.result(found);
     refined.detection.is_refined = true;
     refined.detection.covariances_px2 = of_single_corners(refined.covariance_px2);
-    const double cell_px = shortest_px / tag_pattern(found.tag_id, found.border_cells).cells;
+    const double cell_px = shortest_px / found.print.outline_cells();
     for (std::size_t k = 0; k < 4; ++k)
         if (!((refined.detection.corners_px[k] - found.corners_px[k]).norm() <= std::max(2.0, cell_px)))
             return tl::make_unexpected(hidden("the tag's border does not end where its code says"));

@@ -16,8 +16,7 @@ namespace {
 constexpr double most_cells = 0.15;  // of smear
 
 double cell_px(const TagDetection& tag) {
-    constexpr double code_cells = 6.0;
-    return (tag.corners_px[1] - tag.corners_px[0]).norm() / (code_cells + 2.0 * tag.border_cells);
+    return (tag.corners_px[1] - tag.corners_px[0]).norm() / tag.print.outline_cells();
 }
 
 bool looks_smeared(const TagAppearance& seen, double cell_px) {
@@ -62,7 +61,7 @@ TagsInFrames smeared_tags(const Recording& recording) {
 
 void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_s, const Rig& rig,
                   double exposure_s, const TagsInFrames& smeared) {
-    constexpr double least_border_cells = 0.5, cells = 8.0, late = 1.5;
+    constexpr double least_border_cells = 0.5, late = 1.5;
     const CameraParameters& camera = *rig.camera;
     std::vector<TagDetection>& detections = recording.detections;
     std::vector<double> smear_cells(detections.size());  // while a frame is exposed
@@ -76,7 +75,8 @@ void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_
             std::min<std::ptrdiff_t>(after - recording.rows.begin(), std::ssize(recording.rows) - 1);
         const double speed_mm_per_s = velocity_mm_per_s[static_cast<std::size_t>(row)];
         if (const auto tag = plate_tag(recording, rig, now.tag_id))
-            smear_cells[k] = exposure_s * std::abs(speed_mm_per_s) * cells / tag->side_mm;
+            smear_cells[k] =
+                exposure_s * std::abs(speed_mm_per_s) * tag->print.outline_cells() / tag->side_mm;
         is_cut[k] = to_border_px(now, camera.geometry) < least_border_cells * cell_px(now);
         const auto [before, is_first] = last.try_emplace(now.tag_id, k);
         const std::size_t at = std::exchange(before->second, k);

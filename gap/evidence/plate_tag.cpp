@@ -22,7 +22,7 @@ std::optional<PlateTag> plate_tag(const Recording& recording, const Rig& rig, in
     const int index = id - grid.first_id;
     if (index < 0 || index >= grid.columns * grid.rows) return std::nullopt;
     const int column = index % grid.columns, row = index / grid.columns;
-    return PlateTag{id, {column * grid.pitch_x_mm, row * grid.pitch_y_mm}, grid.side_mm};
+    return PlateTag{id, {column * grid.pitch_x_mm, row * grid.pitch_y_mm}, grid.side_mm, 0.0, grid.print};
 }
 
 std::array<Eigen::Vector2d, 4> plate_corners_mm(const PlateTag& tag) {

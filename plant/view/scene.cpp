@@ -17,10 +17,10 @@ class ShapeMaker {
     ShapeMaker(double blur_px, const ImageMap& map) : blur_px_(blur_px), map_(map) {}
 
     Item tag(const PlateTag& tag, const Plate& plate) {
-        const Eigen::Vector2d size_mm = Eigen::Vector2d::Constant(tag.side_mm);
         demand_area("tag " + std::to_string(tag.id), "side_mm", tag.side_mm);
-        return grid(tag_pattern(plate.family, tag.id), tag.centre_mm, size_mm, tag.angle_rad,
-                    plate.ink_reflectance);
+        PrintedTag printed = printed_tag(tag);
+        return grid(std::move(printed.pattern), tag.centre_mm, Eigen::Vector2d::Constant(printed.side_mm),
+                    tag.angle_rad, plate.ink_reflectance);
     }
 
     Item feature(const Feature& feature) {

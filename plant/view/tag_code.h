@@ -1,13 +1,18 @@
 #pragma once
-// The code book of the fiducials.
+// The picture of a fiducial as cells of ink.
+#include "core/plate.h"
 #include "plant/view/cell_grid.h"
-
-#include <string_view>
 
 namespace fidservo::plant::view {
 
-/// The black cells of a tag as printed upright: black border and code, without the white quiet zone.
-/// Throws InputError for a family other than tag36h11 and for an id that the family does not have.
-CellPattern tag_pattern(std::string_view family, int id);
+/// What is printed of a tag, without the paper around it.
+struct PrintedTag {
+    CellPattern pattern;
+    double side_mm;  ///< of all that is printed
+};
+
+/// An inverted tag is a sheet of ink, one cell wider all around than its border, with paper showing through.
+/// Throws InputError for an id that the family does not have.
+PrintedTag printed_tag(const PlateTag& tag);
 
 }  // namespace fidservo::plant::view

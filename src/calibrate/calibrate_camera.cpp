@@ -140,7 +140,7 @@ int calibrate_camera(const CalibrateCameraOptions& options) {
     how.lens.height_px = images.height_px;
     how.lens.model = model;
     how.lens.fit_focal_ratio = options.focal_ratio;
-    const bool is_own_plate = rig.camera && target.border_cells == 1;
+    const bool is_own_plate = rig.camera && target.is_rigs_plate;
     how.noise = is_own_plate ? vision::grey_noise(*rig.camera) : photograph_noise;
     Result<calib::CameraCalibration> calibration = calib::calibrate_camera(images.views, target.tags, how);
     if (!calibration) {

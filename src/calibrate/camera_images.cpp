@@ -1,9 +1,11 @@
 #include "src/calibrate/camera_images.h"
 
 #include "core/input_error.h"
+#include "src/config/tag_print_keys.h"
 #include "src/images/image_frames.h"
 #include "src/images/image_tally.h"
 #include "src/images/ordered_work.h"
+#include "src/replay/unread_tags.h"
 #include "vision/tag_detector.h"
 
 #include <algorithm>
@@ -40,6 +42,21 @@ void demand_tags_of(const CameraTarget& target, const calib::TargetImage& image)
                 tag.tag_id, target.text, target.tags.front().id, target.tags.back().id));
 }
 
+/// What is in images without a tag of the target, and how the target would have to be given.
+std::string instead_of_target(const FrameSample& sample, const CameraTarget& target) {
+    const vision::TagReading tried{target.print()};
+    const vision::OtherReadings others = vision::try_other_readings(sample.greys(), tried);
+    if (others.better.empty()) return what_was_seen_text(others, tried);
+    const vision::TriedReading& best = others.better.front();
+    const TagPrint april_grid_print{.border_cells = 2};
+    const std::string how = best.reading.mirrored ? "mirror the images"
+                            : best.reading.print == april_grid_print
+                                ? "give the AprilGrid, --grid or --target"
+                                : fmt::format("give a rig file whose fiducials have {}",
+                                              tag_print_yaml(best.reading.print, ", "));
+    return fmt::format("{} would be found: {}", tags_text(best), how);
+}
+
 /// Sorts images into views and bursts as they come.
 class Collector {
   public:
@@ -55,7 +72,7 @@ class Collector {
             throw InputError(fmt::format("{}: {} x {} px: the images before it have {} x {} px", image.name,
                                          image.grey.cols, image.grey.rows, images_.width_px,
                                          images_.height_px));
-        if (target_.border_cells == 2) demand_tags_of(target_, image);
+        if (!target_.is_rigs_plate) demand_tags_of(target_, image);
         if (image.found.empty()) {
             ++images_.without_target;
             return;
@@ -104,15 +121,11 @@ CalibrationImages read_calibration_images(const std::vector<std::filesystem::pat
     ImageTally tally(frames.missing());
     CalibrationImages images;
     Collector collector(target, images);
-    const auto options = [&](bool thorough) {
-        vision::TagDetectorOptions with =
-            thorough ? vision::thorough_options() : vision::machine_camera_options();
-        with.border_cells = target.border_cells;
-        return with;
-    };
+    FrameSample sample;
+    const vision::TagReading reading{target.print()};
     const auto make_worker = [&] {
-        return [machine = vision::TagDetector(options(false)),
-                thorough = vision::TagDetector(options(true))](ImageFrame frame) mutable {
+        return [machine = vision::TagDetector(vision::machine_camera_options(reading)),
+                thorough = vision::TagDetector(vision::thorough_options(reading))](ImageFrame frame) mutable {
             if (!load(frame)) return std::pair(std::move(frame), calib::TargetImage{});
             calib::TargetImage image{frame.name, frame.decoded, {}};
             vision::TagDetector& detector = frame.from_recording ? machine : thorough;
@@ -122,7 +135,9 @@ CalibrationImages read_calibration_images(const std::vector<std::filesystem::pat
     };
     const auto take = [&](const std::pair<ImageFrame, calib::TargetImage>& result) {
         tally.add(result.first);
-        if (result.first.damage.empty()) collector.take(result.second);
+        if (!result.first.damage.empty()) return;
+        sample.offer(result.second.grey, result.second.found.size());
+        collector.take(result.second);
     };
     run_in_order([&] { return frames.next(); }, make_worker, take,
                  std::max(1u, std::thread::hardware_concurrency()));
@@ -132,9 +147,9 @@ CalibrationImages read_calibration_images(const std::vector<std::filesystem::pat
     if (tally.read() < tally.all()) images.notes.push_back(tally.text());
     collector.end();
     if (images.views.empty())
-        throw InputError(fmt::format("{}: no tag of the target ({}) is in any of its {} image{}",
+        throw InputError(fmt::format("{}: no tag of the target ({}) is in any of its {} image{}: {}",
                                      inputs.front().string(), target.text, images.images,
-                                     images.images == 1 ? "" : "s"));
+                                     images.images == 1 ? "" : "s", instead_of_target(sample, target)));
     return images;
 }
 

@@ -14,7 +14,7 @@ namespace fidservo {
 
 namespace {
 
-constexpr int code_book = 587;  ///< tags of the family
+const int code_book = usual_tag_family().size();
 constexpr int most_a_side = 100;
 
 /// A file of another kind is named as that before its keys are looked at.
@@ -38,13 +38,14 @@ CameraTarget april_grid(int columns, int rows, double tag_size_mm, double spacin
     const double pitch_mm = tag_size_mm * (1.0 + spacing);
     CameraTarget target{
         {},
-        2,
-        fmt::format("AprilGrid of {} x {} tags, {:g} mm, at {:g} mm", columns, rows, tag_size_mm, pitch_mm)};
+        fmt::format("AprilGrid of {} x {} tags, {:g} mm, at {:g} mm", columns, rows, tag_size_mm, pitch_mm),
+        false};
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column)
             target.tags.push_back({.id = row * columns + column,
                                    .centre_mm = {pitch_mm * column, -pitch_mm * row},
-                                   .side_mm = tag_size_mm});
+                                   .side_mm = tag_size_mm,
+                                   .print = {.border_cells = 2}});
     return target;
 }
 
@@ -85,8 +86,9 @@ CameraTarget load_kalibr_target(const std::filesystem::path& file) {
 
 CameraTarget plate_target(const FiducialParameters& fiducials) {
     return {
-        plate_of(fiducials).tags, 1,
-        fmt::format("plate of {} x {} tags, {:g} mm", fiducials.columns, fiducials.rows, fiducials.side_mm)};
+        plate_of(fiducials).tags,
+        fmt::format("plate of {} x {} tags, {:g} mm", fiducials.columns, fiducials.rows, fiducials.side_mm),
+        true};
 }
 
 }  // namespace fidservo

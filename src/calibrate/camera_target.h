@@ -11,8 +11,9 @@ namespace fidservo {
 
 struct CameraTarget {
     std::vector<PlateTag> tags;
-    int border_cells;  ///< of the tags' black border
-    std::string text;  ///< for people
+    std::string text;    ///< for people
+    bool is_rigs_plate;  ///< of a rig file
+    TagPrint print() const { return tags.front().print; }
 };
 
 /// A kalibr AprilGrid: tag36h11 with a border of two cells, tag `row * columns + column`, row 0 at the

@@ -72,7 +72,8 @@ void refine_again(const CameraParameters& rig_camera, const CameraGeometry& came
         if (shot.image.empty()) continue;
         calib::StageView again;
         for (const calib::SeenTag& seen : shot.tags) {
-            const TagDetection start{.tag_id = seen.nominal.id, .corners_px = seen.corners_px};
+            const TagDetection start{
+                .tag_id = seen.nominal.id, .corners_px = seen.corners_px, .print = seen.nominal.print};
             const auto refined = vision::refine_tag(shot.image, start, options);
             if (refined && refined->explained >= vision::enough_to_measure)
                 again.push_back(seen_tag(seen.nominal, *refined));
@@ -82,7 +83,8 @@ void refine_again(const CameraParameters& rig_camera, const CameraGeometry& came
     std::erase_if(shots, [](const StageShot& shot) { return shot.tags.empty(); });
 }
 
-StageSurvey::StageSurvey(Pilot& pilot, const StagePlan& plan) : pilot_(pilot), plan_(plan) {}
+StageSurvey::StageSurvey(Pilot& pilot, const StagePlan& plan)
+    : pilot_(pilot), plan_(plan), detector_(vision::machine_camera_options({pilot.nominal.print()})) {}
 
 std::size_t StageSurvey::expected_shots() const {
     constexpr int of_growing = 13;

@@ -5,6 +5,8 @@
 #include "core/rig.h"
 #include "src/commands/commands.h"
 #include "src/config/rig_file.h"
+#include "src/config/tag_print_keys.h"
+#include "src/replay/unread_tags.h"
 
 #include <algorithm>
 #include <memory>
@@ -28,6 +30,9 @@ struct ReplayOptions {
     bool rig_is_given = false;
     std::filesystem::path out = "replay-out";
     std::string name_times;
+    std::string family;
+    int border_cells = 0;  ///< 0: as in the rig file
+    bool inverted = false, mirrored = false;
 };
 
 void print_notes(const std::vector<std::string>& notes) {
@@ -44,17 +49,35 @@ NameTimes name_times_of(const std::string& word) {
     return known->second;
 }
 
+/// As which tags are looked for: what the options say, over what a rig file that was given says.
+vision::TagReading reading_of(const ReplayOptions& options, const FiducialParameters& fiducials) {
+    vision::TagReading reading{options.rig_is_given ? fiducials.print : TagPrint{}, options.mirrored};
+    if (!options.family.empty()) {
+        reading.print = {.family = find_tag_family(options.family)};
+        if (reading.print.family == nullptr)
+            throw InputError(
+                fmt::format("--family: {}: must be one of {}", options.family, names_of_tag_families()));
+    }
+    if (options.border_cells > 0) reading.print.border_cells = options.border_cells;
+    if (reading.print.border_cells == 2 && !reading.print.family->has_plain_border())
+        throw InputError(fmt::format("--border-cells: 2: must be 1: {} has no plain border to make wider",
+                                     reading.print.family->name));
+    if (options.inverted) reading.print.inverted = true;
+    return reading;
+}
+
 int run_replay(const ReplayOptions& options) {
     const Rig rig = load_rig(options.rig_file);
     if (!rig.fiducials)
         throw InputError(fmt::format("{}: fiducials: missing: their side_mm is the scale of displacements",
                                      options.rig_file.string()));
+    const vision::TagReading reading = reading_of(options, *rig.fiducials);
     ImageFrames frames(options.inputs, {.name_times = name_times_of(options.name_times)});
     print_notes(frames.notes());
     make_output_folder(options.out);
     const ReplayCount count =
         replay(frames, rig.fiducials->side_mm, options.out, std::max(1u, std::thread::hardware_concurrency()),
-               options.rig_is_given ? rig.camera : std::nullopt);
+               options.rig_is_given ? rig.camera : std::nullopt, reading);
     print_notes(count.images.notes());
     if (count.images.read() == 0) {
         std::filesystem::remove_all(options.out);  // its tables have no row
@@ -64,6 +87,8 @@ int run_replay(const ReplayOptions& options) {
     }
     fmt::print("{} tags in {}: {}, {}\n", count.tags, count.images.text(),
                (options.out / "detections.csv").string(), (options.out / "displacements.csv").string());
+    for (const std::string& line : unread_tags_text(count.sample, count.tags, reading))
+        fmt::print("{}\n", line);
     return exit_done;
 }
 
@@ -89,6 +114,20 @@ void add_replay(CLI::App& app, int& exit_code) {
     command->add_option("--out", options->out, "New folder for the results")
         ->type_name("DIR")
         ->capture_default_str();
+    command
+        ->add_option(
+            "--family", options->family,
+            "Of the tags: tag36h11, tag25h9, tag16h5, tagStandard41h12, DICT_4X4_50 to DICT_7X7_1000; "
+            "else the rig file's, if one is given, or tag36h11")
+        ->type_name("NAME");
+    command
+        ->add_option("--border-cells", options->border_cells,
+                     "Width of the tags' border in cells; 2 on a kalibr AprilGrid")
+        ->type_name("1|2")
+        ->check(CLI::Range(1, 2));
+    command->add_flag("--inverted", options->inverted, "The tags are white on black");
+    command->add_flag("--mirrored", options->mirrored,
+                      "The images are mirrored, e.g. taken through the glass that the tags are printed on");
     add_example(*command, "fidservo replay photos/ --out photos-tags");
     command->callback([options, command, &exit_code] {
         options->rig_is_given = command->count("--rig") > 0;

@@ -2,6 +2,7 @@
 
 #include "core/fiducial_parameters.h"
 #include "core/units.h"
+#include "src/config/tag_print_keys.h"
 #include "src/config/yaml_reader.h"
 
 #include <cmath>
@@ -14,7 +15,6 @@ namespace fidservo {
 
 namespace {
 
-constexpr int family_size = 587;  // tag36h11
 constexpr NumberRange reflectance_range{0.0, 1.0};
 
 Eigen::Vector2d read_point_mm(const YamlValue& value) {
@@ -35,28 +35,30 @@ double read_angle_rad(const YamlValue& map) {
     return angle ? angle->number({-360.0, 360.0}) * std::numbers::pi / 180.0 : 0.0;
 }
 
-PlateTag read_tag(const YamlValue& map, std::optional<double> usual_side_mm) {
+PlateTag read_tag(const YamlValue& map, std::optional<double> usual_side_mm, const TagPrint& print) {
     map.allow_only({"id", "centre_mm", "side_mm", "angle_deg"});
     const auto side = map.find("side_mm");
-    return {.id = map.at("id").integer(0, family_size - 1),
+    return {.id = read_tag_id(map.at("id"), print),
             .centre_mm = read_point_mm(map.at("centre_mm")),
             .side_mm = !side && usual_side_mm ? *usual_side_mm : map.at("side_mm").number(positive),
-            .angle_rad = read_angle_rad(map)};
+            .angle_rad = read_angle_rad(map),
+            .print = print};
 }
 
-std::vector<PlateTag> read_grid(const YamlValue& map) {
+std::vector<PlateTag> read_grid(const YamlValue& map, const TagPrint& print) {
     map.allow_only({"columns", "rows", "pitch_mm", "first_id", "origin_mm", "side_mm"});
     const std::vector<double> pitch = map.at("pitch_mm").numbers(2, not_negative);
-    const FiducialParameters grid{.family = "tag36h11",
+    const int family_size = print.family->size();
+    const FiducialParameters grid{.print = print,
                                   .side_mm = map.at("side_mm").number(positive),
                                   .pitch_x_mm = pitch[0],
                                   .pitch_y_mm = pitch[1],
                                   .columns = map.at("columns").integer(1, family_size),
                                   .rows = map.at("rows").integer(1, family_size),
-                                  .first_id = map.at("first_id").integer(0, family_size - 1)};
+                                  .first_id = read_tag_id(map.at("first_id"), print)};
     if (grid.first_id + grid.columns * grid.rows > family_size)
-        map.at("columns").fail(
-            fmt::format("columns, rows and first_id go beyond the family's last tag, {}", family_size - 1));
+        map.at("columns").fail(fmt::format("columns, rows and first_id go beyond the last tag of {}, {}",
+                                           print.family->name, family_size - 1));
     const auto origin = map.find("origin_mm");
     const Eigen::Vector2d origin_mm = origin ? read_point_mm(*origin) : Eigen::Vector2d(0.0, 0.0);
     std::vector<PlateTag> tags = plate_of(grid).tags;
@@ -108,14 +110,14 @@ Feature read_feature(const YamlValue& map, double ink_reflectance) {
 }
 
 Plate read_plate(const YamlValue& root) {
-    root.allow_only(
-        {"family", "paper_reflectance", "ink_reflectance", "grid", "side_mm", "tags", "features"});
+    root.allow_only({"family", "border_cells", "inverted", "paper_reflectance", "ink_reflectance", "grid",
+                     "side_mm", "tags", "features"});
     Plate plate;
-    if (const auto family = root.find("family")) family->one_of({"tag36h11"});
+    const TagPrint print = read_tag_print(root);
     if (const auto paper = root.find("paper_reflectance"))
         plate.paper_reflectance = paper->number(reflectance_range);
     if (const auto ink = root.find("ink_reflectance")) plate.ink_reflectance = ink->number(reflectance_range);
-    if (const auto grid = root.find("grid")) plate.tags = read_grid(*grid);
+    if (const auto grid = root.find("grid")) plate.tags = read_grid(*grid, print);
 
     std::optional<double> side_mm;
     if (const auto side = root.find("side_mm")) side_mm = side->number(positive);
@@ -123,7 +125,7 @@ Plate read_plate(const YamlValue& root) {
     for (const PlateTag& tag : plate.tags) ids.insert(tag.id);
     if (const auto tags = root.find("tags"))
         for (const YamlValue& value : tags->items()) {
-            plate.tags.push_back(read_tag(value, side_mm));
+            plate.tags.push_back(read_tag(value, side_mm, print));
             if (!ids.insert(plate.tags.back().id).second) value.at("id").fail("is on the plate already");
         }
     if (plate.tags.empty()) root.fail("a plate needs fiducials: give grid, or tags, or both");
@@ -143,7 +145,7 @@ Plate load_plate(const std::filesystem::path& file) {
 }
 
 std::string plate_yaml(const std::vector<PlateTag>& tags) {
-    std::string text = "family: tag36h11\ntags:\n";
+    std::string text = tag_print_yaml(tags.empty() ? TagPrint{} : tags.front().print, "\n") + "\ntags:\n";
     for (const PlateTag& tag : tags)
         text += fmt::format("  - {{ id: {}, centre_mm: [{}, {}], side_mm: {}, angle_deg: {} }}\n", tag.id,
                             tag.centre_mm.x(), tag.centre_mm.y(), tag.side_mm,
@@ -153,12 +155,12 @@ std::string plate_yaml(const std::vector<PlateTag>& tags) {
 
 Plate plate_of(const FiducialParameters& fiducials) {
     Plate plate;
-    plate.family = fiducials.family;
     for (int row = 0; row < fiducials.rows; ++row)
         for (int column = 0; column < fiducials.columns; ++column)
             plate.tags.push_back({.id = fiducials.first_id + row * fiducials.columns + column,
                                   .centre_mm = {column * fiducials.pitch_x_mm, row * fiducials.pitch_y_mm},
-                                  .side_mm = fiducials.side_mm});
+                                  .side_mm = fiducials.side_mm,
+                                  .print = fiducials.print});
     return plate;
 }
 

@@ -6,6 +6,7 @@
 #include "src/config/fod_file.h"
 #include "src/config/rig_camera.h"
 #include "src/config/stage_keys.h"
+#include "src/config/tag_print_keys.h"
 #include "src/config/yaml_reader.h"
 
 #include <algorithm>
@@ -151,21 +152,21 @@ MicroParameters read_micro(const YamlValue& map) {
 }
 
 FiducialParameters read_fiducials(const YamlValue& map) {
-    constexpr int family_size = 587;
-    map.allow_only({"family", "side_mm", "pitch_mm", "count", "first_id"});
-    map.at("family").one_of({"tag36h11"});
+    map.allow_only({"family", "border_cells", "inverted", "side_mm", "pitch_mm", "count", "first_id"});
+    const TagPrint print = read_tag_print(map);
+    const int family_size = print.family->size();
     const std::vector<double> pitch = map.at("pitch_mm").numbers(2, not_negative);
     const std::vector<YamlValue> count = map.at("count").items();
     if (count.size() != 2) map.at("count").fail("must be a list of 2 numbers: columns and rows");
-    const FiducialParameters fiducials{.family = map.at("family").text(),
+    const FiducialParameters fiducials{.print = print,
                                        .side_mm = map.at("side_mm").number(positive),
                                        .pitch_x_mm = pitch[0],
                                        .pitch_y_mm = pitch[1],
                                        .columns = count[0].integer(1, family_size),
                                        .rows = count[1].integer(1, family_size),
-                                       .first_id = map.at("first_id").integer(0, family_size - 1)};
+                                       .first_id = read_tag_id(map.at("first_id"), print)};
     if (fiducials.first_id + fiducials.columns * fiducials.rows > family_size)
-        map.at("count").fail(fmt::format("the family {} has {} tags", fiducials.family, family_size));
+        map.at("count").fail(fmt::format("the family {} has {} tags", print.family->name, family_size));
     const bool overlap_x = fiducials.columns > 1 && fiducials.pitch_x_mm <= fiducials.side_mm;
     const bool overlap_y = fiducials.rows > 1 && fiducials.pitch_y_mm <= fiducials.side_mm;
     if (overlap_x || overlap_y)

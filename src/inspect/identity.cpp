@@ -71,8 +71,8 @@ std::string simulated_fingerprint(const Recipe& recipe, const SessionOptions& se
 }  // namespace
 
 std::string plate_text(const Plate& plate) {
-    std::string text =
-        fmt::format("{} paper {} ink {}\n", plate.family, plate.paper_reflectance, plate.ink_reflectance);
+    std::string text = fmt::format("{} paper {} ink {}\n", text_of(plate.print()), plate.paper_reflectance,
+                                   plate.ink_reflectance);
     for (const PlateTag& tag : plate.tags)
         text += fmt::format("tag {} {} {} {}\n", tag.id, text_of(tag.centre_mm), tag.side_mm, tag.angle_rad);
     for (const Feature& feature : plate.features)

@@ -112,7 +112,7 @@ void begin(const Run& run) {
 void visit_all(const Run& run) {
     std::vector<Visit>& visits = run.content.visits;
     const DrawNominal draw_nominal = nominal_drawing(*run.rig.camera, run.recipe.nominal);
-    vision::TagDetector detector;
+    vision::TagDetector detector(vision::machine_camera_options({run.recipe.nominal.print()}));
     const VisitContext context{{run.recipe, *run.rig.camera, run.output, draw_nominal, detector},
                                run.session};
     while (const auto next = next_visit(run.recipe.sites, visits)) {
@@ -161,7 +161,7 @@ Counts measure_again(const InspectionOptions& options, const std::filesystem::pa
     make_output_folder(output.root);
     std::filesystem::create_directories(output.root / "images");
     const DrawNominal draw_nominal = nominal_drawing(*rig.camera, recipe.nominal);
-    vision::TagDetector detector;
+    vision::TagDetector detector(vision::machine_camera_options({recipe.nominal.print()}));
     const Measuring measuring{recipe, *rig.camera, output, draw_nominal, detector};
     JournalContent content{identity, {}, {}, 0};
     for (const Site& site : recipe.sites) {

@@ -235,6 +235,8 @@ Recording read_recording(const fs::path& folder) {
     if (auto csv = table("stage0/data.csv")) read_stage(*std::move(csv), recording);
     if (auto csv = table("cam0/data.csv")) recording.frames = frame_names_in(*std::move(csv));
     if (auto csv = table("cam0/detections.csv")) recording.detections = detections_in(*std::move(csv));
+    if (!recording.plate.empty())
+        for (TagDetection& tag : recording.detections) tag.print = recording.plate.front().print;
     return recording;
 }
 

@@ -94,16 +94,18 @@ class ReplayTables {
 }  // namespace
 
 ReplayCount replay(ImageFrames& frames, double tag_side_mm, const std::filesystem::path& folder,
-                   unsigned threads, const std::optional<CameraParameters>& camera) {
+                   unsigned threads, const std::optional<CameraParameters>& camera,
+                   const vision::TagReading& reading) {
     const OpenCvInCallersThread one_image_a_core;
     std::map<std::size_t, vision::DisplacementTracker> trackers;  // by series
     ReplayTables tables(folder, frames.is_one_timed_series());
     Progress progress("images", frames.size());
-    ReplayCount count{ImageTally(frames.missing())};
+    ReplayCount count{.images = ImageTally(frames.missing()), .tags = 0, .sample = {}};
     const auto make_worker = [&] {
-        return [finder = TagFinder(camera)](ImageFrame frame) mutable {
-            return load(frame) ? finder(std::move(frame))
-                               : FrameResult{.frame = std::move(frame), .tags = {}, .refined = {}};
+        return [finder = TagFinder(camera, reading)](ImageFrame frame) mutable {
+            return load(frame)
+                       ? finder(std::move(frame))
+                       : FrameResult{.frame = std::move(frame), .grey = {}, .tags = {}, .refined = {}};
         };
     };
     const auto take = [&](const FrameResult& result) {
@@ -113,6 +115,7 @@ ReplayCount replay(ImageFrames& frames, double tag_side_mm, const std::filesyste
         auto& tracker = trackers.try_emplace(result.frame.series, tag_side_mm).first->second;
         tables.add(result, tracker.add(result.refined));
         count.tags += result.tags.size();
+        count.sample.offer(result.grey, result.tags.size());
     };
     run_in_order([&] { return frames.next(); }, make_worker, take, threads);
     tables.close();

@@ -21,8 +21,10 @@ vision::RefinementOptions refinement_for(const std::optional<CameraParameters>& 
 
 }  // namespace
 
-TagFinder::TagFinder(const std::optional<CameraParameters>& camera)
-    : camera_(camera), machine_(vision::machine_camera_options()), thorough_(vision::thorough_options()) {}
+TagFinder::TagFinder(const std::optional<CameraParameters>& camera, const vision::TagReading& reading)
+    : camera_(camera),
+      machine_(vision::machine_camera_options(reading)),
+      thorough_(vision::thorough_options(reading)) {}
 
 std::vector<TagDetection> TagFinder::find(const cv::Mat& image, const ImageFrame& frame) {
     const TimeNs time_ns = frame.time_ns.value_or(0);
@@ -39,7 +41,7 @@ std::vector<TagDetection> TagFinder::find(const cv::Mat& image, const ImageFrame
 
 FrameResult TagFinder::operator()(ImageFrame frame) {
     const cv::Mat image = decode(frame);
-    FrameResult result{.frame = {}, .tags = find(image, frame), .refined = {}};
+    FrameResult result{.frame = {}, .grey = image, .tags = find(image, frame), .refined = {}};
     const vision::RefinementOptions options = refinement_for(camera_, image);
     for (TagDetection& tag : result.tags) {
         const auto refined = vision::refine_tag(image, tag, options);

@@ -13,6 +13,7 @@ namespace fidservo {
 
 struct FrameResult {
     ImageFrame frame;                         ///< without its image
+    cv::Mat grey;                             ///< the image that was searched
     std::vector<TagDetection> tags;           ///< all, with refined corners where there are any
     std::vector<vision::RefinedTag> refined;  ///< those whose border is large and clear enough to be measured
 };
@@ -23,7 +24,8 @@ struct FrameResult {
 /// the tags. What is found in a frame depends on that frame alone.
 class TagFinder {
   public:
-    explicit TagFinder(const std::optional<CameraParameters>& camera = {});
+    explicit TagFinder(const std::optional<CameraParameters>& camera = {},
+                       const vision::TagReading& reading = {});
     /// Throws InputError if the frame cannot be read.
     FrameResult operator()(ImageFrame frame);
 

@@ -1,6 +1,7 @@
 #include "src/rig/draft.h"
 
 #include "core/input_error.h"
+#include "core/tag_families.h"
 
 #include <algorithm>
 #include <cctype>
@@ -12,7 +13,7 @@ namespace fidservo {
 
 namespace {
 
-constexpr int family_size = 587;  ///< of tag36h11
+const int family_size = usual_tag_family().size();
 
 constexpr const char* head =
     R"(# A rig file to start from (docs/commissioning.md says how to go on, docs/formats.md what each key means).

@@ -16,7 +16,6 @@ namespace fidservo {
 namespace {
 
 /// The black border is eight modules wide; the white module around it belongs to the tag.
-constexpr double with_margin = 1.25;
 /// Below it the border of a tag cannot be measured (docs/formats.md, what replay writes).
 constexpr double least_side_px = 32.0;
 /// A lens that draws straight lines straight has an image of 90 degrees at most, with few exceptions: the
@@ -84,7 +83,7 @@ struct Stretch {
 std::vector<Stretch> blind_stretches(const Rig& rig, const Stretch& travel) {
     const CameraGeometry& camera = rig.camera->geometry;
     const Plate plate = plate_of(*rig.fiducials);
-    const double half_mm = 0.5 * with_margin * rig.fiducials->side_mm;
+    const double half_mm = 0.5 * rig.fiducials->print.share_with_zone() * rig.fiducials->side_mm;
     const double step_mm = std::min(0.1 * view_mm(camera), 0.1 * travel.length_mm());
     std::vector<Stretch> blind;
     bool was_blind = false;
@@ -128,16 +127,17 @@ void look_over_travel(const Rig& rig, std::vector<Finding>& findings) {
              at_end ? count : fmt::format("[{:g}, {:g}]", tags.pitch_x_mm, tags.pitch_y_mm),
              fmt::format("from {:.4g} to {:.4g} mm no tag is whole in the image{}", stretch.low_mm,
                          stretch.high_mm, at_end ? "" : ", and so between other tags"),
-             at_end ? fmt::format("tags up to the ends of the travel; these stand at 0 to {:g} mm", last_mm)
-                    : fmt::format("tags of {:g} mm at most {:.3g} mm apart", tags.side_mm,
-                                  view_mm(rig.camera->geometry) - with_margin * tags.side_mm)});
+             at_end
+                 ? fmt::format("tags up to the ends of the travel; these stand at 0 to {:g} mm", last_mm)
+                 : fmt::format("tags of {:g} mm at most {:.3g} mm apart", tags.side_mm,
+                               view_mm(rig.camera->geometry) - tags.print.share_with_zone() * tags.side_mm)});
         if (!at_end) return;
     }
 }
 
 void look_at_tags(const Rig& rig, std::vector<Finding>& findings) {
     const CameraGeometry& camera = rig.camera->geometry;
-    const double side_mm = rig.fiducials->side_mm;
+    const double side_mm = rig.fiducials->side_mm, with_margin = rig.fiducials->print.share_with_zone();
     const std::string side = fmt::format("{:g}", side_mm);
     const double side_px = side_mm / mm_per_px(camera);
     const double view_px = std::min(camera.width_px, camera.height_px);

@@ -13,14 +13,27 @@
 
 namespace fidservo {
 
+namespace {
+
+vision::TagTrackerOptions tracker_options(const Plate& nominal) {
+    vision::TagTrackerOptions options;
+    options.detector = vision::machine_camera_options({nominal.print()});
+    return options;
+}
+
+}  // namespace
+
 Sight::Sight(const CameraParameters& camera, const Plate& nominal)
-    : camera_(camera.geometry), noise_(vision::grey_noise(camera)), nominal_(nominal) {}
+    : camera_(camera.geometry),
+      noise_(vision::grey_noise(camera)),
+      nominal_(nominal),
+      tracker_(tracker_options(nominal)) {}
 
 /// Where a tag should be in the image, with room for what the registration does not know.
 vision::ExpectedTag Sight::expected(const PlateTag& tag, double s_mm) const {
     constexpr double room_mm = 0.4;
     const Eigen::Vector2d middle_px = project(camera_, tag.centre_mm, s_mm);
-    vision::ExpectedTag place{tag.id, {}, room_mm / mm_per_px_at(camera_, middle_px, s_mm)};
+    vision::ExpectedTag place{tag.id, {}, room_mm / mm_per_px_at(camera_, middle_px, s_mm), tag.print};
     const auto corners = vision::corners_mm(tag);
     for (std::size_t k = 0; k < 4; ++k) place.corners_px[k] = project(camera_, corners[k], s_mm);
     return place;

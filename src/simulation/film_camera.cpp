@@ -24,6 +24,7 @@ FilmCamera::FilmCamera(const Rig& rig, const plant::PlantParameters& parameters,
       view_(view_of(rig, parameters, seed)),
       track_(parameters, 2.0 * view_.reach_s() + 2.0 * parameters.tick_s),
       clock_(rig.camera->frame_rate_hz, *parameters.camera),
+      detector_(vision::machine_camera_options({rig.fiducials->print})),
       keep_(std::move(keep)) {}
 
 /// How the picture of a tag moves during the exposure.

@@ -81,6 +81,7 @@ std::optional<TagDetection> PracticeDetector::detect(TimeNs stamp_ns, const Path
 
     TagDetection detection;
     detection.time_ns = stamp_ns;
+    detection.print = fiducials_.print;
     detection.tag_id = fiducials_.first_id + row * fiducials_.columns + column;
     for (std::size_t k = 0; k < 4; ++k) {
         const Eigen::Vector2d ideal_px =

@@ -193,8 +193,8 @@ TEST(PlateView, TagOutsideTheCodeBook_IsRefused) {
     Plate plate;
     plate.tags.push_back({.id = 587, .centre_mm = {0.0, 0.0}, .side_mm = 1.2});
     EXPECT_THROW(PlateView(reference_camera(), plate, {}), InputError);
-    plate.tags[0].id = 0;
-    plate.family = "tag16h5";
+    plate.tags[0] = {
+        .id = 30, .centre_mm = {0.0, 0.0}, .side_mm = 1.2, .print = {find_tag_family("tag16h5")}};
     EXPECT_THROW(PlateView(reference_camera(), plate, {}), InputError);
 }
 

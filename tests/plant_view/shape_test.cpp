@@ -88,7 +88,7 @@ std::shared_ptr<const EdgeProfile> edge_at(double angle) {
 }
 
 TEST(CellGrid, UprightAndTurned_CoversLikeBruteForce) {
-    const CellPattern tag = tag_pattern("tag36h11", 17);
+    const CellPattern tag = printed_tag({17, {0.0, 0.0}, 1.0}).pattern;
     for (const double angle : {0.0, 0.0122, 0.4, 0.75, -1.2, M_PI / 2, 3.0}) {
         for (const double cell_px : {37.5, 6.0}) {
             const Eigen::Vector2d size = Eigen::Vector2d::Constant(8 * cell_px);
@@ -171,7 +171,7 @@ TEST(ScratchPath, StraightBendsAndEnds_CoverLikeBruteForce) {
 }
 
 TEST(CellGrid, PaintedInARun_IsTheSameAsPixelByPixel) {
-    const CellPattern tag = tag_pattern("tag36h11", 99);
+    const CellPattern tag = printed_tag({99, {0.0, 0.0}, 1.0}).pattern;
     for (const double angle : {0.0, 1e-9, -0.0122, M_PI / 4, M_PI / 2, 2.5, M_PI}) {
         for (const double side_px : {300.0, 40.0, 12.3}) {
             const CellGrid grid(tag, {side_px, side_px}, angle, edge_at(angle));

@@ -23,7 +23,7 @@ TEST(CameraTarget, KalibrsFile_IsItsGridInMillimetres) {
     const CameraTarget target = load_kalibr_target(folder.write(
         "april.yaml", "target_type: 'aprilgrid'\ntagCols: 6\ntagRows: 5\ntagSize: 0.088\ntagSpacing: 0.3\n"));
     ASSERT_EQ(target.tags.size(), 30U);
-    EXPECT_EQ(target.border_cells, 2);
+    EXPECT_EQ(target.print().border_cells, 2);
     EXPECT_EQ(target.tags[7].id, 7);
     EXPECT_DOUBLE_EQ(target.tags[7].side_mm, 88.0);
     EXPECT_NEAR(target.tags[7].centre_mm.x(), 114.4, 1e-9);

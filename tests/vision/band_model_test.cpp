@@ -24,7 +24,7 @@ TEST(Reweigh, SomeBlocksChange_AsIfAllWereAddedUpAnew) {
     for (unsigned char& grey : image) grey = static_cast<unsigned char>(random() % 256);
     const std::array<Eigen::Vector2d, 4> corners{
         Eigen::Vector2d{52.0, 251.0}, {248.0, 255.0}, {252.0, 49.0}, {50.0, 46.0}};
-    const TagPattern& pattern = tag_pattern(tag_id);
+    const TagPattern& pattern = tag_pattern({}, tag_id);
     const TagPicture picture(corners, pattern.cells, {});
     BandLook look;
     look.black_grey = 30.0;
@@ -53,7 +53,7 @@ TEST(Reweigh, SomeBlocksChange_AsIfAllWereAddedUpAnew) {
 /// hand.
 TEST(SelectBand, UprightTag_HasEveryPixelWithinReachOnce) {
     constexpr double cell_px = 20.0, reach_px = 3.0;
-    const TagPattern& pattern = tag_pattern(tag_id);
+    const TagPattern& pattern = tag_pattern({}, tag_id);
     const double first_px = 59.5, last_px = first_px + cell_px * pattern.cells;
     const std::array<Eigen::Vector2d, 4> corners{
         Eigen::Vector2d{first_px, last_px}, {last_px, last_px}, {last_px, first_px}, {first_px, first_px}};

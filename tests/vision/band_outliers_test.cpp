@@ -23,7 +23,7 @@ using kernel::Near;
 class JudgeBlocks : public ::testing::Test {
   protected:
     JudgeBlocks() {
-        const TagPattern& pattern = tag_pattern(20);
+        const TagPattern& pattern = tag_pattern({}, 20);
         const std::array<Eigen::Vector2d, 4> corners{
             Eigen::Vector2d{39.5, 359.5}, {359.5, 359.5}, {359.5, 39.5}, {39.5, 39.5}};
         const cv::Mat1b image(400, 400, static_cast<unsigned char>(0));

@@ -148,7 +148,7 @@ TEST_F(Photographs, TwelveTagsWithDifferentIds_AreFoundWithTheirCorners) {
 TEST_F(Photographs, KalibrAprilGrid_IsFoundWholeAndInItsPlaces) {
     const cv::Mat image = cv::imread((folder_ / "aprilgrid_EuRoC.png").string(), cv::IMREAD_GRAYSCALE);
     TagDetectorOptions options = thorough_options();
-    options.border_cells = 2;
+    options.reading.print.border_cells = 2;
     TagDetector detector(options);
     const std::vector<TagDetection> found = detector.detect(image, 0);
     ASSERT_EQ(found.size(), 36U);
@@ -156,7 +156,7 @@ TEST_F(Photographs, KalibrAprilGrid_IsFoundWholeAndInItsPlaces) {
         const TagDetection& tag = found[static_cast<std::size_t>(id)];
         EXPECT_EQ(tag.tag_id, id);
         EXPECT_EQ(tag.corrected_bits, 0);
-        EXPECT_EQ(tag.border_cells, 2);
+        EXPECT_EQ(tag.print.border_cells, 2);
         // Six tags a row, the next row on their upper side; the target is held upside down.
         const Eigen::Vector2d to_the_right = tag.corners_px[1] - tag.corners_px[0];
         const Eigen::Vector2d up = tag.corners_px[3] - tag.corners_px[0];

@@ -105,7 +105,7 @@ vision::ReferenceImage load_reference(const std::filesystem::path& file, const C
         throw InputError(fmt::format("{}: {} x {} px; a reference image must have the camera's {} x {}",
                                      file.string(), grey.cols, grey.rows, camera.geometry.width_px,
                                      camera.geometry.height_px));
-    vision::TagDetector detector;
+    vision::TagDetector detector(vision::machine_camera_options({nominal.print()}));
     const auto snapshot =
         read_snapshot({.image = grey, .source = file.string()}, camera, nominal, tag_id, detector);
     if (!snapshot) throw InputError(fmt::format("{}: {}", file.string(), snapshot.error().text));

@@ -14,9 +14,6 @@
 namespace fidservo::inspect {
 namespace {
 
-/// The black border is eight modules wide; the white module around it belongs to the tag.
-constexpr double white_margin = 1.0 / 8.0;
-
 Box grown(Box box, double by_mm) {
     return {box.low_mm.array() - by_mm, box.high_mm.array() + by_mm};
 }
@@ -42,7 +39,7 @@ const CameraGeometry& geometry_of(const YamlValue& where, const Rig& rig) {
 }
 
 double half_extent_mm(const PlateTag& tag) {
-    return tag.side_mm * (0.5 + white_margin) *
+    return 0.5 * tag.print.share_with_zone() * tag.side_mm *
            (std::abs(std::cos(tag.angle_rad)) + std::abs(std::sin(tag.angle_rad)));
 }
 

@@ -2,13 +2,13 @@
 
 #include "core/input_error.h"
 #include "core/rig.h"
+#include "core/tag_families.h"
 #include "gap/evidence/parallel.h"
 #include "reference/tag_picture.h"
 #include "src/simulation/run_experiment.h"
 #include "src/simulation/simulate_reference.h"
 #include "vision/tag_appearance.h"
 #include "vision/tag_detector.h"
-#include "vision/tag_pattern.h"
 #include "vision/tag_refinement.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ constexpr std::array runs{FilmedRun{"micro-steps", 2.7},  FilmedRun{"micro-steps
                           FilmedRun{"macro-square", 1.5}, FilmedRun{"macro-square", 1.5}};
 
 reference::TagCells cells_of(int tag_id) {
-    const vision::TagPattern pattern = vision::tag_pattern(tag_id);
+    const TagPattern pattern = tag_pattern({}, tag_id);
     reference::TagCells cells;
     std::size_t next = 0;
     for (int row = 0; row < 8; ++row)

@@ -1,0 +1,47 @@
+#pragma once
+// What to say where images were searched for tags, and none or few were found.
+#include "vision/other_readings.h"
+#include "vision/tag_book.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+namespace fidservo {
+
+/// A few of many images, evenly spread over them, with the number of tags that were found in each.
+class FrameSample {
+  public:
+    struct Image {
+        cv::Mat grey;
+        std::size_t tags;
+    };
+
+    /// Takes the next of all images, CV_8UC1.
+    void offer(const cv::Mat& grey, std::size_t tags);
+    const std::vector<Image>& images() const { return images_; }
+    std::vector<cv::Mat> greys() const;
+
+  private:
+    std::vector<Image> images_;
+    std::size_t offered_ = 0, every_ = 1;
+};
+
+/// How the options of `replay` ask for a reading of tags, where it differs from the one that was tried:
+/// "--family tag25h9 --mirrored".
+std::string options_for(const vision::TagReading& reading, const vision::TagReading& tried);
+
+/// "36 tags of tag36h11 with a border of two cells".
+std::string tags_text(const vision::TriedReading& found);
+
+/// What the images show, where no reading finds more; one line.
+std::string what_was_seen_text(const vision::OtherReadings& others, const vision::TagReading& tried);
+
+/// Nothing if most squares that look like tags were read. Else the reading that would find more, which was
+/// tried on the sample; where there is none and no tag was found at all, what is to be seen. A line each.
+std::vector<std::string> unread_tags_text(const FrameSample& sample, std::size_t tags_in_all,
+                                          const vision::TagReading& tried);
+
+}  // namespace fidservo

@@ -1,0 +1,97 @@
+// Pictures without the tags that are looked for.
+#include "tests/tags/drawn_tag.h"
+#include "vision/tag_detector.h"
+#include "vision/tag_pattern.h"
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace fidservo::vision {
+namespace {
+
+/// White noise, noise at several scales, and checkers at random, whose cells are as sharp as a tag's.
+cv::Mat1b texture(int kind, std::mt19937_64& random) {
+    constexpr std::array<double, 5> blur_px{0.0, 0.7, 1.2, 2.0, 4.0};
+    constexpr std::array<int, 3> checker_px{3, 5, 8};
+    const cv::Size size(640, 480);
+    cv::Mat1f field(size);
+    std::normal_distribution<float> normal(0.0F, 1.0F);
+    if (kind < 5) {
+        for (float& value : field) value = normal(random);
+        if (blur_px.at(static_cast<std::size_t>(kind)) > 0.0)
+            cv::GaussianBlur(field, field, {}, blur_px.at(static_cast<std::size_t>(kind)));
+        cv::Scalar mean, deviation;
+        cv::meanStdDev(field, mean, deviation);
+        field = field * (60.0 / deviation[0]) + 128.0;
+    } else {
+        const int px = checker_px.at(static_cast<std::size_t>(kind - 5));
+        cv::Mat1f cells(size.height / px + 1, size.width / px + 1), enlarged;
+        for (float& value : cells) value = normal(random) < 0.0F ? 30.0F : 220.0F;
+        cv::resize(cells, enlarged, {}, px, px, cv::INTER_NEAREST);
+        cv::GaussianBlur(enlarged(cv::Rect({0, 0}, size)), field, {}, 0.7);
+    }
+    cv::Mat1b image;
+    field.convertTo(image, CV_8U);
+    return image;
+}
+
+std::size_t expect_nothing(const cv::Mat& image, const TagReading& reading, const std::string& what) {
+    std::size_t tags = 0;
+    for (const TagDetection& tag : TagDetector(thorough_options(reading)).detect(image, 0)) {
+        ++tags;
+        ADD_FAILURE() << what << ": " << (reading.mirrored ? "mirrored " : "") << text_of(reading.print)
+                      << " " << tag.tag_id << ", explained "
+                      << explained_contrast(image, tag.corners_px, tag_pattern(reading.print, tag.tag_id));
+    }
+    return tags;
+}
+
+TEST(LeastExplained, OfEveryFamily_IsHigherForSmallerCodesInLargerBooks) {
+    for (const TagFamily& family : tag_families())
+        fmt::print(
+            "{}: {} codes {} bits apart, {} corrected, explained at least {:.3f}, of the code {:.3f}\n",
+            family.name, family.size(), family.least_distance, most_correctable_bits(family),
+            least_explained(family).of_tag, least_explained(family).of_code);
+    EXPECT_EQ(least_explained(usual_tag_family()).of_tag, 0.4);
+    const auto level = [](const char* name) { return least_explained(*find_tag_family(name)).of_tag; };
+    EXPECT_GT(level("DICT_4X4_1000"), level("DICT_4X4_50"));
+    EXPECT_GT(level("DICT_4X4_50"), level("DICT_7X7_50"));
+    EXPECT_NEAR(level("DICT_6X6_1000"), 0.4, 0.02);  // as many bits, nearly twice as many codes
+}
+
+TEST(SlowFalseTags, Texture_HoldsNoTagOfAnyFamily) {
+    constexpr int images_a_family = 16;
+    std::mt19937_64 random(11);
+    std::size_t tags = 0;
+    int images = 0;
+    for (const TagFamily& family : tag_families())
+        for (int k = 0; k < images_a_family; ++k, ++images) {
+            const TagReading reading{{&family, 1, k % 4 == 1}, k % 4 == 2};
+            tags += expect_nothing(texture(k % 8, random), reading, fmt::format("texture {}", k));
+        }
+    fmt::print("false tags in {} images of texture: {}\n", images, tags);
+}
+
+TEST(SlowFalseTags, PhotographsOfOtherThings_HoldNoTagOfAnyFamily) {
+    const std::filesystem::path folder = std::filesystem::path(FIDSERVO_DATA_DIR) / "photos";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the shared data are absent";
+    std::size_t tags = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const cv::Mat image =
+            cv::imread(entry.path().string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+        if (image.empty()) continue;
+        for (const TagFamily& family : tag_families())
+            if (&family != &usual_tag_family())
+                tags += expect_nothing(image, {{&family}}, entry.path().filename().string());
+    }
+    fmt::print("false tags in photographs: {}\n", tags);
+}
+
+}  // namespace
+}  // namespace fidservo::vision

@@ -1,0 +1,31 @@
+#pragma once
+// The code book of a family as libapriltag takes it.
+#include "core/tag_families.h"
+
+#include <memory>
+
+struct apriltag_family;
+
+namespace fidservo::vision {
+
+/// As which tags are looked for.
+struct TagReading {
+    TagPrint print;
+    bool mirrored = false;  ///< the picture is: seen through the glass, from behind, by way of a mirror
+
+    bool operator==(const TagReading&) const = default;
+};
+
+/// Code bits that may be corrected: fewer than half of those in which two codes differ, so that a code has
+/// one nearest; 2 at most, and no more than a table of a million words, which is kept in memory, has room
+/// for.
+int most_correctable_bits(const TagFamily& family);
+
+/// The library decodes any family whose bits are listed so that a quarter turn moves each by a quarter of
+/// them, which can be had of every square pattern; a bit in the middle comes last. Borders, mirrored and
+/// inverted prints are books of their own. The library's table for decoding comes with it and is only read:
+/// one book serves all detectors that want it at a time.
+/// @param corrected_bits  0 to 2
+std::shared_ptr<apriltag_family> shared_tag_book(const TagReading& reading, int corrected_bits);
+
+}  // namespace fidservo::vision
