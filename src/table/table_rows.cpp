@@ -204,7 +204,7 @@ void find_first_row(const TextFile& file, const TableOptions& options, const std
         if (!structure.stated_decimal) structure.stated_decimal = decimal_stated_in(line);
         above.add(std::move(line));
     }
-    if (structure.first_row.offset == 0 && (above.lines().size() > 0))
+    if (structure.first_row.offset == 0 && !above.lines().empty())
         fail_in_line(file, numbers.line,
                      "there is no row with a number in each of the columns that hold numbers");
     above.demand_no_row(structure);

@@ -124,5 +124,24 @@ TEST(YamlReader, File_ThatIsNotThere_IsNamed) {
     EXPECT_THROW(YamlValue::load(std::filesystem::temp_directory_path()), InputError);
 }
 
+TEST(YamlReader, KeysOfAnotherKindOfFile_AreNotTakenForSlips) {
+    const auto message = [](const char* text) {
+        return message_of([&] {
+            YamlValue::parse(text, "f.yaml").allow_only({"tagCols", "tagRows", "tagSize"});
+        });
+    };
+    EXPECT_EQ(message("targetCols: 6\ntargetRows: 7\nspacing: 1\n"),
+              "f.yaml:1: targetCols: 6: unknown key; allowed here: tagCols, tagRows, tagSize");
+    EXPECT_EQ(message("tagCol: 6\ntagRows: 7\ntagSize: 1\n"),
+              "f.yaml:1: tagCol: 6: unknown key; did you mean tagCols?");
+}
+
+TEST(YamlReader, MarkAndOpenCvsFirstLine_ArePassedOver) {
+    for (const char* text : {"\xEF\xBB\xBF"
+                             "a: 1\n",
+                             "%YAML:1.0\n---\na: 1\n", "%YAML:1.0\na: 1\n"})
+        EXPECT_EQ(YamlValue::parse(text, "f.yaml").at("a").number(), 1.0) << text;
+}
+
 }  // namespace
 }  // namespace fidservo
