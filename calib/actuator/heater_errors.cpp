@@ -37,6 +37,22 @@ void fit_each_run(const std::vector<HeaterRun>& runs, const HeaterPredict& predi
     }
 }
 
+/// Whether runs differ on some number, at 5 % each: a model that is common to them is then wrong on the
+/// others too, and each number is the mean of what the runs say by themselves.
+bool runs_differ(const OwnNumbers& own) {
+    constexpr double each = 0.05;
+    return std::ranges::any_of(own, [&](const std::vector<RecordingEstimate>& of_number) {
+        return of_number.size() > 1 && heterogeneity(of_number).probability < each;
+    });
+}
+
+void set_number(HeaterParameters& heater, int i, double value) {
+    const std::array<double*, heater_numbers> all{&heater.onset_V, &heater.gain_degC_per_V,
+                                                  &heater.heating_tau_s, &heater.cooling_tau_s,
+                                                  &heater.ambient_degC};
+    *all[static_cast<std::size_t>(i)] = value;
+}
+
 }  // namespace
 
 HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& predict,
@@ -46,6 +62,7 @@ HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& p
     OwnNumbers own;
     OwnRuns of_run;
     fit_each_run(runs, predict, scale, common, own, of_run);
+    const bool differ = runs_differ(own);
     const HeaterInfluences influences =
         influences_at(HeaterResiduals(runs, predict, scale), common.is_free, common.x);
     for (int i = 0; i < heater_count; ++i) {
@@ -58,6 +75,11 @@ HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& p
         sum.add(batches.variance, batches.freedom);
         const Heterogeneity scatter = heterogeneity(own[k]);
         if (scatter.added_variance > 0.0) sum.add(scatter.added_variance, scatter.added_freedom);
+        if (differ && own[k].size() > 1) {
+            set_number(fit.heater, i, scatter.mean);
+            sum = {};
+            sum.add(scatter.mean_variance, scatter.added_freedom);
+        }
         fit.std[k] = std::sqrt(sum.variance);
         fit.freedom[k] = sum.freedom;
         if (own[k].size() < 2 || scatter.probability >= level / heater_count) continue;

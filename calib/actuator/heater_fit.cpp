@@ -1,6 +1,7 @@
 #include "calib/actuator/heater_fit.h"
 
 #include "calib/actuator/heater_errors.h"
+#include "calib/heterogeneity.h"
 #include "core/failure.h"
 #include "core/micro_parameters.h"
 
@@ -96,6 +97,27 @@ HeaterVector best_of_starts(const std::vector<HeaterRun>& runs, const HeaterScal
         if (squares < least) best = x, least = squares;
     }
     return best;
+}
+
+/// What runs that have no common solution say of the gain by themselves; empty for one run.
+std::string each_alone(const std::vector<HeaterRun>& runs, const HeaterScale& scale) {
+    constexpr double level = 0.01;
+    std::vector<RecordingEstimate> own;
+    std::string text;
+    for (const HeaterRun& run : runs) {
+        if (runs.size() < 2) break;
+        const std::vector<HeaterRun> alone{run};
+        const auto fit = fit_determined(alone, predict_temperature, scale, best_of_starts(alone, scale));
+        if (!fit) continue;
+        const HeaterFit with = with_errors(alone, predict_temperature, scale, *fit);
+        constexpr auto gain = static_cast<std::size_t>(HeaterNumber::gain);
+        if (!(with.std[gain] > 0.0)) continue;
+        own.push_back({with.heater.gain_degC_per_V, with.std[gain], with.freedom[gain]});
+        text += fmt::format("{}{:.4g} +- {:.2g}", text.empty() ? "" : ", ", own.back().value, own.back().std);
+    }
+    return heterogeneity(own).probability < level
+               ? "; the recordings contradict each other on it, alone they say " + text
+               : "";
 }
 
 Status check(const std::vector<HeaterRun>& runs) {
@@ -226,7 +248,9 @@ Result<HeaterFit> fit_heater_to_temperature(const std::vector<HeaterRun>& runs) 
                             command.size(),
                             true};
     auto best = fit_determined(started, predict_temperature, scale, best_of_starts(started, scale));
-    if (!best) return tl::make_unexpected(best.error());
+    if (!best)
+        return tl::make_unexpected(
+            Failure{best.error().reason, best.error().text + each_alone(started, scale)});
     return with_errors(started, predict_temperature, scale, *best);
 }
 

@@ -48,6 +48,20 @@ double beyond_noise(double squares, double of_noise, double ticks, double window
     return ratio > bound ? 1.0 - bound / ratio : 0.0;
 }
 
+/// Standard deviation of what is white from tick to tick, by third differences.
+double white_noise_mm(const std::vector<MacroWindow>& windows) {
+    constexpr double third_differences = 20.0;
+    double squares = 0.0, count = 0.0;
+    for (const MacroWindow& window : windows)
+        for (std::size_t k = 3; k < window.position_mm.size(); ++k) {
+            const auto& y = window.position_mm;
+            const double third = y[k] - 3.0 * y[k - 1] + 3.0 * y[k - 2] - y[k - 3];
+            squares += third * third / third_differences;
+            ++count;
+        }
+    return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
 std::size_t recordings_in(const MacroEstimator& estimator) {
     std::size_t count = 0;
     for (const MacroWindow& window : estimator.windows()) count = std::max(count, window.recording + 1);
@@ -124,9 +138,10 @@ MacroMissed missed_share(const MacroEstimator& estimator, const MacroFit& fit, d
 }
 
 MacroManoeuvres manoeuvres(const MacroEstimator& estimator, const MacroMotion& motion) {
-    constexpr double least_way_count = 4.0, least_speed_share = 0.1, span_s = 0.02;
+    constexpr double least_way_count = 4.0, least_way_noise = 6.0, least_speed_share = 0.1, span_s = 0.02;
     MacroManoeuvres found;
-    const double least_mm = least_way_count * estimator.resolution_mm();
+    const double least_mm = std::max(least_way_count * estimator.resolution_mm(),
+                                     least_way_noise * white_noise_mm(estimator.windows()));
     double side = 0.0, turn_mm = 0.0;
     std::size_t recording = SIZE_MAX;
     for (const MacroWindow& window : estimator.windows()) {

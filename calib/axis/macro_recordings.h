@@ -34,7 +34,8 @@ struct MacroMissed {
 };
 MacroMissed missed_share(const MacroEstimator& estimator, const MacroFit& fit, double drive_squares_count2);
 
-/// How often the carriage turned round, by more than four counts each way, and how long it coasted: moved
+/// How often the carriage turned round, by more than four counts and six standard deviations of the
+/// readings' noise each way, and how long it coasted: moved
 /// at a tenth of its largest speed or faster while nothing drove it.
 struct MacroManoeuvres {
     int reversals = 0;

@@ -19,17 +19,25 @@ nlohmann::json finite_or_null(double value) {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
 
+/// Decimals at which a standard error has two digits.
+int decimals_of(double error) {
+    constexpr int most = 12;
+    if (!std::isfinite(error) || error <= 0.0) return most / 2;
+    return std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, most);
+}
+
 /// As many digits as the standard error has meaning.
 std::string with_error(double value, double std) {
     if (!std::isfinite(std) || std <= 0.0) return fmt::format("{:.6g}", value);
-    const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(std))), 0, 12);
+    const int decimals = decimals_of(std);
     return fmt::format("{:.{}f} +- {:.{}f}", value, decimals, std, decimals);
 }
 
 std::string describe(const IdentifiedValue& value) {
     std::string text = fmt::format("{} {}", with_error(value.value, value.std), value.unit);
     if (value.interval)
-        text += fmt::format(" (95 %: {:.4g} to {:.4g})", value.interval->low, value.interval->high);
+        text += fmt::format(" (95 %: {:.{}f} to {:.{}f})", value.interval->low, decimals_of(value.std),
+                            value.interval->high, decimals_of(value.std));
     if (value.systematic > value.std)
         text += fmt::format(", by up to {:.2g} more if what the model lacks goes with it", value.systematic);
     return text;
