@@ -114,19 +114,32 @@ double end_error_V(const CurveFit& cubic, double at_mm) {
     return std::sqrt(powers.dot(cubic.covariance * powers));
 }
 
+/// Where references were and where the curve is to hold, mm.
+struct Cover {
+    double low_mm, high_mm, travel_low_mm, travel_high_mm;
+
+    /// The references leave out a tenth of the travel at an end, at least.
+    bool misses_an_end() const {
+        const double tenth_mm = 0.1 * (travel_high_mm - travel_low_mm);
+        return low_mm > travel_low_mm + tenth_mm || high_mm < travel_high_mm - tenth_mm;
+    }
+    std::string text() const {
+        return fmt::format("references from {:.3g} to {:.3g} mm of a travel from {:.3g} to {:.3g} mm{}",
+                           low_mm, high_mm, travel_low_mm, travel_high_mm,
+                           misses_an_end() ? ": more are needed towards its ends" : "");
+    }
+};
+
 /// Why a cubic is not a curve to be trusted over the travel; empty if it is.
-std::string doubt(const CurveFit& cubic, double worst_end_lsb) {
+std::string doubt(const CurveFit& cubic, double worst_end_lsb, const Cover& cover) {
     const double bend_std = std::sqrt(cubic.covariance(3, 3));
     if (!std::isfinite(bend_std) || std::abs(cubic.coefficients(3)) < significance * bend_std)
-        return "the readings do not show the curve's bend: centre and cubic need references on both flat "
-               "ends";
+        return "the readings do not show the curve's bend, which centre and cubic are from: " + cover.text();
     if (cubic.coefficients(3) > 0.0)
         return "the curve steepens towards its ends: no slide-by Hall curve does";
     if (worst_end_lsb > largest_end_error_lsb)
-        return fmt::format(
-            "at an end of the travel the curve would be uncertain by {:.1f} LSB: the references do not reach "
-            "there",
-            worst_end_lsb);
+        return fmt::format("at an end of the travel the curve would be uncertain by {:.1f} LSB: {}",
+                           worst_end_lsb, cover.text());
     return {};
 }
 
@@ -180,7 +193,8 @@ Result<HallCurve> fit_hall_curve(const HallParameters& nominal, std::span<const 
     const double worst_end_lsb =
         std::max(end_error_V(cubic, travel_low_mm - about), end_error_V(cubic, travel_high_mm - about)) /
         hall_lsb_V(nominal);
-    if (std::string reason = doubt(cubic, worst_end_lsb); !reason.empty()) {
+    if (std::string reason = doubt(cubic, worst_end_lsb, {low, high, travel_low_mm, travel_high_mm});
+        !reason.empty()) {
         curve.refused = Failure{Reason::not_identifiable, std::move(reason)};
     } else {
         const Eigen::Vector4d numbers = numbers_of(cubic.coefficients, nominal.half_range_mm);

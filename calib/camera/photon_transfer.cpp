@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include <Eigen/LU>
+#include <fmt/format.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -170,7 +171,10 @@ Result<PhotonTransfer> measure_noise(const std::vector<std::vector<cv::Mat>>& bu
     if (!(slope_std < most_relative_std * slope))
         return failure(
             Reason::not_identifiable,
-            "grey levels are too alike to tell shot noise from read noise: light and dark areas, please");
+            fmt::format("how the noise grows with the grey level is not known to {:.0f} %: {:.2g} +- {:.2g} "
+                        "grey levels squared per level, from levels of {:.0f} to {:.0f}",
+                        100.0 * most_relative_std, slope, slope_std, points.front().mean_grey,
+                        points.back().mean_grey));
     const double floor = line.value(1) - rounding;
     const double floor_std = std::sqrt(widen * line.covariance(1, 1));
     PhotonTransfer result{};

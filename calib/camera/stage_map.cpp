@@ -218,7 +218,8 @@ Result<MapCovariance> inverse_of(const MapCovariance& matrix) {
     const Eigen::MatrixXd scales = product(scale, scale.transpose());
     const Eigen::MatrixXd scaled = matrix.cwiseProduct(scales);
     if (!scaled.allFinite() || symmetric_parts(scaled).values(0) < least_eigenvalue)
-        return failure(Reason::not_identifiable, "the views are too alike to determine the camera's mount");
+        return failure(Reason::not_identifiable,
+                       "the views leave a combination of the camera's numbers undetermined");
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(map_values, map_values);
     const Eigen::MatrixXd inverse = scaled.ldlt().solve(identity);
     return MapCovariance(inverse.cwiseProduct(scales));

@@ -114,10 +114,9 @@ TEST(FisheyeCalibration, Result_IsOpenCVsWithinAStandardErrorAndItsResidualsByOp
     cv::Matx33d matrix(190.0, 0.0, 255.5, 0.0, 190.0, 255.5, 0.0, 0.0, 1.0);
     cv::Vec4d four(0.0, 0.0, 0.0, 0.0);
     std::vector<cv::Mat> turns, shifts;
-    const double theirs_px =
-        cv::fisheye::calibrate(printed, seen, cv::Size(lens.width_px, lens.height_px), matrix, four, turns,
-                               shifts, cv::fisheye::CALIB_USE_INTRINSIC_GUESS | cv::fisheye::CALIB_FIX_SKEW,
-                               cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-12));
+    cv::fisheye::calibrate(printed, seen, cv::Size(lens.width_px, lens.height_px), matrix, four, turns,
+                           shifts, cv::fisheye::CALIB_USE_INTRINSIC_GUESS | cv::fisheye::CALIB_FIX_SKEW,
+                           cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-12));
     // OpenCV's iteration ends within a standard error of the minimum, not at it.
     const auto expect_same = [&](LensParameter parameter, double is, double theirs) {
         EXPECT_NEAR(is, theirs, ours->std_of(parameter)) << name_of(parameter);
