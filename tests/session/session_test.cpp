@@ -42,6 +42,27 @@ TEST(Session, Home_FindsWhereTheCameraIs) {
     EXPECT_NEAR(rig.session.camera_mm().x(), plant::camera_position_mm(rig.rig->truth()), 0.0005);
 }
 
+TEST(Session, PlatesOfOtherTags_AreMeasuredAsWell) {
+    const auto off_mm = [](const TagPrint& print) {
+        Rig of = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
+        of.fiducials->print = print;
+        of.fiducials->side_mm = 1.5 / print.share_with_zone();  // all that is printed fits the pitch
+        of.fiducials->columns = 20;
+        WatchedRig rig(reference_physics(), plate_of(*of.fiducials), 5, of);
+        const auto homed = rig.session.home();
+        EXPECT_TRUE(homed) << text_of(print) << ": " << homed.error().text;
+        if (!homed) return 1.0;
+        const auto arrival = rig.session.go_to(3, 0.25);
+        EXPECT_TRUE(arrival) << text_of(print) << ": " << arrival.error().text;
+        if (!arrival) return 1.0;
+        return std::abs(rig.session.camera_mm().x() - plant::camera_position_mm(rig.rig->truth()));
+    };
+    for (const TagPrint& print :
+         {TagPrint{find_tag_family("tag25h9")}, TagPrint{find_tag_family("tagStandard41h12")},
+          TagPrint{find_tag_family("DICT_4X4_50"), 2, true}})
+        EXPECT_LT(off_mm(print), 0.0005) << text_of(print);
+}
+
 TEST(Session, HomingThatIsRecorded_StatesWhereTheEncoderCountsFrom) {
     WatchedRig rig(reference_physics(), reference_plate(), 5);
     const testing::TemporaryFolder folder;

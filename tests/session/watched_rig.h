@@ -9,6 +9,7 @@
 #include "src/session/simulated_rig.h"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace fidservo {
@@ -35,7 +36,11 @@ class WatchedStage final : public control::Stage {
 /// The reference rig's file, a rig that may differ from it, and a session that knows the file only.
 struct WatchedRig {
     WatchedRig(const plant::PlantParameters& physics, const Plate& printed, std::uint64_t seed)
-        : file(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml")),
+        : WatchedRig(physics, printed, seed, load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml")) {}
+
+    /// @param of  what the session knows
+    WatchedRig(const plant::PlantParameters& physics, const Plate& printed, std::uint64_t seed, Rig of)
+        : file(std::move(of)),
           nominal(plate_of(file.fiducials.value())),
           rig(std::make_shared<SimulatedRig>(physics, file.camera.value(), printed, seed)),
           stage(std::make_shared<WatchedStage>(rig)),

@@ -54,6 +54,20 @@ features:
     EXPECT_EQ(plate.features[3].name, "s");
 }
 
+TEST(PlateFile, PrintOfTheTags_IsEveryTags) {
+    const Plate plate = parse("family: DICT_5X5_100\nborder_cells: 2\ninverted: true\n" + grid);
+    const TagPrint print{find_tag_family("DICT_5X5_100"), 2, true};
+    for (const PlateTag& tag : plate.tags) EXPECT_EQ(tag.print, print);
+    EXPECT_EQ(parse(plate_yaml(plate.tags)).print(), print);
+    EXPECT_EQ(parse(grid).print(), TagPrint{});
+}
+
+TEST(PlateFile, IdBeyondTheFamily_IsNamedWithItsRange) {
+    EXPECT_EQ(
+        message_of([] { parse("family: tag16h5\nside_mm: 1\ntags:\n  - { id: 30, centre_mm: [0, 0] }\n"); }),
+        "plate.yaml:4: tags[0].id: 30: must be 0 to 29, the tags of tag16h5");
+}
+
 TEST(PlateFile, Mistakes_AreNamed) {
     EXPECT_EQ(message_of([] { parse("family: tag36h11\n"); }),
               "plate.yaml:1: a map: a plate needs fiducials: give grid, or tags, or both");

@@ -90,7 +90,12 @@ TEST(RigFile, ValuesThatCannotBe_AreRefused) {
     EXPECT_NE(message_with("exposure_s: 0.002", "exposure_s: 0.2").find("longer than a frame"),
               std::string::npos);
     EXPECT_NE(message_with("count: [101, 1]", "count: [101, 9]").find("587"), std::string::npos);
-    EXPECT_NE(message_with("family: tag36h11", "family: tag25h9").find("must be one of: tag36h11"),
+    EXPECT_NE(message_with("family: tag36h11", "family: tag25h7")
+                  .find("family: tag25h7: must be one of tag36h11, "),
+              std::string::npos);
+    EXPECT_NE(message_with("family: tag36h11", "family: tag25h9").find("tag25h9"), std::string::npos);
+    EXPECT_NE(message_with("family: tag36h11", "border_cells: 2, family: tagStandard41h12")
+                  .find("border_cells: 2: must be 1: tagStandard41h12 has no plain border"),
               std::string::npos);
     EXPECT_NE(message_with("preisach_fod: preisach_fod.csv", "preisach_fod: other.csv").find("no such file"),
               std::string::npos);
