@@ -27,7 +27,7 @@ void demand_size(const YamlValue& map, const char* key, int size) {
 std::vector<double> matrix_of(const YamlValue& map, int rows, int columns) {
     demand_size(map, "rows", rows);
     demand_size(map, "cols", columns);
-    return map.at("data").numbers(static_cast<std::size_t>(rows * columns));
+    return map.at("data").numbers(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
 }
 
 void check_matrix(const YamlValue& root, const char* key, int rows, int columns) {
