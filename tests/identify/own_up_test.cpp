@@ -91,11 +91,11 @@ TEST(IdentifyOwnsUp, CarriageThatNeitherCoastsNorReverses_IsTheCauseNamedOnlyThe
 TEST(IdentifyOwnsUp, MotionTooShortForASteadySpeed_GivesTheAccelerationPerVolt) {
     std::mt19937_64 random(3);
     Carriage carriage;
-    carriage.time_constant_s = 2.0;
-    carriage.gain_mm_per_s_per_V = 1000.0;
+    carriage.time_constant_s = 6.0;
+    carriage.gain_mm_per_s_per_V = 3000.0;
     carriage.friction_V = carriage.offset_V = 0.0;
     const Recording recording = recorded(
-        carriage, "short", [](double t_s) { return t_s < 0.05 ? 0.0 : 3.0; }, 0.25, random, 0.1);
+        carriage, "short", [](double t_s) { return t_s < 0.05 ? 0.0 : 3.0; }, 0.25, random);
     const Identified identified = identify_macro({rig_of(carriage), {recording}, std::nullopt, 0.0});
     EXPECT_EQ(find_value(identified, "macro.velocity_gain_mm_per_s_per_V"), nullptr) << describe(identified);
     const IdentifiedValue* ratio = find_value(identified, "gain_over_time_constant");
