@@ -158,7 +158,7 @@ void try_wrong_model(const std::string& kind, LensModel truth, LensModel asked) 
         // those of both.
         CameraGeometry comparable = camera;
         Answer compared = answer;
-        for (std::size_t k = k1; k <= k4; ++k) compared.found->fitted[k] = false;
+        for (std::size_t k = centre_u; k <= k4; ++k) compared.found->fitted[k] = false;
         return right_or_refused(compared, comparable);
     });
 }
