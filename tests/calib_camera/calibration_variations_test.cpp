@@ -154,8 +154,8 @@ void try_wrong_model(const std::string& kind, LensModel truth, LensModel asked) 
             return Outcome::refused(answer.reasons.empty() ? answer.notes.front() : answer.reasons.front());
         if (!answer.accepted())
             return Outcome::wrong("refused for another reason: " + answer.reasons.front());
-        // Either model may describe a lens: focal length and principal point are
-        // those of both.
+        // The focal length is that of either model. The principal point is not: an equidistant lens has no
+        // decentring, which a shift of it replaces.
         CameraGeometry comparable = camera;
         Answer compared = answer;
         for (std::size_t k = centre_u; k <= k4; ++k) compared.found->fitted[k] = false;
