@@ -39,7 +39,9 @@ TEST(LensProjection, Template_IsCoresProjection) {
     for (const Eigen::Vector2d& plate_mm : {Eigen::Vector2d(0.0, 0.0), {2.1, 1.5}, {-2.3, 1.1}}) {
         const Eigen::Vector3d seen =
             camera_from_plate(camera) * Eigen::Vector3d(plate_mm.x(), plate_mm.y(), camera.distance_mm);
-        EXPECT_LT((image_of(camera.distortion.model, lens.data(), seen) - project(camera, plate_mm, 0.0)).norm(), 1e-9);
+        EXPECT_LT(
+            (image_of(camera.distortion.model, lens.data(), seen) - project(camera, plate_mm, 0.0)).norm(),
+            1e-9);
     }
     CameraGeometry copy = lens_of_camera(reference_camera().geometry);
     set_lens(copy, lens);
