@@ -6,7 +6,6 @@
 #include "src/config/yaml_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include <fmt/format.h>
@@ -101,7 +100,7 @@ LensDistortion brown_of(const std::vector<double>& numbers, const YamlValue& val
                 "has {} coefficients, of which those behind the fifth are not 0; allowed: k1, k2, p1, "
                 "p2, k3",
                 numbers.size()));
-    std::array<double, read> five{};
+    std::vector<double> five(read);
     std::copy_n(numbers.begin(), std::min(read, numbers.size()), five.begin());
     return distortion_of(LensModel::plumb_bob, five);
 }
