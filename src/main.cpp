@@ -1,6 +1,7 @@
 #include "src/cli.h"
 #include "src/interrupt.h"
 
+#include <glog/logging.h>
 #include <malloc.h>
 
 namespace {
@@ -14,10 +15,16 @@ void keep_freed_memory() {
     mallopt(M_TRIM_THRESHOLD, returned_from_bytes);
 }
 
+/// What Ceres has to say of its matrices is said in the program's own words, where it matters.
+void pass_over_solver_messages() {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     keep_freed_memory();
+    pass_over_solver_messages();
     fidservo::watch_for_interrupts();
     return fidservo::run_command_line(argc, argv);
 }

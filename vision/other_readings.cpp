@@ -192,7 +192,7 @@ std::string text_of(const ImagesSeen& seen, const TagReading& tried) {
         return text;
     }
     add(
-        fmt::format("{} square{} with four straight sides seen, {} of them with something inside; typically "
+        fmt::format("{} square{} with four straight sides, {} of them with something inside; typically "
                     "{:.0f} px a side, contrast {:.0f} grey levels, edges blurred by {:.1f} px",
                     seen.squares, seen.squares == 1 ? "" : "s", seen.patterned, seen.side_px,
                     seen.contrast_grey, seen.blur_px));

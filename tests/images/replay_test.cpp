@@ -1,9 +1,9 @@
 // fidservo replay on what other programs write: displacements that are known, and what is said.
+#include "core/tag_families.h"
 #include "tests/images/film.h"
 #include "tests/images/written_tiff.h"
 #include "tests/src/run_program.h"
 #include "tests/src/temporary_folder.h"
-#include "vision/tag_pattern.h"
 
 #include <sstream>
 
@@ -29,7 +29,7 @@ constexpr double side_um = 1200.0, step_um = steps_px * side_um / (8 * cell_px);
 /// A tag, moved to the right by so many steps.
 cv::Mat tag_image(int steps) {
     constexpr int tag = 40, edge_px = 40;
-    const vision::TagPattern pattern = vision::tag_pattern(tag);
+    const TagPattern pattern = tag_pattern(TagPrint{}, tag);
     cv::Mat image(8 * cell_px + 2 * edge_px, 8 * cell_px + 2 * edge_px + 100, CV_8UC1, cv::Scalar(230));
     for (int row = 0; row < pattern.cells; ++row)
         for (int column = 0; column < pattern.cells; ++column)

@@ -133,7 +133,7 @@ TEST(ImagesSeen, WithoutTags_NamesOnlyWhatWasChecked) {
     cv::Mat1b squares(240, 320, static_cast<unsigned char>(200));
     for (int k = 0; k < 3; ++k) squares(cv::Rect(20 + 100 * k, 60, 60, 60)).setTo(40);
     EXPECT_THAT(said(squares),
-                HasSubstr("3 squares with four straight sides seen, 0 of them with something inside; "
+                HasSubstr("3 squares with four straight sides, 0 of them with something inside; "
                           "typically 59 px a side, contrast 160 grey levels"));
 }
 
