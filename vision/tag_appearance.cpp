@@ -241,7 +241,7 @@ GreyNoiseSeen noise_of(const std::vector<const BorderStrip*>& strips) {
 }  // namespace
 
 TagAppearance tag_appearance(const cv::Mat& image, const TagDetection& tag) {
-    const bool white_inside = tag_pattern(tag.print, tag.tag_id).is_white_inside();
+    const bool white_inside = tag_pattern(tag.print, 0).is_white_inside();
     TagAppearance seen{.time_ns = tag.time_ns, .tag_id = tag.tag_id, .sides = {}, .white = {}, .black = {}};
     Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
     for (const Eigen::Vector2d& corner : tag.corners_px) middle_px += 0.25 * corner;

@@ -130,7 +130,7 @@ TEST_F(ReplayOf, StackOfPages_IsAFrameAPage) {
 TEST_F(ReplayOf, FramesMissingAndDamaged_AreNamedAndTheOthersMeasured) {
     std::string index = "#timestamp [ns],filename\n";
     for (int k = 0; k < 5; ++k) {
-        index += fmt::format("{},{}.png\n", 1000 + k, k);
+        index += fmt::format("{},{}.png\n", 20'000'000 * (k + 1), k);
         if (k != 3) save(fmt::format("r/mav0/cam0/data/{}.png", k), tag_image(k));
     }
     const std::string whole = testing::text_of(folder / "r/mav0/cam0/data/1.png");

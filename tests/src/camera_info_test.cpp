@@ -227,7 +227,7 @@ TEST_F(RigCamera, EquidistantLens_IsReadWithItsFourCoefficients) {
     const CameraGeometry camera = camera_with("lens: equidistant\n  distortion: [0.01, 0.02, 0.03, 0.04]");
     EXPECT_EQ(numbers_of(camera.distortion), (std::vector<double>{0.01, 0.02, 0.03, 0.04}));
     EXPECT_EQ(camera_with("lens: plumb_bob").distortion.model, LensModel::plumb_bob);
-    EXPECT_EQ(message_with("lens: fish"), "26: camera.lens: fish: allowed: plumb_bob, equidistant");
+    EXPECT_EQ(message_with("lens: fish"), "26: camera.lens: fish: must be one of: plumb_bob, equidistant");
     EXPECT_EQ(message_with("lens: equidistant\n  distortion: [0, 0, 0, 0, 0]"),
               "27: camera.distortion: a list: must be a list of 4 numbers");
     EXPECT_EQ(message_with("lens: equidistant\n  distortion: [-60, 0, 0, 0]"),

@@ -70,10 +70,10 @@ Outcome read_one(const TagReading& reading, std::mt19937_64& random, CornerError
     if (found.size() > 1 || found.front().tag_id != tag.id)
         return Outcome::wrong(
             fmt::format("{}: {} tags found, the first {}", name, found.size(), found.front().tag_id));
-    if (const double off = most_off_px(found.front().corners_px, tag.corners_px); off > 1.0)
-        return Outcome::wrong(fmt::format("{}: corners found {:.2f} px off", name, off));
     const auto refined = refine_tag(image, found.front(), as_drawn);
     if (!refined) {
+        if (const double off = most_off_px(found.front().corners_px, tag.corners_px); off > 1.0)
+            return Outcome::wrong(fmt::format("{}: corners found {:.2f} px off", name, off));
         ++errors.unrefined;
         return Outcome::refused(fmt::format("{}: {}", name, refined.error().text));
     }
