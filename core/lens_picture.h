@@ -8,6 +8,16 @@
 
 namespace fidservo {
 
+/// By how much a lens whose parts are not on one axis shifts the picture, 2 p1 x y + p2 (r2 + 2 x^2) and p1
+/// (r2
+/// + 2 y^2) + 2 p2 x y.
+template <class T>
+Eigen::Matrix<T, 2, 1> decentring(const T& p1, const T& p2, const Eigen::Matrix<T, 2, 1>& at) {
+    const T &x = at.x(), &y = at.y();
+    const T r2 = x * x + y * y;
+    return {2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x), p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
+}
+
 /// (x', y') of (x, y) by a plumb_bob lens. @param numbers  k1, k2, p1, p2, k3
 template <class T>
 Eigen::Matrix<T, 2, 1> distorted(const T* numbers, const Eigen::Matrix<T, 2, 1>& ideal) {

@@ -106,8 +106,14 @@ CameraGeometry plain_lens(const CameraCalibrationOptions& options, double focal_
 std::vector<CameraGeometry> start_lenses(const CameraCalibrationOptions& options,
                                          const std::vector<TargetView>& views) {
     std::vector<CameraGeometry> lenses{lens_of_least_error(options, views)};
-    if (options.model == LensModel::plumb_bob)
-        lenses.push_back(plain_lens(options, focal_of_homographies_px(plain_lens(options, 1.0), views)));
+    if (options.model == LensModel::equidistant) return lenses;
+    lenses.push_back(plain_lens(options, focal_of_homographies_px(plain_lens(options, 1.0), views)));
+    CameraCalibrationOptions as_fisheye = options;
+    as_fisheye.model = LensModel::equidistant;
+    CameraGeometry barrel = plain_lens(options, lens_of_least_error(as_fisheye, views).focal_px);
+    barrel.distortion.k1 = -1.0 / 3.0;  // theta = atan(r) as a series
+    barrel.distortion.k2 = 1.0 / 5.0;
+    lenses.push_back(barrel);
     return lenses;
 }
 

@@ -14,9 +14,10 @@ namespace fidservo::calib {
 CameraGeometry plain_lens(const CameraCalibrationOptions& options, double focal_px);
 
 /// Plain lenses to begin with. Of a plumb_bob lens one whose focal length is from the constraints that
-/// homographies have, which distortion can spoil. Of either model, the best of focal lengths in steps of a
-/// quarter by rough_error_px(), from the one by which the outermost corner is seen in the direction straight
-/// behind: an equidistant lens's pictures of a plane are no homographies.
+/// homographies have, which distortion can spoil, and one with the focal length and the barrel distortion of
+/// the best equidistant lens. Of either model, the best of focal lengths in steps of a quarter by
+/// rough_error_px(), from the one by which the outermost corner is seen in the direction straight behind: an
+/// equidistant lens's pictures of a plane are no homographies.
 std::vector<CameraGeometry> start_lenses(const CameraCalibrationOptions& options,
                                          const std::vector<TargetView>& views);
 

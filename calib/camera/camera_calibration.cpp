@@ -34,6 +34,14 @@ std::vector<Candidate> candidates_of(LensModel model) {
     return {{{k2}, one}, {{p1, p2}, two}, {{k3}, one}};
 }
 
+/// Terms that a lens may have although they were left out: those that the views do not ask for, and the
+/// decentring that an equidistant lens has no numbers for.
+std::vector<Candidate> left_out_of(LensModel model) {
+    std::vector<Candidate> left_out = candidates_of(model);
+    if (model == LensModel::equidistant) left_out.insert(left_out.begin(), {{p1, p2}, 0.0});
+    return left_out;
+}
+
 /// Step by step from few parameters to all that are asked for. Returns twice the robust loss.
 double approach(const Bundle& bundle, const CameraCalibrationOptions& options,
                 const std::vector<TargetView>& views, BundleState& state) {
@@ -108,13 +116,13 @@ std::optional<double> adjust(const Bundle& bundle, const CameraCalibrationOption
     return chi2;
 }
 
-/// That of the fitted numbers where terms were left out because they do not improve the fit: they need not be
-/// zero. With all of the model's terms in the fit the numbers have the covariance C and differ by d from
-/// those without; that of the latter about the truth is bounded by C + d d^T. The poses' likewise.
+/// That of the fitted numbers where terms were left out (left_out_of()): they need not be zero. With all of
+/// the model's terms in the fit the numbers have the covariance C and differ by d from those without; that of
+/// the latter about the truth is bounded by C + d d^T. The poses' likewise.
 std::optional<BundleCovariance> covariance_of(const Bundle& bundle, const CameraCalibrationOptions& options,
                                               const BundleState& state, const LensMask& fitted) {
     std::vector<Candidate> candidates =
-        options.fitted ? std::vector<Candidate>{} : candidates_of(options.model);
+        options.fitted ? std::vector<Candidate>{} : left_out_of(options.model);
     for (; !candidates.empty(); candidates.pop_back()) {
         LensMask wider = fitted;
         for (const Candidate& candidate : candidates) wider = with(wider, candidate.terms);
@@ -207,11 +215,10 @@ Result<CameraCalibration> calibrate_camera(const std::vector<TargetView>& views,
                         bundle.measured_directions(), parameters));
     const auto covariance = covariance_of(bundle, options, state, mask);
     if (!covariance || !(state.lens[focal] > 0.0))
-        return failure(Reason::not_identifiable,
-                       fmt::format("{} view{} of the target do{} not determine the lens: different lenses "
-                                   "explain {} equally well",
-                                   views.size(), views.size() == 1 ? "" : "s", views.size() == 1 ? "es" : "",
-                                   views.size() == 1 ? "it" : "them"));
+        return failure(
+            Reason::not_identifiable,
+            fmt::format("{} view{} of the target, as it is described, do{} not determine the lens",
+                        views.size(), views.size() == 1 ? "" : "s", views.size() == 1 ? "es" : ""));
     CameraCalibration result{.camera = plain_lens(options, 1.0),
                              .fitted = mask,
                              .covariance = covariance->lens,

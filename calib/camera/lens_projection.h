@@ -78,7 +78,8 @@ inline void set_lens(CameraGeometry& camera, const Lens& lens) {
 }
 
 /// Image point in px of a point in the camera's frame; the equations of core/camera_geometry.h, of an
-/// equidistant lens beyond its domain too.
+/// equidistant lens beyond its domain too. Such a lens has no p1 and p2 there; here they act on its picture,
+/// so that what their absence leaves open of the others can be told.
 template <class T>
 Eigen::Matrix<T, 2, 1> image_of(LensModel model, const T* lens, const Eigen::Matrix<T, 3, 1>& seen) {
     Eigen::Matrix<T, 2, 1> bent;
@@ -87,6 +88,7 @@ Eigen::Matrix<T, 2, 1> image_of(LensModel model, const T* lens, const Eigen::Mat
         bent = distorted(lens + k1, ideal);
     } else {
         bent = fisheye_picture(lens[k1], lens[k2], lens[k3], lens[k4], seen);
+        bent += decentring(lens[p1], lens[p2], bent);
     }
     return {lens[centre_u] + lens[focal] * bent.x(),
             lens[centre_v] + lens[focal] * lens[focal_ratio] * bent.y()};

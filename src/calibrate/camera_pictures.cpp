@@ -24,8 +24,8 @@ struct Drawing {
     std::string opening(const std::string& description) const {
         return fmt::format(
             "<svg class=\"chart\" role=\"img\" viewBox=\"0 0 {:.0f} {:.0f}\" aria-label=\"{}\">"
-            "<rect x=\"0.5\" y=\"0.5\" width=\"{:.0f}\" height=\"{:.0f}\" fill=\"none\" "
-            "stroke=\"currentColor\"/>",
+            "<rect x=\"0.5\" y=\"0.5\" width=\"{:.0f}\" height=\"{:.0f}\" "
+            "style=\"fill:none\" stroke=\"currentColor\"/>",
             drawn_width, height, description, drawn_width - 1.0, height - 1.0);
     }
 };
@@ -50,7 +50,7 @@ std::string coverage_svg(const calib::CameraCalibration& calibration, const cali
             if (coverage.corners[row * Coverage::columns + column] == 0)
                 svg += fmt::format(
                     "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
-                    "fill=\"currentColor\" opacity=\"0.15\"><title>no corner here</title></rect>",
+                    "style=\"fill:currentColor\" opacity=\"0.15\"><title>no corner here</title></rect>",
                     column * width, row * height, width, height);
     svg += "<g fill=\"currentColor\" opacity=\"0.6\">";
     each_corner(calibration, [&](const Eigen::Vector2d& seen, const Eigen::Vector2d&) {

@@ -109,7 +109,8 @@ std::string noise_section(const calib::PhotonTransfer& noise) {
 std::string headline_of(const CameraAnswer& answer) {
     return answer.shortcomings.empty()
                ? fmt::format("Calibrated: corners are explained to {:.3g} px", answer.calibration.rms_px)
-               : "Not good enough: " + answer.shortcomings.front();
+               : "Not good enough: " +
+                     answer.shortcomings.front().substr(0, answer.shortcomings.front().find("; "));
 }
 
 }  // namespace

@@ -73,6 +73,10 @@ tl::expected<TimeNs, std::string> index_time_ns(std::string_view field, std::str
                 "[us], [ms], [s]"));
         }
     }
+    if (unit == "ns" && fraction.find_first_not_of('0') != std::string_view::npos)
+        return tl::make_unexpected(
+            std::string("a time in ns is a whole number; allowed for others: a first line that names the "
+                        "unit, [us], [ms], [s]"));
     for (const IndexUnit& known : index_units)
         if (known.name == unit)
             if (const auto time_ns = in_ns(whole, fraction, known.decimals)) return *time_ns;

@@ -18,11 +18,14 @@ class Score {
         ASSERT_TRUE(estimate) << estimate.error().text;
         squares_ += std::pow((estimate->value - truth) / estimate->std, 2) / runs;
     }
-    /// 99.8 % of a chi-square law with 60 degrees of freedom, over 60.
+    /// 99.8 % of a chi-square law with 60 degrees of freedom, over 60. Claims also count what a recording
+    /// does not show (calib/axis/macro_knowledge.h), by which they may be larger than the scatter: half as
+    /// large again here, of a motion without anything else.
     void expect_true(const std::string& name) const {
         ::testing::Test::RecordProperty(name, std::to_string(squares_));
-        EXPECT_GT(squares_, 0.53) << name;
-        EXPECT_LT(squares_, 1.66) << name;
+        constexpr double low = 0.53, high = 1.66, most_counted = 1.5;
+        EXPECT_GT(squares_, low / (most_counted * most_counted)) << name;
+        EXPECT_LT(squares_, high) << name;
     }
 
   private:

@@ -16,6 +16,7 @@ namespace fidservo::calib {
 namespace {
 
 constexpr int tried = 200;
+constexpr int tried_of_long = 25;  ///< of kinds whose every answer takes a dozen calibrations
 constexpr double side_mm = 88.0, pitch_mm = 114.4;
 
 std::vector<PlateTag> small_target() {
@@ -108,8 +109,8 @@ Answer answer_of(const std::vector<TargetView>& views, const CameraGeometry& cam
 }
 
 template <class Trial>
-void try_all(const std::string& kind, Trial trial) {
-    expect_right_or_refused(kind, tried, [&](std::mt19937_64& draw) {
+void try_all(const std::string& kind, Trial trial, int number = tried) {
+    expect_right_or_refused(kind, number, [&](std::mt19937_64& draw) {
         NoiseStream random(draw(), "calibration " + kind);
         return trial(random);
     });
@@ -143,24 +144,26 @@ TEST(SlowCalibrationVariations, EquidistantLenses_AreRightOrRefused) {
     try_right_model("equidistant lens", LensModel::equidistant);
 }
 
-/// Wherever the lens that was asked for does not do, the answer names the one
-/// that does.
+/// Where the lens that was asked for does not do, the answer names the one that does; where it does, the
+/// numbers are right or said to be unknown.
 void try_wrong_model(const std::string& kind, LensModel truth, LensModel asked) {
-    try_all(kind, [&](NoiseStream& random) {
-        const CameraGeometry camera = some_camera(truth, random);
-        const auto views = hand_held_views(camera, small_target(), some_handling(camera, random), random);
-        const Answer answer = answer_of(views, camera, asked, small_target());
-        if (answer.says(fmt::format("--lens {}", name_of(truth))))
-            return Outcome::refused(answer.reasons.empty() ? answer.notes.front() : answer.reasons.front());
-        if (!answer.accepted())
-            return Outcome::wrong("refused for another reason: " + answer.reasons.front());
-        // The focal length is that of either model. The principal point is not: an equidistant lens has no
-        // decentring, which a shift of it replaces.
-        CameraGeometry comparable = camera;
-        Answer compared = answer;
-        for (std::size_t k = centre_u; k <= k4; ++k) compared.found->fitted[k] = false;
-        return right_or_refused(compared, comparable);
-    });
+    try_all(
+        kind,
+        [&](NoiseStream& random) {
+            const CameraGeometry camera = some_camera(truth, random);
+            const auto views = hand_held_views(camera, small_target(), some_handling(camera, random), random);
+            const Answer answer = answer_of(views, camera, asked, small_target());
+            if (answer.says(fmt::format("--lens {}", name_of(truth))))
+                return Outcome::refused(answer.reasons.empty() ? answer.notes.front()
+                                                               : answer.reasons.front());
+            for (const char* untrue : {"spacing", "rows of", "without view"})
+                if (!answer.accepted() && answer.says(untrue)) return Outcome::wrong(answer.reasons.front());
+            Answer compared = answer;
+            if (compared.found)  // in what lenses of both models have
+                for (std::size_t k = k1; k <= k4; ++k) compared.found->fitted[k] = false;
+            return right_or_refused(compared, camera);
+        },
+        tried_of_long);
 }
 
 TEST(SlowCalibrationVariations, EquidistantLensTakenForPlumbBob_IsNamed) {
@@ -176,53 +179,60 @@ LensModel some_model(NoiseStream& random) {
 }
 
 TEST(SlowCalibrationVariations, WrongSpacing_IsNamedWithTheRightOne) {
-    try_all("wrong spacing", [&](NoiseStream& random) {
-        const LensModel model = some_model(random);
-        const CameraGeometry camera = some_camera(model, random);
-        const auto said = small_target();
-        auto truth = said;
-        // One in eight is as said.
-        const double true_side_mm =
-            side_mm * (random.uniform() < 0.125 ? 1.0 : std::exp(between(random, -0.5, 0.2)));
-        for (PlateTag& tag : truth) tag.side_mm = true_side_mm;
-        auto views = hand_held_views(camera, truth, some_handling(camera, random), random);
-        for (TargetView& view : views)
-            for (TagSight& sight : view.tags) sight.printed.side_mm = side_mm;
-        const Answer answer = answer_of(views, camera, model, said);
-        const auto named = number_after(answer, "the gap between the tags is ");
-        if (named && std::abs((1.0 + *named) * true_side_mm / pitch_mm - 1.0) < 0.005)
-            return Outcome::refused(answer.reasons.front());
-        if (answer.accepted() && answer.says("is the target printed as said?"))
-            return Outcome::refused(answer.notes.back());
-        if (!answer.accepted())
-            return Outcome::wrong(
-                fmt::format("scale {:.3f}: {}", true_side_mm / side_mm, answer.reasons.front()));
-        return right_or_refused(answer, camera);
-    });
+    try_all(
+        "wrong spacing",
+        [&](NoiseStream& random) {
+            const LensModel model = some_model(random);
+            const CameraGeometry camera = some_camera(model, random);
+            const auto said = small_target();
+            auto truth = said;
+            // One in eight is as said.
+            const double true_side_mm =
+                side_mm * (random.uniform() < 0.125 ? 1.0 : std::exp(between(random, -0.5, 0.2)));
+            for (PlateTag& tag : truth) tag.side_mm = true_side_mm;
+            auto views = hand_held_views(camera, truth, some_handling(camera, random), random);
+            for (TargetView& view : views)
+                for (TagSight& sight : view.tags) sight.printed.side_mm = side_mm;
+            const Answer answer = answer_of(views, camera, model, said);
+            const auto named = number_after(answer, "the gap between the tags is ");
+            if (named && std::abs((1.0 + *named) * true_side_mm / pitch_mm - 1.0) < 0.005)
+                return Outcome::refused(answer.reasons.front());
+            if (answer.accepted() && answer.says("is the target printed as said?"))
+                return Outcome::refused(answer.notes.back());
+            if (!answer.accepted())
+                return Outcome::wrong(
+                    fmt::format("scale {:.3f}: {}", true_side_mm / side_mm, answer.reasons.front()));
+            return right_or_refused(answer, camera);
+        },
+        tried_of_long);
 }
 
 TEST(SlowCalibrationVariations, WrongGrid_IsNamedWithTheRightOne) {
-    try_all("wrong grid", [&](NoiseStream& random) {
-        const LensModel model = some_model(random);
-        const CameraGeometry camera = some_camera(model, random);
-        const int columns = static_cast<int>(between(random, 3.0, 7.0));
-        int said_columns = static_cast<int>(between(random, 2.0, 7.0));
-        if (said_columns == columns) ++said_columns;
-        if (random.uniform() < 0.125) said_columns = columns;  // one in eight is as said
-        const auto truth = tag_grid(columns, 4, side_mm, pitch_mm);
-        auto said =
-            tag_grid(said_columns, (4 * columns + said_columns - 1) / said_columns, side_mm, pitch_mm);
-        auto views = hand_held_views(camera, truth, some_handling(camera, random), random);
-        for (TargetView& view : views)
-            for (TagSight& sight : view.tags)
-                sight.printed = said[static_cast<std::size_t>(sight.printed.id)];
-        const Answer answer = answer_of(views, camera, model, said);
-        if (said_columns == columns) return right_or_refused(answer, camera);
-        const std::string right =
-            fmt::format("the tags stand in rows of {}, not of {}", columns, said_columns);
-        if (answer.says(right)) return Outcome::refused(answer.reasons.front());
-        return Outcome::wrong(answer.text());
-    });
+    try_all(
+        "wrong grid",
+        [&](NoiseStream& random) {
+            const LensModel model = some_model(random);
+            const CameraGeometry camera = some_camera(model, random);
+            const int columns = static_cast<int>(between(random, 3.0, 7.0));
+            int said_columns = static_cast<int>(between(random, 2.0, 7.0));
+            if (said_columns == columns) ++said_columns;
+            if (random.uniform() < 0.125) said_columns = columns;  // one in eight is as said
+            const auto truth = tag_grid(columns, 4, side_mm, pitch_mm);
+            auto said =
+                tag_grid(said_columns, (4 * columns + said_columns - 1) / said_columns, side_mm, pitch_mm);
+            auto views = hand_held_views(camera, truth, some_handling(camera, random), random);
+            for (TargetView& view : views)
+                for (TagSight& sight : view.tags)
+                    sight.printed = said[static_cast<std::size_t>(sight.printed.id)];
+            const Answer answer = answer_of(views, camera, model, said);
+            if (said_columns == columns) return right_or_refused(answer, camera);
+            const std::string right =
+                fmt::format("the tags stand in rows of {}, not of {}", columns, said_columns);
+            if (answer.says(right) || answer.says("as it is described, do"))
+                return Outcome::refused(answer.reasons.front());
+            return Outcome::wrong(answer.text());
+        },
+        tried_of_long);
 }
 
 TEST(SlowCalibrationVariations, TooLittleTilt_IsNamedOnlyWhereMoreWouldDo) {

@@ -117,7 +117,7 @@ TEST(FisheyeCalibration, Result_IsOpenCVsWithinAStandardErrorAndItsResidualsByOp
     cv::fisheye::calibrate(printed, seen, cv::Size(lens.width_px, lens.height_px), matrix, four, turns,
                            shifts, cv::fisheye::CALIB_USE_INTRINSIC_GUESS | cv::fisheye::CALIB_FIX_SKEW,
                            cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-12));
-    // OpenCV's iteration ends within a standard error of the minimum, not at it.
+    // Its numbers and ours agree to a standard error, not to rounding; why was not found out.
     const auto expect_same = [&](LensParameter parameter, double is, double theirs) {
         EXPECT_NEAR(is, theirs, ours->std_of(parameter)) << name_of(parameter);
     };

@@ -114,6 +114,8 @@ TEST_F(FrameIndex, TimesWithoutAKnownUnit_AreAskedFor) {
                 HasSubstr("must be written in digits"));
     EXPECT_THAT(refusal("timestamp [s],filename\n1403636579763555584,x.png\n"),
                 HasSubstr("no time in ns of 64 bits"));
+    EXPECT_THAT(refusal("timestamp [ns],filename\n1403636579.763556,x.png\n"),
+                HasSubstr("a time in ns is a whole number"));
 }
 
 TEST_F(FrameIndex, NumbersOfFrames_AreNoTimes) {

@@ -154,5 +154,16 @@ TEST_F(ImageFile, HeaderOfAHugePng_IsRefusedWithoutTheMemory) {
     EXPECT_THAT(complaint("huge.png"), HasSubstr("huge.png: cannot be read as an image"));
 }
 
+TEST_F(ImageFile, SideThatTheTagLibraryCannotTake_IsRefused) {
+    for (const auto& [width, height] : {std::pair{16384, 4}, std::pair{4, 16384}}) {
+        write("long.png", encode_png(cv::Mat(height, width, CV_8UC1, cv::Scalar(9)), 1));
+        write("long.jpg", encode_jpeg(cv::Mat(height, width, CV_8UC1, cv::Scalar(9)), 90));
+        for (const std::string name : {"long.png", "long.jpg"})
+            EXPECT_THAT(
+                complaint(name),
+                HasSubstr(fmt::format("{} x {} px: sides of at most 16383 px are read", width, height)));
+    }
+}
+
 }  // namespace
 }  // namespace fidservo::vision

@@ -1,6 +1,7 @@
 #pragma once
 // Images as files: 8-bit grey, in and out.
 
+#include "core/failure.h"
 #include "core/result.h"
 
 #include <algorithm>
@@ -11,14 +12,23 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <opencv2/core/mat.hpp>
 
 namespace fidservo::vision {
 
-/// The largest image that is read: more than any sensor has, and 512 MB where a pixel takes 16 bits. A header
-/// that claims more is refused before memory is taken; so is one whose pixels cannot come out of so small a
-/// file by its compression (1032 : 1 at most for PNG).
-inline constexpr std::size_t most_pixels = std::size_t{1} << 28;
+/// The longest side of an image that is read: small tags are looked for at twice the resolution, and the tag
+/// library takes sides below 2^15 px. A header that claims more is refused before memory is taken; so is one
+/// whose pixels cannot come out of so small a file by its compression (1032 : 1 at most for PNG).
+inline constexpr std::uint64_t most_side_px = (1U << 14) - 1;
+inline constexpr std::uint64_t most_pixels = most_side_px * most_side_px;
+
+/// Fails with Reason::device if a side is longer than most_side_px.
+inline Status demand_readable_size(std::uint64_t width_px, std::uint64_t height_px) {
+    if (width_px <= most_side_px && height_px <= most_side_px) return {};
+    return failure(Reason::device, fmt::format("{} x {} px: sides of at most {} px are read", width_px,
+                                               height_px, most_side_px));
+}
 
 /// The largest file of one image that is read: most_pixels of four samples of 16 bits, not compressed. A TIFF
 /// of many pages may be larger.
@@ -37,7 +47,7 @@ struct StoredImage {
 /// An image, or a page of a TIFF. Pixels are where the file has them: an orientation tag is not followed.
 /// PNG, JPEG, TIFF, and what OpenCV's codecs read of other formats (BMP, PNM, WebP, JPEG 2000, Sun raster).
 /// The format is told by the file's first bytes. Fails with Reason::device, naming the file: not there, no
-/// image, damaged or cut short, of floating-point samples (which have no white), more than most_pixels or
+/// image, damaged or cut short, of floating-point samples (which have no white), sides beyond most_side_px or
 /// most_file_bytes. Where a format has no checksum, a wrong byte may not be noticed; a missing one is.
 /// Thread-safe.
 /// @param page  the place of a TIFF's page in its file, as list_pages() gives it; 0: its first image

@@ -64,9 +64,10 @@ Result<cv::Mat> JpegDecoder::decode(std::span<const std::byte> jpeg) {
     int colours = 0;
     if (tjDecompressHeader3(impl_->turbo, data, jpeg.size(), &width, &height, &subsampling, &colours) != 0)
         return impl_->damaged();
-    if (static_cast<std::size_t>(width) * static_cast<std::size_t>(height) > most_pixels)
-        return failure(Reason::device,
-                       fmt::format("{} x {} px: at most {} px are read", width, height, most_pixels));
+    if (const Status readable =
+            demand_readable_size(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
+        !readable)
+        return tl::make_unexpected(readable.error());
     const bool for_print = colours == TJCS_CMYK || colours == TJCS_YCCK;
     cv::Mat pixels(height, width, for_print ? CV_8UC4 : CV_8UC1);
     // Not TJFLAG_STOPONWARNING: what is wrong at the end of the data is said as well without it.

@@ -23,7 +23,7 @@ class JpegDecoder {
     JpegDecoder& operator=(const JpegDecoder&) = delete;
 
     /// The image, CV_8UC1. Fails with Reason::device for data that are damaged anywhere or cut short, or of
-    /// more than most_pixels.
+    /// a side beyond most_side_px.
     Result<cv::Mat> decode(std::span<const std::byte> jpeg);
 
   private:

@@ -179,8 +179,8 @@ Result<StoredImage> decode_png(std::span<const std::byte> png) {
     Reader reader(png);
     if (!reader.read_header()) return damaged(reader.why());
     const std::string size = fmt::format("{} x {} px", reader.width(), reader.height());
-    if (std::size_t{reader.width()} * reader.height() > most_pixels)
-        return failure(Reason::device, fmt::format("{}: at most {} px are read", size, most_pixels));
+    if (const Status readable = demand_readable_size(reader.width(), reader.height()); !readable)
+        return tl::make_unexpected(readable.error());
     if (std::size_t{reader.height()} * reader.row_bytes() / most_out_of_a_byte > png.size())
         return damaged(fmt::format("{} are not in {} bytes", size, png.size()));
     if (!reader.ask_for_grey()) return damaged(reader.why());

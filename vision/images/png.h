@@ -14,7 +14,7 @@ bool is_png(std::span<const std::byte> bytes);
 bool is_deep_png(std::span<const std::byte> beginning);
 
 /// A PNG as read_stored() says; its chunk sBIT states the bits that are used. Fails with Reason::device for
-/// data that are damaged anywhere or cut short, or of more than most_pixels.
+/// data that are damaged anywhere or cut short, or with a side beyond most_side_px.
 Result<StoredImage> decode_png(std::span<const std::byte> png);
 
 }  // namespace fidservo::vision

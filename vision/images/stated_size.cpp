@@ -37,10 +37,7 @@ Result<StatedSize> whole_if(std::string_view file, std::uint64_t wanted, StatedS
 
 Status demand_size(std::uint64_t width, std::uint64_t height) {
     if (width == 0 || height == 0) return failure(Reason::device, "its header is damaged");
-    if (height > most_pixels / width)
-        return failure(Reason::device,
-                       fmt::format("{} x {} px: at most {} px are read", width, height, most_pixels));
-    return {};
+    return demand_readable_size(width, height);
 }
 
 /// The words of a PNM header, without comments.

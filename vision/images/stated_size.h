@@ -14,7 +14,7 @@ struct StatedSize {
 };
 
 /// Of PNM and PAM, BMP, WebP, JPEG 2000 and Sun raster, from the whole file: fails with Reason::device if it
-/// is shorter than its header says, or if that claims more than most_pixels. Nothing is asked of other
+/// is shorter than its header says, or if that claims a side beyond most_side_px. Nothing is asked of other
 /// formats, save that floating-point ones (Radiance, PFM, OpenEXR), whose samples have no white, fail.
 Result<StatedSize> stated_size(std::span<const std::byte> file);
 

@@ -97,8 +97,7 @@ Status demand_reasonable(const Tiff& tiff, const Layout& layout) {
     const std::uint64_t pixels = std::uint64_t{layout.width} * layout.height;
     const std::string size = fmt::format("{} x {} px", layout.width, layout.height);
     if (pixels == 0) return failure(Reason::device, "damaged TIFF: it has no pixels");
-    if (pixels > most_pixels)
-        return failure(Reason::device, fmt::format("{}: at most {} px are read", size, most_pixels));
+    if (const Status readable = demand_readable_size(layout.width, layout.height); !readable) return readable;
     if (layout.format == SAMPLEFORMAT_IEEEFP || layout.bits > 16)
         return failure(
             Reason::device,

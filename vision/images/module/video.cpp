@@ -81,9 +81,10 @@ Result<Container> open_container(const char* file) {
         container.width = before[number].width;  // FFmpeg puts a frame's own in place of what the file states
         container.height = before[number].height;
     }
-    if (std::int64_t{stated.width} * stated.height > static_cast<std::int64_t>(most_pixels))
-        return failure(Reason::device, fmt::format("{} x {} px: at most {} px are read", stated.width,
-                                                   stated.height, most_pixels));
+    if (const Status readable = demand_readable_size(static_cast<std::uint64_t>(stated.width),
+                                                     static_cast<std::uint64_t>(stated.height));
+        !readable)
+        return tl::make_unexpected(readable.error());
     for (unsigned k = 0; k < opened->nb_streams; ++k)
         if (static_cast<int>(k) != best) opened->streams[k]->discard = AVDISCARD_ALL;
     return container;
@@ -296,7 +297,7 @@ Result<std::unique_ptr<Video>> ffmpeg_video(const char* file) {
     decoder->pkt_timebase = container->stream->time_base;
     decoder->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
     decoder->flags |= AV_CODEC_FLAG_OUTPUT_CORRUPT;  // or they would be missing without a word
-    decoder->max_pixels = most_pixels;
+    decoder->max_pixels = static_cast<std::int64_t>(most_pixels);
     if (const int error = avcodec_open2(decoder.get(), container->codec, nullptr); error < 0)
         return failure(Reason::device, text_of_error(error));
     return std::unique_ptr<Video>(
