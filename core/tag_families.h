@@ -63,7 +63,10 @@ struct TagPattern {
 
     bool operator[](std::size_t cell) const { return white[cell]; }
     int outline_cells() const { return cells - 2 * rim; }
-    bool is_white(int row, int column) const { return white[static_cast<std::size_t>(row * cells + column)]; }
+    bool is_white(int row, int column) const {
+        return white[static_cast<std::size_t>(row) * static_cast<std::size_t>(cells) +
+                     static_cast<std::size_t>(column)];
+    }
     /// Whether it is white just inside the outline, and black just outside.
     bool is_white_inside() const { return is_white(rim, rim); }
 };
