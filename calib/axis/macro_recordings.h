@@ -3,6 +3,7 @@
 #include "calib/axis/macro_figures.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace fidservo::calib {
