@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
 #include <opencv2/core/mat.hpp>
 
 namespace fidservo::vision {
@@ -26,8 +25,9 @@ inline constexpr std::uint64_t most_pixels = most_side_px * most_side_px;
 /// Fails with Reason::device if a side is longer than most_side_px.
 inline Status demand_readable_size(std::uint64_t width_px, std::uint64_t height_px) {
     if (width_px <= most_side_px && height_px <= most_side_px) return {};
-    return failure(Reason::device, fmt::format("{} x {} px: sides of at most {} px are read", width_px,
-                                               height_px, most_side_px));
+    return failure(Reason::device, std::to_string(width_px) + " x " + std::to_string(height_px) +
+                                       " px: sides of at most " + std::to_string(most_side_px) +
+                                       " px are read");
 }
 
 /// The largest file of one image that is read: most_pixels of four samples of 16 bits, not compressed. A TIFF
