@@ -8,25 +8,25 @@
 
 namespace fidservo {
 
-/// By how much a lens whose parts are not on one axis shifts the picture, 2 p1 x y + p2 (r2 + 2 x^2) and p1
-/// (r2
-/// + 2 y^2) + 2 p2 x y.
+/// What a lens whose parts are not on one axis adds to a picture: 2 p1 x y + p2 (r2 + 2 x^2) and p1 (r2 + 2
+/// y^2) + 2 p2 x y, at (x, y).
 template <class T>
-Eigen::Matrix<T, 2, 1> decentring(const T& p1, const T& p2, const Eigen::Matrix<T, 2, 1>& at) {
+Eigen::Matrix<T, 2, 1> decentred(const Eigen::Matrix<T, 2, 1>& picture, const T& p1, const T& p2,
+                                 const Eigen::Matrix<T, 2, 1>& at) {
     const T &x = at.x(), &y = at.y();
     const T r2 = x * x + y * y;
-    return {2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x), p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
+    return {picture.x() + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
+            picture.y() + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
 }
 
 /// (x', y') of (x, y) by a plumb_bob lens. @param numbers  k1, k2, p1, p2, k3
 template <class T>
 Eigen::Matrix<T, 2, 1> distorted(const T* numbers, const Eigen::Matrix<T, 2, 1>& ideal) {
     const T &k1 = numbers[0], &k2 = numbers[1], &p1 = numbers[2], &p2 = numbers[3], &k3 = numbers[4];
-    const T &x = ideal.x(), &y = ideal.y();
-    const T r2 = x * x + y * y;
+    const T r2 = ideal.x() * ideal.x() + ideal.y() * ideal.y();
     const T radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-    return {x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
-            y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
+    const Eigen::Matrix<T, 2, 1> along(ideal.x() * radial, ideal.y() * radial);
+    return decentred(along, p1, p2, ideal);
 }
 
 /// theta_d / theta of an equidistant lens.

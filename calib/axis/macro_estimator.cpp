@@ -181,20 +181,34 @@ Eigen::MatrixXd MacroEstimator::sensitivities(std::size_t w, const MacroPoint& p
     return result;
 }
 
-MacroEstimator::Sums MacroEstimator::sum_up(std::size_t w, const MacroPoint& point,
+/// A window's prediction and its derivatives by parameters and start.
+struct MacroEstimator::Terms {
+    std::vector<double> prediction_count;
+    Eigen::MatrixXd jacobian;
+    Eigen::VectorXd slopes, curvatures;  ///< of -log likelihood by the predicted place, per count
+};
+
+MacroEstimator::Terms MacroEstimator::terms(std::size_t w, const MacroPoint& point,
                                             const MacroActive& active) const {
-    const Eigen::MatrixXd jacobian = sensitivities(w, point, active);
-    const std::vector<double> place_count = predict(w, point.motion, point.starts[w]);
-    Eigen::VectorXd slopes(jacobian.rows()), curvatures(jacobian.rows());
-    for (Eigen::Index k = 0; k < jacobian.rows(); ++k) {
+    Terms terms{predict(w, point.motion, point.starts[w]), sensitivities(w, point, active), {}, {}};
+    const Eigen::Index rows = terms.jacobian.rows();
+    terms.slopes.resize(rows);
+    terms.curvatures.resize(rows);
+    for (Eigen::Index k = 0; k < rows; ++k) {
         const auto i = static_cast<std::size_t>(k);
-        const RoundingLoss loss =
-            rounding_loss(place_count[i] - windows_[w].position_mm[i] / resolution_mm_, point.noise_count);
-        slopes[k] = loss.slope;
-        curvatures[k] = loss.curvature;
+        const RoundingLoss loss = rounding_loss(
+            terms.prediction_count[i] - windows_[w].position_mm[i] / resolution_mm_, point.noise_count);
+        terms.slopes[k] = loss.slope;
+        terms.curvatures[k] = loss.curvature;
     }
-    const Eigen::VectorXd gradient = jacobian.transpose() * slopes;
-    const Eigen::MatrixXd curvature = jacobian.transpose() * curvatures.asDiagonal() * jacobian;
+    return terms;
+}
+
+MacroEstimator::Sums MacroEstimator::sum_up(const Terms& terms, std::size_t w,
+                                            const MacroPoint& point) const {
+    const Eigen::MatrixXd& jacobian = terms.jacobian;
+    const Eigen::VectorXd gradient = jacobian.transpose() * terms.slopes;
+    const Eigen::MatrixXd curvature = jacobian.transpose() * terms.curvatures.asDiagonal() * jacobian;
     constexpr int n = macro_parameter_count;
     Sums sums{curvature.topLeftCorner<n, n>(), curvature.topRightCorner<n, 2>(),
               curvature.bottomRightCorner<2, 2>(), gradient.head<n>(), gradient.tail<2>()};
@@ -217,7 +231,7 @@ void MacroEstimator::refine(MacroPoint& point, const MacroActive& active, int mo
         centre[macro_index::log_time_constant] -= prior_log_time_constant;
         MacroVector gradient = centre.cwiseQuotient(prior_std_.cwiseAbs2());
         for (std::size_t w = 0; w < windows_.size(); ++w) {
-            sums.push_back(sum_up(w, point, active));
+            sums.push_back(sum_up(terms(w, point, active), w, point));
             curvature += sums.back().curvature;
             gradient += sums.back().gradient;
         }
@@ -259,27 +273,20 @@ void MacroEstimator::refine(MacroPoint& point, const MacroActive& active, int mo
     }
 }
 
-MacroEstimator::Linearised MacroEstimator::linearised(std::size_t w, const MacroPoint& point,
-                                                      const MacroActive& active) const {
-    const Eigen::MatrixXd jacobian = sensitivities(w, point, active);
-    Linearised result{predict(w, point.motion, point.starts[w]),
-                      Eigen::VectorXd(jacobian.rows()),
-                      Eigen::VectorXd(jacobian.rows()),
-                      {},
-                      jacobian.rightCols<2>(),
-                      {}};
-    for (Eigen::Index k = 0; k < jacobian.rows(); ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        const RoundingLoss loss = rounding_loss(
-            result.prediction_count[i] - windows_[w].position_mm[i] / resolution_mm_, point.noise_count);
-        result.slopes[k] = loss.slope;
-        result.curvatures[k] = loss.curvature;
-    }
-    const Sums sums = sum_up(w, point, active);
-    result.start_information = sums.start_curvature;
-    result.own = jacobian.leftCols<macro_parameter_count>() -
+MacroEstimator::Linearised MacroEstimator::linearised(Terms terms, const Sums& sums) {
+    Linearised result{std::move(terms.prediction_count), std::move(terms.slopes),
+                      std::move(terms.curvatures),       {},
+                      terms.jacobian.rightCols<2>(),     sums.start_curvature};
+    result.own = terms.jacobian.leftCols<macro_parameter_count>() -
                  result.starts * (sums.start_curvature.inverse() * sums.cross.transpose());
     return result;
+}
+
+MacroEstimator::Linearised MacroEstimator::linearised(std::size_t w, const MacroPoint& point,
+                                                      const MacroActive& active) const {
+    Terms of_window = terms(w, point, active);
+    const Sums sums = sum_up(of_window, w, point);
+    return linearised(std::move(of_window), sums);
 }
 
 std::vector<double> MacroEstimator::errors_count(std::size_t w, const MacroPoint& point) const {
@@ -305,8 +312,9 @@ MacroInfluences MacroEstimator::influences(const MacroPoint& point, const MacroA
     MacroMatrix curvature = prior_information();
     std::vector<std::vector<MacroVector>> scores;
     for (std::size_t w = 0; w < windows_.size(); ++w) {
-        const Sums sums = sum_up(w, point, active);
-        const Linearised window = linearised(w, point, active);
+        Terms of_window = terms(w, point, active);
+        const Sums sums = sum_up(of_window, w, point);
+        const Linearised window = linearised(std::move(of_window), sums);
         curvature += sums.curvature - sums.cross * (sums.start_curvature.inverse() * sums.cross.transpose());
         if (scores.size() <= windows_[w].recording) scores.resize(windows_[w].recording + 1);
         for (std::size_t begin = 0; begin < windows_[w].position_mm.size();) {

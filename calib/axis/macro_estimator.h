@@ -98,13 +98,16 @@ class MacroEstimator {
     double resolution_mm() const { return resolution_mm_; }
 
   private:
+    struct Terms;
     struct Sums;
 
     std::vector<double> predict(std::size_t window, const MacroMotion& motion,
                                 const MacroMotionState& start) const;
     Eigen::MatrixXd sensitivities(std::size_t window, const MacroPoint& point,
                                   const MacroActive& active) const;
-    Sums sum_up(std::size_t window, const MacroPoint& point, const MacroActive& active) const;
+    Terms terms(std::size_t window, const MacroPoint& point, const MacroActive& active) const;
+    Sums sum_up(const Terms& terms, std::size_t window, const MacroPoint& point) const;
+    static Linearised linearised(Terms terms, const Sums& sums);
     double start_loss(std::size_t window, const MacroPoint& point) const;
     double start_std_mm(const MacroPoint& point) const;
 

@@ -64,15 +64,15 @@ MacroKnowledge knowledge_of(const MacroEstimator& estimator, const MacroFit& fit
     const MacroFigureGradient gradient = figure_gradient(motion, build.unit_V, threshold_V);
     for (int i = 0; i < macro_figure_count; ++i) {
         VarianceSum& sum = known.variance[static_cast<std::size_t>(i)];
-        const BatchVariance batches = variance_along(fit.influences, gradient.row(i).transpose());
-        sum.add(batches.variance, batches.freedom);
         const MacroVector along = gradient.row(i).transpose();
+        const BatchVariance batches = variance_along(fit.influences, along);
+        sum.add(batches.variance, batches.freedom);
         known.systematic[i] = std::sqrt(ticks * known.missed.beyond_noise * (1.0 - named) *
                                         along.dot(fit.influences.inverse * along));
         const Heterogeneity& scatter = known.agreement[static_cast<std::size_t>(i)].scatter;
         if (scatter.added_variance > 0.0) sum.add(scatter.added_variance, scatter.added_freedom);
-        sum.add(variance_of_assumption(fit, gradient.row(i).transpose()), infinity);
-        sum.add(shift_variance(known.lacks.found, gradient.row(i).transpose()), infinity);
+        sum.add(variance_of_assumption(fit, along), infinity);
+        sum.add(shift_variance(known.lacks.found, along), infinity);
     }
     const auto zone_offset = static_cast<std::size_t>(MacroFigure::zone_offset);
     known.variance[zone_offset].add(

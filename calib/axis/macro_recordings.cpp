@@ -48,15 +48,20 @@ double beyond_noise(double squares, double of_noise, double ticks, double window
     return ratio > bound ? 1.0 - bound / ratio : 0.0;
 }
 
+/// Square of a series' third difference at k, over that of white noise of unit variance.
+template <class Series>
+double white_square(const Series& y, std::size_t k) {
+    constexpr double of_unit_noise = 20.0;
+    const double third = y[k] - 3.0 * y[k - 1] + 3.0 * y[k - 2] - y[k - 3];
+    return third * third / of_unit_noise;
+}
+
 /// Standard deviation of what is white from tick to tick, by third differences.
 double white_noise_mm(const std::vector<MacroWindow>& windows) {
-    constexpr double third_differences = 20.0;
     double squares = 0.0, count = 0.0;
     for (const MacroWindow& window : windows)
         for (std::size_t k = 3; k < window.position_mm.size(); ++k) {
-            const auto& y = window.position_mm;
-            const double third = y[k] - 3.0 * y[k - 1] + 3.0 * y[k - 2] - y[k - 3];
-            squares += third * third / third_differences;
+            squares += white_square(window.position_mm, k);
             ++count;
         }
     return count > 0.0 ? std::sqrt(squares / count) : 0.0;
@@ -105,7 +110,7 @@ std::array<MacroAgreement, macro_figure_count> macro_agreement(const MacroEstima
 }
 
 MacroMissed missed_share(const MacroEstimator& estimator, const MacroFit& fit, double drive_squares_count2) {
-    constexpr double rounding = 1.0 / 12.0, third_differences = 20.0;  // of white noise of unit variance
+    constexpr double rounding = 1.0 / 12.0;
     double missed = 0.0, noise = 0.0, ticks = 0.0;
     for (std::size_t held_out = 0; held_out < 2; ++held_out) {
         const Part train = part_of(estimator, fit.point, [&](std::size_t w) { return w % 2 != held_out; });
@@ -121,9 +126,7 @@ MacroMissed missed_share(const MacroEstimator& estimator, const MacroFit& fit, d
             const std::vector<double> error = judged.errors_count(w, other);
             for (std::size_t k = 0; k < error.size(); ++k) {
                 missed += error[k] * error[k];
-                if (k < 3) continue;
-                const double third = error[k] - 3.0 * error[k - 1] + 3.0 * error[k - 2] - error[k - 3];
-                noise += third * third / third_differences;
+                if (k >= 3) noise += white_square(error, k);
             }
             ticks += static_cast<double>(error.size());
         }

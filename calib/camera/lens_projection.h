@@ -87,8 +87,8 @@ Eigen::Matrix<T, 2, 1> image_of(LensModel model, const T* lens, const Eigen::Mat
         const Eigen::Matrix<T, 2, 1> ideal(seen.x() / seen.z(), seen.y() / seen.z());
         bent = distorted(lens + k1, ideal);
     } else {
-        bent = fisheye_picture(lens[k1], lens[k2], lens[k3], lens[k4], seen);
-        bent += decentring(lens[p1], lens[p2], bent);
+        const Eigen::Matrix<T, 2, 1> centred = fisheye_picture(lens[k1], lens[k2], lens[k3], lens[k4], seen);
+        bent = decentred(centred, lens[p1], lens[p2], centred);
     }
     return {lens[centre_u] + lens[focal] * bent.x(),
             lens[centre_v] + lens[focal] * lens[focal_ratio] * bent.y()};

@@ -50,24 +50,37 @@ inline vision::RefinedTag scattered(TagDetection tag, Scatter scatter, double st
     return vision::tag_of_corners(tag, directions * directions.transpose());
 }
 
-/// What a camera at (s, y) sees of the tags, those wholly in its image.
-inline TargetView synthetic_view(const CameraGeometry& camera, const std::vector<PlateTag>& tags, double s_mm,
-                                 double y_mm, Scatter scatter, double std_px, NoiseStream& noise) {
-    TargetView view{.name = "s = " + std::to_string(s_mm), .tags = {}};
+/// The tags wholly in a camera's image, their corners scattered.
+/// @param picture  from a place on the target, mm, to the image, px
+template <class Picture>
+TargetView view_of_tags(std::string name, const CameraGeometry& camera, const std::vector<PlateTag>& tags,
+                        Picture picture, Scatter scatter, double std_px, NoiseStream& noise) {
+    TargetView view{.name = std::move(name), .tags = {}};
     for (const PlateTag& tag : tags) {
         TagDetection seen;
         seen.tag_id = tag.id;
         const auto corners_mm = vision::corners_mm(tag);
         bool inside = true;
         for (std::size_t k = 0; k < 4; ++k) {
-            seen.corners_px[k] = project(camera, corners_mm[k] - Eigen::Vector2d(0.0, y_mm), s_mm);
-            inside = inside && seen.corners_px[k].minCoeff() > 0.0 &&
-                     seen.corners_px[k].x() < camera.width_px - 1 &&
-                     seen.corners_px[k].y() < camera.height_px - 1;
+            const Eigen::Vector2d at = picture(corners_mm[k]);
+            inside = inside && at.minCoeff() > 0.0 && at.x() < camera.width_px - 1 &&
+                     at.y() < camera.height_px - 1;
+            seen.corners_px[k] = at;
         }
         if (inside) view.tags.push_back({tag, scattered(seen, scatter, std_px, noise)});
     }
     return view;
+}
+
+/// What a camera at (s, y) sees of the tags, those wholly in its image.
+inline TargetView synthetic_view(const CameraGeometry& camera, const std::vector<PlateTag>& tags, double s_mm,
+                                 double y_mm, Scatter scatter, double std_px, NoiseStream& noise) {
+    return view_of_tags(
+        "s = " + std::to_string(s_mm), camera, tags,
+        [&](const Eigen::Vector2d& at_mm) {
+            return project(camera, at_mm - Eigen::Vector2d(0.0, y_mm), s_mm);
+        },
+        scatter, std_px, noise);
 }
 
 }  // namespace fidservo::calib

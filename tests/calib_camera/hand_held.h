@@ -49,21 +49,10 @@ inline Eigen::Vector2d picture_px(const CameraGeometry& lens, const Eigen::Vecto
 inline TargetView view_at(const CameraGeometry& lens, const std::vector<PlateTag>& tags,
                           const Eigen::Matrix3d& turn, const Eigen::Vector3d& shift_mm, double noise_px,
                           NoiseStream& noise) {
-    TargetView view;
-    for (const PlateTag& tag : tags) {
-        TagDetection seen;
-        seen.tag_id = tag.id;
-        const auto corners_mm = vision::corners_mm(tag);
-        bool inside = true;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Eigen::Vector2d at = picture_px(lens, turn.leftCols<2>() * corners_mm[k] + shift_mm);
-            inside =
-                inside && at.minCoeff() > 0.0 && at.x() < lens.width_px - 1 && at.y() < lens.height_px - 1;
-            seen.corners_px[k] = at;
-        }
-        if (inside) view.tags.push_back({tag, scattered(seen, Scatter::every_coordinate, noise_px, noise)});
-    }
-    return view;
+    return view_of_tags(
+        "", lens, tags,
+        [&](const Eigen::Vector2d& at_mm) { return picture_px(lens, turn.leftCols<2>() * at_mm + shift_mm); },
+        Scatter::every_coordinate, noise_px, noise);
 }
 
 /// Views with the target's middle off the axis to all sides, its normal tilted
