@@ -34,4 +34,9 @@ double student_bound(double freedom, double both_tails) {
     return 0.5 * (low + high);
 }
 
+double student_95(double freedom) {
+    constexpr double both_tails = 0.05;
+    return student_bound(freedom, both_tails);
+}
+
 }  // namespace fidservo::calib

@@ -11,4 +11,8 @@ double mean_square_ratio_tail(double ratio, double above, double below);
 /// @param both_tails  in (0, 1). Demands positive degrees of freedom.
 double student_bound(double freedom, double both_tails);
 
+/// Half the width of an interval of 95 % in standard errors: of a normal law, and of Student's.
+inline constexpr double normal_95 = 1.96;
+double student_95(double freedom);
+
 }  // namespace fidservo::calib

@@ -16,12 +16,6 @@ extern "C" {
 namespace fidservo::vision {
 
 struct ReadingsScreen::Impl {
-    struct EndDetector {
-        void operator()(apriltag_detector_t* ended) const {
-            zarray_clear(ended->tag_families);  // the books are not this detector's alone
-            apriltag_detector_destroy(ended);
-        }
-    };
     struct SeenAs {
         std::size_t reading;
         int tag_id;
@@ -33,13 +27,8 @@ struct ReadingsScreen::Impl {
         for (const TagReading& reading : readings) {
             books.push_back(shared_tag_book(reading, 0));
             least.push_back(least_explained(*reading.print.family));
-            apriltag_family_t* const book = books.back().get();
-            zarray_add(detector->tag_families, static_cast<const void*>(&book));
         }
-        detector->nthreads = 1;
-        detector->quad_decimate = 1.0F;
-        detector->quad_sigma = 0.0F;
-        detector->qtp.min_white_black_diff = faintest_edge;
+        detector = library_detector(books, faintest_edge);
     }
 
     /// Adds what is in an image and not among `all` yet.
@@ -58,9 +47,7 @@ struct ReadingsScreen::Impl {
                 seen.corners_px[c] = Eigen::Vector2d(tag->p[c][0] - library_px, tag->p[c][1] - library_px);
             if (reading.mirrored) seen.corners_px = mirrored(seen.corners_px);
             const TagPattern pattern = tag_pattern(reading.print, seen.tag_id);
-            if (explained_contrast(image, seen.corners_px, pattern) < least[seen.reading].of_tag ||
-                explained_code(image, seen.corners_px, pattern) < least[seen.reading].of_code)
-                continue;
+            if (!is_convincing(image, seen.corners_px, pattern, least[seen.reading])) continue;
             for (Eigen::Vector2d& corner : seen.corners_px) corner /= magnification;
             if (std::ranges::none_of(all, [&](const SeenAs& other) {
                     return other.reading == seen.reading && same_place(other.corners_px, seen.corners_px);
@@ -72,7 +59,7 @@ struct ReadingsScreen::Impl {
     std::vector<TagReading> readings;
     std::vector<std::shared_ptr<apriltag_family>> books;
     std::vector<LeastExplained> least;
-    std::unique_ptr<apriltag_detector_t, EndDetector> detector{apriltag_detector_create()};
+    LibraryDetector detector;
 };
 
 ReadingsScreen::ReadingsScreen(const std::vector<TagReading>& readings)

@@ -143,4 +143,22 @@ std::shared_ptr<apriltag_family> shared_tag_book(const TagReading& reading, int 
     return {book, &book->family};
 }
 
+void EndLibraryDetector::operator()(apriltag_detector* ended) const {
+    zarray_clear(ended->tag_families);
+    apriltag_detector_destroy(ended);
+}
+
+LibraryDetector library_detector(std::span<const std::shared_ptr<apriltag_family>> books, int min_contrast) {
+    LibraryDetector detector(apriltag_detector_create());
+    for (const std::shared_ptr<apriltag_family>& shared : books) {
+        apriltag_family_t* const book = shared.get();
+        zarray_add(detector->tag_families, static_cast<const void*>(&book));
+    }
+    detector->nthreads = 1;
+    detector->quad_decimate = 1.0F;
+    detector->quad_sigma = 0.0F;  // with decimation 1 the library would blur the caller's own image
+    detector->qtp.min_white_black_diff = min_contrast;
+    return detector;
+}
+
 }  // namespace fidservo::vision

@@ -3,7 +3,9 @@
 #include "core/tag_families.h"
 
 #include <memory>
+#include <span>
 
+struct apriltag_detector;
 struct apriltag_family;
 
 namespace fidservo::vision {
@@ -27,5 +29,16 @@ int most_correctable_bits(const TagFamily& family);
 /// one book serves all detectors that want it at a time.
 /// @param corrected_bits  0 to 2
 std::shared_ptr<apriltag_family> shared_tag_book(const TagReading& reading, int corrected_bits);
+
+/// Ends a detector, not the books that it was given.
+struct EndLibraryDetector {
+    void operator()(apriltag_detector* ended) const;
+};
+using LibraryDetector = std::unique_ptr<apriltag_detector, EndLibraryDetector>;
+
+/// A detector of the library that runs in the caller's thread, on the image as it is. The books must outlive
+/// it.
+/// @param min_contrast  grey levels below which a neighbourhood holds no edge
+LibraryDetector library_detector(std::span<const std::shared_ptr<apriltag_family>> books, int min_contrast);
 
 }  // namespace fidservo::vision

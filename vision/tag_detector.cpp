@@ -79,20 +79,8 @@ bool by_id_from_left(const TagDetection& a, const TagDetection& b) {
 }
 
 struct TagDetector::Impl {
-    struct EndDetector {
-        void operator()(apriltag_detector_t* ended) const {
-            zarray_clear(ended->tag_families);  // the book is not this detector's alone
-            apriltag_detector_destroy(ended);
-        }
-    };
-
     explicit Impl(const TagDetectorOptions& with) : options(with) {
-        apriltag_family_t* const family = book.get();
-        zarray_add(detector->tag_families, static_cast<const void*>(&family));
-        detector->nthreads = 1;
         detector->quad_decimate = static_cast<float>(options.decimation);
-        detector->quad_sigma = 0.0F;  // with decimation 1 the library would blur the caller's own image
-        detector->qtp.min_white_black_diff = options.min_contrast;
     }
 
     /// One run of the library; `magnification` tells how much larger the image is than the original.
@@ -122,18 +110,12 @@ struct TagDetector::Impl {
         return tags;
     }
 
-    bool is_convincing(const cv::Mat& image, const TagDetection& tag) const {
-        const TagPattern pattern = tag_pattern(tag.print, tag.tag_id);
-        return explained_contrast(image, tag.corners_px, pattern) >= least.of_tag &&
-               (least.of_code == 0.0 || explained_code(image, tag.corners_px, pattern) >= least.of_code);
-    }
-
     TagDetectorOptions options;
     LeastExplained least = least_explained(*options.reading.print.family);
     std::shared_ptr<apriltag_family_t> book = shared_tag_book(
         options.reading,
         std::min(options.max_corrected_bits, most_correctable_bits(*options.reading.print.family)));
-    std::unique_ptr<apriltag_detector_t, EndDetector> detector{apriltag_detector_create()};
+    LibraryDetector detector = library_detector({&book, 1}, options.min_contrast);
 };
 
 TagDetector::TagDetector(const TagDetectorOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -165,7 +147,9 @@ std::vector<TagDetection> TagDetector::detect(const cv::Mat& image, TimeNs time_
             add_better(image, tags, thinner);
         }
     }
-    std::erase_if(tags, [&](const TagDetection& tag) { return !impl_->is_convincing(image, tag); });
+    std::erase_if(tags, [&](const TagDetection& tag) {
+        return !is_convincing(image, tag.corners_px, tag_pattern(tag.print, tag.tag_id), impl_->least);
+    });
     std::sort(tags.begin(), tags.end(), by_id_from_left);
     return tags;
 }

@@ -164,4 +164,10 @@ LeastExplained least_explained(const TagFamily& family) {
             level_for(family, bits(family), bits(usual))};
 }
 
+bool is_convincing(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
+                   const TagPattern& pattern, const LeastExplained& least) {
+    return explained_contrast(image, corners_px, pattern) >= least.of_tag &&
+           (least.of_code == 0.0 || explained_code(image, corners_px, pattern) >= least.of_code);
+}
+
 }  // namespace fidservo::vision

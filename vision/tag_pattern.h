@@ -60,4 +60,8 @@ struct LeastExplained {
 /// noise.
 LeastExplained least_explained(const TagFamily& family);
 
+/// Whether a pattern explains what is seen by both levels; a level of the code of 0 asks for nothing.
+bool is_convincing(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
+                   const TagPattern& pattern, const LeastExplained& least);
+
 }  // namespace fidservo::vision

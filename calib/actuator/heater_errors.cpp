@@ -57,7 +57,7 @@ void set_number(HeaterParameters& heater, int i, double value) {
 
 HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& predict,
                       const HeaterScale& scale, const HeaterSolution& common) {
-    constexpr double level = 0.01, both_tails = 0.05, normal_95 = 1.96;
+    constexpr double level = 0.01;
     HeaterFit fit = common.fit;
     OwnNumbers own;
     OwnRuns of_run;
@@ -88,7 +88,7 @@ HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& p
         fit.contradictions.push_back({number, scatter.apart, of_run[k][scatter.low], of_run[k][scatter.high],
                                       low.value, low.std, high.value, high.std});
         const double unit = std::abs(gradient(i));
-        if (student_bound(sum.freedom, both_tails) * fit.std[k] <= normal_95 * unit) continue;
+        if (student_95(sum.freedom) * fit.std[k] <= normal_95 * unit) continue;
         fit.refused.push_back(
             {number, fmt::format("the recordings contradict each other by {:.1f} standard errors, {:.4g} +- "
                                  "{:.2g} and {:.4g} +- {:.2g}: no common value",

@@ -70,7 +70,6 @@ Threshold find_threshold(const MacroFit& fit, const MacroBuild& build) {
 
 /// Whether an interval of 95 % is wider than one of a normal law with such a standard error.
 bool wider_than(const MacroEstimate& estimate, double std) {
-    constexpr double normal_95 = 1.96;
     return !(std::isfinite(estimate.value) && estimate.reach_95() <= normal_95 * std);
 }
 
@@ -280,8 +279,7 @@ double recorded_s(std::span<const MacroTrace> traces) {
 }  // namespace
 
 double MacroEstimate::reach_95() const {
-    constexpr double both_tails = 0.05;
-    return std > 0.0 ? student_bound(freedom, both_tails) * std : std;
+    return std > 0.0 ? student_95(freedom) * std : std;
 }
 
 MacroBuild macro_build(const MacroParameters& macro) {

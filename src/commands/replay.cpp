@@ -39,14 +39,9 @@ void print_notes(const std::vector<std::string>& notes) {
     for (const std::string& note : notes) spdlog::info("{}", note);
 }
 
-NameTimes name_times_of(const std::string& word) {
-    constexpr std::pair<const char*, NameTimes> words[] = {
-        {"", NameTimes::automatic}, {"none", NameTimes::none}, {"s", NameTimes::s},
-        {"ms", NameTimes::ms},      {"us", NameTimes::us},     {"ns", NameTimes::ns}};
-    const auto known = std::ranges::find(words, word, [](const auto& one) { return one.first; });
-    if (known == std::end(words))
-        throw InputError(fmt::format("--name-times: {}: must be none, s, ms, us or ns", word));
-    return known->second;
+NameTimes asked_name_times(const std::string& word) {
+    if (const auto known = name_times_of(word)) return *known;
+    throw InputError(fmt::format("--name-times: {}: must be none, s, ms, us or ns", word));
 }
 
 /// As which tags are looked for: what the options say, over what a rig file that was given says.
@@ -72,7 +67,7 @@ int run_replay(const ReplayOptions& options) {
         throw InputError(fmt::format("{}: fiducials: missing: their side_mm is the scale of displacements",
                                      options.rig_file.string()));
     const vision::TagReading reading = reading_of(options, *rig.fiducials);
-    ImageFrames frames(options.inputs, {.name_times = name_times_of(options.name_times)});
+    ImageFrames frames(options.inputs, {.name_times = asked_name_times(options.name_times)});
     print_notes(frames.notes());
     make_output_folder(options.out);
     const ReplayCount count =

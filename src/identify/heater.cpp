@@ -1,5 +1,4 @@
 #include "calib/actuator/heater_fit.h"
-#include "calib/tails.h"
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/result.h"
@@ -58,11 +57,8 @@ void state(const calib::HeaterFit& fit, const HeaterParameters& heater, Identifi
             return static_cast<std::size_t>(r.number) == i;
         });
         if (refused) continue;
-        identified.values.push_back({keys[i].name, volts ? keys[i].unit : "", values[i], fit.std[i], volts});
-        constexpr double both_tails = 0.05, normal_95 = 1.96, wider = 1.1;
-        if (const double bound = calib::student_bound(fit.freedom[i], both_tails); bound > wider * normal_95)
-            identified.values.back().interval = {values[i] - bound * fit.std[i],
-                                                 values[i] + bound * fit.std[i]};
+        identified.values.push_back({keys[i].name, volts ? keys[i].unit : "", values[i], fit.std[i], volts,
+                                     wide_interval(values[i], fit.std[i], fit.freedom[i])});
     }
     for (const calib::HeaterCombination& combination : fit.combinations)
         identified.values.push_back(

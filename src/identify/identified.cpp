@@ -1,5 +1,6 @@
 #include "src/identify/identified.h"
 
+#include "calib/tails.h"
 #include "core/rig.h"
 #include "src/config/rig_edit.h"
 #include "src/recording/durable_file.h"
@@ -44,10 +45,9 @@ std::string describe(const IdentifiedValue& value) {
 }
 
 nlohmann::json interval_of(const IdentifiedValue& value) {
-    constexpr double normal_95 = 1.96;
     if (value.interval) return {finite_or_null(value.interval->low), finite_or_null(value.interval->high)};
     if (!std::isfinite(value.std)) return {};
-    return {value.value - normal_95 * value.std, value.value + normal_95 * value.std};
+    return {value.value - calib::normal_95 * value.std, value.value + calib::normal_95 * value.std};
 }
 
 nlohmann::ordered_json json_of(const Contradiction::Side& side) {
@@ -61,6 +61,13 @@ std::string describe(const FitResidual& residual) {
 }
 
 }  // namespace
+
+std::optional<Interval95> wide_interval(double value, double std, double freedom) {
+    constexpr double wider = 1.1;
+    const double bound = calib::student_95(freedom);
+    if (!(std > 0.0) || !(bound > wider * calib::normal_95)) return std::nullopt;
+    return Interval95{value - bound * std, value + bound * std};
+}
 
 bool fits_a_rig_file(const Identified& identified) {
     return identified.fod || !identified.effects.empty() ||

@@ -16,6 +16,10 @@ struct Interval95 {
     double low, high;
 };
 
+/// Value +- what Student's law allows for, where that is wider than a normal law by a tenth; else nothing,
+/// since the standard error tells it.
+std::optional<Interval95> wide_interval(double value, double std, double freedom);
+
 struct IdentifiedValue {
     std::string key;  ///< in the rig file, e.g. "macro.dead_zone.slope"; else a name of its own
     std::string unit;

@@ -21,19 +21,12 @@ namespace {
 
 using Estimate = Result<calib::MacroEstimate>;
 
-/// The interval where Student's law is wider than a normal one by a tenth.
-std::optional<Interval95> wide_interval(const calib::MacroEstimate& estimate) {
-    constexpr double normal_95 = 1.96, wider = 1.1;
-    const double reach = estimate.reach_95();
-    if (!(reach > wider * normal_95 * estimate.std)) return std::nullopt;
-    return Interval95{estimate.value - reach, estimate.value + reach};
-}
-
 void add(Identified& identified, const std::string& key, const std::string& unit, const Estimate& estimate,
          bool in_rig_file = true) {
     if (estimate)
         identified.values.push_back({key, unit, estimate->value, estimate->std, in_rig_file,
-                                     wide_interval(*estimate), estimate->systematic});
+                                     wide_interval(estimate->value, estimate->std, estimate->freedom),
+                                     estimate->systematic});
     else
         identified.undetermined.push_back({key, estimate.error().text});
 }

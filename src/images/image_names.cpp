@@ -1,8 +1,10 @@
 #include "src/images/image_names.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <limits>
+#include <utility>
 
 namespace fidservo {
 
@@ -10,6 +12,14 @@ namespace {
 
 constexpr std::size_t digits_of_ns_since_1970 = 19, digits_of_us_since_1970 = 16,
                       digits_of_ms_since_1970 = 13, digits_of_s_since_1970 = 10;
+
+constexpr std::array<std::pair<std::string_view, NameTimes>, 6> words_of_name_times{
+    {{"", NameTimes::automatic},
+     {"none", NameTimes::none},
+     {"s", NameTimes::s},
+     {"ms", NameTimes::ms},
+     {"us", NameTimes::us},
+     {"ns", NameTimes::ns}}};
 
 bool is_digit(char letter) {
     return letter >= '0' && letter <= '9';
@@ -48,6 +58,17 @@ std::string_view take_number(std::string_view text, std::size_t& at) {
 }
 
 }  // namespace
+
+std::optional<NameTimes> name_times_of(std::string_view word) {
+    const auto known =
+        std::ranges::find(words_of_name_times, word, [](const auto& one) { return one.first; });
+    if (known == words_of_name_times.end()) return std::nullopt;
+    return known->second;
+}
+
+std::string_view word_for(NameTimes unit) {
+    return std::ranges::find(words_of_name_times, unit, [](const auto& one) { return one.second; })->first;
+}
 
 const std::vector<std::string_view>& image_endings() {
     static const std::vector<std::string_view> endings{

@@ -31,6 +31,10 @@ enum class NameTimes {
     ns
 };
 
+/// As the option --name-times has it: s, ms, us, ns, none; "" is automatic. Empty for any other word.
+std::optional<NameTimes> name_times_of(std::string_view word);
+std::string_view word_for(NameTimes unit);
+
 /// A name without its ending as a time: digits, and for s, ms and us a fraction if there is one, in that
 /// unit. Digits beyond the nanosecond are dropped. Empty: it is no such number, or beyond what TimeNs holds.
 std::optional<TimeNs> time_in_name(std::string_view stem, NameTimes unit);

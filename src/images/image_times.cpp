@@ -10,19 +10,6 @@ namespace fidservo {
 
 namespace {
 
-std::string_view word_for(NameTimes unit) {
-    switch (unit) {
-        case NameTimes::s:
-            return "s";
-        case NameTimes::ms:
-            return "ms";
-        case NameTimes::us:
-            return "us";
-        default:
-            return "ns";
-    }
-}
-
 std::string stem_of(const ImageFrame& frame) {
     return frame.file.stem().string();
 }
