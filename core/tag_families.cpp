@@ -31,8 +31,8 @@ TagPattern tag_pattern(const TagPrint& print, int tag_id) {
     auto bits = static_cast<int>(std::ranges::count(family.layout, 'd'));
     for (int row = 0; row < family.cells; ++row)
         for (int column = 0; column < family.cells; ++column) {
-            const char cell = family.layout[static_cast<std::size_t>(row * family.cells + column)];
-            const auto at = static_cast<std::size_t>((row + wider) * pattern.cells + column + wider);
+            const char cell = family.layout[cell_at(row, column, family.cells)];
+            const std::size_t at = cell_at(row + wider, column + wider, pattern.cells);
             pattern.code[at] = cell == 'd';
             pattern.white[at] = cell == 'd' ? ((code >> --bits) & 1U) != 0 : cell == 'w';
         }

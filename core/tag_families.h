@@ -1,6 +1,7 @@
 #pragma once
 // The code books of fiducials: what is printed for every id.
 #include <bitset>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -50,6 +51,12 @@ struct TagPrint {
     }
 };
 
+/// The place of a cell among those of a square, row by row from the upper left.
+constexpr std::size_t cell_at(int row, int column, int cells_a_side) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(cells_a_side) +
+           static_cast<std::size_t>(column);
+}
+
 /// The cells of a tag, row by row from the upper left.
 struct TagPattern {
     static constexpr int most_cells = 11;
@@ -63,10 +70,7 @@ struct TagPattern {
 
     bool operator[](std::size_t cell) const { return white[cell]; }
     int outline_cells() const { return cells - 2 * rim; }
-    bool is_white(int row, int column) const {
-        return white[static_cast<std::size_t>(row) * static_cast<std::size_t>(cells) +
-                     static_cast<std::size_t>(column)];
-    }
+    bool is_white(int row, int column) const { return white[cell_at(row, column, cells)]; }
     /// Whether it is white just inside the outline, and black just outside.
     bool is_white_inside() const { return is_white(rim, rim); }
 };

@@ -130,8 +130,8 @@ ImagesSeen look_at(const std::vector<cv::Mat>& images) {
         std::erase_if(outlines, [](const SquareOutline& outline) { return !outline.has_pattern; });
     if (outlines.empty()) return seen;
     const auto median_by = [&](auto value) {
-        std::vector<double> values;
-        for (const SquareOutline& outline : outlines) values.push_back(value(outline));
+        std::vector<double> values(outlines.size());
+        std::ranges::transform(outlines, values.begin(), value);
         return median_of(std::move(values));
     };
     seen.side_px = median_by([](const SquareOutline& outline) { return outline.side_px; });

@@ -24,9 +24,7 @@ struct Cell {
 std::vector<Cell> cells_by_quarters(const TagPattern& pattern) {
     const int last = pattern.cells - 1;
     const auto turned = [&](Cell cell) { return Cell{cell.column, last - cell.row}; };
-    const auto place = [&](Cell cell) {
-        return static_cast<std::size_t>(cell.row * pattern.cells + cell.column);
-    };
+    const auto place = [&](Cell cell) { return cell_at(cell.row, cell.column, pattern.cells); };
     std::array<std::vector<Cell>, 4> quarters;
     std::vector<Cell> middle;
     auto left = pattern.code;

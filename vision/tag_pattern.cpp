@@ -134,7 +134,7 @@ double level_for(const TagFamily& family, int cells, int usual_cells) {
 PatternMatch match_pattern(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
                            const TagPattern& pattern) {
     PatternMatch match;
-    const auto cells = static_cast<std::size_t>(pattern.cells * pattern.cells);
+    const auto cells = cell_at(pattern.cells, 0, pattern.cells);
     const std::optional<PatternFit> fit = fit_pattern(image, corners_px, pattern, cells, false);
     if (!fit) return match;
     match.explained = fit->explained;

@@ -1,5 +1,7 @@
 // Writes the table of tag families, as C++: write_tag_books FILE.cpp. Run at build time, so that the program
 // itself need not load OpenCV's ArUco module.
+#include "core/tag_families.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -21,6 +23,8 @@ extern "C" {
 }
 
 namespace {
+
+using fidservo::cell_at;
 
 struct Book {
     std::string name;
@@ -88,9 +92,9 @@ std::uint64_t turned(const Book& book, std::uint64_t code) {
     std::uint64_t out = 0;
     for (int row = 0; row < book.cells; ++row)
         for (int column = 0; column < book.cells; ++column) {
-            const int to = place[static_cast<std::size_t>(row * book.cells + column)];
+            const int to = place[cell_at(row, column, book.cells)];
             if (to < 0) continue;
-            const int from = place[static_cast<std::size_t>((book.cells - 1 - column) * book.cells + row)];
+            const int from = place[cell_at(book.cells - 1 - column, row, book.cells)];
             out |= ((code >> (bits - 1 - from)) & 1U) << (bits - 1 - to);
         }
     return out;

@@ -16,11 +16,10 @@ PrintedTag printed_tag(const PlateTag& tag) {
     const TagPattern cells = tag_pattern(tag.print, tag.id);
     const int sheet = cells.paper_is_white ? 0 : 1;
     const int side = cells.cells + 2 * sheet;
-    CellPattern pattern{side, side, std::vector<std::uint8_t>(static_cast<std::size_t>(side * side), 1)};
+    CellPattern pattern{side, side, std::vector<std::uint8_t>(cell_at(side, 0, side), 1)};
     for (int row = 0; row < cells.cells; ++row) {
         for (int column = 0; column < cells.cells; ++column) {
-            if (cells.is_white(row, column))
-                pattern.inked[static_cast<std::size_t>((row + sheet) * side + column + sheet)] = 0;
+            if (cells.is_white(row, column)) pattern.inked[cell_at(row + sheet, column + sheet, side)] = 0;
         }
     }
     return {pattern, tag.side_mm * side / cells.outline_cells()};

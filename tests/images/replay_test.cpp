@@ -35,10 +35,7 @@ cv::Mat tag_image(int steps) {
         for (int column = 0; column < pattern.cells; ++column)
             image(cv::Rect(edge_px + steps * steps_px + column * cell_px, edge_px + row * cell_px, cell_px,
                            cell_px))
-                .setTo(pattern[static_cast<std::size_t>(row) * static_cast<std::size_t>(pattern.cells) +
-                               static_cast<std::size_t>(column)]
-                           ? 230
-                           : 25);
+                .setTo(pattern[cell_at(row, column, pattern.cells)] ? 230 : 25);
     cv::GaussianBlur(image, image, {0, 0}, 0.8);
     return image;
 }
