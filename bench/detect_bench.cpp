@@ -27,6 +27,7 @@ const std::vector<cv::Mat>& frames() {
     static const std::vector<cv::Mat> rendered = [] {
         const plant::PlateView view(reference_camera(), row_of_tags(), {});
         std::vector<cv::Mat> images;
+        images.reserve(distinct_frames);
         for (int k = 0; k < distinct_frames; ++k)
             images.push_back(view.render(std::array<double, 1>{40.0 + 0.00937 * k}, k));
         return images;

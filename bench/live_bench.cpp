@@ -119,6 +119,7 @@ RunTime time_of_run(bool watched) {
 
 void bench(int stops, int turns) {
     std::vector<double> times_ms;
+    times_ms.reserve(static_cast<std::size_t>(stops));
     for (int k = 0; k < stops; ++k) times_ms.push_back(stop_ms(k));
     std::ranges::sort(times_ms);
     if (stops > 0)
@@ -141,5 +142,10 @@ int main(int argc, char** argv) {
     const auto number = [&](int k, int otherwise) {
         return argc > k && argv[k][0] != '-' ? std::atoi(argv[k]) : otherwise;
     };
-    fidservo::bench(number(1, 30), number(2, 3));
+    try {
+        fidservo::bench(number(1, 30), number(2, 3));
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "live_bench: %s\n", error.what());
+        return 1;
+    }
 }

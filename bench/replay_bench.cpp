@@ -109,8 +109,8 @@ void replay_all(const fs::path& input, const fs::path& out, unsigned cores, Roun
 
 template <class Value>
 std::vector<double> sorted(const std::vector<Round>& rounds, Value value) {
-    std::vector<double> values;
-    for (const Round& round : rounds) values.push_back(value(round));
+    std::vector<double> values(rounds.size());
+    std::ranges::transform(rounds, values.begin(), value);
     std::sort(values.begin(), values.end());
     return values;
 }

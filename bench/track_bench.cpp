@@ -33,6 +33,7 @@ const std::vector<cv::Mat>& frames() {
     static const std::vector<cv::Mat> rendered = [] {
         const plant::PlateView view(reference_camera(), row_of_tags(), {});
         std::vector<cv::Mat> images;
+        images.reserve(distinct_frames);
         for (int k = 0; k < distinct_frames; ++k) images.push_back(view.render(std::array{s_mm(k)}, k));
         return images;
     }();
@@ -86,6 +87,7 @@ void alignment_alone(benchmark::State& state) {
 
 void refinement_alone(benchmark::State& state) {
     std::vector<TagDetection> tags;
+    tags.reserve(distinct_frames);
     for (int k = 0; k < distinct_frames; ++k)
         tags.push_back(vision::align_tag(frames()[k], 0, expected(k, 0.0)).value());
     run(state, [&](int k) { demand(vision::refine_tag(frames()[k], tags[k]).has_value()); });

@@ -28,7 +28,11 @@ double heater_command_V(const HeaterParameters& heater, double temp_degC, double
 }
 
 double heater_step_degC(const HeaterParameters& heater, double temp_degC, double command_V, double time_s) {
-    const double end_degC = heater.ambient_degC + heater_rise_degC(heater, command_V);
+    return heated_degC(heater, temp_degC, heater_rise_degC(heater, command_V), time_s);
+}
+
+double heated_degC(const HeaterParameters& heater, double temp_degC, double rise_degC, double time_s) {
+    const double end_degC = heater.ambient_degC + rise_degC;
     const double tau_s = end_degC > temp_degC ? heater.heating_tau_s : heater.cooling_tau_s;
     return end_degC + (temp_degC - end_degC) * std::exp(-time_s / tau_s);
 }

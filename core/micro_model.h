@@ -36,4 +36,7 @@ double heater_command_V(const HeaterParameters& heater, double temp_degC, double
 /// wire never crosses from one to the other under a constant command).
 double heater_step_degC(const HeaterParameters& heater, double temp_degC, double command_V, double time_s);
 
+/// The same of a heater that would bring the wire to a rise above ambient at last, degC.
+double heated_degC(const HeaterParameters& heater, double temp_degC, double rise_degC, double time_s);
+
 }  // namespace fidservo

@@ -3,6 +3,7 @@
 // have are empty. docs/notation.md states the equations that the numbers enter.
 #include "core/camera_parameters.h"
 #include "core/fiducial_parameters.h"
+#include "core/formula_effect.h"
 #include "core/macro_parameters.h"
 #include "core/micro_parameters.h"
 
@@ -20,6 +21,7 @@ struct StatedEffect {
     };
     std::string name;
     std::vector<Parameter> parameters;
+    std::optional<FormulaEffect> formula = {};  ///< of what the simulator's catalogue does not list
 };
 
 struct Rig {

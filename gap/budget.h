@@ -39,6 +39,8 @@ class Budget {
     void check() const;
     /// What follows works out what was found.
     void end_search() const { part_.store(Part::working_out, std::memory_order_relaxed); }
+    /// What follows may take so much longer.
+    void prolong(double extra_s) const;
     /// What follows takes a known time, and is done whatever happens: writing a report.
     void end() const { part_.store(Part::over, std::memory_order_relaxed); }
     bool is_interrupted() const { return interrupted_ && interrupted_(); }
@@ -46,7 +48,8 @@ class Budget {
   private:
     using Clock = std::chrono::steady_clock;
 
-    Clock::time_point search_end_ = Clock::time_point::max(), whole_end_ = Clock::time_point::max();
+    Clock::time_point search_end_ = Clock::time_point::max();
+    mutable std::atomic<Clock::time_point> whole_end_ = Clock::time_point::max();
     std::function<bool()> interrupted_;
     enum class Part { search, working_out, over };
     mutable std::atomic<Part> part_ = Part::search;

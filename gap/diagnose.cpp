@@ -1,6 +1,8 @@
 #include "gap/diagnose.h"
 
 #include "core/input_error.h"
+#include "core/rig.h"
+#include "gap/equation/equation.h"
 #include "gap/fit/gap_size.h"
 #include "gap/residuals/accusation.h"
 #include "gap/residuals/remainder.h"
@@ -243,7 +245,8 @@ void accuse_what_is_left(const Selection& selection, const std::optional<Remaind
 }
 
 /// What the search has found, with what it is worth.
-Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tried, Selection selection,
+/// @param selection  windows that nobody can predict count no longer in it after that
+Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tried, Selection& selection,
                      const DiagnosisOptions& options) {
     const double tail = options.selection.search.tail;
     Diagnosis diagnosis;
@@ -291,6 +294,37 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
     return diagnosis;
 }
 
+/// An equation for what is left, beside the names; where these are not credible, for the whole gap in their
+/// place.
+/// @return how the time for it ended
+Ended propose_equation(const Evidence& evidence, const Selection& selection, const DiagnosisOptions& options,
+                       Diagnosis& diagnosis) {
+    const bool something_is_left =
+        diagnosis.verdict == Verdict::partly_explained || diagnosis.verdict == Verdict::unexplained;
+    if (options.equation_s <= 0.0 || !something_is_left) return Ended::finished;
+    const double tail = options.selection.search.tail;
+    const bool beside_names = mean_probability(diagnosis.effects) > 0.5;
+    const CrossFit& base = beside_names ? selection.steps.back() : selection.steps.front();
+    const auto is_unnamed = [](const StatedEffect& effect) { return effect.name.starts_with("unnamed_"); };
+    const auto number = 1 + std::ranges::count_if(evidence.rig().effects, is_unnamed);
+    evidence.budget()->prolong(options.equation_s);
+    if (options.selection.search.tell) options.selection.search.tell("equation for what is left");
+    try {
+        std::optional<Remainder>& left = diagnosis.unexplained;
+        if (!left) left = remainder_of(evidence, base, tail, options.matters);
+        if (!left) return Ended::finished;
+        std::optional<ProposedEquation> proposed =
+            equation_of(evidence, base, *left, static_cast<int>(number), tail);
+        if (!proposed) return Ended::finished;
+        left->equation = std::move(proposed->equation);
+        left->equation->in_place_of_names = !beside_names && !diagnosis.effects.empty();
+    } catch (const BudgetEnded& end) {
+        if (end.how() == Ended::interrupted) return end.how();
+        diagnosis.notes.emplace_back("no equation was found for what is left in the time for it");
+    }
+    return Ended::finished;
+}
+
 /// Signals whose discrepancy is no gap by what the user says.
 void add_what_does_not_matter(const SignalLimits& matters, Diagnosis& diagnosis) {
     for (const SignalGap& signal : diagnosis.signals) {
@@ -312,15 +346,21 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
         throw InputError(
             "recordings: nothing in them can be judged; allowed: half a second of commands and readings "
             "without a gap");
-    const std::vector<Candidate> tried = candidates(evidence, options.only, options.without);
+    const std::vector<Candidate> tried =
+        candidates(evidence, options.only, options.without, options.formulas);
     const Selection selection = select(evidence, tried, options.selection);
     Diagnosis diagnosis;
+    Selection judged = selection;
     Ended ended = selection.ended;
     try {
-        diagnosis = worked_out(evidence, tried, selection, options);
+        diagnosis = worked_out(evidence, tried, judged, options);
     } catch (const BudgetEnded& end) {
         ended = end.how();
         diagnosis = as_it_stands(evidence, selection, options.matters);
+    }
+    if (ended != Ended::interrupted) {
+        const Ended of_equation = propose_equation(evidence, judged, options, diagnosis);
+        if (of_equation != Ended::finished) ended = of_equation;
     }
     diagnosis.ended = ended;
     add_what_does_not_matter(options.matters, diagnosis);

@@ -78,10 +78,25 @@ struct TotalGap {
     double removed() const;  ///< 1 - (after^2 - 1) / (before^2 - 1), clipped to 0 .. 1
 };
 
+/// A formula that is proposed for what no named effect explains (gap/equation/equation.h).
+struct Equation {
+    std::string acts_on;                 ///< the port
+    std::string formula;                 ///< in the port's unit
+    std::vector<std::string> variables;  ///< of the port, that it depends on
+    std::vector<FittedParameter> parameters;
+    double gap_removed;  ///< of what is left without it
+    double gap_removed_low, gap_removed_high;
+    std::string text;  ///< in words
+    plant::EffectSetting setting;
+    /// Of the whole gap rather than of what the named effects leave, which are not credible.
+    bool in_place_of_names = false;
+};
+
 struct Remainder {
     std::string block;
     std::vector<std::string> depends_on;
     std::string text;
+    std::optional<Equation> equation = {};
 };
 
 struct ProposedExperiment {

@@ -31,6 +31,7 @@ ActualCamera actual_camera(const CameraGeometry& nominal, const CameraDeviation&
     CameraGeometry& camera = actual.geometry;
     camera.focal_px *= deviation.pixel_scale;
     camera.distortion.k1 += deviation.distortion;
+    actual.foot_mm = deviation.offset_mm;
     if (deviation.rotation_rad == 0.0 && deviation.tilt_rad.isZero(0.0)) return actual;
     camera.rotation_rad = 0.0;
     camera.tilt_rad = deviation.tilt_rad;
@@ -42,7 +43,7 @@ ActualCamera actual_camera(const CameraGeometry& nominal, const CameraDeviation&
     const Eigen::Vector3d way_mm =
         camera_from_plate(camera).transpose() *
         (tilt * (to_plate_mm + aside_mm(deviation, nominal.distance_mm)) - to_plate_mm);
-    actual.foot_mm = way_mm.head<2>();
+    actual.foot_mm += way_mm.head<2>();
     camera.distance_mm -= way_mm.z();
     return actual;
 }

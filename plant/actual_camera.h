@@ -19,10 +19,10 @@ struct ActualCamera {
     }
 };
 
-/// Focal length c f and radial distortion k1 + k; the deviation's rotation and tilt follow the nominal ones:
-/// R = R_tilt R_z R_nominal; its centre moves by R_nominal^T R_z^T (e + d -
-/// R_tilt^T e). Without a deviation it is the nominal
-/// camera, bit for bit.
+/// A camera whose centre stands beside where it should by offset_mm, of focal length c f and radial
+/// distortion k1 + k; the deviation's rotation and tilt follow the nominal ones: R = R_tilt R_z R_nominal;
+/// its centre moves by R_nominal^T R_z^T (e + d - R_tilt^T e). Without a deviation it is the nominal camera,
+/// bit for bit.
 ActualCamera actual_camera(const CameraGeometry& nominal, const CameraDeviation& deviation);
 
 }  // namespace fidservo::plant

@@ -23,6 +23,7 @@
 //
 // What the program believes of the camera is the rig file; it never sees this.
 #include "core/camera_geometry.h"
+#include "plant/formulas/formulas.h"
 
 #include <Eigen/Core>
 
@@ -44,7 +45,25 @@ struct CameraDeviation {
     double gain_spread = 0.0;                            ///< standard deviation of the pixels' gains
     Eigen::Vector2d light_gradient = Eigen::Vector2d::Zero();  ///< added to the light's, view_options.h
     double vignetting = 0.0;                                   ///< likewise
+    Eigen::Vector2d offset_mm = Eigen::Vector2d::Zero();       ///< of the camera's centre along the plate
+    Formulas formulas{};  ///< at the ports of camera and plate; not contained in the numbers above
 };
+
+/// The camera at a moment: with what its formulas add to its geometry there.
+/// @param s_mm  where on the plate the camera should be: carriage and platform
+CameraDeviation deviation_at(const CameraDeviation& deviation, double time_s, double s_mm);
+
+/// Whether its geometry changes with time or place.
+bool geometry_changes(const CameraDeviation& deviation);
+
+/// With how much delay a frame is stamped, s.
+double stamp_delay_s(const CameraDeviation& deviation, double time_s);
+
+/// When a frame of a stamp was exposed, by the stage's clock, s.
+double exposed_s(const CameraDeviation& deviation, double stamp_s);
+
+/// Where a tag lies on the plate beside where it should, mm.
+Eigen::Vector2d tag_offset_mm(const CameraDeviation& deviation, const Eigen::Vector2d& tag_mm);
 
 /// When the row of an image point is exposed, after the frame's time, s.
 double row_delay_s(const CameraGeometry& camera, const CameraDeviation& deviation, double v_px);

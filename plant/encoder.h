@@ -3,6 +3,9 @@
 //
 // It counts from where it was switched on: before homing a count says nothing about the position. Recordings
 // of the reference rig are made after homing, with the origin at the left end of travel (origin 0).
+#include "plant/formulas/formulas.h"
+
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -21,6 +24,10 @@ struct EncoderRipple {
 struct Encoder {
     double resolution_mm;
     EncoderRipple ripple{};
+    Formulas formulas{};
+
+    /// Whether counts are those of a straight scale.
+    bool is_straight() const { return ripple.amplitude_mm == 0.0 && !formulas.any(); }
 };
 
 /// Where the count is zero.
@@ -35,14 +42,19 @@ struct EncoderState {
 
 EncoderState start(const Encoder& encoder, double position_mm, EncoderOrigin origin);
 
-/// What is rounded to the count, in counts from the left end of travel: (y + ripple) / resolution.
+/// What formulas add to a place that is read, mm.
+inline double formula_error_mm(const Encoder& encoder, double position_mm) {
+    return encoder.formulas.any() ? encoder.formulas.value(Port::encoder, std::array{position_mm}, {}) : 0.0;
+}
+
+/// What is rounded to the count, in counts from the left end of travel: (y + ripple + formulas) / resolution.
 inline double mean_reading_count(const Encoder& encoder, double position_mm) {
     const EncoderRipple& ripple = encoder.ripple;
     const double error_mm =
         ripple.amplitude_mm == 0.0
             ? 0.0
             : ripple.amplitude_mm * std::sin(ripple.rad_per_mm() * position_mm + ripple.phase_rad);
-    return (position_mm + error_mm) / encoder.resolution_mm;
+    return (position_mm + error_mm + formula_error_mm(encoder, position_mm)) / encoder.resolution_mm;
 }
 
 /// Its derivative by the position.
@@ -52,7 +64,12 @@ inline double counts_per_mm(const Encoder& encoder, double position_mm) {
                                     ? 0.0
                                     : ripple.amplitude_mm * ripple.rad_per_mm() *
                                           std::cos(ripple.rad_per_mm() * position_mm + ripple.phase_rad);
-    return (1.0 + error_per_mm) / encoder.resolution_mm;
+    if (!encoder.formulas.any()) return (1.0 + error_per_mm) / encoder.resolution_mm;
+    constexpr double step_mm = 1e-4;
+    const double formula_per_mm = (formula_error_mm(encoder, position_mm + step_mm) -
+                                   formula_error_mm(encoder, position_mm - step_mm)) /
+                                  (2.0 * step_mm);
+    return (1.0 + error_per_mm + formula_per_mm) / encoder.resolution_mm;
 }
 
 /// The count at a carriage position in mm.

@@ -14,14 +14,13 @@ namespace fidservo::plant {
 namespace {
 
 /// Any part of a tick, with or without a second mass.
-void heat(const Heater& heater, HeaterState& state, double command_V, double time_s) {
+void heat(const Heater& heater, HeaterState& state, double phi_degC, double time_s) {
     const HeaterParameters& wire = heater.parameters;
     if (!heater.has_mass) {
-        state.temp_degC = heater_step_degC(wire, state.temp_degC, command_V, time_s);
+        state.temp_degC = heated_degC(wire, state.temp_degC, phi_degC, time_s);
         return;
     }
-    const double phi_degC = heater_rise_degC(wire, command_V),
-                 wire_degC = state.temp_degC - wire.ambient_degC;
+    const double wire_degC = state.temp_degC - wire.ambient_degC;
     const bool is_tick = time_s == heater.tick_s;
     if (heater.rod) {
         RodRise rise_degC;
@@ -75,18 +74,22 @@ HeaterState start(const Heater& heater) {
     return state;
 }
 
-void advance(const Heater& heater, HeaterState& state, double command_V) {
+void advance(const Heater& heater, HeaterState& state, double command_V, const ExtraHeat& extra) {
+    const auto phi_degC = [&](double acting_V) {
+        return heater_rise_degC(heater.parameters, acting_V) + extra.power_degC;
+    };
+    const auto heated = [&](double acting_V, double time_s) {
+        heat(heater, state, phi_degC(acting_V), time_s);
+    };
     if (heater.is_plain) {
-        const double way_degC = heater_rise_degC(heater.parameters, command_V) -
-                                (state.temp_degC - heater.parameters.ambient_degC);
+        const double way_degC = phi_degC(command_V) - (state.temp_degC - heater.parameters.ambient_degC);
         state.temp_degC += way_degC * (way_degC > 0.0 ? heater.heating_share : heater.cooling_share);
-        return;
-    }
-    const auto heated = [&](double acting_V, double time_s) { heat(heater, state, acting_V, time_s); };
-    if (heater.delay_s == 0.0)
+    } else if (heater.delay_s == 0.0) {
         heated(command_V, heater.tick_s);
-    else
+    } else {
         pass(state.line, heater.delay_s, heater.tick_s, command_V, heated);
+    }
+    state.temp_degC += heater.tick_s * extra.flow_degC_per_s;
 }
 
 }  // namespace fidservo::plant

@@ -56,7 +56,13 @@ Heater make_heater(const HeaterParameters& parameters, double tick_s, const Seco
 /// All at ambient temperature.
 HeaterState start(const Heater& heater);
 
+/// What formulas add to the heating during a tick.
+struct ExtraHeat {
+    double power_degC = 0.0;       ///< of phi
+    double flow_degC_per_s = 0.0;  ///< of dT/dt
+};
+
 /// One tick under a held command in V.
-void advance(const Heater& heater, HeaterState& state, double command_V);
+void advance(const Heater& heater, HeaterState& state, double command_V, const ExtraHeat& extra = {});
 
 }  // namespace fidservo::plant

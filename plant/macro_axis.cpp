@@ -79,11 +79,11 @@ Glide glide_between_ends(const MacroAxis& axis, const Glide& start, double termi
 }
 
 /// The exact solution over a tick or a part of one.
-void advance_in_closed_form(const MacroAxis& axis, MacroAxisState& state, double command_V,
-                            double duration_s) {
+void advance_in_closed_form(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {
     const MacroAxisParameters& parameters = axis.parameters;
     const double terminal_mm_per_s =
-        parameters.velocity_gain_mm_per_s_per_V * effective_voltage_V(parameters, command_V);
+        parameters.velocity_gain_mm_per_s_per_V *
+        dead_zone_V(parameters.dead_zone, drive_V, parameters.dead_zone_on_motion);
     const double reach_mm =
         std::max(std::abs(state.velocity_mm_per_s), std::abs(terminal_mm_per_s)) * duration_s;
     const bool far_from_ends = state.position_mm - reach_mm >= parameters.low_mm &&
@@ -97,13 +97,41 @@ void advance_in_closed_form(const MacroAxis& axis, MacroAxisState& state, double
     state.velocity_mm_per_s = after.velocity_mm_per_s;
 }
 
-StepCount advance_by(const MacroAxis& axis, MacroAxisState& state, double command_V, double duration_s) {
-    if (axis.has_closed_form) {
-        advance_in_closed_form(axis, state, command_V, duration_s);
-        return {};
-    }
+/// The variables of formulas at the beginning of a tick.
+/// @param drive_V  without formulas
+std::array<double, carriage_variable::count> variables_at_tick(const MacroAxis& axis,
+                                                               const MacroAxisState& state, double drive_V) {
     const MacroAxisParameters& parameters = axis.parameters;
-    return move(axis, state, drive_voltage_V(parameters, command_V) + parameters.drive_bias_V, duration_s);
+    CarriageSight sight{state.position_mm, state.velocity_mm_per_s,
+                        state.velocity_mm_per_s < 0.0 ? -1.0 : 1.0};
+    double w_V = drive_V + StandingForceNearby(parameters.standing).volts(state.position_mm);
+    for (const Port port : {Port::drive_voltage, Port::force})
+        if (parameters.formulas.act(port)) w_V += formula_V(parameters.formulas, state.formulas, port, sight);
+    sight.voltage_V = dead_zone_V(parameters.dead_zone, w_V, parameters.dead_zone_on_motion);
+    return formula_variables(state.formulas, sight);
+}
+
+StepCount advance_by(const MacroAxis& axis, MacroAxisState& state, double command_V, double duration_s) {
+    const MacroAxisParameters& parameters = axis.parameters;
+    double drive_V = drive_voltage_V(parameters, command_V) + parameters.drive_bias_V;
+    if (parameters.formulas.any()) {
+        const double limit_V = parameters.command_limit_V;
+        state.formulas.command_V = std::clamp(command_V, -limit_V, limit_V);
+        if (parameters.formulas.act(Port::drive_voltage))
+            drive_V += parameters.formulas.value(Port::drive_voltage, variables_at_tick(axis, state, drive_V),
+                                                 state.formulas.memory);
+    }
+    if (!axis.has_closed_form) return move(axis, state, drive_V, duration_s);
+    advance_in_closed_form(axis, state, drive_V, duration_s);
+    return {};
+}
+
+StepCount advance_by_tick(const MacroAxis& axis, MacroAxisState& state, double command_V) {
+    if (axis.parameters.delay_s == 0.0) return advance_by(axis, state, command_V, axis.tick_s);
+    StepCount steps;
+    pass(state.delay, axis.parameters.delay_s, axis.tick_s, command_V,
+         [&](double acting_V, double duration_s) { steps += advance_by(axis, state, acting_V, duration_s); });
+    return steps;
 }
 
 }  // namespace
@@ -128,9 +156,15 @@ MacroAxis make_macro_axis(const MacroAxisParameters& parameters, double tick_s) 
                          std::to_string(1.0 / gain) + " V s/mm");
     const double lost = -std::expm1(-tick_s / parameters.time_constant_s);
     MacroAxis axis{parameters, tick_s, 1.0 - lost, parameters.time_constant_s * lost};
-    axis.has_standing_force = acts(parameters.standing);
-    axis.has_friction = acts(friction);
+    axis.has_force_formula = parameters.formulas.act(Port::force);
+    axis.has_friction_formula = parameters.formulas.act(Port::friction);
+    axis.has_standing_force = acts(parameters.standing) || axis.has_force_formula;
+    axis.has_friction = acts(friction) || axis.has_friction_formula;
     axis.has_bristles = has_bristles(friction);
+    const bool force_turns =
+        axis.has_force_formula && (parameters.formulas.use(carriage_variable::speed) ||
+                                   parameters.formulas.use(carriage_variable::direction));
+    axis.turns_matter = axis.has_friction || parameters.play_mm > 0.0 || force_turns;
     axis.has_belt = parameters.belt.compliance_mm_per_V >= least_compliance_mm_per_V;
     if (axis.has_belt) axis.belt = belt_force(parameters.belt, gain, parameters.time_constant_s);
     axis.driven_low_mm = parameters.low_mm - 0.5 * parameters.play_mm;
@@ -150,7 +184,25 @@ MacroAxis make_macro_axis(const MacroAxisParameters& parameters, double tick_s) 
 MacroAxisState start(const MacroAxis& axis, double position_mm) {
     MacroAxisState state{.position_mm = position_mm};
     if (axis.parameters.delay_s > 0.0) state.delay = start_delay_line(axis.parameters.delay_s, axis.tick_s);
+    const Formulas& formulas = axis.parameters.formulas;
+    if (formulas.remember())
+        state.formulas.memory =
+            formulas.start(variables_at_tick(axis, state, axis.parameters.drive_bias_V), axis.tick_s);
     return state;
+}
+
+std::array<double, carriage_variable::count> formula_variables(const CarriageFormulaState& seen,
+                                                               const CarriageSight& sight) {
+    using namespace carriage_variable;
+    std::array<double, count> variables{};
+    variables[time] = seen.time_s;
+    variables[command] = seen.command_V;
+    variables[voltage] = sight.voltage_V;
+    variables[place] = sight.place_mm;
+    variables[speed] = sight.speed_mm_per_s;
+    variables[direction] = sight.direction;
+    variables[way] = seen.way_mm;
+    return variables;
 }
 
 double drive_voltage_V(const MacroAxisParameters& parameters, double command_V) {
@@ -164,10 +216,18 @@ double effective_voltage_V(const MacroAxisParameters& parameters, double command
 }
 
 StepCount advance(const MacroAxis& axis, MacroAxisState& state, double command_V) {
-    if (axis.parameters.delay_s == 0.0) return advance_by(axis, state, command_V, axis.tick_s);
-    StepCount steps;
-    pass(state.delay, axis.parameters.delay_s, axis.tick_s, command_V,
-         [&](double acting_V, double duration_s) { steps += advance_by(axis, state, acting_V, duration_s); });
+    const Formulas& formulas = axis.parameters.formulas;
+    if (!formulas.any()) return advance_by_tick(axis, state, command_V);
+    if (formulas.remember()) {
+        const double limit_V = axis.parameters.command_limit_V;
+        state.formulas.command_V = std::clamp(command_V, -limit_V, limit_V);
+        const double drive_V = drive_voltage_V(axis.parameters, command_V) + axis.parameters.drive_bias_V;
+        formulas.begin_tick(state.formulas.memory, variables_at_tick(axis, state, drive_V), axis.tick_s);
+    }
+    const double before_mm = state.position_mm;
+    const StepCount steps = advance_by_tick(axis, state, command_V);
+    state.formulas.time_s += axis.tick_s;
+    state.formulas.way_mm += std::abs(state.position_mm - before_mm);
     return steps;
 }
 

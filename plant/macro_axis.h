@@ -8,10 +8,12 @@
 // The command is held over a tick, so the motion has an exact solution. At either end of travel the carriage
 // stops dead. Friction acts at the input only: without effective voltage the carriage coasts to rest.
 //
-// Effects add to that a delay of the command (plant/delay_line.h), which keeps the exact solution; and
-// forces by position, friction on the motion, a belt and play (plant/mechanism.h), which are integrated.
+// Effects add to that a delay of the command (plant/delay_line.h) and a voltage of the drive by a formula,
+// which keep the exact solution; and forces by position, friction on the motion, a belt, play and forces by
+// formulas (plant/mechanism.h), which are integrated.
 #include "core/macro_parameters.h"
 #include "plant/delay_line.h"
+#include "plant/formulas/formulas.h"
 #include "plant/friction.h"
 #include "plant/mechanism.h"
 #include "plant/standing_force.h"
@@ -39,6 +41,15 @@ struct MacroAxisParameters {
     Friction friction{};
     Belt belt{};
     double play_mm = 0.0;  ///< width, from one side to the other
+    Formulas formulas{};   ///< at the ports of the carriage
+};
+
+/// What formulas see of a carriage beside its motion, and what they remember.
+struct CarriageFormulaState {
+    double time_s = 0.0;     ///< of the tick's beginning
+    double way_mm = 0.0;     ///< covered until then, whichever way it went
+    double command_V = 0.0;  ///< that acts, after saturation
+    FormulaMemory memory{};
 };
 
 /// Position in the stage frame, velocity positive to the right.
@@ -47,6 +58,7 @@ struct MacroAxisState {
     double velocity_mm_per_s = 0.0;
     MechanismState mechanism{};
     DelayLineState delay{};  ///< of the command, from `start`; empty without delay
+    CarriageFormulaState formulas{};
 };
 
 /// Parameters and what follows from them for one tick. Immutable.
@@ -59,7 +71,10 @@ struct MacroAxis {
     bool has_closed_form = true;  ///< none of what follows
     bool has_standing_force = false;
     bool has_friction = false;
+    bool has_force_formula = false;     ///< contained in has_standing_force
+    bool has_friction_formula = false;  ///< contained in has_friction
     bool has_bristles = false;
+    bool turns_matter = false;  ///< forces change, or play begins, where the carriage turns round
     bool has_belt = false;
     BeltForce belt{};
     double driven_low_mm = 0.0;  ///< travel of what drives the carriage: wider by the play
@@ -67,6 +82,8 @@ struct MacroAxis {
     double longest_step_s = 0.0;  ///< of the integration
     WholeSteps whole_steps{};
     bool has_series = false;  ///< motion is a power series
+
+    bool friction_is_listed_and_rigid() const { return !has_bristles && !has_friction_formula; }
 };
 
 /// The axis of a rig, without effects. tau = -T / ln(pole).
@@ -77,6 +94,23 @@ MacroAxis make_macro_axis(const MacroAxisParameters& parameters, double tick_s);
 
 /// The carriage at rest at a position, in the middle of its play; the command was 0 before.
 MacroAxisState start(const MacroAxis& axis, double position_mm);
+
+/// A carriage on its way, as formulas see it.
+struct CarriageSight {
+    double place_mm, speed_mm_per_s;
+    double direction;        ///< 1 or -1; of a carriage at rest, where it is pulled
+    double voltage_V = 0.0;  ///< what the dead zone leaves of drive and forces
+};
+
+/// The variables of formulas at a carriage, in the order of plant/formulas/port.h.
+std::array<double, carriage_variable::count> formula_variables(const CarriageFormulaState& seen,
+                                                               const CarriageSight& sight);
+
+/// What the formulas at a port of the carriage come to, V.
+inline double formula_V(const Formulas& formulas, const CarriageFormulaState& seen, Port port,
+                        const CarriageSight& sight) {
+    return formulas.value(port, formula_variables(seen, sight), seen.memory);
+}
 
 /// What the drive puts out, in V: the amplified command, without forces on the carriage.
 double drive_voltage_V(const MacroAxisParameters& parameters, double command_V);

@@ -46,7 +46,7 @@ StepCount move_by_steps(const MacroAxis& axis, MacroAxisState& state, double dri
         start[Motion::stretch] = mechanism.stretch_mm;
         start[Motion::motor] = start[Motion::speed] + mechanism.stretching_mm_per_s;
     }
-    Motion motion(axis, drive_V, start, mechanism.bristle_bend);
+    Motion motion(axis, drive_V, start, mechanism.bristle_bend, state.formulas);
     constexpr double no_time_s = 1e-15;
     bool moves = true;
     for (int stretches = 0; duration_s > no_time_s && (moves = motion.begin()); ++stretches) {
@@ -67,7 +67,9 @@ StepCount move_by_steps(const MacroAxis& axis, MacroAxisState& state, double dri
 
 WholeSteps whole_steps(const MacroAxis& axis) {
     const Friction& friction = axis.parameters.friction;
-    if (!is_straight(axis.parameters.standing) || friction.stribeck_V != 0.0) return {};
+    if (!is_straight(axis.parameters.standing) || friction.stribeck_V != 0.0 || axis.has_force_formula ||
+        axis.has_friction_formula)
+        return {};
     MacroAxis sliding = axis;  // far from a patch
     sliding.parameters.friction.patch.level_V = 0.0;
     sliding.parameters.friction.creep_mm_per_s = 0.0;
@@ -76,7 +78,8 @@ WholeSteps whole_steps(const MacroAxis& axis) {
 
 bool has_series(const MacroAxis& axis) {
     return axis.has_standing_force && !is_straight(axis.parameters.standing) && !axis.has_belt &&
-           !axis.has_bristles && axis.parameters.friction.stribeck_V == 0.0;
+           !axis.has_bristles && axis.parameters.friction.stribeck_V == 0.0 && !axis.has_force_formula &&
+           !axis.has_friction_formula;
 }
 
 StepCount move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s) {

@@ -1,6 +1,7 @@
 #include "plant/micro_stage.h"
 
 #include "core/demand.h"
+#include "core/micro_model.h"
 #include "core/rig.h"
 
 #include <algorithm>
@@ -11,8 +12,41 @@ namespace {
 
 double hall_disturbance_V(const MicroStage& stage, const MicroStageState& state) {
     const HallDisturbance& disturbance = stage.hall_disturbance;
-    if (disturbance.is_none()) return 0.0;
-    return disturbance.drift_V(seconds(state.time_ns)) + disturbance.leak_V_per_V * state.drive_V;
+    const double by_formulas_V = stage.formulas.act(Port::hall_voltage)
+                                     ? formula_hall_V(stage.formulas, seconds(state.time_ns),
+                                                      state.position_mm, state.formulas.carriage)
+                                     : 0.0;
+    if (disturbance.is_none()) return by_formulas_V;
+    return disturbance.drift_V(seconds(state.time_ns)) + disturbance.leak_V_per_V * state.drive_V +
+           by_formulas_V;
+}
+
+std::array<double, micro_variable::count> formula_variables(const MicroStage& stage,
+                                                            const MicroStageState& state) {
+    using namespace micro_variable;
+    const MicroFormulaState& seen = state.formulas;
+    const HeaterParameters& heater = stage.heater.parameters;
+    std::array<double, count> variables{};
+    variables[time] = seconds(state.time_ns);
+    variables[heater_command] = seen.command_V;
+    variables[heater_power] = heater_rise_degC(heater, seen.command_V);
+    variables[wire_temp] = state.heater.temp_degC;
+    variables[room_temp] = heater.ambient_degC;
+    variables[contraction] = seen.wire_mm;
+    variables[contraction_rate] = seen.contraction_mm_per_s;
+    variables[platform] = state.position_mm;
+    variables[place] = seen.carriage.place_mm;
+    variables[speed] = seen.carriage.speed_mm_per_s;
+    variables[acceleration] = seen.carriage.shaking.acceleration_mm_per_s2;
+    variables[drive] = seen.carriage.drive_V;
+    return variables;
+}
+
+/// What formulas add at a port; 0 where none acts.
+double added(const MicroStage& stage, const MicroStageState& state, Port port) {
+    return stage.formulas.act(port)
+               ? stage.formulas.value(port, formula_variables(stage, state), state.formulas.memory)
+               : 0.0;
 }
 
 }  // namespace
@@ -33,7 +67,8 @@ MicroStage make_micro_stage(const MicroStageParameters& parameters, double tick_
                      make_hall_sensor(parameters.hall),
                      parameters.hall_disturbance,
                      parameters.hall_disturbance.leak_share(tick_s),
-                     nanoseconds(tick_s)};
+                     nanoseconds(tick_s),
+                     parameters.formulas};
     if (parameters.swing.gain != 0.0) stage.swing = make_platform_swing(parameters.swing, tick_s);
     return stage;
 }
@@ -43,12 +78,40 @@ MicroStageState start(const MicroStage& stage, std::uint64_t seed) {
     MicroStageState state{
         start(stage.heater), preisach_start(*stage.fod, extended_degC), 0.0, {seed, "hall"}};
     state.position_mm = stage.stroke_factor * state.wire.contraction_mm;
+    if (!stage.formulas.any()) return state;
+    state.formulas.wire_mm = state.position_mm;
+    if (stage.formulas.remember())
+        state.formulas.memory = stage.formulas.start(formula_variables(stage, state), seconds(stage.tick_ns));
+    if (stage.formulas.act(Port::transformation)) {
+        state.wire = preisach_start(*stage.fod, table_degC(stage, state));
+        state.formulas.wire_mm = stage.stroke_factor * state.wire.contraction_mm;
+    }
+    state.formulas.beside_mm = added(stage, state, Port::platform);
+    state.position_mm = held_mm(stage, state) + state.formulas.beside_mm;
     return state;
 }
 
 double table_degC(const MicroStage& stage, const MicroStageState& state) {
     const double contraction_mm = stage.stroke_factor * state.wire.contraction_mm;
-    return state.heater.temp_degC - stage.table_shift_degC - stage.table_shift_degC_per_mm * contraction_mm;
+    return state.heater.temp_degC - stage.table_shift_degC - stage.table_shift_degC_per_mm * contraction_mm -
+           added(stage, state, Port::transformation);
+}
+
+double held_mm(const MicroStage& stage, const MicroStageState& state) {
+    return stage.stroke_factor * state.wire.contraction_mm + added(stage, state, Port::contraction);
+}
+
+double formula_hall_V(const Formulas& formulas, double time_s, double platform_mm,
+                      const CarriageInfluence& seen) {
+    using namespace micro_variable;
+    std::array<double, count> variables{};
+    variables[time] = time_s;
+    variables[platform] = platform_mm;
+    variables[place] = seen.place_mm;
+    variables[speed] = seen.speed_mm_per_s;
+    variables[acceleration] = seen.shaking.acceleration_mm_per_s2;
+    variables[drive] = seen.drive_V;
+    return formulas.value(Port::hall_voltage, variables, {});
 }
 
 double mean_reading_lsb(const MicroStage& stage, const MicroStageState& state) {
@@ -62,11 +125,29 @@ int sample(const MicroStage& stage, MicroStageState& state) {
 
 void advance(const MicroStage& stage, MicroStageState& state, double command_V,
              const CarriageInfluence& carriage) {
-    advance(stage.heater, state.heater, command_V);
-    state.position_mm = stage.stroke_factor * preisach_step(*stage.fod, state.wire, table_degC(stage, state));
+    const double tick_s = seconds(stage.tick_ns);
+    ExtraHeat extra;
+    if (stage.formulas.any()) {
+        state.formulas.command_V = command_V;
+        state.formulas.carriage = carriage;
+        if (stage.formulas.remember())
+            stage.formulas.begin_tick(state.formulas.memory, formula_variables(stage, state), tick_s);
+        extra = {added(stage, state, Port::heater_power), added(stage, state, Port::heat_flow)};
+    }
+    advance(stage.heater, state.heater, command_V, extra);
+    const double wire_mm =
+        stage.stroke_factor * preisach_step(*stage.fod, state.wire, table_degC(stage, state));
+    state.position_mm = wire_mm;
     if (stage.swing) {
         advance(*stage.swing, state.swing, carriage.shaking);
         state.position_mm += state.swing.position_mm;
+    }
+    if (stage.formulas.any()) {
+        state.formulas.contraction_mm_per_s = (wire_mm - state.formulas.wire_mm) / tick_s;
+        state.formulas.wire_mm = wire_mm;
+        state.position_mm += added(stage, state, Port::contraction);
+        state.formulas.beside_mm = added(stage, state, Port::platform);
+        state.position_mm += state.formulas.beside_mm;
     }
     state.time_ns += stage.tick_ns;
     state.drive_V += stage.leak_share * (carriage.drive_V - state.drive_V);

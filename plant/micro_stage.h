@@ -2,16 +2,19 @@
 // The micro stage: heater -> wire with hysteresis -> flexure platform -> Hall sensor. The platform moves with
 // the wire, and swings about it when the carriage accelerates:
 //
-//     x = stroke factor * Preisach(T - table shift) + z           z: plant/platform_swing.h
+//     x = stroke factor * Preisach(T - table shift) + z           z: plant/platform_swing.h; formulas add to
+//     heating, shift, contraction, platform and voltage (plant/formulas/port.h)
 //     V = Hall(x) + drift(t) + leak * u                           t from the start, u: the macro drive's
 //     voltage, or that behind a filter of first order
 #include "core/preisach.h"
 #include "core/time.h"
+#include "plant/formulas/formulas.h"
 #include "plant/hall_sensor.h"
 #include "plant/heater.h"
 #include "plant/platform_swing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -56,6 +59,7 @@ struct MicroStageParameters {
     SwingParameters swing = {};
     HallParameters hall;
     HallDisturbance hall_disturbance = {};
+    Formulas formulas = {};  ///< at the ports of the micro stage
 };
 
 /// Immutable.
@@ -69,9 +73,31 @@ struct MicroStage {
     HallDisturbance hall_disturbance;
     double leak_share;  ///< of the way to the drive's voltage that what leaks of it goes in a tick
     TimeNs tick_ns;
+    Formulas formulas;
 
     /// Whether a tick depends on what the carriage does.
-    bool feels_carriage() const { return swing || hall_disturbance.leak_V_per_V != 0.0; }
+    bool feels_carriage() const {
+        using namespace micro_variable;
+        return swing || hall_disturbance.leak_V_per_V != 0.0 || formulas.use(place) || formulas.use(speed) ||
+               formulas.use(acceleration) || formulas.use(drive);
+    }
+};
+
+/// What the carriage does to the platform on it during a tick.
+struct CarriageInfluence {
+    Shaking shaking = {};
+    double drive_V = 0.0;                         ///< voltage of the macro drive
+    double place_mm = 0.0, speed_mm_per_s = 0.0;  ///< of the carriage, at the tick's end
+};
+
+/// What formulas see of the micro stage beside its state, and what they remember.
+struct MicroFormulaState {
+    double command_V = 0.0;             ///< of the last tick
+    double wire_mm = 0.0;               ///< contraction, of the wire alone
+    double contraction_mm_per_s = 0.0;  ///< its rate over the last tick
+    double beside_mm = 0.0;             ///< what formulas add to the platform's place, contained in it
+    CarriageInfluence carriage = {};    ///< of the last tick
+    FormulaMemory memory = {};
 };
 
 struct MicroStageState {
@@ -82,12 +108,7 @@ struct MicroStageState {
     SwingState swing = {};  ///< contained in position_mm
     TimeNs time_ns = 0;
     double drive_V = 0.0;  ///< the macro drive's voltage in the last tick, filtered as what leaks of it
-};
-
-/// What the carriage does to the platform on it during a tick.
-struct CarriageInfluence {
-    Shaking shaking = {};
-    double drive_V = 0.0;  ///< voltage of the macro drive
+    MicroFormulaState formulas = {};
 };
 
 /// The micro stage of a rig, without effects; empty if it has none.
@@ -101,6 +122,14 @@ MicroStageState start(const MicroStage& stage, std::uint64_t seed);
 /// The temperature that the wire's table is read at: the wire's, less what its load shifts the transformation
 /// by, degC. The load is that of the last tick's contraction.
 double table_degC(const MicroStage& stage, const MicroStageState& state);
+
+/// Where the wire holds the platform at what it remembers now, with what formulas add, mm.
+double held_mm(const MicroStage& stage, const MicroStageState& state);
+
+/// What formulas add to the Hall sensor's voltage at a place of the platform, V.
+/// @param seen  the carriage
+double formula_hall_V(const Formulas& formulas, double time_s, double platform_mm,
+                      const CarriageInfluence& seen);
 
 /// The Hall sensor's reading without noise, rounding and the converter's ends, in LSB.
 double mean_reading_lsb(const MicroStage& stage, const MicroStageState& state);

@@ -4,6 +4,7 @@
 #include "plant/dormand_prince.h"
 #include "plant/event_step.h"
 #include "plant/macro_axis.h"
+#include "plant/motion_error.h"
 #include "plant/motion_series.h"
 #include "plant/spring_motion.h"
 
@@ -23,11 +24,13 @@ class Motion {
     static constexpr bool has_belt = size == 4;
     static constexpr std::size_t place = 0, speed = 1, stretch = 2, motor = 3;  ///< mm, mm/s, mm, mm/s
 
-    Motion(const MacroAxis& axis, double drive_V, const State& start, double bend)
+    /// @param seen  what formulas see beside the motion; outlives this
+    Motion(const MacroAxis& axis, double drive_V, const State& start, double bend,
+           const CarriageFormulaState& seen)
         : axis_(axis),
           p_(axis.parameters),
           standing_(p_.standing),
-          turns_matter_(axis.has_friction || p_.play_mm > 0.0),
+          seen_(seen),
           dry_is_coulomb_(p_.friction.stribeck_V == 0.0 && p_.friction.patch.level_V == 0.0 &&
                           p_.friction.coasting_V == 0.0),
           drive_V_(drive_V),
@@ -41,6 +44,7 @@ class Motion {
     /// Begins a stretch of motion without events. Returns whether anything moves in it.
     bool begin() {
         if (axis_.has_standing_force) standing_.go_to(x_[place]);
+        direction_ = x_[speed] < 0.0 ? -1.0 : 1.0;
         const double w_V = drive_V_ + (axis_.has_standing_force ? standing_V(x_) : 0.0);
         branch_ = dead_zone_branch(p_.dead_zone, w_V);
         voltage_V_ = dead_zone_V(p_.dead_zone, branch_, w_V, p_.dead_zone_on_motion);
@@ -73,7 +77,7 @@ class Motion {
         }
         if (creeps_evenly(longest_s)) return longest_s;
         Step step = step_from(first, std::min(longest_s, trial_s_));
-        double error = error_of(step);
+        double error = plant::error_of<size>(step);
         if (error <= 1.0 && step.duration_s == longest_s && slack(step.end) >= 0.0) {
             settle(step.end);
             return longest_s;
@@ -81,7 +85,7 @@ class Motion {
         while (!(error <= 1.0) && step.duration_s > shortest_step_s) {
             step = step_from(
                 first, step.duration_s * (std::isfinite(error) ? std::min(fitting_share(error), 0.9) : 0.1));
-            error = error_of(step);
+            error = plant::error_of<size>(step);
         }
         trial_s_ = step.duration_s * (error <= 1.0 ? std::max(fitting_share(error), 0.5) : 5.0);
         if (slack(step.end) < 0.0)
@@ -98,7 +102,8 @@ class Motion {
              {DeadZoneBranch::left, DeadZoneBranch::inside, DeadZoneBranch::right})
             for (const double direction : {-1.0, 1.0})
                 for (const bool held : {false, true}) {
-                    Motion motion(axis, 0.0, State{}, direction);
+                    const CarriageFormulaState unseen;  // there are no formulas
+                    Motion motion(axis, 0.0, State{}, direction, unseen);
                     motion.branch_ = branch;
                     motion.direction_ = direction;
                     motion.held_ = held;
@@ -111,10 +116,6 @@ class Motion {
     }
 
   private:
-    /// Error of one step. With a thousand steps a second it adds up to less than 0.001 counts of 50 um a
-    /// second.
-    static constexpr double place_tolerance_mm = 1e-8, speed_tolerance_mm_per_s = 1e-6;
-
     /// Slower than this, and pulled less than would keep it at this, is at rest.
     static constexpr double rest_mm_per_s = 1e-9;
 
@@ -164,8 +165,9 @@ class Motion {
 
     /// Moves on by a duration, where friction that creeps is stiff to follow.
     bool creeps_evenly(double duration_s) {
-        if (has_belt || p_.friction.creep_mm_per_s == 0.0 || axis_.has_bristles) return false;
-        const double gain = p_.velocity_gain_mm_per_s_per_V, tau_s = p_.time_constant_s;
+        if (has_belt || p_.friction.creep_mm_per_s == 0.0 || axis_.has_bristles || axis_.has_friction_formula)
+            return false;
+        const double tau_s = p_.time_constant_s, gain = p_.velocity_gain_mm_per_s_per_V;
         const auto creep = balanced_creep(p_.friction, x_[speed], x_[place], coasts(), effective_V(x_));
         constexpr double time_constants = 8.0;
         if (!creep || duration_s * creep->slope_V_s_per_mm * gain < time_constants * tau_s) return false;
@@ -186,7 +188,8 @@ class Motion {
         };
         const auto slack_of = [&](const Reached& there) { return slack(there.end); };
         ++steps_.in_series;
-        Reached there = reach(longest_s * series.trusted_share(place_tolerance_mm, speed_tolerance_mm_per_s));
+        Reached there =
+            reach(longest_s * series.trusted_share(step_place_tolerance_mm, step_speed_tolerance_mm_per_s));
         if (slack_of(there) < 0.0) there = step_to_event(slack(x_), there, reach, slack_of);
         if (!is_straight(there.end)) return std::nullopt;
         settle(there.end);
@@ -197,11 +200,13 @@ class Motion {
     std::optional<double> advance_on_springs(double longest_s) {
         const Friction& friction = p_.friction;
         if (!axis_.has_bristles || !friction.bristles_are_springs || !dry_is_coulomb_ ||
-            axis_.has_standing_force || held_ || bend_ == direction_)
+            axis_.has_standing_force || axis_.has_friction_formula || held_ || bend_ == direction_)
             return std::nullopt;
         start_dry_V_ = friction.coulomb_V;
         const double to_sliding_mm = friction.bristle_mm * (1.0 - direction_ * bend_);
-        const SpringMotion motion = spring_motion();
+        const SpringMotion motion =
+            bristle_motion(friction, p_.time_constant_s, p_.velocity_gain_mm_per_s_per_V, direction_,
+                           voltage_V_, bend_, x_[speed]);
         const auto reach = [&](double duration_s) {
             const auto [way_mm, mm_per_s] = motion.after(duration_s);
             return Reached{{x_[place] + way_mm, mm_per_s}, duration_s};
@@ -227,15 +232,6 @@ class Motion {
         return p_.play_mm == 0.0 && friction.left_V_s_per_mm == friction.right_V_s_per_mm &&
                x_[place] + low_mm > std::max(unbent_mm - friction.bristle_mm, axis_.driven_low_mm) &&
                x_[place] + high_mm < std::min(unbent_mm + friction.bristle_mm, axis_.driven_high_mm);
-    }
-
-    SpringMotion spring_motion() const {
-        const Friction& friction = p_.friction;
-        const double tau_s = p_.time_constant_s, gain = p_.velocity_gain_mm_per_s_per_V;
-        const double viscous = direction_ > 0.0 ? friction.right_V_s_per_mm : friction.left_V_s_per_mm;
-        return {gain * (voltage_V_ - friction.coulomb_V * bend_) / tau_s,
-                gain * friction.coulomb_V / (friction.bristle_mm * tau_s),
-                (1.0 + gain * (friction.bristle_damping_V_s_per_mm + viscous)) / tau_s, x_[speed]};
     }
 
     MotionSeries series_of(double duration_s) const {
@@ -268,7 +264,18 @@ class Motion {
         return {dormand_prince_step([this](const State& x) { return rate(x); }, x_, first, h), h};
     }
 
-    double standing_V(const State& x) const { return standing_.volts(x[place]); }
+    double standing_V(const State& x) const {
+        const double by_formula_V =
+            axis_.has_force_formula ? formula_V(Port::force, x, direction_, 0.0) : 0.0;
+        return standing_.volts(x[place]) + by_formula_V;
+    }
+
+    /// Of a carriage that goes in a direction; trial steps beyond a turn count as before it.
+    double formula_V(Port port, const State& x, double direction, double voltage_V) const {
+        double v = x[speed];
+        if (axis_.turns_matter) v = direction * std::max(rest_mm_per_s, direction * v);
+        return plant::formula_V(p_.formulas, seen_, port, {x[place], v, direction, voltage_V});
+    }
 
     double effective_V(const State& x) const {
         return axis_.has_standing_force
@@ -286,8 +293,12 @@ class Motion {
 
     double friction_V(const State& x) const {
         const double dry_V = dry_V_at(x);
-        if (!axis_.has_bristles) return sliding_friction_V(p_.friction, x[speed], direction_, dry_V);
-        return bristle_friction_V(p_.friction, x[speed], direction_, bend_at(x, dry_V));
+        const double listed_V = axis_.has_bristles
+                                    ? bristle_friction_V(p_.friction, x[speed], direction_, bend_at(x, dry_V))
+                                    : sliding_friction_V(p_.friction, x[speed], direction_, dry_V);
+        return axis_.has_friction_formula
+                   ? listed_V + formula_V(Port::friction, x, direction_, effective_V(x))
+                   : listed_V;
     }
 
     /// A velocity against the direction, as trial steps beyond a turn have, counts as 0.
@@ -323,6 +334,11 @@ class Motion {
         const double held = axis_.has_bristles ? 0.0 : gain * breakaway_V(p_.friction, x_[place], coasts());
         hold_low_ = bent - held - rest_mm_per_s;
         hold_high_ = bent + held + rest_mm_per_s;
+        if (axis_.has_friction_formula) {
+            const double driven_V = effective_V(x_);
+            hold_low_ += gain * formula_V(Port::friction, x_, -1.0, driven_V);
+            hold_high_ += gain * formula_V(Port::friction, x_, 1.0, driven_V);
+        }
         if (x_[place] <= axis_.driven_low_mm) hold_low_ = -std::numeric_limits<double>::infinity();
         if (x_[place] >= axis_.driven_high_mm) hold_high_ = std::numeric_limits<double>::infinity();
     }
@@ -342,20 +358,10 @@ class Motion {
             return std::min(pull - hold_low_, hold_high_ - pull);
         }
         double least = std::min(x[place] - axis_.driven_low_mm, axis_.driven_high_mm - x[place]);
-        if (turns_matter_) least = std::min(least, direction_ * x[speed]);
+        if (axis_.turns_matter) least = std::min(least, direction_ * x[speed]);
         if (axis_.has_standing_force)
             least = std::min(least, dead_zone_slack_V(p_.dead_zone, branch_, drive_V_ + standing_V(x)));
         return least;
-    }
-
-    static double error_of(const RungeKuttaStep<size>& step) {
-        double worst = 0.0;
-        for (std::size_t i = 0; i < size; ++i) {
-            const double tolerance = i % 2 == 0 ? place_tolerance_mm : speed_tolerance_mm_per_s;
-            const double error = std::abs(step.error[i]) / tolerance;
-            if (!(error <= worst)) worst = error;
-        }
-        return worst;
     }
 
     /// Takes over the end of a step, put right where an event has just been passed.
@@ -367,7 +373,7 @@ class Motion {
         x_ = end;
         if (held_) return;
         x_[place] = std::clamp(x_[place], axis_.driven_low_mm, axis_.driven_high_mm);
-        if (runs_into_end() || (turns_matter_ && direction_ * x_[speed] < 0.0)) x_[speed] = 0.0;
+        if (runs_into_end() || (axis_.turns_matter && direction_ * x_[speed] < 0.0)) x_[speed] = 0.0;
     }
 
     bool runs_into_end() const {
@@ -378,15 +384,13 @@ class Motion {
     const MacroAxis& axis_;
     const MacroAxisParameters& p_;
     StandingForceNearby standing_;
-    bool turns_matter_;  ///< friction turns round, or play begins, where the carriage does
+    const CarriageFormulaState& seen_;
     bool dry_is_coulomb_;
     double drive_V_;
     State x_;
-    double bend_;                                               ///< at x_
-    double start_dry_V_ = 0.0;                                  ///< likewise, where there are bristles
+    double bend_, start_dry_V_ = 0.0;                           ///< at x_, where there are bristles
     double trial_s_ = std::numeric_limits<double>::infinity();  ///< step to try next
     StepCount steps_;
-
     // What stays as it is until the next event.
     double direction_ = 1.0;
     DeadZoneBranch branch_ = DeadZoneBranch::inside;

@@ -9,6 +9,8 @@
 //
 // The energy v^2 / 2 + k (y - a / k)^2 / 2 never grows, so that y stays within
 // a / k +- sqrt((a / k)^2 + v0^2 / k).
+#include "plant/friction.h"
+
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -52,5 +54,16 @@ struct SpringMotion {
         return {rest_mm - farthest_mm, rest_mm + farthest_mm};
     }
 };
+
+/// Of a carriage under a held voltage whose bristles are springs (plant/friction.h), bent by `bend`.
+inline SpringMotion bristle_motion(const Friction& friction, double tau_s, double gain_mm_per_s_per_V,
+                                   double direction, double voltage_V, double bend,
+                                   double velocity_mm_per_s) {
+    const double gain = gain_mm_per_s_per_V;
+    const double viscous = direction > 0.0 ? friction.right_V_s_per_mm : friction.left_V_s_per_mm;
+    return {gain * (voltage_V - friction.coulomb_V * bend) / tau_s,
+            gain * friction.coulomb_V / (friction.bristle_mm * tau_s),
+            (1.0 + gain * (friction.bristle_damping_V_s_per_mm + viscous)) / tau_s, velocity_mm_per_s};
+}
 
 }  // namespace fidservo::plant

@@ -53,7 +53,8 @@ void advance(const StagePlant& plant, StageState& state, double macro_V, double 
     if (plant.micro->feels_carriage())
         carriage = {shaking_of(state.axis.position_mm - before_mm, before_mm_per_s,
                                state.axis.velocity_mm_per_s, plant.tick_s),
-                    drive_voltage_V(plant.axis.parameters, macro_V)};
+                    drive_voltage_V(plant.axis.parameters, macro_V), state.axis.position_mm,
+                    state.axis.velocity_mm_per_s};
     advance(*plant.micro, *state.micro, micro_V, carriage);
 }
 

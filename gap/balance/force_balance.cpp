@@ -31,19 +31,44 @@ bool has_belt(const plant::MacroAxisParameters& axis) {
     return axis.belt.compliance_mm_per_V > plant::least_compliance_mm_per_V;
 }
 
+/// A carriage on its way, as its readings say.
+struct OnItsWay {
+    double time_s, position_mm, velocity_mm_per_s, direction;
+};
+
+/// What the formulas of some ports come to, V.
+/// @param voltage_V  what the dead zone leaves of drive and forces
+double formulas_V(const plant::MacroAxisParameters& axis, std::initializer_list<plant::Port> ports,
+                  double command_V, const OnItsWay& at, double voltage_V) {
+    plant::CarriageFormulaState seen;
+    seen.time_s = at.time_s;
+    seen.command_V = std::clamp(command_V, -axis.command_limit_V, axis.command_limit_V);
+    double sum_V = 0.0;
+    for (const plant::Port port : ports)
+        if (axis.formulas.act(port))
+            sum_V += plant::formula_V(axis.formulas, seen, port,
+                                      {at.position_mm, at.velocity_mm_per_s, at.direction, voltage_V});
+    return sum_V;
+}
+
 /// What moves whatever the voltage drives, in V, at a place of the carriage.
-double effective_V(const plant::MacroAxisParameters& axis, double command_V, double position_mm) {
-    const double drive_V = plant::drive_voltage_V(axis, command_V) + axis.drive_bias_V +
-                           plant::StandingForceNearby(axis.standing).volts(position_mm);
+double effective_V(const plant::MacroAxisParameters& axis, double command_V, const OnItsWay& at) {
+    double drive_V = plant::drive_voltage_V(axis, command_V) + axis.drive_bias_V +
+                     plant::StandingForceNearby(axis.standing).volts(at.position_mm);
+    if (axis.formulas.any())
+        drive_V += formulas_V(axis, {plant::Port::drive_voltage, plant::Port::force}, command_V, at, 0.0);
     return dead_zone_V(axis.dead_zone, drive_V, axis.dead_zone_on_motion);
 }
 
 /// @param driven_V  what moves the carriage
-double friction_V(const plant::MacroAxisParameters& axis, double velocity_mm_per_s, double direction,
-                  double position_mm, double driven_V) {
+double friction_V(const plant::MacroAxisParameters& axis, double command_V, const OnItsWay& at,
+                  double driven_V) {
     const double dry_V =
-        plant::dry_friction_V(axis.friction, std::abs(velocity_mm_per_s), position_mm, driven_V == 0.0);
-    return plant::sliding_friction_V(axis.friction, velocity_mm_per_s, direction, dry_V);
+        plant::dry_friction_V(axis.friction, std::abs(at.velocity_mm_per_s), at.position_mm, driven_V == 0.0);
+    const double listed_V =
+        plant::sliding_friction_V(axis.friction, at.velocity_mm_per_s, at.direction, dry_V);
+    if (!axis.formulas.any()) return listed_V;
+    return listed_V + formulas_V(axis, {plant::Port::friction}, command_V, at, driven_V);
 }
 
 /// Of a motor whose belt's other end goes the way that a carriage was recorded to go, from rest: what the
@@ -70,7 +95,10 @@ std::vector<double> belt_pull_V(const plant::MacroAxisParameters& axis, double t
         }
         const double command_V = rows[row - std::min(late + 1, row)].macro_command_V;
         const double mean_mm_per_s =
-            (inertia * motor_mm_per_s + gain * effective_V(axis, command_V, carriage_mm) -
+            (inertia * motor_mm_per_s +
+             gain * effective_V(axis, command_V,
+                                {seconds(rows[row].time_ns - rows.front().time_ns), carriage_mm,
+                                 motor_mm_per_s, std::copysign(1.0, motor_mm_per_s)}) -
              belt.per_mm * (motor_mm - 0.5 * (from_mm + carriage_mm)) +
              belt.per_mm_per_s * (carriage_mm - from_mm) / tick_s) /
             resistance;
@@ -134,17 +162,20 @@ Errors ForceBalance::excess(const plant::PlantParameters& parameters) const {
         pull_V.push_back(
             belt_pull_V(axis, parameters.tick_s, rows_of(run), readings_mm_[run], stretch, late));
     // What a command does acts from its row to the next.
-    const auto driven_V = [&](const SlidingRow& row, double position_mm) {
+    const auto command_V = [&](const SlidingRow& row) {
+        return rows_of(row.run)[row.row - std::min(late, row.row)].macro_command_V;
+    };
+    const auto driven_V = [&](const SlidingRow& row, const OnItsWay& at) {
         if (!pull_V.empty()) return 0.5 * (pull_V[row.run][row.row] + pull_V[row.run][row.row + 1]);
-        const std::size_t commanded = row.row - std::min(late, row.row);
-        return effective_V(axis, rows_of(row.run)[commanded].macro_command_V, position_mm);
+        return effective_V(axis, command_V(row), at);
     };
     const double half_tick_s = 0.5 * parameters.tick_s;
     const Column column = forces_.of_force(0, [&](const SlidingRow& row) {
-        const double position_mm = stretch * (row.position_mm + half_tick_s * row.velocity_mm_per_s);
-        const double velocity = stretch * (row.velocity_mm_per_s + half_tick_s * row.acceleration_mm_per_s2);
-        const double driving_V = driven_V(row, position_mm);
-        return driving_V - friction_V(axis, velocity, row.direction, position_mm, driving_V);
+        const OnItsWay at{row.time_s, stretch * (row.position_mm + half_tick_s * row.velocity_mm_per_s),
+                          stretch * (row.velocity_mm_per_s + half_tick_s * row.acceleration_mm_per_s2),
+                          row.direction};
+        const double driving_V = driven_V(row, at);
+        return driving_V - friction_V(axis, command_V(row), at, driving_V);
     });
     const Needed needs = needed_by(axis, stretch);
     Errors excess(column.values.size(), not_a_number);
@@ -175,8 +206,10 @@ double ForceBalance::way_mm() const {
 bool shows_in_balance(const plant::Effect& effect) {
     if (!moves_carriage(effect)) return false;
     plant::PlantParameters parameters;
-    effect.apply(parameters, plant::typical_setting(effect).values);
-    return parameters.axis.play_mm == 0.0;
+    plant::put(effect, parameters, plant::typical_setting(effect).values);
+    const plant::Formulas& formulas = parameters.axis.formulas;
+    return parameters.axis.play_mm == 0.0 && !formulas.remember() &&
+           !formulas.use(plant::carriage_variable::way);
 }
 
 }  // namespace fidservo::gap

@@ -314,7 +314,7 @@ bool is_force(const Rig& rig, const Candidate& candidate) {
     if (!shows_in_balance(effect)) return false;
     const plant::PlantParameters nominal = plant::plant_parameters(rig);
     plant::PlantParameters parameters = nominal;
-    effect.apply(parameters, plant::typical_setting(effect).values);
+    plant::put(effect, parameters, plant::typical_setting(effect).values);
     return parameters.axis.delay_s == nominal.axis.delay_s &&
            parameters.axis.belt.compliance_mm_per_V == nominal.axis.belt.compliance_mm_per_V &&
            parameters.encoder.resolution_mm == nominal.encoder.resolution_mm;

@@ -145,7 +145,8 @@ bool knows_places(const Evidence& evidence) {
 }
 
 std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std::string> only,
-                                  std::span<const std::string> without) {
+                                  std::span<const std::string> without,
+                                  std::span<const plant::Effect* const> formulas) {
     std::array<bool, signal_count> recorded{};
     for (const Window& window : evidence.windows()) recorded[index_of(window.signal)] = true;
     const auto is_withheld = [&](std::string_view name) {
@@ -167,7 +168,10 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
     const double quarter_count =
         0.25 * evidence.rig().macro.encoder_resolution_mm / std::max(1.0, farthest_mm);
     std::vector<Candidate> found;
-    for (const plant::Effect* effect : plant::effect_catalogue()) {
+    const auto listed = plant::effect_catalogue();
+    std::vector<const plant::Effect*> known(listed.begin(), listed.end());
+    known.insert(known.end(), formulas.begin(), formulas.end());
+    for (const plant::Effect* effect : known) {
         if (plant::is_of_frames(effect->part) && !recorded[index_of(Signal::image)]) continue;
         if (plant::is_of_platform(effect->part) && !evidence.rig().micro) continue;
         const bool left_out = is_left_out(*effect);

@@ -50,8 +50,10 @@ bool knows_places(const Evidence& evidence);
 /// Those left out of which one of the others is a richer form are there as its limits.
 /// @param only  names to keep; empty: all
 /// @param without  names to leave out, with all of their class
+/// @param formulas  effects beside those of the catalogue
 std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std::string> only,
-                                  std::span<const std::string> without);
+                                  std::span<const std::string> without,
+                                  std::span<const plant::Effect* const> formulas = {});
 
 /// The class of an effect.
 std::string_view class_of(std::string_view effect);

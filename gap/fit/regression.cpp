@@ -135,11 +135,30 @@ Eigen::VectorXd Regression::solve(std::span<const Eigen::Index> columns, std::ui
     return normal.ldlt().solve(right);
 }
 
-std::vector<double> Regression::mean_squares(std::span<const int> groups) const {
+std::vector<Eigen::Index> Regression::columns_of(std::span<const int> groups) const {
     std::vector<Eigen::Index> columns;
-    for (std::size_t k = 0; k < group_of_.size(); ++k)
-        if (std::ranges::find(groups, group_of_[k]) != groups.end())
-            columns.push_back(static_cast<Eigen::Index>(k));
+    for (const int group : groups)
+        for (std::size_t k = 0; k < group_of_.size(); ++k)
+            if (group_of_[k] == group) columns.push_back(static_cast<Eigen::Index>(k));
+    return columns;
+}
+
+std::vector<double> Regression::factors(std::span<const int> groups) const {
+    const std::vector<Eigen::Index> columns = columns_of(groups);
+    if (columns.empty()) return {};
+    const Eigen::VectorXd mean = 0.5 * (solve(columns, 0) + solve(columns, 1));
+    return {mean.begin(), mean.end()};
+}
+
+Regression Regression::restricted_to(std::span<const std::uint8_t> kept) const {
+    Regression some = *this;
+    std::erase_if(some.condensed_, [&](const CondensedWindow& window) { return kept[window.window] == 0; });
+    return some;
+}
+
+std::vector<double> Regression::mean_squares(std::span<const int> groups) const {
+    std::vector<Eigen::Index> columns = columns_of(groups);
+    std::ranges::sort(columns);
     const Eigen::VectorXd of_half[2] = {solve(columns, 0), solve(columns, 1)};
     std::vector<double> squares(windows_.size(), std::numeric_limits<double>::quiet_NaN());
     for (const CondensedWindow& window : condensed_)

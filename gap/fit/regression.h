@@ -47,7 +47,17 @@ class Regression {
     /// @param as_good  share of the best one's gain that is about as much, where its lead may be chance
     std::vector<int> significant_groups(double tail, double as_good) const;
 
+    /// Factors of the columns of some groups, group after group in the order given, fitted on each half and
+    /// averaged.
+    std::vector<double> factors(std::span<const int> groups) const;
+
+    /// The same for those windows alone that are kept.
+    /// @param kept  a flag for each of Evidence::windows()
+    Regression restricted_to(std::span<const std::uint8_t> kept) const;
+
   private:
+    std::vector<Eigen::Index> columns_of(std::span<const int> groups) const;
+
     /// Of each column, the mean over the columns of its group.
     Eigen::VectorXd means_in_groups(std::span<const Eigen::Index> columns,
                                     const Eigen::VectorXd& values) const;

@@ -34,7 +34,8 @@ std::size_t run_rows(const CarriageModel& model, const CarriageRun& run, std::si
     // By how long it takes beside a row in closed form (bench/gap_bench.cpp).
     constexpr std::size_t of_step = 20, of_belt_step = 25, of_series_step = 14, of_rippled_row = 2;
     const plant::MacroAxis& axis = axis_of(model, run);
-    const bool may_rest = axis.parameters.delay_s == 0.0;  // else commands are on their way
+    // Else commands are on their way, or time goes on.
+    const bool may_rest = axis.parameters.delay_s == 0.0 && !axis.parameters.formulas.any();
     const bool only_places = motion.velocity_mm_per_s.empty();
     bool was_at_rest = false, rests = false;
     plant::StepCount steps;
@@ -53,7 +54,7 @@ std::size_t run_rows(const CarriageModel& model, const CarriageRun& run, std::si
         motion.acceleration_mm_per_s2[k - origin] = shaking.acceleration_mm_per_s2;
         motion.jerk_mm_per_s3[k - origin] = shaking.jerk_mm_per_s3;
     }
-    return (end - first) * (model.encoder.ripple.amplitude_mm != 0.0 ? of_rippled_row : 1) +
+    return (end - first) * (model.encoder.is_straight() ? 1 : of_rippled_row) +
            static_cast<std::size_t>(steps.integrated) * (axis.has_belt ? of_belt_step : of_step) +
            static_cast<std::size_t>(steps.in_series) * of_series_step;
 }
@@ -68,6 +69,10 @@ plant::MacroAxisState first_state(const CarriageModel& model, const CarriageRun&
         state.velocity_mm_per_s = way_mm / (static_cast<double>(glance) * run.tick_s);
     state.mechanism = remembered(run.way, model.axis, model.encoder.resolution_mm, row);
     state.mechanism.driven_mm_per_s = state.velocity_mm_per_s;
+    if (model.axis.parameters.formulas.any()) {
+        state.formulas.time_s = run.time_s[row];
+        state.formulas.way_mm = model.encoder.resolution_mm * covered_count(run.way, row);
+    }
     if (row > 0) state.delay.acting = state.delay.given = run.command_V[row];
     return state;
 }
@@ -120,7 +125,8 @@ class Lead {
     };
 
     bool is_linear() const {
-        return model_.axis.has_closed_form && model_.encoder.ripple.amplitude_mm == 0.0;
+        const plant::MacroAxis& axis = model_.axis;
+        return axis.has_closed_form && !axis.parameters.formulas.any() && model_.encoder.is_straight();
     }
 
     Way corrected(const WindowRows& window, const plant::MacroAxisState& carried) {

@@ -39,7 +39,7 @@ double position_mm(const plant::Encoder& encoder, double reading_count) {
     constexpr int enough = 8;
     constexpr double next_to_nothing_mm = 1e-9;
     double place_mm = reading_count * encoder.resolution_mm;
-    if (encoder.ripple.amplitude_mm == 0.0) return place_mm;
+    if (encoder.is_straight()) return place_mm;
     for (int step = 0; step < enough; ++step) {
         const double on_mm = encoder.resolution_mm * (reading_count - mean_reading_count(encoder, place_mm));
         place_mm += on_mm;

@@ -91,6 +91,7 @@ CarriageRun carriage_run(const Recording& recording, const MacroParameters& macr
     run.tick_s = recording.tick_s;
     std::vector<bool> usable;
     for (const StageRow& row : recording.rows) {
+        run.time_s.push_back(seconds(row.time_ns - recording.rows.front().time_ns));
         run.command_V.push_back(row.macro_command_V);
         run.reading_count.push_back(reading_count(row, macro));
         usable.push_back(std::isfinite(run.command_V.back()) && std::isfinite(run.reading_count.back()));

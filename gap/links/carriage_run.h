@@ -16,6 +16,7 @@ namespace fidservo::gap {
 struct CarriageRun {
     double tick_s = 0.0;
     std::shared_ptr<const Budget> budget;  ///< asked by what runs along the recording; may be empty
+    std::vector<double> time_s;            ///< since the first row
     std::vector<double> command_V;         ///< NaN where missing
     std::vector<double> reading_count;     ///< likewise; position / resolution where that was recorded
     CountedWay way;

@@ -47,7 +47,16 @@ CountedWay counted_way(const std::vector<double>& reading_count) {
 }
 
 bool remembers(const plant::MacroAxis& axis) {
-    return axis.has_bristles || axis.parameters.play_mm != 0.0;
+    return axis.has_bristles || axis.parameters.play_mm != 0.0 || axis.parameters.formulas.remember();
+}
+
+double covered_count(const CountedWay& way, std::size_t row) {
+    double covered = 0.0;
+    const std::size_t turns = turns_before(way, row);
+    for (std::size_t k = 0; k < turns; ++k)
+        covered += std::abs((k + 1 < turns ? way.turns[k + 1].place_count : way.place_count[row]) -
+                            way.turns[k].place_count);
+    return covered;
 }
 
 plant::MechanismState remembered(const CountedWay& way, const plant::MacroAxis& axis, double mm_per_count,
@@ -73,6 +82,7 @@ plant::MechanismState remembered(const CountedWay& way, const plant::MacroAxis& 
 bool is_remembered(const CountedWay& way, const plant::MacroAxis& axis, double mm_per_count,
                    std::size_t row) {
     if (!remembers(axis)) return true;
+    if (axis.parameters.formulas.remember()) return false;
     const std::size_t turns = turns_before(way, row), ahead = row + lead_rows(axis.tick_s);
     if (turns == 0 || ahead >= way.place_count.size() || turns_before(way, ahead) != turns) return false;
     const double covered = way.place_count[row] - way.turns[turns - 1].place_count,

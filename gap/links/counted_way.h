@@ -27,7 +27,10 @@ struct CountedWay {
 /// @param reading_count  row by row, NaN where missing
 CountedWay counted_way(const std::vector<double>& reading_count);
 
-/// Whether a mechanism remembers anything of its way.
+/// How much way was covered up to a row, whichever way it went, in counts.
+double covered_count(const CountedWay& way, std::size_t row);
+
+/// Whether a mechanism, or a formula, remembers anything of its way.
 bool remembers(const plant::MacroAxis& axis);
 
 /// What a mechanism remembers at a row, whose bristles were straight, and whose play was in its middle, where

@@ -113,7 +113,24 @@ class CameraPlace {
         if (!disturbance.is_none())
             voltage_V -= disturbance.drift_V(at_s) +
                          disturbance.leak_V_per_V * model_.drive_gain * between(reading_->drive_V, at);
-        return hall_position_mm(micro.hall, voltage_V);
+        return micro.formulas.act(plant::Port::hall_voltage) ? behind_formulas_mm(voltage_V, at, at_s)
+                                                             : hall_position_mm(micro.hall, voltage_V);
+    }
+
+    /// The place at which the sensor's curve and what formulas add to it give a voltage.
+    double behind_formulas_mm(double voltage_V, const Moment& at, double at_s) const {
+        const plant::MicroStageParameters& micro = *model_.micro;
+        plant::CarriageInfluence seen;
+        seen.drive_V = model_.drive_gain * between(reading_->drive_V, at);
+        seen.place_mm = path_.position_mm[at.row];
+        seen.speed_mm_per_s = path_.velocity_mm_per_s[at.row];
+        seen.shaking.acceleration_mm_per_s2 = path_.acceleration_mm_per_s2[at.row];
+        constexpr int rounds = 6;  // formulas are small beside the curve: each round gains a digit or more
+        double place_mm = hall_position_mm(micro.hall, voltage_V);
+        for (int round = 0; round < rounds; ++round)
+            place_mm = hall_position_mm(
+                micro.hall, voltage_V - plant::formula_hall_V(micro.formulas, at_s, place_mm, seen));
+        return place_mm;
     }
 
     const TagModel& model_;
@@ -123,11 +140,21 @@ class CameraPlace {
 };
 
 /// Where a camera sees a tag's corners from s.
-CornerValues seen(const plant::ActualCamera& camera, const TagSighting& sighting, double s_mm) {
+/// @param beside_mm  where the tag lies beside where it should
+CornerValues seen(const plant::ActualCamera& camera, const TagSighting& sighting, double s_mm,
+                  const Eigen::Vector2d& beside_mm = Eigen::Vector2d::Zero()) {
     CornerValues corners;
     for (int c = 0; c < 4; ++c)
-        corners.segment<2>(2 * c) = camera.image_px(sighting.corners_mm[static_cast<std::size_t>(c)], s_mm);
+        corners.segment<2>(2 * c) =
+            camera.image_px(sighting.corners_mm[static_cast<std::size_t>(c)] + beside_mm, s_mm);
     return corners;
+}
+
+/// The camera at a moment.
+plant::ActualCamera camera_at(const TagModel& model, double time_s, double s_mm) {
+    return plant::geometry_changes(model.deviation)
+               ? plant::actual_camera(model.nominal, plant::deviation_at(model.deviation, time_s, s_mm))
+               : model.camera;
 }
 
 /// d corners / ds, px per mm.
@@ -140,8 +167,11 @@ CornerValues seen_slope(const plant::ActualCamera& camera, const TagSighting& si
 /// Prediction of one sighting, with the carriage off by an offset.
 CornerValues predicted(const TagModel& model, const CameraPlace& place, const TagSighting& sighting,
                        double offset_mm) {
-    const double true_s = (sighting.stamp_s - model.deviation.delay_s) / model.deviation.clock_rate;
-    CornerValues corners = seen(model.camera, sighting, place.seen_s_mm(true_s) + offset_mm);
+    const double true_s = plant::exposed_s(model.deviation, sighting.stamp_s);
+    const double middle_mm = place.seen_s_mm(true_s) + offset_mm;
+    const plant::ActualCamera camera = camera_at(model, true_s, middle_mm);
+    const Eigen::Vector2d beside_mm = plant::tag_offset_mm(model.deviation, sighting.centre_mm);
+    CornerValues corners = seen(camera, sighting, middle_mm, beside_mm);
     if (model.deviation.readout_s == 0.0) return corners;
     constexpr int rounds = 2;
     for (int round = 0; round < rounds; ++round)
@@ -149,8 +179,8 @@ CornerValues predicted(const TagModel& model, const CameraPlace& place, const Ta
             const double v_px = std::clamp(corners[2 * c + 1], 0.0, model.camera.geometry.height_px - 1.0);
             const double late_s = plant::row_delay_s(model.camera.geometry, model.deviation, v_px);
             corners.segment<2>(2 * c) =
-                model.camera.image_px(sighting.corners_mm[static_cast<std::size_t>(c)],
-                                      place.seen_s_mm(true_s + late_s) + offset_mm);
+                camera.image_px(sighting.corners_mm[static_cast<std::size_t>(c)] + beside_mm,
+                                place.seen_s_mm(true_s + late_s) + offset_mm);
         }
     return corners;
 }
@@ -292,7 +322,8 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
 
 TagModel tag_model(const plant::PlantParameters& parameters, const Rig& rig) {
     FIDSERVO_DEMAND(rig.camera && parameters.camera);
-    return {plant::actual_camera(rig.camera->geometry, *parameters.camera),
+    return {rig.camera->geometry,
+            plant::actual_camera(rig.camera->geometry, *parameters.camera),
             *parameters.camera,
             rig.camera->exposure_s,
             rig.macro.encoder_resolution_mm,

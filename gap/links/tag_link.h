@@ -78,7 +78,8 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
 
 /// The camera and the sensors by which it is known where it is.
 struct TagModel {
-    plant::ActualCamera camera;
+    CameraGeometry nominal;
+    plant::ActualCamera camera;  ///< without formulas
     plant::CameraDeviation deviation;
     double exposure_s;
     double resolution_mm;

@@ -198,8 +198,12 @@ void step(const PlatformModel& model, const PlatformRun& run, const CarriagePath
     plant::CarriageInfluence influence;
     if (model.stage.feels_carriage()) {
         influence.drive_V = plant::drive_voltage_V(model.axis, run.macro_command_V[row]);
-        if (carriage != nullptr)
+        if (carriage != nullptr) {
             influence.shaking = {carriage->acceleration_mm_per_s2[row], carriage->jerk_mm_per_s3[row]};
+            const std::size_t next = std::min(row + 1, carriage->position_mm.size() - 1);
+            influence.place_mm = carriage->position_mm[next];
+            influence.speed_mm_per_s = carriage->velocity_mm_per_s[next];
+        }
     }
     for (int tick = 0; tick < run.ticks[row]; ++tick) {
         plant::advance(model.stage, state, run.command_V[row], influence);
@@ -217,7 +221,7 @@ void slide(const plant::MicroStage& stage, plant::MicroStageState& state, double
         state.heater.temp_degC += by_degC / steps;
         slide_wire(*stage.fod, state.wire, table_degC(stage, state));
     }
-    state.position_mm = stage.stroke_factor * state.wire.contraction_mm + state.swing.position_mm;
+    state.position_mm = held_mm(stage, state) + state.swing.position_mm + state.formulas.beside_mm;
 }
 
 plant::MicroStageState first_state(const PlatformModel& model, const PlatformRun& run) {

@@ -2,6 +2,7 @@
 
 #include "core/demand.h"
 #include "core/input_error.h"
+#include "plant/formulas/formula_effect.h"
 
 #include <algorithm>
 #include <array>
@@ -84,6 +85,18 @@ const Effect* find_effect(std::string_view name) {
     return found == catalogue.end() ? nullptr : *found;
 }
 
+const Effect* find_effect(std::string_view name, std::span<const Effect* const> others) {
+    const auto found = std::ranges::find(others, name, [](const Effect* effect) { return effect->name; });
+    return found == others.end() ? find_effect(name) : *found;
+}
+
+void put(const Effect& effect, PlantParameters& plant, std::span<const double> values) {
+    if (effect.formula != nullptr)
+        add_formula(*effect.formula, plant, values);
+    else
+        effect.apply(plant, values);
+}
+
 EffectSetting typical_setting(const Effect& effect) {
     EffectSetting setting{&effect, {}};
     for (const EffectParameter& parameter : effect.parameters) setting.values.push_back(parameter.typical);
@@ -107,7 +120,7 @@ void apply_effects(PlantParameters& plant, std::span<const EffectSetting> effect
             throw InputError("--effect: " + std::string(effect.name) + ": the rig has no " +
                              std::string(effect.block.substr(0, effect.block.find('.'))) +
                              " part for it to act on");
-        effect.apply(plant, effects[k].values);
+        put(effect, plant, effects[k].values);
     }
 }
 

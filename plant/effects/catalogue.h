@@ -17,10 +17,14 @@ std::span<const Effect* const> effect_catalogue();
 /// The effect of a name, or nullptr.
 const Effect* find_effect(std::string_view name);
 
+/// The effect of a name among listed ones and others, or nullptr.
+const Effect* find_effect(std::string_view name, std::span<const Effect* const> others);
+
 /// Reads "NAME" or "NAME:PARAMETER=VALUE,...", as the option --effect takes it. Parameters that are not given
 /// have their typical values. Throws InputError on an unknown effect or parameter, one given twice, a value
 /// that is no number or out of bounds.
-EffectSetting parse_effect(std::string_view text);
+/// @param others  effects that are known beside those of the catalogue
+EffectSetting parse_effect(std::string_view text, std::span<const Effect* const> others = {});
 
 /// The setting that a rig file states. Parameters that are not given have their typical values. Throws
 /// InputError like parse_effect.

@@ -11,6 +11,7 @@
 //   - drive, forces that a carriage at rest feels too: before the dead zone (plant/macro_axis.h: g, b);
 //   - friction and inertia of the moving carriage: K and tau of the axis;
 //   - sensors: their curves; heater and wire: their parameters; camera: its timing.
+#include "plant/effects/part.h"
 #include "plant/stage_plant.h"
 
 #include <cmath>
@@ -21,32 +22,6 @@
 #include <vector>
 
 namespace fidservo::plant {
-
-/// The part of the rig that an effect changes. By it a diagnosis knows which signals show the effect.
-enum class Part {
-    carriage,  ///< how it moves: drive, friction, mechanics
-    encoder,   ///< how the carriage is read
-    wire,      ///< heater and hysteresis
-    platform,  ///< how it swings on its flexure
-    hall,      ///< how the platform is read
-    view,      ///< where the camera sees what, and when
-    shutter,   ///< when it sees each row: the shape of a tag that moves
-    exposure,  ///< over how long: where a tag that moves is seen, and its looks
-    image,     ///< the looks alone
-};
-
-constexpr bool is_of_platform(Part part) {
-    return part == Part::wire || part == Part::platform || part == Part::hall;
-}
-
-/// Whether only who has the frames themselves can see it.
-constexpr bool is_of_frames(Part part) {
-    return part == Part::shutter || part == Part::exposure || part == Part::image;
-}
-
-constexpr bool is_of_camera(Part part) {
-    return part == Part::view || is_of_frames(part);
-}
 
 /// What a parameter says of its effect.
 enum class Role {
@@ -115,6 +90,7 @@ constexpr EffectParameter choice(std::string_view name, double usual, std::strin
 }  // namespace parameter
 
 struct Effect;
+class FormulaCode;
 
 /// The plainer effect that an effect comes to where what sets it apart vanishes.
 struct PlainerForm {
@@ -131,14 +107,16 @@ struct Effect {
     std::string_view text;  ///< what it is, for people, with its equation
     std::string_view source;
     std::span<const EffectParameter> parameters;
-    /// One value per parameter, within bounds; the part exists.
-    void (*apply)(PlantParameters& plant, std::span<const double> values);
+    /// One value per parameter, within bounds; the part exists. Of a formula: nullptr.
+    void (*apply)(PlantParameters& plant, std::span<const double> values) = nullptr;
     /// Whether it acts at a place on the rail that its parameters state, so that only who knows where the
     /// carriage is can find it. What repeats along the rail does not: its phase counts from anywhere.
     bool needs_place = false;
     PlainerForm plainer = {};
     /// Another effect that no recording can tell it from.
     const Effect* same_as = nullptr;
+    /// What acts in place of apply (plant/formulas/formula_effect.h); nullptr of listed ones.
+    const FormulaCode* formula = nullptr;
 
     /// The first of its parameters that has a role; none where it has no such parameter.
     std::optional<std::size_t> place_of(Role role) const {
@@ -147,6 +125,9 @@ struct Effect {
         return {};
     }
 };
+
+/// Puts an effect into a plant's parameters. One value per parameter, within bounds; the part exists.
+void put(const Effect& effect, PlantParameters& plant, std::span<const double> values);
 
 /// An effect with the values of its parameters, in its order.
 struct EffectSetting {

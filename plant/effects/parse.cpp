@@ -2,6 +2,7 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
+#include "plant/formulas/formula_effect.h"
 
 #include <array>
 #include <charconv>
@@ -26,10 +27,10 @@ std::string range_of(const EffectParameter& parameter) {
     return range.str();
 }
 
-std::string known_effects() {
+std::string known_effects(std::span<const Effect* const> others) {
     std::string names;
-    for (const Effect* effect : effect_catalogue())
-        names += (names.empty() ? "" : ", ") + std::string(effect->name);
+    for (const auto& known : {others, effect_catalogue()})
+        for (const Effect* effect : known) names += (names.empty() ? "" : ", ") + std::string(effect->name);
     return names;
 }
 
@@ -67,11 +68,11 @@ double value_of(const EffectParameter& parameter, std::string_view digits, std::
     return value;
 }
 
-EffectSetting parse(std::string_view text, std::string_view where) {
+EffectSetting parse(std::string_view text, std::string_view where, std::span<const Effect* const> others) {
     std::string_view rest = text;
     const bool has_parameters = text.find(':') != std::string_view::npos;
-    const Effect* effect = find_effect(take_until(rest, ':'));
-    if (effect == nullptr) fail(where, "no such effect; known: " + known_effects());
+    const Effect* effect = find_effect(take_until(rest, ':'), others);
+    if (effect == nullptr) fail(where, "no such effect; known: " + known_effects(others));
 
     EffectSetting setting = typical_setting(*effect);
     if (!has_parameters) return setting;
@@ -94,8 +95,8 @@ EffectSetting parse(std::string_view text, std::string_view where) {
 
 }  // namespace
 
-EffectSetting parse_effect(std::string_view text) {
-    return parse(text, "--effect: " + std::string(text));
+EffectSetting parse_effect(std::string_view text, std::span<const Effect* const> others) {
+    return parse(text, "--effect: " + std::string(text), others);
 }
 
 EffectSetting setting_of(const StatedEffect& stated) {
@@ -106,7 +107,9 @@ EffectSetting setting_of(const StatedEffect& stated) {
         text += (text.size() == stated.name.size() ? ':' : ',') + parameter.name + '=';
         text.append(digits.data(), end);
     }
-    return parse(text, text);
+    if (!stated.formula) return parse(text, text, {});
+    const Effect* const own = &effect_of(*stated.formula);
+    return parse(text, text, {&own, 1});
 }
 
 }  // namespace fidservo::plant

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace fidservo::plant {
@@ -41,13 +42,21 @@ view::Picture picture_of(const ActualCamera& actual, const Plate& plate, const V
             options.glare};
 }
 
+/// The plate as it is, whose tags may lie beside where they should.
+Plate plate_as_it_is(Plate plate, const CameraDeviation& deviation) {
+    for (PlateTag& tag : plate.tags) tag.centre_mm += tag_offset_mm(deviation, tag.centre_mm);
+    return plate;
+}
+
 }  // namespace
 
 struct PlateView::Impl {
-    Impl(const CameraParameters& camera_parameters, const Plate& plate, const ViewOptions& view_options,
-         const CameraDeviation& camera_deviation)
+    Impl(const CameraParameters& camera_parameters, const Plate& nominal_plate,
+         const ViewOptions& view_options, const CameraDeviation& camera_deviation)
         : camera(camera_parameters),
+          plate(plate_as_it_is(nominal_plate, camera_deviation)),
           deviation(camera_deviation),
+          plain_options(view_options),
           options(seen_through(view_options, camera, deviation)),
           actual(actual_camera(camera.geometry, deviation)),
           picture(picture_of(actual, plate, options)),
@@ -90,8 +99,17 @@ struct PlateView::Impl {
         return render(view::WarpedRows(picture, pixels), samples_of, all_rows_at_once, frame);
     }
 
+    /// The same at a moment, as a camera that does not change.
+    Impl at(double time_s, double s_mm) const {
+        CameraDeviation there = deviation_at(deviation, time_s, s_mm);
+        there.formulas = {};
+        return {camera, plate, plain_options, there};
+    }
+
     CameraParameters camera;
+    Plate plate;
     CameraDeviation deviation;
+    ViewOptions plain_options;  ///< without what the camera adds
     ViewOptions options;
     ActualCamera actual;
     view::Picture picture;
@@ -104,6 +122,7 @@ struct PlateView::Impl {
 PlateView::PlateView(const CameraParameters& camera, const Plate& plate, const ViewOptions& options,
                      const CameraDeviation& deviation)
     : impl_(std::make_unique<const Impl>(camera, plate, options, deviation)) {}
+PlateView::PlateView(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 PlateView::~PlateView() = default;
 PlateView::PlateView(PlateView&&) noexcept = default;
 PlateView& PlateView::operator=(PlateView&&) noexcept = default;
@@ -112,7 +131,11 @@ cv::Mat PlateView::render(std::span<const double> s_mm, std::uint64_t frame) con
     return impl_->render([&](int) { return s_mm; }, true, frame);
 }
 
-cv::Mat PlateView::expose(const Path& path, std::uint64_t frame) const {
+cv::Mat PlateView::expose(const Path& path, std::uint64_t frame, double time_s) const {
+    if (geometry_changes(impl_->deviation)) {
+        return PlateView(std::make_unique<const Impl>(impl_->at(time_s, path(0.0))))
+            .expose(path, frame, time_s);
+    }
     const Impl& self = *impl_;
     std::array<double, exposure_samples> s_mm{};
     const auto samples_of = [&](int v) -> std::span<const double> {

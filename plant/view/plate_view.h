@@ -44,13 +44,15 @@ class PlateView {
 
     /// The same of a camera in motion: the path is sampled over the exposure, row by row where the rows are
     /// exposed one after the other.
-    cv::Mat expose(const Path& path, std::uint64_t frame) const;
+    /// @param time_s  of the frame, which formulas of the camera know
+    cv::Mat expose(const Path& path, std::uint64_t frame, double time_s = 0.0) const;
 
     /// How long before and after a frame's time expose() asks for the position, s.
     double reach_s() const;
 
   private:
     struct Impl;
+    explicit PlateView(std::unique_ptr<const Impl> impl);
     std::unique_ptr<const Impl> impl_;
 };
 

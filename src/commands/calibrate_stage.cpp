@@ -47,7 +47,7 @@ void demand_sound(const StageOptions& options) {
 /// Calibrated numbers contain such effects: beside them in a file they would act twice.
 void demand_no_geometry_stated(const Rig& rig) {
     for (const StatedEffect& effect : rig.effects) {
-        const std::string_view block = plant::find_effect(effect.name)->block;
+        const std::string_view block = plant::setting_of(effect).effect->block;
         if (block == "camera.geometry" || block == "macro.encoder" || block == "micro.hall")
             throw InputError(fmt::format(
                 "--rig: states the effect {}: calibrated numbers would contain it, and the new file would "

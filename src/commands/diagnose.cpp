@@ -6,6 +6,7 @@
 #include "plant/effects/catalogue.h"
 #include "src/commands/commands.h"
 #include "src/commands/self_check.h"
+#include "src/config/effects_file.h"
 #include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
 #include "src/diagnose/frame_looks.h"
@@ -21,6 +22,7 @@
 
 #include <chrono>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,13 +40,14 @@ struct DiagnoseOptions {
     std::vector<std::filesystem::path> recordings;
     std::filesystem::path rig_file;
     std::vector<std::string> only, without, matters;
-    std::filesystem::path json, report, write_rig;
+    std::filesystem::path effects_file, json, report, write_rig;
     SelfCheckRequest self_check;
 };
 
-void demand_effects(const char* option, const std::vector<std::string>& names) {
+void demand_effects(const char* option, const std::vector<std::string>& names,
+                    std::span<const plant::Effect* const> formulas) {
     for (const std::string& name : names)
-        if (plant::find_effect(name) == nullptr)
+        if (plant::find_effect(name, formulas) == nullptr)
             throw InputError(fmt::format(
                 "{}: {}: there is no such effect; fidservo simulate --help lists them", option, name));
 }
@@ -70,6 +73,8 @@ Read read_recordings(const std::vector<std::filesystem::path>& paths) {
 int check_itself(const DiagnoseOptions& options) {
     if (!options.recordings.empty()) throw InputError("--self-check: it makes its own recordings; give none");
     if (!options.without.empty()) throw InputError("--self-check: it withholds effects itself; no --without");
+    if (!options.effects_file.empty())
+        throw InputError("--self-check: it draws effects itself; no --effects-file");
     if (!options.matters.empty()) throw InputError("--self-check: it judges by the floor; no --matters");
     if (!options.report.empty() || !options.write_rig.empty())
         throw InputError("--self-check: writes --json only, no --report and no --write-rig");
@@ -85,7 +90,8 @@ void keep_memory() {
 #endif
 }
 
-int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const gap::SignalLimits& matters) {
+int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const gap::SignalLimits& matters,
+                        const std::vector<const plant::Effect*>& formulas) {
     const auto start = std::chrono::steady_clock::now();
     Read read = read_recordings(options.recordings);
     const double gone_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -93,8 +99,12 @@ int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const ga
     const auto budget = std::make_shared<const gap::Budget>(limit.search_s - gone_s, limit.whole_s - gone_s,
                                                             interrupt_requested);
     const gap::Evidence evidence(rig, diagnose::thinned(std::move(read.recordings), read.notes), budget);
-    gap::DiagnosisOptions how{
-        .only = options.only, .without = options.without, .matters = matters, .selection = {}};
+    gap::DiagnosisOptions how{.only = options.only,
+                              .without = options.without,
+                              .formulas = formulas,
+                              .matters = matters,
+                              .equation_s = limit.equation_s,
+                              .selection = {}};
     diagnose::SearchProgress progress(limit.whole_s);
     how.selection.search.tell = [&](std::string_view what) { progress.tell(what); };
     gap::Diagnosis diagnosis = gap::diagnose(evidence, how);
@@ -120,8 +130,10 @@ int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const ga
 }
 
 int run_diagnose(const DiagnoseOptions& options) {
-    demand_effects("--effects", options.only);
-    demand_effects("--without", options.without);
+    std::vector<const plant::Effect*> formulas;
+    if (!options.effects_file.empty()) formulas = load_effects_file(options.effects_file);
+    demand_effects("--effects", options.only, formulas);
+    demand_effects("--without", options.without, formulas);
     demand_new_file("--json", options.json);
     keep_memory();
     if (options.self_check.wanted) return check_itself(options);
@@ -131,7 +143,7 @@ int run_diagnose(const DiagnoseOptions& options) {
     const Rig rig = load_rig(options.rig_file);
     const gap::SignalLimits matters = diagnose::what_matters(options.matters, rig);
     try {
-        return diagnose_recordings(options, rig, matters);
+        return diagnose_recordings(options, rig, matters, formulas);
     } catch (const gap::BudgetEnded& end) {
         const bool by_user = end.how() == gap::Ended::interrupted;
         fmt::print("{}: nothing was predicted by then, nothing was written\n",
@@ -161,6 +173,10 @@ void add_diagnose(CLI::App& app, int& exit_code) {
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("A,B,..");
+    command
+        ->add_option("--effects-file", options->effects_file,
+                     "Effects as formulas (docs/effects.md) that are tried beside the listed ones")
+        ->type_name("FILE");
     command
         ->add_option(
             "--matters", options->matters,

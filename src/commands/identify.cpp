@@ -93,7 +93,7 @@ IdentifyInput read_input(const IdentifyOptions& options, const Identification& i
 void demand_not_stated(const Rig& rig, const Identification& identification) {
     const bool macro = identification.name == "macro";
     for (const StatedEffect& effect : rig.effects) {
-        const bool of_macro = plant::find_effect(effect.name)->block.starts_with("macro.");
+        const bool of_macro = plant::setting_of(effect).effect->block.starts_with("macro.");
         const bool replaced = effect.name == "coulomb_friction" || effect.name == "drive_offset";
         if (of_macro == macro && !replaced)
             throw InputError(fmt::format(

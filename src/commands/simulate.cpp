@@ -5,12 +5,14 @@
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/commands/commands.h"
+#include "src/config/effects_file.h"
 #include "src/config/rig_file.h"
 #include "src/progress.h"
 #include "src/recording/writer.h"
 #include "src/simulation/experiment_file.h"
 #include "src/simulation/filmed_recording.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +33,7 @@ struct SimulateOptions {
     std::string experiment;
     std::filesystem::path rig_file;
     std::vector<std::string> effects;
+    std::filesystem::path effects_file;
     std::uint64_t seed = 1;
     bool frames = false;
     std::filesystem::path out;
@@ -62,14 +65,26 @@ std::vector<Task> tasks_of(const SimulateOptions& options, const Rig& rig) {
     return tasks;
 }
 
+/// Where no effect of the effects file is named, all of them act, at their typical values.
+std::vector<plant::EffectSetting> effects_of(const SimulateOptions& options) {
+    std::vector<const plant::Effect*> formulas;
+    if (!options.effects_file.empty()) formulas = load_effects_file(options.effects_file);
+    std::vector<plant::EffectSetting> effects;
+    for (const std::string& text : options.effects) effects.push_back(plant::parse_effect(text, formulas));
+    const auto is_named = [&](const plant::Effect* formula) {
+        return std::ranges::find(effects, formula, &plant::EffectSetting::effect) != effects.end();
+    };
+    if (std::ranges::none_of(formulas, is_named))
+        for (const plant::Effect* formula : formulas) effects.push_back(plant::typical_setting(*formula));
+    return effects;
+}
+
 int run_simulate(const SimulateOptions& options) {
     const Rig rig = load_rig(options.rig_file);
     if (options.frames && (!rig.camera || !rig.fiducials))
         throw InputError(
             fmt::format("--frames: the rig {} lacks a camera, or fiducials for it to see", rig.name));
-    std::vector<plant::EffectSetting> effects;
-    for (const std::string& text : options.effects) effects.push_back(plant::parse_effect(text));
-
+    const std::vector<plant::EffectSetting> effects = effects_of(options);
     const std::vector<Task> tasks = tasks_of(options, rig);
     plant::PlantParameters parameters = plant::plant_parameters(rig);
     plant::apply_effects(parameters, effects);
@@ -108,6 +123,12 @@ void add_simulate(CLI::App& app, int& exit_code) {
         ->type_name("EFFECT")
         ->expected(1)
         ->take_all();
+    command
+        ->add_option(
+            "--effects-file", options->effects_file,
+            "Effects as formulas (docs/effects.md), known to --effect by name; where it names none of "
+            "them, all act at their typical values")
+        ->type_name("FILE");
     command->add_flag("--frames", options->frames,
                       "Render and keep the camera's frames; detections are what is found in them");
     command->add_option("--seed", options->seed, "Determines excitation and noise; same seed, same bytes")

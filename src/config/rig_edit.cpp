@@ -3,6 +3,7 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "src/config/camera_info.h"
+#include "src/config/effects_file.h"
 #include "src/config/fod_file.h"
 #include "src/config/rig_camera.h"
 #include "src/config/rig_file.h"
@@ -138,10 +139,14 @@ void RigEdit::set_name(std::string_view key, std::string_view name) {
 
 void RigEdit::state_effect(const StatedEffect& effect) {
     YAML::Node entry(YAML::NodeType::Map);
-    entry.SetStyle(YAML::EmitterStyle::Flow);
-    entry["name"] = effect.name;
-    for (const StatedEffect::Parameter& parameter : effect.parameters)
-        entry[parameter.name] = digits_of(parameter.value);
+    if (effect.formula) {
+        entry = YAML::Load(stated_formula_yaml(effect));
+    } else {
+        entry.SetStyle(YAML::EmitterStyle::Flow);
+        entry["name"] = effect.name;
+        for (const StatedEffect::Parameter& parameter : effect.parameters)
+            entry[parameter.name] = digits_of(parameter.value);
+    }
     YAML::Node effects = impl_->root["effects"];
     for (std::size_t i = 0; i < effects.size(); ++i)
         if (effects[i]["name"].as<std::string>() == effect.name) {

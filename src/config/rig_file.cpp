@@ -3,6 +3,7 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
+#include "src/config/effects_file.h"
 #include "src/config/fod_file.h"
 #include "src/config/rig_camera.h"
 #include "src/config/stage_keys.h"
@@ -174,16 +175,22 @@ FiducialParameters read_fiducials(const YamlValue& map) {
     return fiducials;
 }
 
-/// A list of maps: the effect's name, then its parameters; those that are left out have typical values.
+/// A listed effect's name, then its parameters; those that are left out have typical values.
+StatedEffect read_listed_effect(const YamlValue& item) {
+    StatedEffect effect;
+    effect.name = item.at("name").text();
+    for (const std::string& key : item.keys())
+        if (key != "name") effect.parameters.push_back({key, item.at(key).number()});
+    return effect;
+}
+
 std::vector<StatedEffect> read_effects(const YamlValue& list) {
     std::vector<StatedEffect> effects;
     for (const YamlValue& item : list.items()) {
-        StatedEffect& effect = effects.emplace_back();
-        effect.name = item.at("name").text();
+        StatedEffect& effect =
+            effects.emplace_back(item.find("formula") ? read_stated_formula(item) : read_listed_effect(item));
         if (std::ranges::count(effects, effect.name, &StatedEffect::name) > 1)
             item.at("name").fail("is stated twice; an effect can be stated once only");
-        for (const std::string& key : item.keys())
-            if (key != "name") effect.parameters.push_back({key, item.at(key).number()});
         try {
             plant::setting_of(effect);
         } catch (const InputError& error) {

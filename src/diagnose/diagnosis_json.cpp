@@ -23,26 +23,45 @@ Json number(double value) {
     return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);  // unlike stod, takes what is nearly 0
 }
 
-Json json_of(const gap::FoundEffect& effect) {
+Json json_of(const std::vector<gap::FittedParameter>& fitted) {
     Json parameters = Json::array();
-    for (const gap::FittedParameter& parameter : effect.parameters)
+    for (const gap::FittedParameter& parameter : fitted)
         parameters.push_back({{"name", parameter.name},
                               {"value", number(parameter.value)},
                               {"unit", parameter.unit},
                               {"std", number(parameter.std)}});
+    return parameters;
+}
+
+Json json_of(const gap::FoundEffect& effect) {
     return {{"effect", effect.effect},
             {"block", effect.block},
             {"probability", number(effect.probability)},
             {"support", support_json(effect.support)},
-            {"parameters", parameters},
+            {"parameters", json_of(effect.parameters)},
             {"indistinguishable_from", effect.indistinguishable_from},
             {"gap_removed", number(effect.gap_removed)},
             {"gap_removed_interval", {number(effect.gap_removed_low), number(effect.gap_removed_high)}}};
 }
 
+Json json_of(const std::optional<gap::Equation>& equation) {
+    if (!equation) return nullptr;
+    return {{"acts_on", equation->acts_on},
+            {"formula", equation->formula},
+            {"variables", equation->variables},
+            {"parameters", json_of(equation->parameters)},
+            {"gap_removed", number(equation->gap_removed)},
+            {"gap_removed_interval", {number(equation->gap_removed_low), number(equation->gap_removed_high)}},
+            {"text", equation->text},
+            {"in_place_of_names", equation->in_place_of_names}};
+}
+
 Json json_of(const std::optional<gap::Remainder>& remainder) {
     if (!remainder) return nullptr;
-    return {{"block", remainder->block}, {"depends_on", remainder->depends_on}, {"text", remainder->text}};
+    return {{"block", remainder->block},
+            {"depends_on", remainder->depends_on},
+            {"text", remainder->text},
+            {"equation", json_of(remainder->equation)}};
 }
 
 Json json_of(const std::optional<gap::ProposedExperiment>& proposed) {
@@ -61,6 +80,18 @@ std::string described(const gap::FoundEffect& effect) {
     if (!effect.indistinguishable_from.empty())
         text += fmt::format("    these data cannot tell it from: {}\n",
                             fmt::join(effect.indistinguishable_from, ", "));
+    return text;
+}
+
+std::string described(const gap::Equation& equation) {
+    std::string text = fmt::format(
+        "equation{}: {} added at {}, removes {:.1f} % of {} ({:.1f} to {:.1f} %)\n",
+        equation.in_place_of_names ? " in place of these names" : "", equation.formula, equation.acts_on,
+        100.0 * equation.gap_removed, equation.in_place_of_names ? "the gap" : "what is left",
+        100.0 * equation.gap_removed_low, 100.0 * equation.gap_removed_high);
+    for (const gap::FittedParameter& parameter : equation.parameters)
+        text += fmt::format("    {} = {:.6g} +- {:.2g} {}\n", parameter.name, parameter.value, parameter.std,
+                            parameter.unit);
     return text;
 }
 
@@ -124,7 +155,10 @@ std::string describe(const gap::Diagnosis& diagnosis) {
                             gap::name_of(signal.signal), signal.before, signal.after,
                             gap::unit_of(signal.signal), signal.floor, signal.discrepancy);
     for (const gap::FoundEffect& effect : diagnosis.effects) text += described(effect);
-    if (diagnosis.unexplained) text += "unexplained: " + diagnosis.unexplained->text + "\n";
+    if (diagnosis.unexplained) {
+        text += "unexplained: " + diagnosis.unexplained->text + "\n";
+        if (diagnosis.unexplained->equation) text += described(*diagnosis.unexplained->equation);
+    }
     if (diagnosis.next_experiment) text += "next: " + diagnosis.next_experiment->text + "\n";
     for (const std::string& note : diagnosis.notes) text += "note: " + note + "\n";
     return text;
@@ -133,8 +167,15 @@ std::string describe(const gap::Diagnosis& diagnosis) {
 void write_diagnosed_rig(const std::filesystem::path& file, const std::filesystem::path& source,
                          const gap::Diagnosis& diagnosis) {
     RigEdit edit(source);
-    for (const plant::EffectSetting& setting : diagnosis.hypothesis) {
+    std::vector<plant::EffectSetting> settings = diagnosis.hypothesis;
+    if (diagnosis.unexplained && diagnosis.unexplained->equation) {
+        const gap::Equation& equation = *diagnosis.unexplained->equation;
+        if (equation.in_place_of_names) settings.clear();
+        settings.push_back(equation.setting);
+    }
+    for (const plant::EffectSetting& setting : settings) {
         StatedEffect stated{std::string(setting.effect->name), {}};
+        if (setting.effect->formula != nullptr) stated.formula = setting.effect->formula->effect();
         for (std::size_t k = 0; k < setting.values.size(); ++k)
             stated.parameters.push_back({std::string(setting.effect->parameters[k].name), setting.values[k]});
         edit.state_effect(stated);

@@ -67,7 +67,10 @@ std::string advice_html(const Advice* advice) {
 }
 
 std::string found_effect_html(const gap::FoundEffect& found, const gap::Diagnosis& diagnosis) {
-    const plant::Effect* effect = plant::find_effect(found.effect);
+    const auto setting =
+        std::ranges::find(diagnosis.hypothesis, found.effect,
+                          [](const plant::EffectSetting& named) { return named.effect->name; });
+    const plant::Effect* effect = setting == diagnosis.hypothesis.end() ? nullptr : setting->effect;
     const Advice* advice = advice_on(found.effect);
     std::string html = fmt::format(
         "<article class=\"card finding\"><h3>{}</h3>\n<p class=\"remark\">in {} ({}) \u00b7 probability {} "

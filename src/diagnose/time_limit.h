@@ -9,10 +9,12 @@ namespace fidservo::diagnose {
 struct TimeLimit {
     double search_s;  ///< until what is tried must have ended
     double whole_s;   ///< all together
+    /// Beyond it, where something is left for which an equation is looked for.
+    double equation_s = 0.0;
 };
 
-/// Half a minute, of which four fifths are the search's.
-inline constexpr TimeLimit half_a_minute{0.8 * 26.0, 26.0};
+/// Half a minute, of which four fifths are the search's, and another one for an equation.
+inline constexpr TimeLimit half_a_minute{0.8 * 26.0, 26.0, 30.0};
 
 /// Half a minute, and where recordings are longer than ten minutes, 84 s more for each further hour.
 TimeLimit time_limit(const std::vector<Recording>& recordings);

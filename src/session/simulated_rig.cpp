@@ -2,6 +2,7 @@
 
 #include "core/demand.h"
 #include "core/failure.h"
+#include "core/input_error.h"
 #include "core/rig.h"
 #include "src/session/state_json.h"
 
@@ -60,7 +61,8 @@ double SimulatedRig::position_mm(double time_s) const {
 
 std::optional<vision::Frame> SimulatedRig::poll() {
     const plant::CameraDeviation deviation = plant_.camera.value_or(plant::CameraDeviation{});
-    const double link_s = std::max(camera_.latency_s, view_.reach_s()) + deviation.delay_s;
+    const double delay_s = plant::stamp_delay_s(deviation, seconds(now_ns()));
+    const double link_s = std::max(camera_.latency_s, view_.reach_s()) + delay_s;
     const double shown_s = (seconds(now_ns()) - link_s) * deviation.clock_rate;
     const auto frame =
         static_cast<std::int64_t>(std::floor((shown_s - first_frame_s) * camera_.frame_rate_hz + 1e-9));
@@ -72,8 +74,8 @@ std::optional<vision::Frame> SimulatedRig::poll() {
                     0.9 * plant_.tick_s * static_cast<double>(past_mm_.size()));
     vision::Frame result;
     result.image = view_.expose([&](double after_s) { return position_mm(middle_s + after_s); },
-                                static_cast<std::uint64_t>(frame));
-    result.time_ns = nanoseconds(stamp_s + deviation.delay_s);
+                                static_cast<std::uint64_t>(frame), middle_s);
+    result.time_ns = nanoseconds(stamp_s + delay_s);
     result.arrival_ns = nanoseconds(middle_s + link_s);
     result.sequence = static_cast<std::uint64_t>(frame);
     return result;
@@ -103,7 +105,11 @@ Status SimulatedStage::write(const control::StageCommand& command) {
             return failure(Reason::stopped, "the guardian switched the stage off: " + *why);
         guardian_->apply(command);
     }
-    rig_->write(command);
+    try {
+        rig_->write(command);
+    } catch (const InputError& error) {
+        return failure(Reason::device, error.what());  // forces that no machine has
+    }
     return {};
 }
 

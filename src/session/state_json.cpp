@@ -54,6 +54,55 @@ void read_json(const json& from, plant::DelayLineState& line) {
 
 namespace {
 
+json json_of(const plant::FormulaMemory& memory) {
+    return {{"values", memory.values},
+            {"next", memory.next},
+            {"past", memory.past},
+            {"ticks", memory.ticks},
+            {"tick_s", memory.tick_s}};
+}
+
+void read_json(const json& from, plant::FormulaMemory& memory) {
+    from.at("values").get_to(memory.values);
+    from.at("next").get_to(memory.next);
+    from.at("past").get_to(memory.past);
+    from.at("ticks").get_to(memory.ticks);
+    from.at("tick_s").get_to(memory.tick_s);
+}
+
+json json_of(const plant::CarriageFormulaState& seen) {
+    return {{"time_s", seen.time_s},
+            {"way_mm", seen.way_mm},
+            {"command_V", seen.command_V},
+            {"memory", json_of(seen.memory)}};
+}
+
+void read_json(const json& from, plant::CarriageFormulaState& seen) {
+    from.at("time_s").get_to(seen.time_s);
+    from.at("way_mm").get_to(seen.way_mm);
+    from.at("command_V").get_to(seen.command_V);
+    read_json(from.at("memory"), seen.memory);
+}
+
+json json_of(const plant::MicroFormulaState& seen) {
+    const plant::CarriageInfluence& carriage = seen.carriage;
+    return {{"seen",
+             {seen.command_V, seen.wire_mm, seen.contraction_mm_per_s, seen.beside_mm,
+              carriage.shaking.acceleration_mm_per_s2, carriage.shaking.jerk_mm_per_s3, carriage.drive_V,
+              carriage.place_mm, carriage.speed_mm_per_s}},
+            {"memory", json_of(seen.memory)}};
+}
+
+void read_json(const json& from, plant::MicroFormulaState& seen) {
+    const auto numbers = from.at("seen").get<std::array<double, 9>>();
+    seen.command_V = numbers[0];
+    seen.wire_mm = numbers[1];
+    seen.contraction_mm_per_s = numbers[2];
+    seen.beside_mm = numbers[3];
+    seen.carriage = {{numbers[4], numbers[5]}, numbers[6], numbers[7], numbers[8]};
+    read_json(from.at("memory"), seen.memory);
+}
+
 json json_of(const plant::MechanismState& mechanism) {
     return {mechanism.play_mm, mechanism.driven_mm_per_s, mechanism.stretch_mm, mechanism.stretching_mm_per_s,
             mechanism.bristle_bend};
@@ -66,11 +115,10 @@ void read_json(const json& from, plant::MechanismState& mechanism) {
 }  // namespace
 
 json json_of(const plant::StageState& state) {
-    json result{{"carriage_mm", state.axis.position_mm},
-                {"velocity_mm_per_s", state.axis.velocity_mm_per_s},
-                {"mechanism", json_of(state.axis.mechanism)},
-                {"command_line", json_of(state.axis.delay)},
-                {"encoder_origin", state.encoder.origin_count}};
+    json result{
+        {"carriage_mm", state.axis.position_mm},      {"velocity_mm_per_s", state.axis.velocity_mm_per_s},
+        {"mechanism", json_of(state.axis.mechanism)}, {"command_line", json_of(state.axis.delay)},
+        {"formulas", json_of(state.axis.formulas)},   {"encoder_origin", state.encoder.origin_count}};
     if (state.micro) {
         result["wire_degC"] = state.micro->heater.temp_degC;
         result["mass_rise_degC"] = state.micro->heater.mass_rise_degC;
@@ -78,6 +126,7 @@ json json_of(const plant::StageState& state) {
         result["swing"] = {state.micro->swing.position_mm, state.micro->swing.velocity_mm_per_s};
         result["time_ns"] = state.micro->time_ns;
         result["drive_V"] = state.micro->drive_V;
+        result["micro_formulas"] = json_of(state.micro->formulas);
         result["wire"] = json_of(state.micro->wire);
         result["platform_mm"] = state.micro->position_mm;
         result["hall_noise"] = state.micro->hall_noise.position();
@@ -90,6 +139,7 @@ void read_json(const json& from, plant::StageState& state) {
     state.axis.velocity_mm_per_s = from.at("velocity_mm_per_s");
     read_json(from.at("mechanism"), state.axis.mechanism);
     read_json(from.at("command_line"), state.axis.delay);
+    read_json(from.at("formulas"), state.axis.formulas);
     state.encoder.origin_count = from.at("encoder_origin");
     if (!state.micro) return;
     state.micro->heater.temp_degC = from.at("wire_degC");
@@ -98,6 +148,7 @@ void read_json(const json& from, plant::StageState& state) {
     state.micro->swing = {from.at("swing").at(0), from.at("swing").at(1)};
     state.micro->time_ns = from.at("time_ns");
     state.micro->drive_V = from.at("drive_V");
+    read_json(from.at("micro_formulas"), state.micro->formulas);
     read_json(from.at("wire"), state.micro->wire);
     state.micro->position_mm = from.at("platform_mm");
     state.micro->hall_noise.seek(from.at("hall_noise"));

@@ -19,13 +19,12 @@ plant::StagePlant plant_of_tick(plant::PlantParameters parameters, double tick_s
 }  // namespace
 
 FrameClock::FrameClock(double frame_rate_hz, const plant::CameraDeviation& camera)
-    : period_ns_(nanoseconds(1.0 / frame_rate_hz)),
-      delay_ns_(nanoseconds(camera.delay_s)),
-      rate_(camera.clock_rate) {}
+    : period_ns_(nanoseconds(1.0 / frame_rate_hz)), camera_(camera) {}
 
 FrameClock::Frame FrameClock::frame(std::int64_t index) const {
     const TimeNs shown_ns = first_frame_ns + index * period_ns_;
-    return {std::llround(static_cast<double>(shown_ns) / rate_), shown_ns + delay_ns_};
+    const TimeNs time_ns = std::llround(static_cast<double>(shown_ns) / camera_.clock_rate);
+    return {time_ns, shown_ns + nanoseconds(plant::stamp_delay_s(camera_, seconds(time_ns)))};
 }
 
 plant::StageState moved_on(const plant::PlantParameters& parameters, plant::StageState state, TimeNs way_ns,

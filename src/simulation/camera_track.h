@@ -21,8 +21,8 @@ class FrameClock {
     Frame frame(std::int64_t index) const;
 
   private:
-    TimeNs period_ns_, delay_ns_;
-    double rate_;
+    TimeNs period_ns_;
+    plant::CameraDeviation camera_;
 };
 
 /// The plant a part of a tick later, exactly, under commands in V that are held.

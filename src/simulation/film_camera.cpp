@@ -46,7 +46,7 @@ void FilmCamera::look(const plant::StageState& state, TimeNs time_ns, double mac
         const double middle_s = seconds(frame.time_ns);
         const cv::Mat image =
             view_.expose([&](double after_s) { return track_.position_mm(middle_s + after_s); },
-                         static_cast<std::uint64_t>(next_frame_));
+                         static_cast<std::uint64_t>(next_frame_), middle_s);
         keep_(frame.stamp_ns, image);
         for (TagDetection& tag : detector_.detect(image, frame.stamp_ns)) {
             // The picture is measured as it is: what the file says of tilt and lens may be what is wrong.

@@ -24,7 +24,7 @@ void PracticeCamera::detect(const Pending& pending, std::vector<TagDetection>& d
         if (after_s == 0.0) return pending.s_mm;
         return pending.s_mm + track_->position_mm(middle_s + after_s) - track_->position_mm(middle_s);
     };
-    if (const auto seen = detector_.detect(pending.frame.stamp_ns, path, pending.speed_mm_per_s))
+    if (const auto seen = detector_.detect(pending.frame.stamp_ns, middle_s, path, pending.speed_mm_per_s))
         detections.push_back(*seen);
 }
 

@@ -71,21 +71,24 @@ Eigen::Vector2d PracticeDetector::corner_px(const Eigen::Vector2d& corner_mm, co
     return corner;
 }
 
-std::optional<TagDetection> PracticeDetector::detect(TimeNs stamp_ns, const Path& s_mm,
+std::optional<TagDetection> PracticeDetector::detect(TimeNs stamp_ns, double time_s, const Path& s_mm,
                                                      double speed_mm_per_s) {
     if (std::abs(speed_mm_per_s) > max_speed_mm_per_s_) return std::nullopt;
+    if (plant::geometry_changes(deviation_))
+        actual_ = plant::actual_camera(camera_.geometry, plant::deviation_at(deviation_, time_s, s_mm(0.0)));
     const Eigen::Vector2d middle_mm = actual_.plate_mm(camera_.geometry.principal_point_px, s_mm(0.0));
     const int column = nearest_index(middle_mm.x(), fiducials_.pitch_x_mm, fiducials_.columns);
     const int row = nearest_index(middle_mm.y(), fiducials_.pitch_y_mm, fiducials_.rows);
     const Eigen::Vector2d centre_mm(column * fiducials_.pitch_x_mm, row * fiducials_.pitch_y_mm);
+
+    const Eigen::Vector2d lies_mm = centre_mm + plant::tag_offset_mm(deviation_, centre_mm);
 
     TagDetection detection;
     detection.time_ns = stamp_ns;
     detection.print = fiducials_.print;
     detection.tag_id = fiducials_.first_id + row * fiducials_.columns + column;
     for (std::size_t k = 0; k < 4; ++k) {
-        const Eigen::Vector2d ideal_px =
-            corner_px(centre_mm + 0.5 * fiducials_.side_mm * tag_corners[k], s_mm);
+        const Eigen::Vector2d ideal_px = corner_px(lies_mm + 0.5 * fiducials_.side_mm * tag_corners[k], s_mm);
         if (!is_inside(camera_.geometry, ideal_px)) return std::nullopt;
         const double noise_u = noise_.normal();
         detection.corners_px[k] =

@@ -29,7 +29,9 @@ class PracticeDetector {
     PracticeDetector(const CameraParameters& camera, const plant::CameraDeviation& deviation,
                      const FiducialParameters& fiducials, std::uint64_t seed);
 
-    std::optional<TagDetection> detect(TimeNs stamp_ns, const Path& s_mm, double speed_mm_per_s);
+    /// @param time_s  of the frame, since the run's first tick
+    std::optional<TagDetection> detect(TimeNs stamp_ns, double time_s, const Path& s_mm,
+                                       double speed_mm_per_s);
 
     /// How long before and after a frame's time detect() asks for the position, s; 0: at that time only.
     double reach_s() const;

@@ -37,7 +37,7 @@ const std::map<std::string, Rooms>& arrows() {
 const std::vector<std::string>& rooms_of_gap() {
     static const std::vector<std::string> order{"gap/evidence",  "gap/links",   "gap/candidates",
                                                 "gap/fit",       "gap/balance", "gap/search",
-                                                "gap/residuals", "gap/verdict"};
+                                                "gap/residuals", "gap/verdict", "gap/equation"};
     return order;
 }
 

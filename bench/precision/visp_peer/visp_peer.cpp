@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <exception>
 #include <vector>
 
 #include <visp3/core/vpImage.h>
@@ -11,8 +12,9 @@
 /// ViSP hands on libapriltag's coordinates, in which pixel centres lie at +0.5.
 constexpr double centre_px = 0.5;
 
-int main(int argc, char** argv) {
-    if (argc != 4) return 2;
+namespace {
+
+void answer_frames(char** argv) {
     const auto width = static_cast<unsigned>(std::atoi(argv[1]));
     const auto height = static_cast<unsigned>(std::atoi(argv[2]));
     const int tag_id = std::atoi(argv[3]);
@@ -32,5 +34,17 @@ int main(int argc, char** argv) {
         std::puts("");
         std::fflush(stdout);
     }
-    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 4) return 2;
+    try {
+        answer_frames(argv);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "visp_peer: %s\n", error.what());
+        return 1;
+    }
 }

@@ -1,0 +1,275 @@
+#include "gap/equation/screening.h"
+
+#include "core/dead_zone.h"
+#include "core/random.h"
+#include "core/rig.h"
+#include "gap/balance/carriage_forces.h"
+#include "gap/evidence/halves.h"
+#include "gap/fit/regression.h"
+#include "plant/formulas/formula_effect.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace fidservo::gap {
+
+namespace {
+
+/// A formula of one coefficient, "one", and a shape.
+FormulaEffect text_of(plant::Port port, const Term& term, const std::string& text) {
+    const plant::PortDescription& at = plant::describe(port);
+    FormulaEffect effect;
+    effect.name = "term";
+    effect.acts_on = at.name;
+    effect.block = at.blocks.front();
+    effect.formula = "one * " + text;
+    effect.parameters.push_back({.name = "one", .low = -1e9, .high = 1e9, .typical = 1.0});
+    if (term.shape)
+        effect.parameters.push_back({.name = "shape",
+                                     .low = term.shape->low,
+                                     .high = term.shape->high,
+                                     .vanishing = term.shape->value,
+                                     .typical = term.shape->value,
+                                     .role = "shape"});
+    return effect;
+}
+
+std::vector<double> values_of(const Term& term, double coefficient) {
+    std::vector<double> values{coefficient};
+    if (term.shape) values.push_back(term.shape->value);
+    return values;
+}
+
+/// What a port's terms do to the errors of a signal, and the errors that they may explain.
+struct Responses {
+    Signal signal = Signal::encoder;
+    std::vector<Column> columns;  ///< group: a term's place; one for each of its texts, or none
+    Errors errors;
+    /// Of a column's factor in the errors: the coefficient that takes them away.
+    double coefficient_per_factor = -1.0;
+};
+
+/// Way gone from each recording's first row on, row by row, mm.
+std::vector<std::vector<double>> ways_mm(const Evidence& evidence) {
+    std::vector<std::vector<double>> all;
+    for (std::size_t run = 0; run < evidence.recordings().size(); ++run) {
+        std::vector<double>& of_run = all.emplace_back();
+        double way = 0.0;
+        for (const float speed : evidence.course(run).velocity_mm_per_s) {
+            if (std::isfinite(speed)) way += std::abs(static_cast<double>(speed)) * evidence.rig().tick_s;
+            of_run.push_back(way);
+        }
+    }
+    return all;
+}
+
+Responses carriage_responses(const Evidence& evidence, const Errors& errors, plant::Port port,
+                             const std::vector<Term>& terms) {
+    const CarriageForces forces(evidence, errors, long_half_support);
+    const std::vector<std::vector<double>> way_mm = ways_mm(evidence);
+    const DeadZone& zone = evidence.rig().macro.dead_zone;
+    Responses responses;
+    responses.errors = forces.lacking();
+    const bool is_friction = port == plant::Port::friction, is_reading = port == plant::Port::encoder;
+    if (is_friction) responses.coefficient_per_factor = 1.0;
+    for (std::size_t t = 0; t < terms.size(); ++t)
+        for (const std::string& text : terms[t].texts) {
+            const plant::FormulaCode& code = plant::FormulaCode::of(text_of(port, terms[t], text));
+            const std::vector<double> one = values_of(terms[t], 1.0);
+            const auto value = [&](const SlidingRow& row) {
+                if (is_reading) return code.value(std::array{row.position_mm}, {}, one);
+                plant::CarriageFormulaState seen;
+                seen.time_s = row.time_s;
+                seen.command_V = row.command_V;
+                seen.way_mm = way_mm[row.run][row.row];
+                const double value_V = code.value(
+                    plant::formula_variables(seen, {row.position_mm, row.velocity_mm_per_s, row.direction,
+                                                    dead_zone_V(zone, row.command_V)}),
+                    {}, one);
+                return is_friction ? value_V : row.passed * value_V;
+            };
+            responses.columns.push_back(is_reading ? forces.of_reading(static_cast<int>(t), value)
+                                                   : forces.of_force(static_cast<int>(t), value));
+        }
+    return responses;
+}
+
+/// A little, in a port's unit: what its term is when its response is taken.
+double a_little_of(plant::Port port) {
+    switch (port) {
+        case plant::Port::heater_power:
+        case plant::Port::heat_flow:
+            return 0.3;
+        case plant::Port::transformation:
+            return 0.1;
+        case plant::Port::camera_rotation:
+        case plant::Port::camera_tilt_u:
+        case plant::Port::camera_tilt_v:
+        case plant::Port::camera_scale:
+        case plant::Port::frame_time:
+            return 1e-4;
+        default:
+            return 1e-3;
+    }
+}
+
+Responses simulated_responses(const Evidence& evidence, const Hypothesis& base, const Errors& errors,
+                              plant::Port port, const std::vector<Term>& terms) {
+    Responses responses;
+    responses.signal = plant::describe(port).site == plant::Site::camera ? Signal::tag : Signal::hall;
+    responses.errors = errors;
+    const Wanted wanted = only_of(evidence.windows(), everything(evidence), only(responses.signal));
+    const Errors before = evidence.errors(base, wanted);
+    for (std::size_t t = 0; t < terms.size(); ++t) {
+        std::vector<Column> columns;
+        for (const std::string& text : terms[t].texts) {
+            const double coefficient = a_little_of(port) / terms[t].size;
+            Hypothesis with = base;
+            with.push_back(
+                {&plant::effect_of(text_of(port, terms[t], text)), values_of(terms[t], coefficient)});
+            Errors response = evidence.errors(with, wanted);
+            if (response.empty()) break;
+            for (std::size_t i = 0; i < response.size(); ++i)
+                response[i] = (response[i] - before[i]) / static_cast<float>(coefficient);
+            columns.push_back({static_cast<int>(t), std::move(response)});
+        }
+        if (columns.size() == terms[t].texts.size())
+            std::ranges::move(columns, std::back_inserter(responses.columns));
+    }
+    return responses;
+}
+
+/// Random halves of the recordings, in pairs that complement each other; of few recordings, of stretches of
+/// four windows.
+class RandomHalves {
+  public:
+    static constexpr int count = 20;
+
+    explicit RandomHalves(const Evidence& evidence) : stream_(1, "random halves") {
+        constexpr std::size_t few = 6;
+        const bool by_run = evidence.recordings().size() >= few;
+        std::size_t run = 0, windows = 0;
+        for (const Window& window : evidence.windows()) {
+            if (window.run != run) {
+                run = window.run;
+                windows = 0;
+            }
+            constexpr std::size_t stretch = 4, most_stretches = 10000;
+            piece_.push_back(by_run ? run : run * most_stretches + windows++ / stretch);
+        }
+    }
+
+    /// Whether each window is in the next half.
+    std::vector<std::uint8_t> next() {
+        if (is_second_) {
+            is_second_ = false;
+            for (std::uint8_t& kept : kept_) kept = kept != 0 ? 0 : 1;
+            return kept_;
+        }
+        is_second_ = true;
+        std::vector<std::size_t> pieces = piece_;
+        std::ranges::sort(pieces);
+        pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+        for (std::size_t k = pieces.size(); k > 1; --k)
+            std::swap(pieces[k - 1],
+                      pieces[std::min(k - 1,
+                                      static_cast<std::size_t>(stream_.uniform() * static_cast<double>(k)))]);
+        pieces.resize(pieces.size() / 2);
+        std::ranges::sort(pieces);
+        kept_.clear();
+        for (const std::size_t piece : piece_)
+            kept_.push_back(std::ranges::binary_search(pieces, piece) ? 1 : 0);
+        return kept_;
+    }
+
+  private:
+    NoiseStream stream_;
+    std::vector<std::size_t> piece_;
+    std::vector<std::uint8_t> kept_;
+    bool is_second_ = false;
+};
+
+/// The first terms, one of each family, up to the most that an equation has.
+std::vector<int> admitted(const std::vector<Term>& terms, const std::vector<int>& taken) {
+    std::vector<int> kept;
+    std::size_t coefficients = 0, shapes = 0;
+    for (const int group : taken) {
+        const Term& term = terms[static_cast<std::size_t>(group)];
+        const auto is_of_family = [&](int other) {
+            return terms[static_cast<std::size_t>(other)].family == term.family;
+        };
+        const std::size_t shape = term.shape ? 1 : 0;
+        if (std::ranges::any_of(kept, is_of_family) || coefficients + term.texts.size() > most_coefficients ||
+            shapes + shape > most_equation_shapes)
+            continue;
+        kept.push_back(group);
+        coefficients += term.texts.size();
+        shapes += shape;
+    }
+    return kept;
+}
+
+constexpr double as_good = 0.8;
+
+/// Of each term taken, the share of random halves in which its family is taken in, the first factor's sign
+/// the same.
+std::vector<double> shares_of_halves(const Evidence& evidence, const Regression& regression,
+                                     const std::vector<Term>& terms, const std::vector<int>& taken,
+                                     double tail) {
+    const std::vector<double> whole = regression.factors(taken);
+    RandomHalves halves(evidence);
+    std::vector<double> shares(taken.size(), 0.0);
+    for (int k = 0; k < RandomHalves::count; ++k) {
+        const Regression half = regression.restricted_to(halves.next());
+        const std::vector<int> found = admitted(terms, half.significant_groups(tail, as_good));
+        std::size_t column = 0;
+        for (std::size_t i = 0; i < taken.size(); ++i) {
+            const Term& term = terms[static_cast<std::size_t>(taken[i])];
+            const auto same = std::ranges::find_if(found, [&](int other) {
+                return terms[static_cast<std::size_t>(other)].family == term.family;
+            });
+            if (same != found.end()) {
+                const std::vector<double> factors = half.factors(taken);
+                if (term.texts.size() > 1 || factors[column] * whole[column] > 0.0)
+                    shares[i] += 1.0 / RandomHalves::count;
+            }
+            column += term.texts.size();
+        }
+    }
+    return shares;
+}
+
+}  // namespace
+
+std::size_t Sketch::shapes() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(terms, [](const Term& term) { return term.shape.has_value(); }));
+}
+
+std::optional<Sketch> sketch_of(const Evidence& evidence, const Hypothesis& base, const Errors& errors,
+                                plant::Port port, const std::vector<Term>& terms, double tail) {
+    const plant::Site site = plant::describe(port).site;
+    const bool is_of_carriage = site == plant::Site::carriage || site == plant::Site::encoder;
+    const Responses responses = is_of_carriage ? carriage_responses(evidence, errors, port, terms)
+                                               : simulated_responses(evidence, base, errors, port, terms);
+    if (responses.columns.empty()) return {};
+    const std::vector<std::uint8_t> half = halves(evidence);
+    const Regression regression(evidence.windows(), responses.signal, responses.errors, responses.columns, {},
+                                half);
+    std::vector<int> taken = admitted(terms, regression.significant_groups(tail, as_good));
+    if (taken.empty()) return {};
+    const std::vector<double> shares = shares_of_halves(evidence, regression, terms, taken, tail);
+    for (std::size_t k = taken.size(); k-- > 0;)
+        if (shares[k] < least_share_of_halves) taken.erase(taken.begin() + static_cast<std::ptrdiff_t>(k));
+    if (taken.empty()) return {};
+    Sketch sketch{port, {}, {}};
+    for (const int group : taken) sketch.terms.push_back(terms[static_cast<std::size_t>(group)]);
+    for (const double factor : regression.factors(taken))
+        sketch.coefficients.push_back(responses.coefficient_per_factor * factor);
+    return sketch;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,54 @@
+#pragma once
+// A formula effect that was looked at: its port, and its expressions ready to be evaluated.
+//
+// Expressions are muParser's, in its own locale: numbers, names, + - * / ^, comparisons, && ||, c ? a : b,
+// and the functions abs, sign, sqrt, exp, log, sin, cos, tan, tanh, atan2, min, max, clip(x, low, high),
+// if(c, a, b); pi. Neither
+// assignments nor strings. a ^ b binds tighter than a sign before a, and -x^2 is -(x^2).
+#include "core/formula_effect.h"
+#include "plant/formulas/port.h"
+
+#include <bitset>
+#include <cstddef>
+#include <span>
+
+namespace fidservo::plant {
+
+inline constexpr std::size_t most_memories = 8;  ///< of a site
+inline constexpr std::size_t most_formula_parameters = 16;
+
+class FormulaCode {
+  public:
+    /// The one of a text; made where there is none yet, and there until the program ends. May be called from
+    /// several threads. Throws InputError "NAME: KEY: what is wrong; what is allowed".
+    static const FormulaCode& of(const FormulaEffect& effect);
+
+    const FormulaEffect& effect() const { return effect_; }
+    const PortDescription& port() const { return *port_; }
+    /// Whether any of its expressions has a variable of its site.
+    bool uses(std::size_t variable) const { return used_.test(variable); }
+
+    /// The formula's value. May be called from several threads: each has its own parser.
+    /// @param variables  of the site, in their order
+    /// @param memories  of this effect, in their order
+    /// @param parameters  likewise
+    double value(std::span<const double> variables, std::span<const double> memories,
+                 std::span<const double> parameters) const;
+    /// What a memory follows: a state's rate per s, or what is late or plays.
+    double followed(std::size_t memory, std::span<const double> variables, std::span<const double> memories,
+                    std::span<const double> parameters) const;
+    /// Width of a play, in the unit of what plays, or a delay in s. Not below 0.
+    double extent(std::size_t memory, std::span<const double> parameters) const;
+
+  private:
+    explicit FormulaCode(const FormulaEffect& effect);
+    class Machine;
+    Machine& machine() const;
+
+    FormulaEffect effect_;
+    const PortDescription* port_;
+    std::bitset<most_variables> used_;
+    std::size_t id_ = 0;
+};
+
+}  // namespace fidservo::plant

@@ -1,0 +1,165 @@
+#include "plant/formulas/formula_effect.h"
+
+#include "core/input_error.h"
+#include "plant/effects/catalogue.h"
+#include "plant/formulas/formula_code.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace fidservo::plant {
+
+namespace {
+
+struct NamedRole {
+    std::string_view name;
+    Role role;
+};
+constexpr std::array roles{NamedRole{"size", Role::size}, NamedRole{"shape", Role::shape},
+                           NamedRole{"optional", Role::optional}};
+
+/// From which a fit of a shape may begin where its file does not say: spread over the bounds, by ratios where
+/// these are of one sign and far apart.
+std::vector<double> spread(const FormulaEffect::Parameter& parameter) {
+    constexpr int count = 5;
+    constexpr double far = 10.0;
+    const bool by_ratio =
+        parameter.low * parameter.high > 0.0 &&
+        std::max(std::abs(parameter.high / parameter.low), std::abs(parameter.low / parameter.high)) > far;
+    std::vector<double> values;
+    for (int k = 0; k < count; ++k) {
+        const double share = (k + 0.5) / count;
+        values.push_back(by_ratio ? parameter.low * std::pow(parameter.high / parameter.low, share)
+                                  : std::lerp(parameter.low, parameter.high, share));
+    }
+    return values;
+}
+
+/// An optional parameter counts as its vanishing value within this share of its range.
+constexpr double negligible_share = 1e-3;
+
+class FormulaOfName {
+  public:
+    explicit FormulaOfName(const FormulaEffect& text) : text_(text) {
+        if (text_.name.empty()) refuse("name", "is empty; allowed: a name");
+        if (find_effect(text_.name) != nullptr)
+            refuse("name", "is that of a listed effect; allowed: another one");
+        const FormulaCode& code = FormulaCode::of(text_);
+        if (std::ranges::none_of(text_.parameters,
+                                 [](const FormulaEffect::Parameter& of) { return of.role == "size"; }))
+            refuse("parameters",
+                   "none has the role size, at whose vanishing value the effect is absent; allowed: one or "
+                   "more");
+        starts_.reserve(text_.parameters.size());
+        for (const FormulaEffect::Parameter& parameter : text_.parameters) add(parameter);
+        effect_.name = text_.name;
+        effect_.block = text_.block;
+        effect_.part = code.port().part;
+        effect_.text = text_.text;
+        effect_.source = text_.source;
+        effect_.parameters = parameters_;
+        effect_.needs_place = code.port().site != Site::micro && uses_place(code);
+        effect_.formula = &code;
+    }
+    FormulaOfName(const FormulaOfName&) = delete;  // the effect points at what is here
+    FormulaOfName& operator=(const FormulaOfName&) = delete;
+
+    const Effect& effect() const { return effect_; }
+
+  private:
+    [[noreturn]] void refuse(const std::string& key, const std::string& what) const {
+        throw InputError(text_.name + ": " + key + ": " + what);
+    }
+
+    static bool uses_place(const FormulaCode& code) {
+        switch (code.port().site) {
+            case Site::carriage:
+                return code.uses(carriage_variable::place);
+            case Site::encoder:
+                return code.uses(encoder_variable::place);
+            case Site::micro:
+                return code.uses(micro_variable::place);
+            case Site::camera:
+                return code.uses(camera_variable::camera_place);
+        }
+        return false;
+    }
+
+    void add(const FormulaEffect::Parameter& parameter) {
+        const std::string key = "parameters." + parameter.name;
+        const auto role = std::ranges::find(roles, parameter.role, &NamedRole::name);
+        if (role == roles.end())
+            refuse(key + ".role", "\"" + parameter.role + "\"; allowed: size, shape, optional");
+        if (!(parameter.low < parameter.high && std::isfinite(parameter.low) &&
+              std::isfinite(parameter.high)))
+            refuse(key + ".high", "must be above low, and both finite");
+        for (const auto& [name, value] :
+             {std::pair{".vanishing", parameter.vanishing}, {".typical", parameter.typical}})
+            if (!(value >= parameter.low && value <= parameter.high)) {
+                std::ostringstream what;
+                what << value << " is out of its bounds; allowed: " << parameter.low << " .. "
+                     << parameter.high;
+                refuse(key + name, what.str());
+            }
+        if (role->role == Role::size && parameter.typical == parameter.vanishing)
+            refuse(key + ".typical", "is the vanishing value; allowed: one with which the effect is there");
+        starts_.push_back(role->role != Role::shape  ? std::vector<double>{}
+                          : parameter.starts.empty() ? spread(parameter)
+                                                     : parameter.starts);
+        parameters_.push_back(EffectParameter{
+            .name = parameter.name,
+            .unit = parameter.unit,
+            .low = parameter.low,
+            .high = parameter.high,
+            .vanishing = parameter.vanishing,
+            .typical = parameter.typical,
+            .meaning = parameter.text,
+            .role = role->role,
+            .starts = starts_.back(),
+            .negligible =
+                role->role == Role::optional ? negligible_share * (parameter.high - parameter.low) : 0.0});
+    }
+
+    FormulaEffect text_;
+    std::vector<std::vector<double>> starts_;
+    std::vector<EffectParameter> parameters_;
+    Effect effect_{};
+};
+
+}  // namespace
+
+const Effect& effect_of(const FormulaEffect& text) {
+    static std::mutex guard;
+    static std::map<const FormulaCode*, std::unique_ptr<const FormulaOfName>> all;
+    const FormulaCode& code = FormulaCode::of(text);
+    const std::lock_guard lock(guard);
+    std::unique_ptr<const FormulaOfName>& known = all[&code];
+    if (!known) known = std::make_unique<const FormulaOfName>(code.effect());
+    return known->effect();
+}
+
+void add_formula(const FormulaCode& code, PlantParameters& plant, std::span<const double> values) {
+    switch (code.port().site) {
+        case Site::carriage:
+            plant.axis.formulas.add(code, values);
+            return;
+        case Site::encoder:
+            plant.encoder.formulas.add(code, values);
+            return;
+        case Site::micro:
+            plant.micro->formulas.add(code, values);
+            return;
+        case Site::camera:
+            plant.camera->formulas.add(code, values);
+            return;
+    }
+}
+
+}  // namespace fidservo::plant

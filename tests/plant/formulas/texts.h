@@ -1,0 +1,36 @@
+#pragma once
+// Formula effects for tests.
+#include "core/formula_effect.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fidservo::plant {
+
+/// A parameter whose typical value acts, or of a shape, which it has.
+struct Number {
+    std::string name;
+    double value;
+    std::string role = "size";
+};
+
+/// @param numbers  of the effect; bounds reach far to both sides
+inline FormulaEffect formula_text(std::string acts_on, std::string block, std::string formula,
+                                  const std::vector<Number>& numbers) {
+    FormulaEffect text;
+    text.name = "of_test";
+    text.acts_on = std::move(acts_on);
+    text.block = std::move(block);
+    text.formula = std::move(formula);
+    for (const Number& number : numbers)
+        text.parameters.push_back({.name = number.name,
+                                   .low = -1e4,
+                                   .high = 1e4,
+                                   .vanishing = number.role == "size" ? 0.0 : number.value,
+                                   .typical = number.value,
+                                   .role = number.role});
+    return text;
+}
+
+}  // namespace fidservo::plant
