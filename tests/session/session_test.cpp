@@ -32,6 +32,21 @@ Session session_with(const std::shared_ptr<SimulatedRig>& rig, const Fault& faul
             Devices{stage, std::make_shared<SimulatedCamera>(rig)}};
 }
 
+/// The reference rig with a session that has homed it, seed 5. Homing is done once in a process, and
+/// restored.
+/// @param printed  as the reference plate where homing looks at it
+std::unique_ptr<WatchedRig> homed_rig(const Plate& printed = reference_plate()) {
+    static const auto homed = [] {
+        WatchedRig rig(reference_physics(), reference_plate(), 5);
+        EXPECT_TRUE(rig.session.home());
+        return std::pair(rig.rig->snapshot(), rig.session.checkpoint());
+    }();
+    auto rig = std::make_unique<WatchedRig>(reference_physics(), printed, 5);
+    rig->rig->restore(homed.first);
+    rig->session.restore(homed.second);
+    return rig;
+}
+
 TEST(Session, Home_FindsWhereTheCameraIs) {
     WatchedRig rig(reference_physics(), reference_plate(), 5);
     const auto homed = rig.session.home();

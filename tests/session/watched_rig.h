@@ -12,8 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include <gtest/gtest.h>
-
 namespace fidservo {
 
 class WatchedStage final : public control::Stage {
@@ -61,21 +59,6 @@ inline plant::PlantParameters reference_physics() {
 
 inline Plate reference_plate() {
     return plate_of(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml").fiducials.value());
-}
-
-/// The reference rig with a session that has homed it, seed 5. Homing is done once in a process, and
-/// restored.
-/// @param printed  as the reference plate where homing looks at it
-inline std::unique_ptr<WatchedRig> homed_rig(const Plate& printed = reference_plate()) {
-    static const auto homed = [] {
-        WatchedRig rig(reference_physics(), reference_plate(), 5);
-        EXPECT_TRUE(rig.session.home());
-        return std::pair(rig.rig->snapshot(), rig.session.checkpoint());
-    }();
-    auto rig = std::make_unique<WatchedRig>(reference_physics(), printed, 5);
-    rig->rig->restore(homed.first);
-    rig->session.restore(homed.second);
-    return rig;
 }
 
 }  // namespace fidservo
