@@ -198,10 +198,12 @@ double driving_force_V(const CarriageModel& model, double command_V, double posi
             place.cogging_V * (skewed_sine(angle + place.cogging_phase_rad, place.cogging_skew) +
                                place.cogging_second * std::sin(2.0 * angle + place.cogging_second_phase_rad));
     }
-    const double from_centre_mm = position_mm - place.cable_centre_mm;
-    const double off_mm =
-        from_centre_mm - std::clamp(from_centre_mm, -place.cable_slack_mm, place.cable_slack_mm);
-    u_V -= place.cable_V_per_mm * (off_mm + place.cable_cubic_per_mm2 * std::pow(off_mm, 3));
+    if (place.cable_V_per_mm != 0.0) {
+        const double from_centre_mm = position_mm - place.cable_centre_mm;
+        const double off_mm =
+            from_centre_mm - std::clamp(from_centre_mm, -place.cable_slack_mm, place.cable_slack_mm);
+        u_V -= place.cable_V_per_mm * (off_mm + place.cable_cubic_per_mm2 * std::pow(off_mm, 3));
+    }
     if (model.discrepancy.acts_on == ActsOn::carriage_force) u_V += model.discrepancy.function(position_mm);
     const double on_motion = model.friction.dead_zone_on_motion;
     return model.drive.motor *

@@ -101,7 +101,7 @@ struct Book {
     Book& operator=(const Book&) = delete;
 };
 
-/// Books in use.
+/// Books in use, and the one that was taken last: to make a table takes longer than to search an image.
 class Shelf {
   public:
     std::shared_ptr<Book> take(const TagReading& reading, int corrected_bits) {
@@ -109,10 +109,10 @@ class Shelf {
         std::erase_if(entries_, [](const Entry& entry) { return entry.book.expired(); });
         for (const Entry& entry : entries_)
             if (entry.reading == reading && entry.corrected_bits == corrected_bits)
-                if (auto book = entry.book.lock()) return book;
+                if (auto book = entry.book.lock()) return last_ = book;
         auto book = std::make_shared<Book>(reading, corrected_bits);
         entries_.push_back({reading, corrected_bits, book});
-        return book;
+        return last_ = book;
     }
 
   private:
@@ -123,6 +123,7 @@ class Shelf {
     };
     std::mutex mutex_;
     std::vector<Entry> entries_;
+    std::shared_ptr<Book> last_;
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ int most_correctable_bits(const TagFamily& family);
 /// The library decodes any family whose bits are listed so that a quarter turn moves each by a quarter of
 /// them, which can be had of every square pattern; a bit in the middle comes last. Borders, mirrored and
 /// inverted prints are books of their own. The library's table for decoding comes with it and is only read:
-/// one book serves all detectors that want it at a time.
+/// one book serves all detectors that want it at a time, and the last one is kept for the next that does.
 /// @param corrected_bits  0 to 2
 std::shared_ptr<apriltag_family> shared_tag_book(const TagReading& reading, int corrected_bits);
 

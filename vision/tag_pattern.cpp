@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
 #include <optional>
 
@@ -24,16 +26,23 @@ Eigen::Vector2d on_tag(const TagPattern& pattern, int row, int column, double dx
 
 /// P(R^2 > level) of one regressor among `cells` levels of chance that has only the right sign: half of
 /// I_(1 - level)((cells - 4)/2, 1/2), by the angle whose sine is R.
-double chance_of_more(double level, int cells) {
-    constexpr int steps = 2000;
-    const auto tail_from = [&](double angle) {
+class ChanceOfMore {
+  public:
+    explicit ChanceOfMore(int cells) : power_(cells - 5), whole_(tail_from(0.0)) {}
+    double operator()(double level) const { return 0.5 * tail_from(std::asin(std::sqrt(level))) / whole_; }
+
+  private:
+    double tail_from(double angle) const {
+        constexpr int steps = 2000;
         const double step = (0.5 * std::numbers::pi - angle) / steps;
         double sum = 0.0;
-        for (int k = 0; k < steps; ++k) sum += std::pow(std::cos(angle + (k + 0.5) * step), cells - 5);
+        for (int k = 0; k < steps; ++k) sum += std::pow(std::cos(angle + (k + 0.5) * step), power_);
         return sum * step;
-    };
-    return 0.5 * tail_from(std::asin(std::sqrt(level))) / tail_from(0.0);
-}
+    }
+
+    int power_;
+    double whole_;
+};
 
 /// Sums over the points of the cells, and over each cell alone.
 struct CellSums {
@@ -120,11 +129,12 @@ std::optional<PatternFit> fit_pattern(const cv::Mat& image, const std::array<Eig
 double level_for(const TagFamily& family, int cells, int usual_cells) {
     constexpr double usual_level = 0.4;
     constexpr int halvings = 20;
-    const double wanted = usual_tag_family().size() * chance_of_more(usual_level, usual_cells);
+    const double wanted = usual_tag_family().size() * ChanceOfMore(usual_cells)(usual_level);
+    const ChanceOfMore chance(cells);
     double low = 0.0, high = 1.0;
     for (int k = 0; k < halvings; ++k) {
         const double middle = 0.5 * (low + high);
-        (family.size() * chance_of_more(middle, cells) > wanted ? low : high) = middle;
+        (family.size() * chance(middle) > wanted ? low : high) = middle;
     }
     return high;
 }
@@ -154,14 +164,26 @@ double explained_code(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>
     return fit ? fit->explained : 0.0;
 }
 
-LeastExplained least_explained(const TagFamily& family) {
+namespace {
+
+LeastExplained least_by_chance(const TagFamily& family) {
     const TagFamily& usual = usual_tag_family();
-    if (&family == &usual) return {0.4, 0.0};
     const auto bits = [](const TagFamily& of) {
         return static_cast<int>(std::ranges::count(of.layout, 'd'));
     };
     return {level_for(family, family.cells * family.cells, usual.cells * usual.cells),
             level_for(family, bits(family), bits(usual))};
+}
+
+}  // namespace
+
+LeastExplained least_explained(const TagFamily& family) {
+    if (&family == &usual_tag_family()) return {0.4, 0.0};
+    static std::mutex mutex;
+    static std::map<const TagFamily*, LeastExplained> known;  // a level takes milliseconds to compute
+    const std::scoped_lock lock(mutex);
+    const auto place = known.find(&family);
+    return (place != known.end() ? place : known.emplace(&family, least_by_chance(family)).first)->second;
 }
 
 bool is_convincing(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,

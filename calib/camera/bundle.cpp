@@ -64,8 +64,12 @@ struct Bundle::Residual {
     bool operator()(const T* lens, const T* pose, T* residual) const {
         const Eigen::Matrix<T, 8, 1> error =
             sight.seen_px - corners_from_pose(model, sight.printed_mm, lens, pose);
-        Eigen::Map<Eigen::Matrix<T, 8, 1>> out(residual);
-        out = sight.weights.whiten.cast<T>() * error;
+        // Written out: a weight has no derivatives, as a number that is made a T would.
+        for (int row = 0; row < 8; ++row) {
+            residual[row] = sight.weights.whiten(row, 0) * error(0);
+            for (int column = 1; column < 8; ++column)
+                residual[row] += sight.weights.whiten(row, column) * error(column);
+        }
         return true;
     }
     static ceres::CostFunction* of(LensModel model, const Sight& sight) {

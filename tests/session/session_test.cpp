@@ -32,6 +32,21 @@ Session session_with(const std::shared_ptr<SimulatedRig>& rig, const Fault& faul
             Devices{stage, std::make_shared<SimulatedCamera>(rig)}};
 }
 
+/// The reference rig with a session that has homed it, seed 5. Homing is done once in a process, and
+/// restored.
+/// @param printed  as the reference plate where homing looks at it
+std::unique_ptr<WatchedRig> homed_rig(const Plate& printed = reference_plate()) {
+    static const auto homed = [] {
+        WatchedRig rig(reference_physics(), reference_plate(), 5);
+        EXPECT_TRUE(rig.session.home());
+        return std::pair(rig.rig->snapshot(), rig.session.checkpoint());
+    }();
+    auto rig = std::make_unique<WatchedRig>(reference_physics(), printed, 5);
+    rig->rig->restore(homed.first);
+    rig->session.restore(homed.second);
+    return rig;
+}
+
 TEST(Session, Home_FindsWhereTheCameraIs) {
     WatchedRig rig(reference_physics(), reference_plate(), 5);
     const auto homed = rig.session.home();
@@ -84,12 +99,11 @@ TEST(Session, HomingThatIsRecorded_StatesWhereTheEncoderCountsFrom) {
 }
 
 TEST(Session, DetectionsThatAreRecorded_AreRefined_AndSayHowWellTheyAreKnown) {
-    WatchedRig rig(reference_physics(), reference_plate(), 5);
+    const auto rig = homed_rig();
     const testing::TemporaryFolder folder;
-    ASSERT_TRUE(rig.session.home());
-    rig.session.record_to(folder / "a", "goto");
-    ASSERT_TRUE(rig.session.go_to(3, 0.25));
-    ASSERT_TRUE(rig.session.end_recording());
+    rig->session.record_to(folder / "a", "goto");
+    ASSERT_TRUE(rig->session.go_to(3, 0.25));
+    ASSERT_TRUE(rig->session.end_recording());
     const Recording recording = read_recording(folder / "a");
     ASSERT_FALSE(recording.detections.empty());
     EXPECT_TRUE(recording.plate.empty()) << "the plate is the rig file's";
@@ -170,8 +184,8 @@ TEST(Session, SameSeed_SameCommands) {
 }
 
 TEST(Session, End_LeavesBothCommandsZero) {
-    auto rig = std::make_unique<WatchedRig>(reference_physics(), reference_plate(), 5);
-    ASSERT_TRUE(rig->session.home());
+    auto rig = homed_rig();
+    ASSERT_TRUE(rig->session.hold(0.1));
     const auto stage = rig->stage;
     EXPECT_GT(stage->commands.back().micro_V, 1.3);
     rig.reset();
@@ -208,25 +222,23 @@ TEST(Session, CheckpointRestoredInANewSession_GoesOnBitForBit) {
 TEST(Session, PlateWithoutTheTag_FailsWithAReasonAndStaysSafe) {
     Plate printed = reference_plate();
     std::erase_if(printed.tags, [](const PlateTag& tag) { return tag.id >= 28 && tag.id <= 32; });
-    WatchedRig rig(reference_physics(), printed, 5);
-    ASSERT_TRUE(rig.session.home());
-    const auto arrival = rig.session.go_to(30, 0.0);
+    const auto rig = homed_rig(printed);
+    const auto arrival = rig->session.go_to(30, 0.0);
     ASSERT_FALSE(arrival);
     EXPECT_TRUE(arrival.error().reason == Reason::no_tag || arrival.error().reason == Reason::wrong_tag)
         << arrival.error().text;
-    EXPECT_TRUE(rig.session.go_to(10, 0.0));
+    EXPECT_TRUE(rig->session.go_to(10, 0.0));
 }
 
 TEST(Session, TagsThatChangedPlaces_LeadTheCameraNotAstray) {
     Plate printed = reference_plate();
     std::swap(printed.tags[30].id, printed.tags[80].id);
-    WatchedRig rig(reference_physics(), printed, 5);
-    ASSERT_TRUE(rig.session.home());
-    const auto arrival = rig.session.go_to(30, 0.0);
+    const auto rig = homed_rig(printed);
+    const auto arrival = rig->session.go_to(30, 0.0);
     ASSERT_FALSE(arrival);
     EXPECT_EQ(arrival.error().reason, Reason::wrong_tag) << arrival.error().text;
-    EXPECT_NEAR(rig.session.pilot().believed_s_mm(), plant::camera_position_mm(rig.rig->truth()), 0.1);
-    EXPECT_TRUE(rig.session.go_to(32, 0.0));
+    EXPECT_NEAR(rig->session.pilot().believed_s_mm(), plant::camera_position_mm(rig->rig->truth()), 0.1);
+    EXPECT_TRUE(rig->session.go_to(32, 0.0));
 }
 
 TEST(Session, CountsThatWereNoMotion_AreFoundOutByTheTags) {
@@ -257,10 +269,9 @@ TEST(Session, DriveThatActsLate_IsHomedAndPositioned) {
 }
 
 TEST(Session, TagOutOfTravelOrNotOnThePlate_IsRefused) {
-    WatchedRig rig(reference_physics(), reference_plate(), 5);
-    ASSERT_TRUE(rig.session.home());
-    EXPECT_EQ(rig.session.go_to(100, 5.0).error().reason, Reason::out_of_reach);
-    EXPECT_EQ(rig.session.go_to(500, 0.0).error().reason, Reason::wrong_tag);
+    const auto rig = homed_rig();
+    EXPECT_EQ(rig->session.go_to(100, 5.0).error().reason, Reason::out_of_reach);
+    EXPECT_EQ(rig->session.go_to(500, 0.0).error().reason, Reason::wrong_tag);
 }
 
 }  // namespace
