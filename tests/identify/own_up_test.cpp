@@ -3,6 +3,7 @@
 #include "tests/identify/owned_recordings.h"
 #include "tests/src/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
