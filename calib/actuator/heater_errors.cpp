@@ -53,7 +53,43 @@ void set_number(HeaterParameters& heater, int i, double value) {
     *all[static_cast<std::size_t>(i)] = value;
 }
 
+bool is_refused(const HeaterFit& fit, int i) {
+    return std::ranges::any_of(
+        fit.refused, [&](const HeaterRefusal& refusal) { return static_cast<int>(refusal.number) == i; });
+}
+
 }  // namespace
+
+namespace {
+
+/// Of what has this gradient, in the solution and in the one that had the held numbers free.
+BatchVariance variance_with_held(const HeaterSolution& common, const HeaterInfluences& influences,
+                                 const HeaterVector& gradient) {
+    BatchVariance variance = variance_along(influences, gradient);
+    for (const HeaterVector& moved : common.moved_by_starts)
+        variance.variance += std::pow(gradient.dot(moved), 2);
+    if (!common.freer) return variance;
+    const BatchVariance before = variance_along(common.freer->influences, gradient);
+    if (before.variance > variance.variance) variance = before;
+    variance.variance += std::pow(gradient.dot(common.freer->x - common.x), 2);
+    return variance;
+}
+
+}  // namespace
+
+void refuse_what_hangs_on_others(HeaterSolution& solution) {
+    if (!solution.freer) return;
+    std::string held;
+    for (const HeaterRefusal& refusal : solution.fit.refused)
+        held += (held.empty() ? "" : ", ") + std::string(name_of(refusal.number));
+    const HeaterVector std = parameter_stds(solution.freer->influences);
+    for (int i = 0; i < heater_count; ++i) {
+        if (!solution.is_free[static_cast<std::size_t>(i)] || std(i) <= 1.0) continue;
+        const auto number = static_cast<HeaterNumber>(i);
+        solution.fit.refused.push_back(
+            {number, fmt::format("it is not determined apart from {}, which the data leave open", held)});
+    }
+}
 
 HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& predict,
                       const HeaterScale& scale, const HeaterSolution& common) {
@@ -71,7 +107,7 @@ HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& p
         if (!common.is_free[k]) continue;
         const HeaterVector gradient = gradient_of(scale, common.x, i);
         VarianceSum sum;
-        const BatchVariance batches = variance_along(influences, gradient);
+        const BatchVariance batches = variance_with_held(common, influences, gradient);
         sum.add(batches.variance, batches.freedom);
         const Heterogeneity scatter = heterogeneity(own[k]);
         if (scatter.added_variance > 0.0) sum.add(scatter.added_variance, scatter.added_freedom);
@@ -80,13 +116,17 @@ HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& p
             sum = {};
             sum.add(scatter.mean_variance, scatter.added_freedom);
         }
-        fit.std[k] = std::sqrt(sum.variance);
-        fit.freedom[k] = sum.freedom;
+        const bool refused = is_refused(common.fit, i);
+        if (!refused) {
+            fit.std[k] = std::sqrt(sum.variance);
+            fit.freedom[k] = sum.freedom;
+        }
         if (own[k].size() < 2 || scatter.probability >= level / heater_count) continue;
         const RecordingEstimate &low = own[k][scatter.low], &high = own[k][scatter.high];
         const auto number = static_cast<HeaterNumber>(i);
         fit.contradictions.push_back({number, scatter.apart, of_run[k][scatter.low], of_run[k][scatter.high],
                                       low.value, low.std, high.value, high.std});
+        if (refused) continue;
         const double unit = std::abs(gradient(i));
         if (student_95(sum.freedom) * fit.std[k] <= normal_95 * unit) continue;
         fit.refused.push_back(

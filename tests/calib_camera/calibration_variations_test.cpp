@@ -2,6 +2,7 @@
 // lens is found within its stated standard errors, or refused for the reason
 // that the draw gave it.
 #include "calib/camera/calibration_verdict.h"
+#include "calib/camera/other_explanations.h"
 #include "tests/calib_camera/hand_held.h"
 #include "tests/variations.h"
 
@@ -16,7 +17,7 @@ namespace fidservo::calib {
 namespace {
 
 constexpr int tried = 200;
-constexpr int tried_of_long = 25;  ///< of kinds whose every answer takes a dozen calibrations
+constexpr int tried_of_long = 200;  ///< of kinds whose every answer takes a dozen calibrations
 constexpr double side_mm = 88.0, pitch_mm = 114.4;
 
 std::vector<PlateTag> small_target() {
@@ -101,8 +102,9 @@ std::optional<double> number_after(const Answer& answer, const std::string& word
 Answer answer_of(const std::vector<TargetView>& views, const CameraGeometry& camera, LensModel model,
                  const std::vector<PlateTag>& target) {
     const CalibrationLimits limits{.least_coverage = 0.0};
-    const auto found = calibrate_camera(views, options_for_lens(camera, model));
+    auto found = calibrate_camera(views, options_for_lens(camera, model));
     if (!found) return {std::nullopt, {found.error().text}, {}};
+    count_other_model(*found);
     Answer answer{*found, shortcomings(*found, limits, target), {}};
     if (answer.accepted()) answer.notes = notes_on(*found);
     return answer;
