@@ -37,7 +37,9 @@ HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& p
 double mean_heating_command(const std::vector<HeaterRun>& runs, const HeaterParameters& heater);
 
 /// Where a number is not determined: what is, of it and of the number that it is mistaken for.
-void add_combination(HeaterFit& fit, HeaterNumber number, const HeaterScale& scale, const HeaterVector& x,
-                     const HeaterInfluences& influences, double command);
+/// @param x  of residuals with all numbers free, which `influences` are of
+void add_combination(HeaterFit& fit, HeaterNumber number, const HeaterResiduals& residuals,
+                     const HeaterScale& scale, const HeaterVector& x, const HeaterInfluences& influences,
+                     double command);
 
 }  // namespace fidservo::calib

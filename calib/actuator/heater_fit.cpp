@@ -55,7 +55,7 @@ Result<HeaterSolution> fit_determined(const std::vector<HeaterRun>& runs, const 
         if (scale.by_itself && is_free[0] && x(0) < 1e-6) {
             if (!freer) freer = {x, influences};
             if (std(0) > 1.0)
-                add_combination(fit, HeaterNumber::onset, scale, freer->x, freer->influences,
+                add_combination(fit, HeaterNumber::onset, residuals, scale, freer->x, freer->influences,
                                 mean_heating_command(runs, scale.at(freer->x.data())));
             fit.refused.push_back({HeaterNumber::onset, "the heater heats from the least command on"});
             is_free[0] = false;
@@ -83,7 +83,7 @@ Result<HeaterSolution> fit_determined(const std::vector<HeaterRun>& runs, const 
         if (scale.by_itself && (number == HeaterNumber::gain || number == HeaterNumber::cooling_tau))
             return failure(Reason::not_identifiable,
                            fmt::format("{}: {}", name_of(number), useless(number, scale, x, std(worst))));
-        add_combination(fit, number, scale, freer->x, freer->influences,
+        add_combination(fit, number, residuals, scale, freer->x, freer->influences,
                         mean_heating_command(runs, scale.at(freer->x.data())));
         fit.refused.push_back({number, useless(number, scale, x, std(worst))});
         is_free[static_cast<std::size_t>(worst)] = false;

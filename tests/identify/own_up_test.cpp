@@ -19,6 +19,7 @@ using ::testing::Not;
 Identified identify(const std::vector<Carriage>& carriages, double duration_s = 6.0) {
     std::mt19937_64 random(1);
     std::vector<Recording> recordings;
+    recordings.reserve(carriages.size());
     for (const Carriage& carriage : carriages)
         recordings.push_back(recorded(carriage, fmt::format("recording-{}", recordings.size() + 1),
                                       drawn_pulses(random, duration_s), duration_s, random));
