@@ -209,7 +209,7 @@ TEST(SlowCalibrationVariations, WrongSpacing_IsNamedWithTheRightOne) {
                 return Outcome::refused(answer.reasons.front());
             if (answer.accepted() && answer.says("is the target printed as said?"))
                 return Outcome::refused(answer.notes.back());
-            // Refused for the error of the focal length, where a slightly wrong size does not show.
+            // A refusal for the error of the focal length counts, whatever the size.
             if (answer.says("the focal length is not determined"))
                 return Outcome::refused(answer.reasons.front());
             if (!answer.accepted())

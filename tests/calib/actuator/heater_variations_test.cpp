@@ -125,7 +125,7 @@ TEST(SlowHeaterVariations, RecordingsThatContradictEachOther_AreOwnedUpTo) {
     });
 }
 
-/// Of 200, one states a combination 4.6 standard errors off: its error does not count the first reading's.
+/// Of 200, one states a combination 4.6 standard errors off.
 TEST(SlowHeaterVariations, OneVoltage_FixesACombination) {
     expect_right_or_refused(
         "heater: one voltage", tried,
