@@ -53,7 +53,103 @@ void set_number(HeaterParameters& heater, int i, double value) {
     *all[static_cast<std::size_t>(i)] = value;
 }
 
+bool is_refused(const HeaterFit& fit, int i) {
+    return std::ranges::any_of(
+        fit.refused, [&](const HeaterRefusal& refusal) { return static_cast<int>(refusal.number) == i; });
+}
+
 }  // namespace
+
+namespace {
+
+/// How many times farther than its standard error says a figure may lie, on the side that is the wider one:
+/// the profile of the squares, everything else fitted again at each value, at four standard errors over what
+/// it would be of a parabola; from 1 to 100, beyond which no end is looked for.
+/// @param gradient  of the figure by x
+double widening(HeaterResiduals residuals, const HeaterVector& x, const HeaterFree& is_free,
+                const HeaterInfluences& influences, const HeaterVector& gradient,
+                const std::function<double(const HeaterVector&)>& figure) {
+    constexpr double far = 4.0, farthest = 100.0, step = 1.5, tight = 1e-3;
+    const double claimed = gradient.dot(influences.claimed * gradient);
+    const double variance = variance_along(influences, gradient).variance, std = std::sqrt(variance);
+    const int rows = residuals.count();
+    const double here = residuals.at(x).squaredNorm(), noise = here / rows, value = figure(x);
+    if (!(claimed > 0.0) || !(noise > 0.0) || !std::isfinite(value)) return 1.0;
+    const double rise_at_end = far * far * variance / claimed * noise;
+    double widest = 1.0;
+    for (const double side : {+1.0, -1.0}) {
+        double below = 0.0, root_below = 0.0, end = farthest;
+        HeaterVector at = x;
+        for (double share = 1.0; share < farthest; share *= step) {
+            residuals.pin({figure, value + side * share * far * std, tight * std / std::sqrt(noise)});
+            if (!solve_heater(residuals, is_free, true, at)) break;
+            const double rise = residuals.at(at).head(rows).squaredNorm() - here;
+            const bool arrived = std::abs(figure(at) - value) > 0.9 * share * far * std;
+            const double root = arrived ? std::sqrt(std::max(0.0, rise / rise_at_end)) : 1.0 + root_below;
+            if (root >= 1.0) {
+                end = below + (share - below) * (1.0 - root_below) / (root - root_below);
+                break;
+            }
+            below = share;
+            root_below = root;
+        }
+        widest = std::max(widest, end);
+    }
+    return widest;
+}
+
+/// Of what has this gradient, in the solution and in the one that had the held numbers free.
+BatchVariance variance_with_held(const HeaterSolution& common, const HeaterInfluences& influences,
+                                 const HeaterVector& gradient) {
+    BatchVariance variance = variance_along(influences, gradient);
+    for (const HeaterVector& moved : common.moved_by_starts)
+        variance.variance += std::pow(gradient.dot(moved), 2);
+    if (!common.freer) return variance;
+    const BatchVariance before = variance_along(common.freer->influences, gradient);
+    if (before.variance > variance.variance) variance = before;
+    variance.variance += std::pow(gradient.dot(common.freer->x - common.x), 2);
+    return variance;
+}
+
+/// The standard error of a number of one recording, made wider where the squares are no parabola; refused
+/// where it is useless then.
+void widen_or_refuse(const std::vector<HeaterRun>& runs, const HeaterPredict& predict,
+                     const HeaterScale& scale, const HeaterSolution& common, int number, HeaterFit& fit) {
+    const auto k = static_cast<std::size_t>(number);
+    const HeaterResiduals residuals(runs, predict, scale);
+    const HeaterVector x = common.freer ? common.freer->x : common.x;
+    const HeaterFree is_free = common.freer ? HeaterFree{true, true, true, true, true} : common.is_free;
+    const HeaterVector gradient = gradient_of(scale, x, number);
+    const HeaterInfluences influences =
+        common.freer ? common.freer->influences : influences_at(residuals, is_free, x);
+    const double wider = widening(residuals, x, is_free, influences, gradient, [&](const HeaterVector& at) {
+        return number_of(scale.at(at.data()), number);
+    });
+    fit.std[k] *= wider;
+    if (fit.std[k] <= std::abs(gradient(number))) return;
+    fit.refused.push_back(
+        {static_cast<HeaterNumber>(number),
+         fmt::format("the data leave it at {:.4g} with a standard error of {:.2g}: it hardly "
+                     "shows, or not apart from the others",
+                     number_of(scale.at(common.x.data()), number), fit.std[k])});
+    fit.std[k] = fit.freedom[k] = std::nan("");
+}
+
+}  // namespace
+
+void refuse_what_hangs_on_others(HeaterSolution& solution) {
+    if (!solution.freer) return;
+    std::string held;
+    for (const HeaterRefusal& refusal : solution.fit.refused)
+        held += (held.empty() ? "" : ", ") + std::string(name_of(refusal.number));
+    const HeaterVector std = parameter_stds(solution.freer->influences);
+    for (int i = 0; i < heater_count; ++i) {
+        if (!solution.is_free[static_cast<std::size_t>(i)] || std(i) <= 1.0) continue;
+        const auto number = static_cast<HeaterNumber>(i);
+        solution.fit.refused.push_back(
+            {number, fmt::format("it is not determined apart from {}, which the data leave open", held)});
+    }
+}
 
 HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& predict,
                       const HeaterScale& scale, const HeaterSolution& common) {
@@ -71,7 +167,7 @@ HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& p
         if (!common.is_free[k]) continue;
         const HeaterVector gradient = gradient_of(scale, common.x, i);
         VarianceSum sum;
-        const BatchVariance batches = variance_along(influences, gradient);
+        const BatchVariance batches = variance_with_held(common, influences, gradient);
         sum.add(batches.variance, batches.freedom);
         const Heterogeneity scatter = heterogeneity(own[k]);
         if (scatter.added_variance > 0.0) sum.add(scatter.added_variance, scatter.added_freedom);
@@ -80,13 +176,19 @@ HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& p
             sum = {};
             sum.add(scatter.mean_variance, scatter.added_freedom);
         }
-        fit.std[k] = std::sqrt(sum.variance);
-        fit.freedom[k] = sum.freedom;
+        const bool refused = is_refused(common.fit, i);
+        if (!refused) {
+            fit.std[k] = std::sqrt(sum.variance);
+            fit.freedom[k] = sum.freedom;
+        }
+        if (!refused && scale.by_itself && runs.size() == 1)
+            widen_or_refuse(runs, predict, scale, common, i, fit);
         if (own[k].size() < 2 || scatter.probability >= level / heater_count) continue;
         const RecordingEstimate &low = own[k][scatter.low], &high = own[k][scatter.high];
         const auto number = static_cast<HeaterNumber>(i);
         fit.contradictions.push_back({number, scatter.apart, of_run[k][scatter.low], of_run[k][scatter.high],
                                       low.value, low.std, high.value, high.std});
+        if (refused) continue;
         const double unit = std::abs(gradient(i));
         if (student_95(sum.freedom) * fit.std[k] <= normal_95 * unit) continue;
         fit.refused.push_back(
@@ -106,13 +208,20 @@ double mean_heating_command(const std::vector<HeaterRun>& runs, const HeaterPara
     return count > 0.0 ? sum / count : heater.onset_V;
 }
 
-void add_combination(HeaterFit& fit, HeaterNumber number, const HeaterScale& scale, const HeaterVector& x,
-                     const HeaterInfluences& influences, double command) {
+void add_combination(HeaterFit& fit, HeaterNumber number, const HeaterResiduals& residuals,
+                     const HeaterScale& scale, const HeaterVector& x, const HeaterInfluences& influences,
+                     double command) {
     constexpr double fifth = 0.2;
     const HeaterParameters heater = scale.at(x.data());
     const auto gradient = [&](HeaterNumber of) { return gradient_of(scale, x, static_cast<int>(of)); };
-    const auto add = [&](HeaterCombination combination, const HeaterVector& relative) {
-        const double std = std::sqrt(variance_along(influences, relative).variance);
+    const auto add = [&](HeaterCombination combination, const HeaterVector& relative,
+                         const std::function<double(const HeaterParameters&)>& figure) {
+        double std = std::sqrt(variance_along(influences, relative).variance);
+        if (!(std < fifth)) return;
+        if (scale.by_itself)
+            std *= widening(
+                residuals, x, {true, true, true, true, true}, influences, relative,
+                [&](const HeaterVector& at) { return figure(scale.at(at.data())) / combination.value; });
         if (!(std < fifth) || !std::isfinite(combination.value)) return;
         combination.std = std::abs(combination.value) * std;
         fit.combinations.push_back(std::move(combination));
@@ -123,11 +232,13 @@ void add_combination(HeaterFit& fit, HeaterNumber number, const HeaterScale& sca
         if (above > 0.0)
             add({fmt::format("gain_times_{:.4g}_less_onset", command), "degC", heater.gain_degC_per_V * above,
                  0.0},
-                of_gain - gradient(HeaterNumber::onset) / above);
+                of_gain - gradient(HeaterNumber::onset) / above,
+                [=](const HeaterParameters& at) { return at.gain_degC_per_V * (command - at.onset_V); });
     }
     if (number != HeaterNumber::onset && number != HeaterNumber::ambient)
         add({"gain_over_heating_tau", "degC/s", heater.gain_degC_per_V / heater.heating_tau_s, 0.0},
-            of_gain - gradient(HeaterNumber::heating_tau) / heater.heating_tau_s);
+            of_gain - gradient(HeaterNumber::heating_tau) / heater.heating_tau_s,
+            [](const HeaterParameters& at) { return at.gain_degC_per_V / at.heating_tau_s; });
 }
 
 }  // namespace fidservo::calib

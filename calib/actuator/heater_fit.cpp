@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -41,6 +42,7 @@ Result<HeaterSolution> fit_determined(const std::vector<HeaterRun>& runs, const 
     HeaterVector x = begin;
     HeaterFit fit{};
     fit.samples = static_cast<std::size_t>(residuals.count());
+    std::optional<HeaterSolution::Freer> freer;
     for (;;) {
         if (!solve_heater(residuals, is_free, scale.by_itself, x))
             return failure(Reason::no_convergence, "the heater's fit did not converge");
@@ -48,7 +50,13 @@ Result<HeaterSolution> fit_determined(const std::vector<HeaterRun>& runs, const 
         if (!residual.allFinite())
             return failure(Reason::no_convergence, "the heater's fit did not converge");
         const double squares = residual.squaredNorm();
+        const HeaterInfluences influences = influences_at(residuals, is_free, x);
+        const HeaterVector std = parameter_stds(influences);
         if (scale.by_itself && is_free[0] && x(0) < 1e-6) {
+            if (!freer) freer = {x, influences};
+            if (std(0) > 1.0)
+                add_combination(fit, HeaterNumber::onset, residuals, scale, freer->x, freer->influences,
+                                mean_heating_command(runs, scale.at(freer->x.data())));
             fit.refused.push_back({HeaterNumber::onset, "the heater heats from the least command on"});
             is_free[0] = false;
             begin(0) = 0.0;
@@ -58,13 +66,14 @@ Result<HeaterSolution> fit_determined(const std::vector<HeaterRun>& runs, const 
         fit.residual_rms = std::sqrt(squares / residuals.weight_squares());
         const double variation = residuals.variation();
         fit.missed_share = variation > 0.0 ? std::sqrt(squares / variation) : 1.0;
-        const HeaterInfluences influences = influences_at(residuals, is_free, x);
-        const HeaterVector std = parameter_stds(influences);
         int worst = 0;
         if (std.maxCoeff(&worst) <= 1.0) {
             fit.heater = scale.at(x.data());
-            return HeaterSolution{fit, x, is_free};
+            HeaterSolution solution{fit, x, is_free, freer};
+            refuse_what_hangs_on_others(solution);
+            return solution;
         }
+        if (!freer) freer = {x, influences};
         if (scale.by_itself) {
             HeaterVector can_be_held = std;
             can_be_held(1) = can_be_held(3) = 0.0;
@@ -74,7 +83,8 @@ Result<HeaterSolution> fit_determined(const std::vector<HeaterRun>& runs, const 
         if (scale.by_itself && (number == HeaterNumber::gain || number == HeaterNumber::cooling_tau))
             return failure(Reason::not_identifiable,
                            fmt::format("{}: {}", name_of(number), useless(number, scale, x, std(worst))));
-        add_combination(fit, number, scale, x, influences, mean_heating_command(runs, scale.at(x.data())));
+        add_combination(fit, number, residuals, scale, freer->x, freer->influences,
+                        mean_heating_command(runs, scale.at(freer->x.data())));
         fit.refused.push_back({number, useless(number, scale, x, std(worst))});
         is_free[static_cast<std::size_t>(worst)] = false;
         begin(worst) = 0.0;
@@ -164,6 +174,23 @@ std::vector<HeaterRun> inferred_runs(const MicroModel& model, const std::vector<
     return inferred;
 }
 
+/// Each run whose start is its first reading, started a residual higher.
+std::vector<HeaterVector> moves_by_starts(const std::vector<HeaterRun>& runs,
+                                          const std::vector<HeaterRun>& started, const HeaterScale& scale,
+                                          const HeaterSolution& solution) {
+    std::vector<HeaterVector> moves;
+    const HeaterPredict predict = predict_temperature;
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        if (runs[r].start_degC) continue;
+        std::vector<HeaterRun> other = started;
+        *other[r].start_degC += solution.fit.residual_rms;
+        HeaterVector x = solution.x;
+        if (solve_heater(HeaterResiduals(other, predict, scale), solution.is_free, scale.by_itself, x))
+            moves.emplace_back(x - solution.x);
+    }
+    return moves;
+}
+
 }  // namespace
 
 std::string_view name_of(HeaterNumber number) {
@@ -251,6 +278,7 @@ Result<HeaterFit> fit_heater_to_temperature(const std::vector<HeaterRun>& runs) 
     if (!best)
         return tl::make_unexpected(
             Failure{best.error().reason, best.error().text + each_alone(started, scale)});
+    best->moved_by_starts = moves_by_starts(runs, started, scale, *best);
     return with_errors(started, predict_temperature, scale, *best);
 }
 

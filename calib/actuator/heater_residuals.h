@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -58,6 +59,16 @@ class HeaterResiduals {
 
     int count() const { return count_; }
 
+    /// A figure of x that is held at a value, by one more residual at the end.
+    struct Pin {
+        std::function<double(const HeaterVector&)> figure;
+        double value, std;
+    };
+    void pin(Pin pin) {
+        count_ += pin_ ? 0 : 1;
+        pin_ = std::move(pin);
+    }
+
     bool operator()(double const* const* blocks, double* residual) const {
         const HeaterParameters heater = scale_.at(blocks[0]);
         int next = 0;
@@ -67,6 +78,9 @@ class HeaterResiduals {
                 if (const double w = weight(run, k); w > 0.0)
                     residual[next++] = w * (model[k] - run.reading[k]);
         }
+        if (pin_)
+            residual[next++] =
+                (pin_->figure(Eigen::Map<const HeaterVector>(blocks[0])) - pin_->value) / pin_->std;
         return std::all_of(residual, residual + next, [](double r) { return std::isfinite(r); });
     }
 
@@ -119,6 +133,7 @@ class HeaterResiduals {
     const HeaterScale& scale_;
     std::size_t stride_ = 1;
     int count_ = 0;
+    std::optional<Pin> pin_ = {};
 };
 
 /// Least squares over the free numbers. @return false if it did not converge to something usable

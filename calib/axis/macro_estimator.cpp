@@ -329,7 +329,11 @@ MacroInfluences MacroEstimator::influences(const MacroPoint& point, const MacroA
     }
     // In units of the priors: the parameters' own differ by many powers of ten.
     const auto unit = prior_std_.asDiagonal();
-    MacroInfluences result{unit * MacroMatrix(unit * curvature * unit).inverse() * unit, {}, 0};
+    MacroInfluences result{unit * MacroMatrix(unit * curvature * unit).inverse() * unit, {}};
+    for (const MacroWindow& window : windows_) {
+        result.ticks += static_cast<double>(window.position_mm.size());
+        result.starts += 2.0;
+    }
     for (int i = 0; i < n; ++i) {
         result.fitted += active[static_cast<std::size_t>(i)] ? 1 : 0;
         if (active[static_cast<std::size_t>(i)]) continue;
@@ -352,7 +356,11 @@ BatchVariance variance_along(const MacroInfluences& influences, const MacroVecto
         series.emplace_back(along.data(), along.data() + along.size());
     }
     BatchVariance result = batch_variance(series, influences.fitted);
-    result.variance = std::max(result.variance, gradient.dot(influences.inverse * gradient));
+    const double freedom = std::max(1.0, influences.ticks - influences.starts);
+    const double freer = std::max(1.0, freedom - static_cast<double>(influences.fitted));
+    result.variance = std::max(result.variance * influences.ticks / freedom,
+                               gradient.dot(influences.inverse * gradient) * influences.ticks / freer);
+    result.freedom = std::min(result.freedom, freer);
     return result;
 }
 

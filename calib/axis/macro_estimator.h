@@ -43,10 +43,13 @@ struct MacroInfluences {
     /// stays the same while the reading does): by how much the block moved each parameter.
     std::vector<Eigen::Matrix<double, macro_parameter_count, Eigen::Dynamic>> blocks;
     std::size_t fitted = 0;  ///< number of active parameters
+    double ticks = 0.0;      ///< readings
+    double starts = 0.0;     ///< numbers fitted to them beside the parameters: two a window
 };
 
 /// Variance of a figure with this gradient by the parameters: of batches of blocks (calib/batch_variance.h),
-/// at least what the likelihood claims.
+/// at least what the likelihood claims. Each is larger by the share of the residual that what was fitted has
+/// taken up: in short windows of few readings their starts take up much.
 BatchVariance variance_along(const MacroInfluences& influences, const MacroVector& gradient);
 
 class MacroEstimator {

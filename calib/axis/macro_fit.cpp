@@ -156,6 +156,26 @@ void drop_undetermined(const MacroEstimator& estimator, const MacroBuild& build,
     drop(macro_index::offset, most_share * drive_V, fit.offset_dropped);
 }
 
+/// A carriage that is driven to one side is held while no command drives it, or creeps there if its offset
+/// overcomes friction; then offset less friction shows. It is in the fit where it shows beyond doubt, and
+/// counts as what was taken as zero where it does not.
+void weigh_creep(const MacroEstimator& estimator, const MacroBuild& build, MacroFit& fit) {
+    constexpr double beyond_doubt = 1e-4;
+    MacroFit creeping = fit;
+    creeping.active[macro_index::offset] = true;
+    settle(estimator, build, creeping);
+    const BatchVariance variance =
+        variance_along(creeping.influences, MacroVector::Unit(macro_index::offset));
+    const double std = std::sqrt(variance.variance), value = creeping.point.motion.offset_V;
+    if (!std::isfinite(value) || !(std > 0.0)) return;
+    if (std::abs(value) > student_bound(variance.freedom, beyond_doubt) * std) {
+        creeping.offset_less_friction = true;
+        fit = std::move(creeping);
+    } else {
+        fit.offset_dropped = {value, std, creeping.point.motion};
+    }
+}
+
 }  // namespace
 
 double mean_drive_V(const std::vector<MacroWindow>& windows, const MacroMotion& motion) {
@@ -251,6 +271,8 @@ MacroFit fit_macro_windows(const MacroEstimator& estimator, const MacroBuild& bu
         fit.active[macro_index::offset] = true;
         settle(estimator, build, fit);
     }
+    if (!fit.both_ways && !build.dead_zone && !fit.offset_less_friction && !fit.active[macro_index::friction])
+        weigh_creep(estimator, build, fit);
     drop_undetermined(estimator, build, fit);
     fit.friction_at_bound = fit.friction_at_bound || at_bound(fit);
     return fit;

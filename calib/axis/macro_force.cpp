@@ -1,5 +1,7 @@
 #include "calib/axis/macro_force.h"
 
+#include "calib/axis/macro_recordings.h"
+#include "calib/significance.h"
 #include "core/failure.h"
 
 #include <algorithm>
@@ -38,18 +40,30 @@ std::vector<double> smoothed(const std::vector<double>& values, const std::vecto
     return result;
 }
 
-/// Variance of  tau a + v  for readings with white noise of unit variance: the filter's squared weights.
-double noise_gain(double tick_s, double time_constant_s) {
+/// What white noise of unit variance in the readings makes of  tau a + v.
+struct NoiseOfForce {
+    double variance;    ///< the filter's squared weights
+    double correlated;  ///< values that say as much of their variance as one that is independent
+};
+
+NoiseOfForce noise_of_force(double tick_s, double time_constant_s) {
     std::vector<double> weights = bell(tick_s);
     weights.insert(weights.begin(), 2, 0.0);
     weights.insert(weights.end(), 2, 0.0);
-    double gain = 0.0;
+    std::vector<double> response;
     for (std::size_t i = 1; i + 1 < weights.size(); ++i) {
         const double speed = (weights[i + 1] - weights[i - 1]) / (2.0 * tick_s);
         const double acceleration = (weights[i + 1] - 2.0 * weights[i] + weights[i - 1]) / (tick_s * tick_s);
-        gain += std::pow(time_constant_s * acceleration + speed, 2);
+        response.push_back(time_constant_s * acceleration + speed);
     }
-    return gain;
+    NoiseOfForce noise{0.0, 1.0};
+    for (const double weight : response) noise.variance += weight * weight;
+    for (std::size_t lag = 1; lag < response.size(); ++lag) {
+        double together = 0.0;
+        for (std::size_t i = lag; i < response.size(); ++i) together += response[i] * response[i - lag];
+        noise.correlated += 2.0 * std::pow(together / noise.variance, 2);
+    }
+    return noise;
 }
 
 struct ForceSample {
@@ -102,9 +116,12 @@ Result<double> relative_force_error(std::span<const MacroTrace> traces, const Ma
     }
     if (traces.empty() || used * traces.front().tick_s < least_s || drives == 0.0)
         return failure(Reason::not_identifiable, "less than 100 ms of motion to judge the force by");
-    const double noise =
-        used * std::pow(white_noise_mm, 2) * noise_gain(traces.front().tick_s, motion.time_constant_s);
-    return std::sqrt(std::max(0.0, errors - noise) / drives);
+    constexpr double level = 0.01;
+    const NoiseOfForce of_noise = noise_of_force(traces.front().tick_s, motion.time_constant_s);
+    const double noise = used * std::pow(white_noise_mm, 2) * of_noise.variance;
+    const double by_chance =
+        mean_square_ratio_bound(used / of_noise.correlated, used / third_differences_correlated, level);
+    return std::sqrt(std::max(0.0, errors - by_chance * noise) / drives);
 }
 
 }  // namespace fidservo::calib

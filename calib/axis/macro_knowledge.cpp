@@ -1,5 +1,7 @@
 #include "calib/axis/macro_knowledge.h"
 
+#include "calib/axis/macro_profile.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -45,6 +47,17 @@ double variance_of_assumption(const MacroFit& fit, const MacroVector& gradient) 
     return variance;
 }
 
+/// The interval's true width over that of the standard error, of the figures that a short motion leaves open
+/// to one side: the others go with the parameters in proportion.
+double widening(const MacroEstimator& estimator, const MacroFit& fit, MacroFigure figure) {
+    if (figure == MacroFigure::time_constant)
+        return profile_widening(estimator, fit, macro_index::log_time_constant);
+    if (figure == MacroFigure::gain)
+        return profile_widening(estimator, fit,
+                                fit.active[macro_index::speed] ? macro_index::speed : macro_index::slope);
+    return 1.0;
+}
+
 }  // namespace
 
 MacroKnowledge knowledge_of(const MacroEstimator& estimator, const MacroFit& fit, const MacroBuild& build,
@@ -66,7 +79,8 @@ MacroKnowledge knowledge_of(const MacroEstimator& estimator, const MacroFit& fit
         VarianceSum& sum = known.variance[static_cast<std::size_t>(i)];
         const MacroVector along = gradient.row(i).transpose();
         const BatchVariance batches = variance_along(fit.influences, along);
-        sum.add(batches.variance, batches.freedom);
+        const double wider = widening(estimator, fit, static_cast<MacroFigure>(i));
+        sum.add(batches.variance * wider * wider, batches.freedom);
         known.systematic[i] = std::sqrt(ticks * known.missed.beyond_noise * (1.0 - named) *
                                         along.dot(fit.influences.inverse * along));
         const Heterogeneity& scatter = known.agreement[static_cast<std::size_t>(i)].scatter;

@@ -39,12 +39,11 @@ bool drives_both_ways(const std::vector<MacroWindow>& windows) {
 /// Of a sum of squares over `ticks` ticks, of which windows have taken up two a window with their starts.
 double beyond_noise(double squares, double of_noise, double ticks, double windows) {
     constexpr double level_of_noise = 0.01;
-    // Squares of third differences of white noise are correlated: 1 + 2 (15^2 + 6^2 + 1) / 20^2 to one.
-    constexpr double correlated = 2.31;
     const double freedom = ticks - 2.0 * windows;
     if (freedom < 10.0 || of_noise <= 0.0) return 0.0;
     const double ratio = squares / freedom / (of_noise / ticks);
-    const double bound = mean_square_ratio_bound(freedom, freedom / correlated, level_of_noise);
+    const double bound =
+        mean_square_ratio_bound(freedom, freedom / third_differences_correlated, level_of_noise);
     return ratio > bound ? 1.0 - bound / ratio : 0.0;
 }
 

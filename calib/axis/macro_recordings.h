@@ -21,6 +21,10 @@ std::array<MacroAgreement, macro_figure_count> macro_agreement(const MacroEstima
                                                                const MacroFit& fit, double unit_V,
                                                                double threshold_V);
 
+/// Squares of third differences of white noise that say as much of its variance as an independent one:
+/// 1 + 2 (15^2 + 6^2 + 1) / 20^2.
+inline constexpr double third_differences_correlated = 2.31;
+
 /// How much of the force the model misses, integrated twice, which neither rounding nor noise drowns: r.m.s.
 /// over held-out windows of prediction minus reading, over the r.m.s. of how far the drive moves the
 /// carriage, the windows' starts having followed. The variance of noise that is white from tick to tick, as

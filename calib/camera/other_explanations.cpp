@@ -117,16 +117,15 @@ std::vector<TargetView> laid_out(std::vector<TargetView> views, const Grid& grid
     return views;
 }
 
-}  // namespace
-
-LensModel other_model(LensModel model) {
-    return model == LensModel::plumb_bob ? LensModel::equidistant : LensModel::plumb_bob;
-}
-
-bool explains_better(const CameraCalibration& other, const CameraCalibration& asked) {
-    constexpr double by_chance = 1e-3;
+/// chi^2 of the tags that both of two calibrations of the same views use.
+struct Comparison {
     double chi2_other = 0.0, chi2_asked = 0.0;
     int measured = 0;
+    double misfit() const { return std::max(1.0, chi2_other / measured); }
+};
+
+Comparison compared(const CameraCalibration& other, const CameraCalibration& asked) {
+    Comparison both;
     for (std::size_t view = 0; view < std::min(asked.views.size(), other.views.size()); ++view)
         for (std::size_t tag = 0;
              tag < std::min(asked.views[view].tags.size(), other.views[view].tags.size()); ++tag) {
@@ -140,14 +139,39 @@ bool explains_better(const CameraCalibration& other, const CameraCalibration& as
                     error.segment<2>(2 * k) = of.error_px[static_cast<std::size_t>(k)];
                 return (weights.whiten * error).squaredNorm();
             };
-            chi2_asked += chi2(a);
-            chi2_other += chi2(b);
-            measured += weights.rank;
+            both.chi2_asked += chi2(a);
+            both.chi2_other += chi2(b);
+            both.measured += weights.rank;
         }
-    if (measured == 0) return false;
-    const double misfit = std::max(1.0, chi2_other / measured);
+    return both;
+}
+
+}  // namespace
+
+LensModel other_model(LensModel model) {
+    return model == LensModel::plumb_bob ? LensModel::equidistant : LensModel::plumb_bob;
+}
+
+bool explains_better(const CameraCalibration& other, const CameraCalibration& asked) {
+    constexpr double by_chance = 1e-3;
+    const Comparison both = compared(other, asked);
+    if (both.measured == 0) return false;
     const auto numbers = static_cast<double>(coefficients_of(other.camera.distortion.model));
-    return chi2_asked - chi2_other > chi_square_bound(numbers, by_chance) * misfit;
+    return both.chi2_asked - both.chi2_other > chi_square_bound(numbers, by_chance) * both.misfit();
+}
+
+void count_other_model(CameraCalibration& calibration) {
+    const auto other = with_model(calibration, other_model(calibration.camera.distortion.model));
+    if (!other) return;
+    const Comparison both = compared(*other, calibration);
+    if (both.measured == 0) return;
+    const double odds = std::exp(0.5 * (both.chi2_asked - both.chi2_other) / both.misfit());
+    const double weight = std::isfinite(odds) ? odds / (1.0 + odds) : 1.0;
+    const Lens here = lens_of(calibration.camera), there = lens_of(other->camera);
+    Eigen::Matrix<double, lens_parameters, 1> way = Eigen::Matrix<double, lens_parameters, 1>::Zero();
+    for (const LensParameter shared : {focal, centre_u, centre_v, focal_ratio})
+        if (calibration.fitted[shared]) way(shared) = there[shared] - here[shared];
+    calibration.covariance += weight * way * way.transpose();
 }
 
 std::optional<CameraCalibration> with_model(const CameraCalibration& asked, LensModel model) {

@@ -17,6 +17,13 @@ LensModel other_model(LensModel model);
 /// could gain more than this in one case of a thousand.
 bool explains_better(const CameraCalibration& other, const CameraCalibration& asked);
 
+/// Counts in the standard errors of the lens that it may be one of the other model: where that explains the
+/// corners nearly as well, what lenses of both models have (focal length, principal point, ratio) may be as
+/// it has them. With d the way to its numbers and w its weight by the data, odds exp((chi^2 of the lens -
+/// chi^2 of the other) / 2), the covariance grows by w d d^T. Source: Buckland, Burnham, Augustin, Model
+/// selection: an integral part of inference, Biometrics 53(2), 1997.
+void count_other_model(CameraCalibration& calibration);
+
 /// The views of a calibration as they were seen, with the model given. Empty: there is no solution.
 std::optional<CameraCalibration> with_model(const CameraCalibration& asked, LensModel model);
 

@@ -1,5 +1,6 @@
 #include "src/calibrate/calibrate_camera.h"
 
+#include "calib/camera/other_explanations.h"
 #include "calib/camera/photon_transfer.h"
 #include "calib/camera/target_images.h"
 #include "core/input_error.h"
@@ -147,6 +148,7 @@ int calibrate_camera(const CalibrateCameraOptions& options) {
         fmt::print("not good enough: {}\n", calibration.error().text);
         return exit_answer_is_no;
     }
+    calib::count_other_model(*calibration);
     CameraAnswer answer{.target = target.text,
                         .source = names_of(options.inputs),
                         .images = images.images,

@@ -34,6 +34,12 @@ fs::path indexed_camera(const fs::path& folder) {
     return fs::exists(folder / "data.csv") && fs::is_directory(folder / "data") ? folder : fs::path();
 }
 
+/// TUM's list of a folder's colour images, beside the folder `rgb` that holds them.
+fs::path tum_list(const fs::path& folder) {
+    const fs::path list = folder / "rgb.txt";
+    return fs::exists(list) && fs::is_directory(folder / "rgb") ? list : fs::path();
+}
+
 bool by_natural_order(const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());
 }
@@ -68,9 +74,11 @@ class Lister {
         if (!fs::exists(input, error))
             throw InputError(fmt::format("{}: there is no such file or folder", input.string()));
         if (!fs::is_directory(input)) return add_file(input);
-        if (const fs::path camera = indexed_camera(input); !camera.empty()) return add_index(camera);
+        if (const fs::path camera = indexed_camera(input); !camera.empty())
+            return add_index(camera, camera / "data.csv");
         if (fs::exists(input / "recording.yaml"))
             throw InputError(fmt::format("{}: the recording has no frames (cam0/data.csv)", input.string()));
+        if (const fs::path list = tum_list(input); !list.empty()) return add_index(input, list);
         add_folder(input);
     }
 
@@ -84,10 +92,11 @@ class Lister {
         list_.series.push_back(std::move(series));
     }
 
-    void add_index(const fs::path& camera) {
+    void add_index(const fs::path& camera, const fs::path& index) {
         ImageSeries series{.name = camera.string()};
-        for (const FrameName& frame : read_frame_names(camera / "data.csv")) {
-            const fs::path file = camera / "data" / frame.filename;
+        for (const FrameName& frame : read_frame_names(index)) {
+            const fs::path folder = index.filename() == "data.csv" ? camera / "data" : camera;
+            const fs::path file = folder / frame.filename;
             std::error_code error;
             if (!fs::exists(file, error)) {
                 series.missing.push_back(file.string());
@@ -107,7 +116,7 @@ class Lister {
                                pictures.deep.begin() + (pictures.deep.empty() ? 0 : 1));
         }
         if (series.frames.empty() && series.missing.empty())
-            throw InputError(fmt::format("{}: names no frame", (camera / "data.csv").string()));
+            throw InputError(fmt::format("{}: names no frame", index.string()));
         list_.series.push_back(std::move(series));
         note_other_cameras(camera);
     }
@@ -132,7 +141,7 @@ class Lister {
         for (const std::string& name : found.folders)
             if (!indexed_camera(folder / name).empty()) recordings.push_back(indexed_camera(folder / name));
         if (!recordings.empty()) {
-            for (const fs::path& camera : recordings) add_index(camera);
+            for (const fs::path& camera : recordings) add_index(camera, camera / "data.csv");
             if (!found.images.empty())
                 list_.notes.push_back(
                     fmt::format("{}: holds recordings, which are read; passed over: {} images",

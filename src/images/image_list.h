@@ -27,7 +27,8 @@ struct ImageList {
 /// Adds what an input stands for:
 ///   a folder with cam0/data.csv or mav0/cam0/data.csv (EuRoC), or such a cam0 itself: the index's frames,
 ///   with their times;
-///   a folder of such folders: each of them;
+///   a folder with rgb.txt and the folder rgb (TUM): the list's frames, with their times;
+///   a folder of such recordings of EuRoC's: each of them;
 ///   a folder of images: those, in natural order of their names, TIFFs page by page; what else is in it is
 ///   passed over and noted;
 ///   a folder without images that holds one folder camN of images (kalibr's): that;

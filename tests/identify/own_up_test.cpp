@@ -3,6 +3,7 @@
 #include "tests/identify/owned_recordings.h"
 #include "tests/src/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -18,6 +19,7 @@ using ::testing::Not;
 Identified identify(const std::vector<Carriage>& carriages, double duration_s = 6.0) {
     std::mt19937_64 random(1);
     std::vector<Recording> recordings;
+    recordings.reserve(carriages.size());
     for (const Carriage& carriage : carriages)
         recordings.push_back(recorded(carriage, fmt::format("recording-{}", recordings.size() + 1),
                                       drawn_pulses(random, duration_s), duration_s, random));
@@ -101,6 +103,62 @@ TEST(IdentifyOwnsUp, MotionTooShortForASteadySpeed_GivesTheAccelerationPerVolt) 
     const IdentifiedValue* ratio = find_value(identified, "gain_over_time_constant");
     ASSERT_NE(ratio, nullptr) << describe(identified);
     EXPECT_NEAR(ratio->value, 500.0, 4.0 * ratio->std) << ratio->std;
+}
+
+/// Without friction an offset moves the carriage before the step: taken as zero it would bias the rest.
+TEST(IdentifyOwnsUp, CarriageThatCreepsBeforeItIsDriven_HasItsOffsetCounted) {
+    std::mt19937_64 random(4);
+    Carriage carriage;
+    carriage.friction_V = 0.0;
+    carriage.offset_V = 0.2;
+    const Recording recording = recorded(
+        carriage, "creeps", [](double t_s) { return t_s < 0.3 ? 0.0 : 3.0; }, 2.0, random);
+    const Identified identified = identify_macro({rig_of(carriage), {recording}, std::nullopt, 0.0});
+    EXPECT_THAT(reason_of(identified, "drive_offset"), HasSubstr("drive offset less friction is 0."))
+        << describe(identified);
+    for (const char* key : {"macro.velocity_gain_mm_per_s_per_V", "time_constant"}) {
+        const IdentifiedValue* value = find_value(identified, key);
+        ASSERT_NE(value, nullptr) << describe(identified);
+        const double truth =
+            std::string(key) == "time_constant" ? carriage.time_constant_s : carriage.gain_mm_per_s_per_V;
+        EXPECT_NEAR(value->value, truth, 4.0 * value->std) << key;
+        EXPECT_LT(value->std, 0.1 * truth) << key;
+    }
+}
+
+/// Accelerations of readings at 100 Hz drown in their noise: that is no force that the model misses.
+TEST(IdentifyOwnsUp, AccelerationsThatDrownInNoise_AreNoForceThatTheModelMisses) {
+    constexpr int draws = 20;
+    Carriage carriage;
+    carriage.time_constant_s = 0.3;
+    int stated = 0;
+    for (std::uint64_t seed = 1; seed <= draws; ++seed) {
+        std::mt19937_64 random(seed);
+        const Recording recording = recorded(
+            carriage, "step", [](double t_s) { return t_s < 0.05 ? 0.0 : 2.0; }, 1.5, random, 0.03);
+        const Identified identified = identify_macro({rig_of(carriage), {recording}, std::nullopt, 0.0});
+        stated += find_value(identified, "macro.velocity_gain_mm_per_s_per_V") != nullptr ? 1 : 0;
+        EXPECT_THAT(reason_of(identified, "macro"), Not(HasSubstr("% of the force;"))) << "seed " << seed;
+    }
+    EXPECT_GT(stated, draws / 2);
+}
+
+/// A carriage that is far from its steady speed may tend to any faster one: intervals are wider to that side.
+TEST(IdentifyOwnsUp, MotionFarFromItsSteadySpeed_HasStandardErrorsThatHold) {
+    constexpr int draws = 40;
+    Carriage carriage;
+    carriage.friction_V = carriage.offset_V = 0.0;
+    carriage.time_constant_s = 1.5;
+    double farthest = 0.0;
+    for (std::uint64_t seed = 1; seed <= draws; ++seed) {
+        std::mt19937_64 random(seed);
+        const Recording recording = recorded(
+            carriage, "short", [](double t_s) { return t_s < 0.05 ? 0.0 : 3.0; }, 1.0, random);
+        const Identified identified = identify_macro({rig_of(carriage), {recording}, std::nullopt, 0.0});
+        if (const IdentifiedValue* value = find_value(identified, "time_constant"))
+            farthest = std::max(farthest, std::abs(value->value - carriage.time_constant_s) / value->std);
+    }
+    EXPECT_LT(farthest, 4.0);
 }
 
 TEST(IdentifyOwnsUp, FrictionAtItsBound_HasAOneSidedInterval) {

@@ -97,6 +97,23 @@ TEST(ImageFrames, Recording_HasItsTimesAndItsOrder) {
     }
 }
 
+TEST(ImageFrames, TumsList_IsFoundInItsFolder) {
+    const TemporaryFolder folder;
+    write_image(folder / "rgb/1305031102.275326.png", 40);
+    write_image(folder / "rgb/1305031102.175304.png", 80);
+    write_image(folder / "depth/1305031102.160407.png", 120);
+    folder.write("depth.txt", "1305031102.160407 depth/1305031102.160407.png\n");
+    folder.write("rgb.txt",
+                 "# color images\n# timestamp filename\n"
+                 "1305031102.175304 rgb/1305031102.175304.png\n"
+                 "1305031102.211214 rgb/1305031102.211214.png\n"
+                 "1305031102.275326 rgb/1305031102.275326.png\n");
+    ImageFrames frames({folder.path()});
+    EXPECT_EQ(frames.size(), 2U);
+    EXPECT_TRUE(frames.is_one_timed_series());
+    EXPECT_THAT(greys_of(frames), ElementsAre(80, 40));
+}
+
 TEST(ImageFrames, FolderOfRecordings_ComesInNaturalOrder) {
     const TemporaryFolder folder;
     for (const int number : {10, 9}) {
