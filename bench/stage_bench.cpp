@@ -3,6 +3,7 @@
 // the double integral over relays on the same grid.
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
+#include "plant/formulas/formula_effect.h"
 #include "plant/stage_plant.h"
 #include "src/config/rig_file.h"
 #include "tests/core_time.h"
@@ -121,6 +122,52 @@ BENCHMARK_CAPTURE(stage_tick_with_effects, backlash, "backlash")->Unit(benchmark
 BENCHMARK_CAPTURE(stage_tick_with_effects, all,
                   "drive_delay+coulomb_friction+stribeck_friction+friction_asymmetry+presliding+rail_patch+"
                   "cogging+cable_force+belt_compliance+backlash+encoder_ripple")
+    ->Unit(benchmark::kMicrosecond);
+
+/// The whole stage with an effect of the catalogue, and with the same one written as a formula.
+void stage_tick_with(benchmark::State& bench, const plant::EffectSetting& effect) {
+    const plant::StagePlant plant = plant::make_stage_plant(reference_rig(), {&effect, 1});
+    plant::StageState state = plant::start(plant, 100.0, 1);
+    run_seconds(bench, [&](const Command& command) {
+        benchmark::DoNotOptimize(plant::sample(plant, state));
+        plant::advance(plant, state, command.macro_V, command.micro_V);
+    });
+}
+
+void stage_tick_listed(benchmark::State& bench, std::string_view effect) {
+    stage_tick_with(bench, plant::parse_effect(effect));
+}
+
+void stage_tick_formula(benchmark::State& bench, const char* port, const char* block, const char* formula,
+                        double size) {
+    FormulaEffect text;
+    text.name = "formula";
+    text.acts_on = port;
+    text.block = block;
+    text.formula = formula;
+    text.parameters.push_back({.name = "size", .low = -10.0, .high = 10.0, .typical = size});
+    stage_tick_with(bench, plant::typical_setting(plant::effect_of(text)));
+}
+BENCHMARK_CAPTURE(stage_tick_listed, friction_asymmetry,
+                  "friction_asymmetry:right_V_s_per_mm=0.002,left_V_s_per_mm=0.001")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_formula, friction_asymmetry, "macro.friction", "macro.friction",
+                  "size * speed * (direction > 0 ? 1 : 0.5)", 0.002)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_listed, stribeck, "stribeck_friction")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_formula, stribeck, "macro.friction", "macro.friction",
+                  "size * exp(-abs(speed) / 12) * direction", 0.2)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_listed, cogging, "cogging")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_formula, cogging, "macro.force", "macro.mechanics",
+                  "size * sin(2 * pi * place / 5)", 0.1)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_listed, stress_shift, "stress_shift:shift_degC=5")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_formula, stress_shift, "micro.transformation", "micro.hysteresis", "size", 5.0)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_listed, hall_drift, "hall_drift")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(stage_tick_formula, hall_drift, "micro.hall_voltage", "micro.hall", "size * time", 0.001)
     ->Unit(benchmark::kMicrosecond);
 
 void stage_tick_micro_only(benchmark::State& bench) {

@@ -392,10 +392,9 @@ class Motion {
     double trial_s_ = std::numeric_limits<double>::infinity();  ///< step to try next
     StepCount steps_;
     // What stays as it is until the next event.
-    double direction_ = 1.0;
     DeadZoneBranch branch_ = DeadZoneBranch::inside;
     bool held_ = false;
-    double voltage_V_ = 0.0, hold_low_ = 0.0, hold_high_ = 0.0;
+    double direction_ = 1.0, voltage_V_ = 0.0, hold_low_ = 0.0, hold_high_ = 0.0;
 };
 
 }  // namespace fidservo::plant

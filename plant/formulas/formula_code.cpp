@@ -139,6 +139,10 @@ std::set<std::string> names_in(const std::string& where, const std::string& text
         refuse(where + ": character " + std::to_string(character) + ": " + what);
     };
     if (text.empty()) refuse(where + ": is empty; allowed: an expression, e.g. 0.1 * speed");
+    constexpr std::size_t longest = 2000;
+    if (text.size() > longest)
+        refuse(where + ": has " + std::to_string(text.size()) +
+               " characters; allowed: " + std::to_string(longest) + " at most");
     if (const std::size_t at = forbidden_at(text); at != std::string::npos)
         refuse_at(at + 1,
                   "neither assignments nor strings; allowed: a value, e.g. 0.1 * speed, with == to compare");

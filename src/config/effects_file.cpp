@@ -124,7 +124,10 @@ std::string exact_digits(double value) {
 }  // namespace
 
 std::vector<const plant::Effect*> load_effects_file(const std::filesystem::path& file) {
-    const YamlValue root = YamlValue::load(file);
+    return read_effects_file(YamlValue::load(file));
+}
+
+std::vector<const plant::Effect*> read_effects_file(const YamlValue& root) {
     root.allow_only({"format", "effects"});
     (void)root.at("format").one_of({effects_format});
     std::vector<const plant::Effect*> effects;

@@ -15,6 +15,8 @@ class YamlValue;
 /// The effects of a file, in its order. Throws InputError with file, line and key where it is none, an effect
 /// cannot be evaluated, or two have one name.
 std::vector<const plant::Effect*> load_effects_file(const std::filesystem::path& file);
+/// The same of a file that was read.
+std::vector<const plant::Effect*> read_effects_file(const YamlValue& root);
 
 /// A formula with the values of its parameters, as a rig file states it: like an entry of an effects file,
 /// with `value` beside a parameter's bounds where it is not the typical one.

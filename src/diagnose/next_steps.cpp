@@ -85,8 +85,32 @@ std::string remainder_html(const gap::Remainder& remainder) {
     return html;
 }
 
-std::string closing_html(const gap::Diagnosis& diagnosis, const Request& request) {
-    if (diagnosis.effects.empty()) return "";
+std::string equation_html(const gap::Equation& equation) {
+    std::string rows;
+    for (const gap::FittedParameter& parameter : equation.parameters)
+        rows += fmt::format("<tr><td>{}</td><td>{:.6g} \u00b1 {:.2g}</td><td>{}</td></tr>\n",
+                            escaped(parameter.name), parameter.value, parameter.std, escaped(parameter.unit));
+    return fmt::format(
+        "<p>An equation for it, proposed by these recordings and by nothing else, and added at "
+        "<code>{}</code>:</p>\n"
+        "<pre "
+        "class=\"command\">{}</pre>\n<table><thead><tr><th>parameter</th><th>value</th><th>unit</th></tr></"
+        "thead>"
+        "<tbody>\n{}</tbody></table>\n<p>It removes {:.1f} % (95 %: {:.1f} to {:.1f} %) of {}, on windows "
+        "that it was "
+        "not fitted to. {}</p>\n",
+        escaped(equation.acts_on), escaped(equation.formula), rows, 100.0 * equation.gap_removed,
+        100.0 * equation.gap_removed_low, 100.0 * equation.gap_removed_high,
+        equation.in_place_of_names ? "the whole gap, in place of the effects named, which are not credible"
+                                   : "what is left",
+        escaped(equation.text));
+}
+
+bool has_equation(const gap::Diagnosis& diagnosis) {
+    return diagnosis.unexplained && diagnosis.unexplained->equation;
+}
+
+std::string closing_html(const Request& request) {
     std::string html;
     std::string rig = "RIG-AS-FOUND.yaml";
     if (request.written_rig.empty()) {
@@ -141,10 +165,13 @@ std::string next_steps_html(const gap::Diagnosis& diagnosis, const Rig& rig, con
         html +=
             step_section("An experiment that decides", experiment_html(*diagnosis.next_experiment, request));
     if (diagnosis.unexplained)
-        html += step_section("What no known effect explains",
-                             remainder_html(*diagnosis.unexplained) + trust_html(diagnosis, rig));
-    if (!diagnosis.effects.empty())
-        html += step_section("How to close the gap", closing_html(diagnosis, request));
+        html += step_section(
+            "What no known effect explains",
+            remainder_html(*diagnosis.unexplained) +
+                (has_equation(diagnosis) ? equation_html(*diagnosis.unexplained->equation) : "") +
+                trust_html(diagnosis, rig));
+    if (!diagnosis.effects.empty() || has_equation(diagnosis))
+        html += step_section("How to close the gap", closing_html(request));
     if (!diagnosis.notes.empty()) html += step_section("What cannot be decided", notes_html(diagnosis.notes));
     return html;
 }

@@ -162,6 +162,30 @@ TEST(DiagnosisReport, Unexplained_SaysWhereAndWhatItDependsOn) {
         HasSubstr("predictions over one second are off by 23.4 LSB in the Hall reading (before: 23.4 LSB)"));
 }
 
+TEST(DiagnosisReport, Equation_IsShownWithItsParametersAndWritten) {
+    gap::Diagnosis diagnosis = hall_gain_found();
+    diagnosis.verdict = gap::Verdict::unexplained;
+    diagnosis.effects.clear();
+    diagnosis.hypothesis.clear();
+    gap::Equation equation{.acts_on = "micro.heat_flow",
+                           .formula = "a * contraction_rate",
+                           .variables = {"contraction_rate"},
+                           .parameters = {{"a", "degC/mm", -2.0, 0.01}},
+                           .gap_removed = 0.97,
+                           .gap_removed_low = 0.95,
+                           .gap_removed_high = 0.98,
+                           .text = "As latent heat is.",
+                           .setting = {}};
+    diagnosis.unexplained =
+        gap::Remainder{"micro.heater", {"contraction"}, "hall: 23.4 adc r.m.s. remain", equation};
+    const std::string html = diagnosis_report(evidence(), diagnosis, request);
+    EXPECT_EQ(nesting_fault(html), "");
+    EXPECT_THAT(html, HasSubstr("a * contraction_rate"));
+    EXPECT_THAT(html, HasSubstr("It removes 97.0 % (95 %: 95.0 to 98.0 %) of what is left"));
+    EXPECT_THAT(html, HasSubstr("As latent heat is."));
+    EXPECT_THAT(html, HasSubstr("--write-rig"));
+}
+
 TEST(DiagnosisReport, RigWithCarriageAlone_SpeaksOfNothingElse) {
     Rig rig = reference_rig();
     rig.micro.reset();

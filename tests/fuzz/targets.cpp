@@ -2,11 +2,15 @@
 
 #include "core/input_error.h"
 #include "core/rig.h"
+#include "plant/effects/catalogue.h"
+#include "plant/stage_plant.h"
 #include "src/calibrate/camera_target.h"
 #include "src/config/camera_info.h"
+#include "src/config/effects_file.h"
 #include "src/config/fod_file.h"
 #include "src/config/plate_file.h"
 #include "src/config/rig_file.h"
+#include "src/config/yaml_reader.h"
 #include "src/identify/text_table.h"
 #include "src/inspect/journal.h"
 #include "src/inspect/recipe/recipe.h"
@@ -86,6 +90,22 @@ void read_recipe(std::string_view bytes) {
 void read_experiment(std::string_view bytes) {
     static const Rig rig = load_rig(reference_rig_file());
     answered([&] { (void)parse_experiment(std::string(bytes), folder().path() / "experiment.yaml", rig); });
+}
+
+void read_effects(std::string_view bytes) {
+    static const Rig rig = load_rig(reference_rig_file());
+    answered([&] {
+        const YamlValue root = YamlValue::parse(std::string(bytes), folder().path() / "effects.yaml");
+        for (const plant::Effect* effect : read_effects_file(root)) {
+            const plant::EffectSetting setting = plant::typical_setting(*effect);
+            const plant::StagePlant plant = plant::make_stage_plant(rig, {&setting, 1});
+            plant::StageState state = plant::start(plant, 100.0, 1);
+            for (const double command_V : {0.0, 4.0, -4.0}) {
+                (void)plant::sample(plant, state);
+                plant::advance(plant, state, command_V, 1.6);
+            }
+        }
+    });
 }
 
 void read_plate(std::string_view bytes) {

@@ -12,6 +12,8 @@ using Target = void (*)(std::string_view bytes);
 void read_rig(std::string_view bytes);
 void read_recipe(std::string_view bytes);
 void read_experiment(std::string_view bytes);
+/// Effects as formulas, which are evaluated, too.
+void read_effects(std::string_view bytes);
 void read_plate(std::string_view bytes);
 /// recording.yaml, stage0/data.csv, cam0/data.csv and cam0/detections.csv, between lines "%%%".
 void read_recording(std::string_view bytes);
@@ -38,6 +40,7 @@ inline constexpr std::array targets{
     NamedTarget{"rig", read_rig},
     NamedTarget{"recipe", read_recipe},
     NamedTarget{"experiment", read_experiment},
+    NamedTarget{"effects", read_effects},
     NamedTarget{"plate", read_plate},
     NamedTarget{"recording", read_recording},
     NamedTarget{"camera_info", read_camera_info},

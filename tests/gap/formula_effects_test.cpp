@@ -1,8 +1,8 @@
 // Formulas of an effects file are found by name, beside the listed effects.
-#include "core/random.h"
 #include "gap/diagnose.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
+#include "tests/gap/drawn_formulas.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <algorithm>
@@ -18,111 +18,9 @@
 namespace fidservo::gap {
 namespace {
 
+using testing::draw;
+using testing::Drawn;
 using testing::recordings_of;
-
-/// What a formula may depend on, over about what it varies, and how it is written.
-struct Ingredient {
-    const char* name;
-    double middle, reach;
-};
-
-/// A port with what its formulas are made of, and about how large they are.
-struct Place {
-    const char* port;
-    const char* block;
-    double size;
-    std::vector<Ingredient> ingredients;
-};
-
-const std::vector<Place>& places() {
-    static const Ingredient speed{"speed", 0.0, 100.0}, place{"place", 100.0, 40.0},
-        command{"command", 0.0, 4.0}, wire{"wire_temp", 60.0, 25.0}, power{"heater_power", 80.0, 60.0},
-        contraction{"contraction", 2.0, 1.5}, platform{"platform", 2.0, 1.5};
-    static const std::vector<Place> all{
-        {"macro.force", "macro.mechanics", 0.1, {place, speed}},
-        {"macro.friction", "macro.friction", 0.1, {speed, place}},
-        {"macro.drive_voltage", "macro.drive", 0.1, {command, speed}},
-        {"macro.encoder", "macro.encoder", 0.1, {place}},
-        {"micro.heater_power", "micro.heater", 5.0, {power, wire}},
-        {"micro.heat_flow", "micro.heater", 5.0, {wire, contraction}},
-        {"micro.transformation", "micro.hysteresis", 3.0, {contraction, wire}},
-        {"micro.contraction", "micro.hysteresis", 0.05, {contraction, wire}},
-        {"micro.hall_voltage", "micro.hall", 0.03, {platform}},
-        {"camera.rotation", "camera.geometry", 0.01, {{"camera_place", 100.0, 40.0}}},
-        {"plate.tag_x", "plate", 0.02, {{"tag_x", 100.0, 40.0}}},
-    };
-    return all;
-}
-
-double even(NoiseStream& stream, double low, double high) {
-    return low + (high - low) * stream.uniform();
-}
-
-std::size_t pick(NoiseStream& stream, std::size_t count) {
-    return std::min(count - 1, static_cast<std::size_t>(stream.uniform() * static_cast<double>(count)));
-}
-
-/// A factor of one ingredient, of order 1; a shape parameter's name where it has one.
-struct Factor {
-    std::string text;
-    bool has_shape;
-    double low, high, value;
-};
-
-Factor factor_of(const Ingredient& of, const std::string& shape, NoiseStream& stream) {
-    const std::string x = fmt::format("(({} - {}) / {})", of.name, of.middle, of.reach);
-    switch (pick(stream, 6)) {
-        case 0:
-            return {x, false, 0, 0, 0};
-        case 1:
-            return {fmt::format("{0} * abs({0})", x), false, 0, 0, 0};
-        case 2:
-            return {fmt::format("{}^3", x), false, 0, 0, 0};
-        case 3:
-            return {fmt::format("sin({} * {})", shape, x), true, 0.5, 8.0, even(stream, 1.0, 6.0)};
-        case 4:
-            return {fmt::format("tanh({} * {})", shape, x), true, 0.3, 10.0, even(stream, 1.0, 5.0)};
-        default:
-            return {fmt::format("exp(-({} * {})^2)", shape, x), true, 0.3, 8.0, even(stream, 0.8, 3.0)};
-    }
-}
-
-struct Drawn {
-    FormulaEffect text;
-    std::vector<double> truth;
-};
-
-/// A formula of one factor or two; its size is not the typical one.
-Drawn draw(std::uint64_t seed) {
-    NoiseStream stream(seed, "formulas");
-    const Place& at = places()[pick(stream, places().size())];
-    Drawn drawn;
-    drawn.text.name = fmt::format("own_{}", seed);
-    drawn.text.acts_on = at.port;
-    drawn.text.block = at.block;
-    drawn.text.text = "drawn at random";
-    drawn.text.parameters.push_back(
-        {.name = "size", .low = -20.0 * at.size, .high = 20.0 * at.size, .typical = at.size, .role = "size"});
-    drawn.truth.push_back((stream.uniform() < 0.5 ? -1.0 : 1.0) * at.size *
-                          std::exp(even(stream, -0.7, 1.1)));
-    std::string formula = "size";
-    const std::size_t factors = 1 + pick(stream, std::min<std::size_t>(2, at.ingredients.size()));
-    for (std::size_t k = 0; k < factors; ++k) {
-        const std::string shape = fmt::format("shape_{}", k);
-        const Factor factor = factor_of(at.ingredients[k], shape, stream);
-        formula += " * " + factor.text;
-        if (!factor.has_shape) continue;
-        drawn.text.parameters.push_back({.name = shape,
-                                         .low = factor.low,
-                                         .high = factor.high,
-                                         .vanishing = factor.low,
-                                         .typical = std::sqrt(factor.low * factor.high),
-                                         .role = "shape"});
-        drawn.truth.push_back(factor.value);
-    }
-    drawn.text.formula = formula;
-    return drawn;
-}
 
 /// What is found of a drawn formula; its gap.
 struct Outcome {
@@ -131,11 +29,20 @@ struct Outcome {
     std::string names;
 };
 
+Evidence evidence_of(const Drawn& drawn) {
+    return {reference_rig(), recordings_of({{&plant::effect_of(drawn.text), drawn.truth}},
+                                           {"macro-pulses", "macro-square", "macro-sweep", "micro-steps",
+                                            "micro-triangle", "integrated"})};
+}
+
+int drawn_count(int usual) {
+    const char* const asked = std::getenv("FIDSERVO_FORMULAS");
+    return asked != nullptr ? std::atoi(asked) : usual;
+}
+
 Outcome diagnosed(const Drawn& drawn) {
     const plant::Effect& effect = plant::effect_of(drawn.text);
-    const Evidence evidence(reference_rig(), recordings_of({{&effect, drawn.truth}},
-                                                           {"macro-pulses", "macro-square", "macro-sweep",
-                                                            "micro-steps", "micro-triangle", "integrated"}));
+    const Evidence evidence = evidence_of(drawn);
     DiagnosisOptions options;
     options.formulas = {&effect};
     const Diagnosis diagnosis = diagnose(evidence, options);
@@ -149,8 +56,7 @@ Outcome diagnosed(const Drawn& drawn) {
 
 /// FIDSERVO_FORMULAS sets how many are drawn.
 TEST(SlowFormulaEffects, DrawnAtRandomPorts_AreFoundByName) {
-    const char* const asked = std::getenv("FIDSERVO_FORMULAS");
-    const int tried = asked != nullptr ? std::atoi(asked) : 8;
+    const int tried = drawn_count(8);
     int shown = 0, named = 0, alone = 0;
     for (int k = 0; k < tried; ++k) {
         const Drawn drawn = draw(static_cast<std::uint64_t>(9100 + k));
@@ -169,6 +75,81 @@ TEST(SlowFormulaEffects, DrawnAtRandomPorts_AreFoundByName) {
                alone);
     ASSERT_GE(shown, tried / 2);
     EXPECT_GE(named, (9 * shown) / 10);
+}
+
+/// R.m.s. of a proposed formula minus the true one over what the true one depends on, over the r.m.s. of
+/// that.
+double apart(const Drawn& drawn, const Equation& equation) {
+    const plant::FormulaCode& truth = plant::FormulaCode::of(drawn.text);
+    const plant::FormulaCode& found = *equation.setting.effect->formula;
+    if (found.port().port != truth.port().port) return 1.0;
+    const auto known = plant::variables_of(truth.port().site);
+    NoiseStream stream(1, "places");
+    double different = 0.0, all = 0.0;
+    for (int k = 0; k < 4000; ++k) {
+        std::vector<double> variables(known.size(), 0.0);
+        for (const testing::Ingredient& of : drawn.ingredients)
+            for (std::size_t v = 0; v < known.size(); ++v)
+                if (known[v].name == of.name)
+                    variables[v] = of.middle + of.reach * testing::even(stream, -1.0, 1.0);
+        for (std::size_t v = 0; v < known.size(); ++v)
+            if (known[v].name == "direction") variables[v] = k % 2 == 0 ? 1.0 : -1.0;
+        if (truth.port().site == plant::Site::carriage) {
+            double& speed = variables[plant::carriage_variable::speed];
+            if (speed == 0.0) speed = 50.0;
+            variables[plant::carriage_variable::direction] = speed < 0.0 ? -1.0 : 1.0;
+        }
+        const double value = truth.value(variables, {}, drawn.truth);
+        const double other = found.value(variables, {}, equation.setting.values);
+        different += (other - value) * (other - value);
+        all += value * value;
+    }
+    return std::sqrt(different / all);
+}
+
+/// What no effect explains is proposed as an equation, by its own library of terms.
+TEST(SlowEquations, OfDrawnFormulas_AreProposedAndRemoveTheGap) {
+    const int tried = drawn_count(5);
+    int shown = 0, proposed = 0, right_variables = 0, right_form = 0;
+    std::vector<double> removed;
+    for (int k = 0; k < tried; ++k) {
+        const Drawn drawn = draw(static_cast<std::uint64_t>(9500 + k));
+        const Evidence evidence = evidence_of(drawn);
+        DiagnosisOptions options;
+        options.equation_s = 60.0;
+        const Diagnosis diagnosis = diagnose(evidence, options);
+        fmt::print("{} {}: {} = {}; {:.3g} floors, {:.3g} left\n", k, drawn.text.acts_on, drawn.text.formula,
+                   fmt::join(drawn.truth, ", "), diagnosis.gap.before, diagnosis.gap.after);
+        for (const FoundEffect& found : diagnosis.effects)
+            fmt::print("    {} {:.2f}\n", found.effect, found.probability);
+        constexpr double floors_of_a_gap = 10.0;
+        const bool is_left = diagnosis.verdict != Verdict::explained && diagnosis.verdict != Verdict::no_gap;
+        if (diagnosis.gap.before < floors_of_a_gap || !is_left) continue;
+        ++shown;
+        if (!diagnosis.unexplained || !diagnosis.unexplained->equation) continue;
+        const Equation& equation = *diagnosis.unexplained->equation;
+        ++proposed;
+        std::vector<std::string> true_variables;
+        for (const testing::Ingredient& of : drawn.ingredients) true_variables.emplace_back(of.name);
+        std::vector<std::string> variables = equation.variables;
+        std::erase(variables, "direction");
+        std::ranges::sort(variables);
+        std::ranges::sort(true_variables);
+        const double off = apart(drawn, equation);
+        right_variables += variables == true_variables ? 1 : 0;
+        right_form += off < 0.05 ? 1 : 0;
+        removed.push_back(equation.gap_removed);
+        fmt::print("    {} at {}: {:.3g} apart, {:.3g} removed\n", equation.formula, equation.acts_on, off,
+                   equation.gap_removed);
+        std::fflush(stdout);
+    }
+    std::ranges::sort(removed);
+    fmt::print(
+        "equations | tried {} | something left {} | proposed {} | right variables {} | within 5 % {} | "
+        "removed, median {:.3g}\n",
+        tried, shown, proposed, right_variables, right_form,
+        removed.empty() ? 0.0 : removed[removed.size() / 2]);
+    EXPECT_GE(2 * proposed, shown);
 }
 
 }  // namespace

@@ -1,0 +1,96 @@
+// The library of terms, and what sparse regression makes of a force that is known.
+#include "gap/equation/screening.h"
+#include "gap/evidence/halves.h"
+#include "plant/effects/catalogue.h"
+#include "plant/formulas/formula_effect.h"
+#include "tests/gap/simulated_campaign.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace fidservo::gap {
+namespace {
+
+const CoveredRanges some_ranges{{0.0, 20.0},   {-4.0, 4.0},  {20.0, 180.0}, {-200.0, 200.0},
+                                {0.0, 1000.0}, {22.0, 90.0}, {0.0, 3.8}};
+
+FormulaEffect formula(const std::string& acts_on, const std::string& block, const std::string& text,
+                      double size) {
+    FormulaEffect effect;
+    effect.name = "of_test";
+    effect.acts_on = acts_on;
+    effect.block = block;
+    effect.formula = "size * " + text;
+    effect.parameters.push_back({.name = "size", .low = -10.0, .high = 10.0, .typical = size});
+    return effect;
+}
+
+TEST(EquationTerms, OfEveryPort_CanBeEvaluatedThere) {
+    const std::vector<double> periods_mm{5.0, 12.0};
+    for (const plant::PortDescription& port : plant::ports()) {
+        const std::vector<Term> terms = terms_of(port.port, some_ranges, periods_mm);
+        EXPECT_FALSE(terms.empty()) << port.name;
+        for (const Term& term : terms) {
+            EXPECT_GT(term.size, 0.0);
+            EXPECT_FALSE(term.words.empty());
+            for (const std::string& text : term.texts) {
+                FormulaEffect effect =
+                    formula(std::string(port.name), std::string(port.blocks.front()), text, 1.0);
+                if (term.shape)
+                    effect.parameters.push_back({.name = "shape",
+                                                 .low = term.shape->low,
+                                                 .high = term.shape->high,
+                                                 .typical = term.shape->value,
+                                                 .role = "shape"});
+                EXPECT_NO_THROW((void)plant::FormulaCode::of(effect)) << port.name << ": " << text;
+            }
+        }
+    }
+}
+
+/// A term's expression, to compare with.
+std::vector<std::string> texts_of(const Sketch& sketch) {
+    std::vector<std::string> texts;
+    for (const Term& term : sketch.terms) texts.insert(texts.end(), term.texts.begin(), term.texts.end());
+    return texts;
+}
+
+TEST(EquationScreening, DragOfACarriage_IsTakenInWithItsCoefficientAndNothingBeside) {
+    const plant::Effect& drag =
+        plant::effect_of(formula("macro.friction", "macro.friction", "speed * abs(speed)", 4e-6));
+    const Evidence evidence =
+        testing::campaign({plant::typical_setting(drag)}, {"macro-pulses", "macro-sweep"});
+    const Errors errors = evidence.errors({}, everything(evidence));
+    const auto sketch = sketch_of(evidence, {}, errors, plant::Port::friction,
+                                  terms_of(plant::Port::friction, covered_ranges(evidence), {}), 0.01);
+    ASSERT_TRUE(sketch.has_value());
+    EXPECT_THAT(texts_of(*sketch), ::testing::ElementsAre(::testing::HasSubstr("* abs(clip(speed")));
+    EXPECT_NEAR(sketch->coefficients.front(), 4e-6, 0.4e-6);
+}
+
+TEST(EquationScreening, RigWithoutAGap_HasNoTermAtAnyPortOfTheCarriage) {
+    const Evidence evidence = testing::campaign({}, {"macro-pulses", "macro-sweep"});
+    const Errors errors = evidence.errors({}, everything(evidence));
+    for (const plant::Port port : {plant::Port::force, plant::Port::friction, plant::Port::drive_voltage})
+        EXPECT_FALSE(sketch_of(evidence, {}, errors, port, terms_of(port, covered_ranges(evidence), {}), 0.01)
+                         .has_value());
+}
+
+TEST(EquationScreening, LatentHeat_IsTakenInWhereTheWireIsHeated) {
+    const plant::Effect& latent =
+        plant::effect_of(formula("micro.heat_flow", "micro.heater", "contraction_rate", -0.5));
+    const Evidence evidence = testing::campaign({plant::typical_setting(latent)}, {"micro-steps"});
+    const Errors errors = evidence.errors({}, everything(evidence));
+    const auto sketch = sketch_of(evidence, {}, errors, plant::Port::heat_flow,
+                                  terms_of(plant::Port::heat_flow, covered_ranges(evidence), {}), 0.01);
+    ASSERT_TRUE(sketch.has_value());
+    EXPECT_EQ(texts_of(*sketch).front(), "contraction_rate");
+    EXPECT_NEAR(sketch->coefficients.front(), -0.5, 0.15);
+}
+
+}  // namespace
+}  // namespace fidservo::gap
