@@ -294,30 +294,40 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
     return diagnosis;
 }
 
-/// An equation for what is left, beside the names; where these are not credible, for the whole gap in their
-/// place.
-/// @return how the time for it ended
+/// An equation beside the names; before that, where these are not credible, one for the whole gap in their
+/// place, which has to predict better than they do.
+std::optional<ProposedEquation> equation_for(const Evidence& evidence, const Selection& selection,
+                                             const DiagnosisOptions& options, Diagnosis& diagnosis) {
+    const double tail = options.selection.search.tail;
+    const auto is_unnamed = [](const StatedEffect& effect) { return effect.name.starts_with("unnamed_"); };
+    const int number = 1 + static_cast<int>(std::ranges::count_if(evidence.rig().effects, is_unnamed));
+    const CrossFit& named = selection.steps.back();
+    std::optional<Remainder>& left = diagnosis.unexplained;
+    if (!diagnosis.effects.empty() && mean_probability(diagnosis.effects) <= 0.5) {
+        if (!left) left = remainder_of(evidence, selection.steps.front(), tail, options.matters);
+        if (!left) return {};
+        auto proposed = equation_of(evidence, selection.steps.front(), *left, number, tail);
+        if (proposed && proposed->fitted.loss < named.loss) {
+            proposed->equation.in_place_of_names = true;
+            return proposed;
+        }
+    }
+    const std::optional<Remainder> beside = remainder_of(evidence, named, tail, options.matters);
+    if (!left) left = beside;
+    return beside ? equation_of(evidence, named, *beside, number, tail) : std::nullopt;
+}
+
+/// @return how the time for an equation ended
 Ended propose_equation(const Evidence& evidence, const Selection& selection, const DiagnosisOptions& options,
                        Diagnosis& diagnosis) {
     const bool something_is_left =
         diagnosis.verdict == Verdict::partly_explained || diagnosis.verdict == Verdict::unexplained;
     if (options.equation_s <= 0.0 || !something_is_left) return Ended::finished;
-    const double tail = options.selection.search.tail;
-    const bool beside_names = mean_probability(diagnosis.effects) > 0.5;
-    const CrossFit& base = beside_names ? selection.steps.back() : selection.steps.front();
-    const auto is_unnamed = [](const StatedEffect& effect) { return effect.name.starts_with("unnamed_"); };
-    const auto number = 1 + std::ranges::count_if(evidence.rig().effects, is_unnamed);
     evidence.budget()->prolong(options.equation_s);
     if (options.selection.search.tell) options.selection.search.tell("equation for what is left");
     try {
-        std::optional<Remainder>& left = diagnosis.unexplained;
-        if (!left) left = remainder_of(evidence, base, tail, options.matters);
-        if (!left) return Ended::finished;
-        std::optional<ProposedEquation> proposed =
-            equation_of(evidence, base, *left, static_cast<int>(number), tail);
-        if (!proposed) return Ended::finished;
-        left->equation = std::move(proposed->equation);
-        left->equation->in_place_of_names = !beside_names && !diagnosis.effects.empty();
+        if (auto proposed = equation_for(evidence, selection, options, diagnosis))
+            diagnosis.unexplained->equation = std::move(proposed->equation);
     } catch (const BudgetEnded& end) {
         if (end.how() == Ended::interrupted) return end.how();
         diagnosis.notes.emplace_back("no equation was found for what is left in the time for it");

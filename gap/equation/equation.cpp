@@ -2,6 +2,7 @@
 
 #include "core/rig.h"
 #include "gap/balance/period_search.h"
+#include "gap/equation/scan.h"
 #include "gap/equation/screening.h"
 #include "gap/evidence/halves.h"
 #include "gap/fit/gap_size.h"
@@ -11,8 +12,10 @@
 #include "plant/formulas/formula_effect.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -36,65 +39,6 @@ std::vector<Port> ports_for(std::string_view block) {
     return found;
 }
 
-std::string coefficient_unit(std::string_view of_port, const std::string& of_term) {
-    const std::string unit = of_port.empty() ? "1" : std::string(of_port);
-    if (of_term.empty()) return of_port.empty() ? "" : unit;
-    return of_term.find_first_of(" /") == std::string::npos ? fmt::format("{}/{}", unit, of_term)
-                                                            : fmt::format("{}/({})", unit, of_term);
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-        text.replace(at, from.size(), to);
-    return text;
-}
-
-/// A sketch as a formula: coefficients a, b, c, d; shapes p, q.
-FormulaEffect formula_of(const Sketch& sketch, std::string_view block, const std::string& name) {
-    const plant::PortDescription& port = plant::describe(sketch.port);
-    FormulaEffect effect;
-    effect.name = name;
-    effect.acts_on = port.name;
-    const bool may_be = std::ranges::find(port.blocks, block) != port.blocks.end();
-    effect.block = may_be ? std::string(block) : std::string(port.blocks.front());
-    std::vector<std::string> words;
-    char coefficient = 'a', shape = 'p';
-    std::size_t at = 0;
-    for (const Term& term : sketch.terms) {
-        for (const std::string& text : term.texts) {
-            constexpr double reach = 30.0;
-            const std::string letter(1, coefficient++);
-            const double value = sketch.coefficients[at++];
-            const double most = reach * std::max(std::abs(value), 1e-12);
-            effect.formula += fmt::format("{}{} * {}", effect.formula.empty() ? "" : " + ", letter,
-                                          replaced(text, "shape", std::string(1, shape)));
-            effect.parameters.push_back({.name = letter,
-                                         .unit = coefficient_unit(port.unit, term.unit),
-                                         .low = -most,
-                                         .high = most,
-                                         .typical = value != 0.0 ? value : 1e-12,
-                                         .text = term.words});
-        }
-        if (term.shape)
-            effect.parameters.push_back({.name = std::string(1, shape++),
-                                         .unit = term.shape->unit,
-                                         .low = term.shape->low,
-                                         .high = term.shape->high,
-                                         .vanishing = term.shape->value,
-                                         .typical = term.shape->value,
-                                         .role = "shape",
-                                         .starts = {term.shape->value},
-                                         .text = "of what is " + term.words});
-        words.push_back(term.words);
-    }
-    effect.text = fmt::format(
-        "Proposed by a diagnosis for what no listed effect explains, at {}: {}. Beyond what the recordings "
-        "have covered, powers are continued by their end values.",
-        port.name, fmt::join(words, "; and "));
-    effect.source = "the recordings of this rig";
-    return effect;
-}
-
 /// A sketch in the simulator.
 struct FittedSketch {
     Sketch sketch;
@@ -114,33 +58,102 @@ class EquationSearch {
           fitter_(evidence, SearchOptions{}.windows, {}) {}
 
     std::optional<FittedSketch> best() {
-        const Wanted all = everything(evidence_);
-        Errors errors = evidence_.errors(base_.of_half[0], all);
-        for (std::size_t w = 0; w < base_.mean_squares.size(); ++w)
-            if (std::isnan(base_.mean_squares[w]))
-                for (std::size_t k = evidence_.windows()[w].begin; k < evidence_.windows()[w].end; ++k)
-                    errors[k] = std::numeric_limits<float>::quiet_NaN();
-        const CoveredRanges ranges = covered_ranges(evidence_);
-        std::vector<double> periods_mm;
+        const Errors errors = judged_errors(base_.of_half[0]);
+        ranges_ = covered_ranges(evidence_);
         if (stage_of(block_) == Stage::macro)
             for (const PositionPeriod& period : strongest_periods(evidence_, errors))
-                if (periods_mm.size() < most_periods) periods_mm.push_back(period.period_mm);
+                if (periods_mm_.size() < most_periods) periods_mm_.push_back(period.period_mm);
         std::optional<FittedSketch> best;
-        for (const Port port : ports_for(block_)) {
-            const std::vector<Term> terms = terms_of(port, ranges, periods_mm);
-            terms_tried_ += static_cast<int>(terms.size());
-            const auto sketch = sketch_of(evidence_, base_.of_half[0], errors, port, terms, tail_);
-            if (!sketch) continue;
-            std::optional<FittedSketch> trial = tried(*sketch);
+        const auto try_one = [&](const Sketch& sketch) {
+            std::optional<FittedSketch> trial = tried(sketch);
             if (trial && (!best || trial->fitted.loss < best->fitted.loss)) best = std::move(trial);
+        };
+        for (const Port port : ports_for(block_)) {
+            const PortScreening screening(evidence_, base_.of_half[0], errors, port, terms(port));
+            if (const auto sketch = screening.sketch(tail_)) try_one(*sketch);
+            for (const Sketch& sketch : screening.leading(most_leading)) try_one(sketch);
+            for (const Sketch& sketch :
+                 scanned(evidence_, base_, port, terms_of(port, ranges_, periods_mm_), most_leading))
+                try_one(sketch);
         }
         if (!best) return {};
+        grow(*best);
         shorten(*best);
-        return is_no_chance(base_.mean_squares, best->fitted.mean_squares) ? best : std::nullopt;
+        const bool is_something =
+            signs_agree(*best) && is_no_chance(base_.mean_squares, best->fitted.mean_squares);
+        return is_something ? best : std::nullopt;
     }
 
   private:
-    static constexpr std::size_t most_periods = 3;
+    static constexpr std::size_t most_periods = 3, most_leading = 2;
+
+    std::vector<Term> terms(Port port) {
+        std::vector<Term> found = terms_of(port, ranges_, periods_mm_);
+        terms_tried_ += static_cast<int>(found.size());
+        return found;
+    }
+
+    /// Of a hypothesis, in the windows that are judged.
+    Errors judged_errors(const Hypothesis& hypothesis) const {
+        Errors errors = evidence_.errors(hypothesis, everything(evidence_));
+        for (std::size_t w = 0; w < base_.mean_squares.size(); ++w)
+            if (std::isnan(base_.mean_squares[w]))
+                std::fill(errors.begin() + static_cast<std::ptrdiff_t>(evidence_.windows()[w].begin),
+                          errors.begin() + static_cast<std::ptrdiff_t>(evidence_.windows()[w].end),
+                          std::numeric_limits<float>::quiet_NaN());
+        return errors;
+    }
+
+    /// Further terms of the same port, screened beside what is fitted, as long as they are no chance.
+    void grow(FittedSketch& trial) {
+        for (;;) {
+            const Hypothesis& whole = trial.fitted.of_half[0];
+            const PortScreening screening(evidence_, whole, judged_errors(whole), trial.sketch.port,
+                                          terms(trial.sketch.port));
+            std::vector<Sketch> further = screening.leading(most_leading);
+            std::ranges::move(scanned(evidence_, trial.fitted, trial.sketch.port,
+                                      terms_of(trial.sketch.port, ranges_, periods_mm_), most_leading),
+                              std::back_inserter(further));
+            if (auto sketch = screening.sketch(tail_)) further.insert(further.begin(), first_of(*sketch));
+            std::optional<FittedSketch> best;
+            for (const Sketch& more : further) {
+                const std::optional<Sketch> longer = joined(fitted_values(trial), more);
+                std::optional<FittedSketch> grown = longer ? tried(*longer) : std::nullopt;
+                if (grown && (!best || grown->fitted.loss < best->fitted.loss)) best = std::move(grown);
+            }
+            if (!best || !signs_agree(*best) ||
+                !is_no_chance(trial.fitted.mean_squares, best->fitted.mean_squares))
+                return;
+            trial = *std::move(best);
+        }
+    }
+
+    /// With the values that were fitted to the first half.
+    static Sketch fitted_values(const FittedSketch& trial) {
+        Sketch sketch = trial.sketch;
+        const std::vector<double>& values = trial.fitted.of_half[0].back().values;
+        std::size_t coefficient = 0, value = 0;
+        for (Term& term : sketch.terms) {
+            for (std::size_t k = 0; k < term.texts.size(); ++k)
+                sketch.coefficients[coefficient++] = values[value++];
+            if (term.shape) term.shape->value = values[value++];
+        }
+        return sketch;
+    }
+
+    /// Whether all coefficients have the same sign on both halves.
+    static bool signs_agree(const FittedSketch& trial) {
+        std::size_t value = 0;
+        for (const Term& term : trial.sketch.terms) {
+            for (std::size_t k = 0; k < term.texts.size(); ++k, ++value)
+                if (term.texts.size() == 1 && trial.fitted.of_half[0].back().values[value] *
+                                                      trial.fitted.of_half[1].back().values[value] <=
+                                                  0.0)
+                    return false;
+            if (term.shape) ++value;
+        }
+        return true;
+    }
 
     std::optional<FittedSketch> tried(const Sketch& sketch) const {
         FittedSketch trial{sketch, &plant::effect_of(formula_of(sketch, block_, name_)), base_};
@@ -173,7 +186,7 @@ class EquationSearch {
         while (trial.sketch.terms.size() > 1) {
             std::optional<FittedSketch> shortest;
             for (std::size_t t = 0; t < trial.sketch.terms.size(); ++t) {
-                std::optional<FittedSketch> shorter = tried(without(trial.sketch, t));
+                std::optional<FittedSketch> shorter = tried(without(fitted_values(trial), t));
                 if (shorter && (!shortest || shorter->fitted.loss < shortest->fitted.loss))
                     shortest = std::move(shorter);
             }
@@ -182,24 +195,14 @@ class EquationSearch {
         }
     }
 
-    static Sketch without(const Sketch& sketch, std::size_t term) {
-        Sketch rest{sketch.port, {}, {}};
-        std::size_t at = 0;
-        for (std::size_t t = 0; t < sketch.terms.size(); ++t)
-            for (std::size_t k = 0; k < sketch.terms[t].texts.size(); ++k, ++at) {
-                if (t == term) continue;
-                if (k == 0) rest.terms.push_back(sketch.terms[t]);
-                rest.coefficients.push_back(sketch.coefficients[at]);
-            }
-        return rest;
-    }
-
     const Evidence& evidence_;
     const CrossFit& base_;
     std::string_view block_;
     std::string name_;
     double tail_;
     CrossFitter fitter_;
+    CoveredRanges ranges_{};
+    std::vector<double> periods_mm_;
     int terms_tried_ = 0;
 };
 

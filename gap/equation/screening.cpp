@@ -6,15 +6,26 @@
 #include "gap/balance/carriage_forces.h"
 #include "gap/evidence/halves.h"
 #include "gap/fit/regression.h"
+#include "gap/fit/score.h"
 #include "plant/formulas/formula_effect.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <utility>
 
 namespace fidservo::gap {
+
+/// What a port's terms do to the errors of a signal, and the errors that they may explain.
+struct PortResponses {
+    Signal signal = Signal::encoder;
+    std::vector<Column> columns;  ///< group: a term's place; one for each of its texts, or none
+    Errors errors;
+    /// Of a column's factor in the errors: the coefficient that takes them away.
+    double coefficient_per_factor = -1.0;
+};
 
 namespace {
 
@@ -43,15 +54,6 @@ std::vector<double> values_of(const Term& term, double coefficient) {
     return values;
 }
 
-/// What a port's terms do to the errors of a signal, and the errors that they may explain.
-struct Responses {
-    Signal signal = Signal::encoder;
-    std::vector<Column> columns;  ///< group: a term's place; one for each of its texts, or none
-    Errors errors;
-    /// Of a column's factor in the errors: the coefficient that takes them away.
-    double coefficient_per_factor = -1.0;
-};
-
 /// Way gone from each recording's first row on, row by row, mm.
 std::vector<std::vector<double>> ways_mm(const Evidence& evidence) {
     std::vector<std::vector<double>> all;
@@ -66,12 +68,12 @@ std::vector<std::vector<double>> ways_mm(const Evidence& evidence) {
     return all;
 }
 
-Responses carriage_responses(const Evidence& evidence, const Errors& errors, plant::Port port,
-                             const std::vector<Term>& terms) {
+PortResponses carriage_responses(const Evidence& evidence, const Errors& errors, plant::Port port,
+                                 const std::vector<Term>& terms) {
     const CarriageForces forces(evidence, errors, long_half_support);
     const std::vector<std::vector<double>> way_mm = ways_mm(evidence);
     const DeadZone& zone = evidence.rig().macro.dead_zone;
-    Responses responses;
+    PortResponses responses;
     responses.errors = forces.lacking();
     const bool is_friction = port == plant::Port::friction, is_reading = port == plant::Port::encoder;
     if (is_friction) responses.coefficient_per_factor = 1.0;
@@ -116,9 +118,9 @@ double a_little_of(plant::Port port) {
     }
 }
 
-Responses simulated_responses(const Evidence& evidence, const Hypothesis& base, const Errors& errors,
-                              plant::Port port, const std::vector<Term>& terms) {
-    Responses responses;
+PortResponses simulated_responses(const Evidence& evidence, const Hypothesis& base, const Errors& errors,
+                                  plant::Port port, const std::vector<Term>& terms) {
+    PortResponses responses;
     responses.signal = plant::describe(port).site == plant::Site::camera ? Signal::tag : Signal::hall;
     responses.errors = errors;
     const Wanted wanted = only_of(evidence.windows(), everything(evidence), only(responses.signal));
@@ -244,32 +246,84 @@ std::vector<double> shares_of_halves(const Evidence& evidence, const Regression&
 
 }  // namespace
 
-std::size_t Sketch::shapes() const {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(terms, [](const Term& term) { return term.shape.has_value(); }));
+struct PortScreening::Parts {
+    const Evidence& evidence;
+    plant::Port port;
+    std::vector<Term> terms;
+    PortResponses responses;
+    Regression regression;
+
+    Sketch sketch_of(const std::vector<int>& groups) const {
+        Sketch sketch{port, {}, {}};
+        for (const int group : groups) sketch.terms.push_back(terms[static_cast<std::size_t>(group)]);
+        for (const double factor : regression.factors(groups))
+            sketch.coefficients.push_back(responses.coefficient_per_factor * factor);
+        return sketch;
+    }
+};
+
+namespace {
+
+PortResponses responses_of(const Evidence& evidence, const Hypothesis& base, const Errors& errors,
+                           plant::Port port, const std::vector<Term>& terms) {
+    const plant::Site site = plant::describe(port).site;
+    return site == plant::Site::carriage || site == plant::Site::encoder
+               ? carriage_responses(evidence, errors, port, terms)
+               : simulated_responses(evidence, base, errors, port, terms);
 }
 
-std::optional<Sketch> sketch_of(const Evidence& evidence, const Hypothesis& base, const Errors& errors,
-                                plant::Port port, const std::vector<Term>& terms, double tail) {
-    const plant::Site site = plant::describe(port).site;
-    const bool is_of_carriage = site == plant::Site::carriage || site == plant::Site::encoder;
-    const Responses responses = is_of_carriage ? carriage_responses(evidence, errors, port, terms)
-                                               : simulated_responses(evidence, base, errors, port, terms);
-    if (responses.columns.empty()) return {};
+}  // namespace
+
+PortScreening::PortScreening(const Evidence& evidence, const Hypothesis& base, const Errors& errors,
+                             plant::Port port, std::vector<Term> terms) {
+    PortResponses responses = responses_of(evidence, base, errors, port, terms);
     const std::vector<std::uint8_t> half = halves(evidence);
-    const Regression regression(evidence.windows(), responses.signal, responses.errors, responses.columns, {},
-                                half);
+    Regression regression(evidence.windows(), responses.signal, responses.errors, responses.columns, {},
+                          half);
+    parts_ = std::make_unique<Parts>(
+        Parts{evidence, port, std::move(terms), std::move(responses), std::move(regression)});
+}
+
+PortScreening::~PortScreening() = default;
+PortScreening::PortScreening(PortScreening&&) noexcept = default;
+
+std::optional<Sketch> PortScreening::sketch(double tail) const {
+    const auto& [evidence, port, terms, responses, regression] = *parts_;
     std::vector<int> taken = admitted(terms, regression.significant_groups(tail, as_good));
     if (taken.empty()) return {};
     const std::vector<double> shares = shares_of_halves(evidence, regression, terms, taken, tail);
     for (std::size_t k = taken.size(); k-- > 0;)
         if (shares[k] < least_share_of_halves) taken.erase(taken.begin() + static_cast<std::ptrdiff_t>(k));
     if (taken.empty()) return {};
-    Sketch sketch{port, {}, {}};
-    for (const int group : taken) sketch.terms.push_back(terms[static_cast<std::size_t>(group)]);
-    for (const double factor : regression.factors(taken))
-        sketch.coefficients.push_back(responses.coefficient_per_factor * factor);
-    return sketch;
+    return parts_->sketch_of(taken);
+}
+
+std::vector<Sketch> PortScreening::leading(std::size_t count) const {
+    const auto& [evidence, port, terms, responses, regression] = *parts_;
+    struct TermGain {
+        int group;
+        double gain;
+    };
+    std::vector<TermGain> promises;
+    const std::vector<double> before = regression.mean_squares({});
+    for (std::size_t k = 0; k < responses.columns.size(); ++k) {
+        const int group = responses.columns[k].group;
+        if (k > 0 && responses.columns[k - 1].group == group) continue;
+        const std::array groups{group};
+        promises.push_back(
+            {group, compare(evidence.windows(), before, regression.mean_squares(groups)).gain});
+    }
+    std::ranges::sort(promises, std::greater{}, &TermGain::gain);
+    std::vector<Sketch> found;
+    std::vector<int> families;
+    for (const auto& [group, gain] : promises) {
+        const int family = terms[static_cast<std::size_t>(group)].family;
+        if (found.size() == count || gain <= 0.0) break;
+        if (std::ranges::find(families, family) != families.end()) continue;
+        families.push_back(family);
+        found.push_back(parts_->sketch_of({group}));
+    }
+    return found;
 }
 
 }  // namespace fidservo::gap

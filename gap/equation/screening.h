@@ -7,36 +7,41 @@
 // Terms are taken in one after the other while held-out errors get smaller beyond chance
 // (gap/fit/regression.h), and kept where they are taken in again, with the same sign, on most random halves
 // of the recordings (stability selection: Meinshausen, Buehlmann, J. Royal Statistical Society B 72, 2010).
-#include "gap/equation/terms.h"
+#include "gap/equation/sketch.h"
 #include "gap/evidence.h"
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace fidservo::gap {
 
-/// Terms of a port in the order in which they were taken in, with first values of their coefficients: one for
-/// each of Term::texts, one term after the other.
-struct Sketch {
-    plant::Port port = plant::Port::force;
-    std::vector<Term> terms;
-    std::vector<double> coefficients;
-
-    std::size_t shapes() const;
-};
-
-/// The most that an equation has.
-inline constexpr std::size_t most_coefficients = 4, most_equation_shapes = 2;
-
 /// Share of the random halves in which a term has to be taken in again.
 inline constexpr double least_share_of_halves = 0.8;
 
-/// @param base  explains all but what is looked for
-/// @param errors  of the base; NaN where they are not judged
-/// @param tail  of taking in anything where there is nothing
-/// @return none where no term of the port predicts anything, or none is taken in again
-std::optional<Sketch> sketch_of(const Evidence& evidence, const Hypothesis& base, const Errors& errors,
-                                plant::Port port, const std::vector<Term>& terms, double tail);
+/// A port's terms beside an explanation: what each does to the predictions is worked out once.
+class PortScreening {
+  public:
+    /// @param base  explains all but what is looked for
+    /// @param errors  of the base; NaN where they are not judged
+    PortScreening(const Evidence& evidence, const Hypothesis& base, const Errors& errors, plant::Port port,
+                  std::vector<Term> terms);
+    ~PortScreening();
+    PortScreening(PortScreening&&) noexcept;
+
+    /// The terms that predict what was not fitted, beyond chance and on most random halves; none where none
+    /// does.
+    /// @param tail  of taking in anything where there is nothing
+    std::optional<Sketch> sketch(double tail) const;
+
+    /// The terms that promise most alone, best first: where an effect is large, what is linear of it may say
+    /// little.
+    std::vector<Sketch> leading(std::size_t count) const;
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
 
 }  // namespace fidservo::gap

@@ -33,13 +33,22 @@ struct Known {
     Covered range;
     const char* words;  ///< in a sentence
 
-    /// A number with few digits.
-    static std::string digits(double value) { return fmt::format("{:.4g}", value); }
+    static std::string digits(double value) { return fmt::format("{:.6g}", value); }
+    /// To a hundredth of what is covered, or less.
+    double rounded(double value) const {
+        const double step =
+            0.5 * std::pow(10.0, std::floor(std::log10(std::max(1e-9, 2.0 * range.half()))) - 1.0);
+        return step * std::round(value / step) + 0.0;
+    }
     std::string clipped() const {
-        return fmt::format("clip({}, {}, {})", name, digits(range.low), digits(range.high));
+        return fmt::format("clip({}, {}, {})", name, digits(rounded(range.low)), digits(rounded(range.high)));
     }
     /// About its middle, where it does not change sign there.
-    double origin() const { return range.low < 0.0 && range.high > 0.0 ? 0.0 : std::round(range.middle()); }
+    double origin() const {
+        constexpr double hardly = 0.1;
+        const bool has_both_signs = std::min(-range.low, range.high) > hardly * range.half();
+        return has_both_signs ? 0.0 : rounded(range.middle());
+    }
     std::string centred() const {
         const double at = origin();
         return at == 0.0 ? clipped() : fmt::format("({} - {})", clipped(), digits(at));

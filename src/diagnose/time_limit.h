@@ -13,8 +13,8 @@ struct TimeLimit {
     double equation_s = 0.0;
 };
 
-/// Half a minute, of which four fifths are the search's, and another one for an equation.
-inline constexpr TimeLimit half_a_minute{0.8 * 26.0, 26.0, 30.0};
+/// Half a minute, of which four fifths are the search's, and a minute for an equation.
+inline constexpr TimeLimit half_a_minute{0.8 * 26.0, 26.0, 60.0};
 
 /// Half a minute, and where recordings are longer than ten minutes, 84 s more for each further hour.
 TimeLimit time_limit(const std::vector<Recording>& recordings);

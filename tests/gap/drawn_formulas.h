@@ -32,9 +32,9 @@ inline const std::vector<Place>& places() {
         command{"command", 0.0, 4.0}, wire{"wire_temp", 60.0, 25.0}, power{"heater_power", 80.0, 60.0},
         contraction{"contraction", 2.0, 1.5}, platform{"platform", 2.0, 1.5};
     static const std::vector<Place> all{
-        {"macro.force", "macro.mechanics", 0.1, {place, speed}},
+        {"macro.force", "macro.mechanics", 0.1, {place}},
         {"macro.friction", "macro.friction", 0.1, {speed, place}},
-        {"macro.drive_voltage", "macro.drive", 0.1, {command, speed}},
+        {"macro.drive_voltage", "macro.drive", 0.1, {command, place}},
         {"macro.encoder", "macro.encoder", 0.1, {place}},
         {"micro.heater_power", "micro.heater", 5.0, {power, wire}},
         {"micro.heat_flow", "micro.heater", 5.0, {wire, contraction}},
@@ -97,7 +97,9 @@ inline Drawn draw(std::uint64_t seed) {
     drawn.text.text = "drawn at random";
     drawn.text.parameters.push_back(
         {.name = "size", .low = -20.0 * at.size, .high = 20.0 * at.size, .typical = at.size, .role = "size"});
-    drawn.truth.push_back((stream.uniform() < 0.5 ? -1.0 : 1.0) * at.size *
+    // Friction that pushes would make the carriage run away.
+    const bool may_be_negative = std::string(at.port) != "macro.friction";
+    drawn.truth.push_back((may_be_negative && stream.uniform() < 0.5 ? -1.0 : 1.0) * at.size *
                           std::exp(even(stream, -0.7, 1.1)));
     std::string formula = "size";
     const std::size_t factors = 1 + pick(stream, std::min<std::size_t>(2, at.ingredients.size()));

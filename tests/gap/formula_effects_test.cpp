@@ -1,14 +1,19 @@
 // Formulas of an effects file are found by name, beside the listed effects.
+#include "core/input_error.h"
 #include "gap/diagnose.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
+#include "src/diagnose/time_limit.h"
 #include "tests/gap/drawn_formulas.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,10 +34,13 @@ struct Outcome {
     std::string names;
 };
 
-Evidence evidence_of(const Drawn& drawn) {
-    return {reference_rig(), recordings_of({{&plant::effect_of(drawn.text), drawn.truth}},
-                                           {"macro-pulses", "macro-square", "macro-sweep", "micro-steps",
-                                            "micro-triangle", "integrated"})};
+/// Throws InputError where the drawn one is none that a machine can have.
+Evidence evidence_of(const Drawn& drawn, std::shared_ptr<const Budget> budget = {}) {
+    return {reference_rig(),
+            recordings_of({{&plant::effect_of(drawn.text), drawn.truth}},
+                          {"macro-pulses", "macro-square", "macro-sweep", "micro-steps", "micro-triangle",
+                           "integrated"}),
+            std::move(budget)};
 }
 
 int drawn_count(int usual) {
@@ -40,12 +48,11 @@ int drawn_count(int usual) {
     return asked != nullptr ? std::atoi(asked) : usual;
 }
 
-Outcome diagnosed(const Drawn& drawn) {
+Outcome diagnosed(const Drawn& drawn, const Evidence& evidence) {
     const plant::Effect& effect = plant::effect_of(drawn.text);
-    const Evidence evidence = evidence_of(drawn);
     DiagnosisOptions options;
     options.formulas = {&effect};
-    const Diagnosis diagnosis = diagnose(evidence, options);
+    const Diagnosis diagnosis = gap::diagnose(evidence, options);
     Outcome outcome{diagnosis.gap.before, diagnosis.gap.after, false, diagnosis.effects.size() == 1, {}};
     for (const FoundEffect& found : diagnosis.effects) {
         outcome.is_named = outcome.is_named || found.effect == drawn.text.name;
@@ -54,13 +61,28 @@ Outcome diagnosed(const Drawn& drawn) {
     return outcome;
 }
 
+/// The next drawn one that a machine can have, from a number on.
+std::pair<Drawn, Evidence> next_drawn(std::uint64_t& number,
+                                      const std::function<std::shared_ptr<const Budget>()>& budget = {}) {
+    for (;;) {
+        Drawn drawn = draw(number++);
+        try {
+            Evidence evidence = evidence_of(drawn, budget ? budget() : nullptr);
+            return {std::move(drawn), std::move(evidence)};
+        } catch (const InputError&) {
+            continue;
+        }
+    }
+}
+
 /// FIDSERVO_FORMULAS sets how many are drawn.
 TEST(SlowFormulaEffects, DrawnAtRandomPorts_AreFoundByName) {
-    const int tried = drawn_count(8);
+    const int tried = drawn_count(3);
     int shown = 0, named = 0, alone = 0;
+    std::uint64_t number = 9100;
     for (int k = 0; k < tried; ++k) {
-        const Drawn drawn = draw(static_cast<std::uint64_t>(9100 + k));
-        const Outcome outcome = diagnosed(drawn);
+        const auto [drawn, evidence] = next_drawn(number);
+        const Outcome outcome = diagnosed(drawn, evidence);
         fmt::print("{} {}: {} = {}; {:.3g} floors, {:.3g} left; named:{}\n", k, drawn.text.acts_on,
                    drawn.text.formula, fmt::join(drawn.truth, ", "), outcome.floors, outcome.left,
                    outcome.names);
@@ -107,17 +129,23 @@ double apart(const Drawn& drawn, const Equation& equation) {
     return std::sqrt(different / all);
 }
 
-/// What no effect explains is proposed as an equation, by its own library of terms.
+/// What no effect explains is proposed as an equation, by its own library of terms. A search that cannot come
+/// to an end is ended as the command ends it.
 TEST(SlowEquations, OfDrawnFormulas_AreProposedAndRemoveTheGap) {
-    const int tried = drawn_count(5);
+    const int tried = drawn_count(2);
     int shown = 0, proposed = 0, right_variables = 0, right_form = 0;
     std::vector<double> removed;
+    std::uint64_t number = 9500;
+    const auto half_a_minute = [] {
+        return std::make_shared<const Budget>(fidservo::diagnose::half_a_minute.search_s,
+                                              fidservo::diagnose::half_a_minute.whole_s,
+                                              std::function<bool()>{});
+    };
     for (int k = 0; k < tried; ++k) {
-        const Drawn drawn = draw(static_cast<std::uint64_t>(9500 + k));
-        const Evidence evidence = evidence_of(drawn);
+        const auto [drawn, evidence] = next_drawn(number, half_a_minute);
         DiagnosisOptions options;
-        options.equation_s = 60.0;
-        const Diagnosis diagnosis = diagnose(evidence, options);
+        options.equation_s = fidservo::diagnose::half_a_minute.equation_s;
+        const Diagnosis diagnosis = gap::diagnose(evidence, options);
         fmt::print("{} {}: {} = {}; {:.3g} floors, {:.3g} left\n", k, drawn.text.acts_on, drawn.text.formula,
                    fmt::join(drawn.truth, ", "), diagnosis.gap.before, diagnosis.gap.after);
         for (const FoundEffect& found : diagnosis.effects)

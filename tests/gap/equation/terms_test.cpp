@@ -59,14 +59,17 @@ std::vector<std::string> texts_of(const Sketch& sketch) {
     return texts;
 }
 
+PortScreening screening(const Evidence& evidence, const Errors& errors, plant::Port port) {
+    return {evidence, {}, errors, port, terms_of(port, covered_ranges(evidence), {})};
+}
+
 TEST(EquationScreening, DragOfACarriage_IsTakenInWithItsCoefficientAndNothingBeside) {
     const plant::Effect& drag =
         plant::effect_of(formula("macro.friction", "macro.friction", "speed * abs(speed)", 4e-6));
     const Evidence evidence =
         testing::campaign({plant::typical_setting(drag)}, {"macro-pulses", "macro-sweep"});
     const Errors errors = evidence.errors({}, everything(evidence));
-    const auto sketch = sketch_of(evidence, {}, errors, plant::Port::friction,
-                                  terms_of(plant::Port::friction, covered_ranges(evidence), {}), 0.01);
+    const auto sketch = screening(evidence, errors, plant::Port::friction).sketch(0.01);
     ASSERT_TRUE(sketch.has_value());
     EXPECT_THAT(texts_of(*sketch), ::testing::ElementsAre(::testing::HasSubstr("* abs(clip(speed")));
     EXPECT_NEAR(sketch->coefficients.front(), 4e-6, 0.4e-6);
@@ -76,8 +79,7 @@ TEST(EquationScreening, RigWithoutAGap_HasNoTermAtAnyPortOfTheCarriage) {
     const Evidence evidence = testing::campaign({}, {"macro-pulses", "macro-sweep"});
     const Errors errors = evidence.errors({}, everything(evidence));
     for (const plant::Port port : {plant::Port::force, plant::Port::friction, plant::Port::drive_voltage})
-        EXPECT_FALSE(sketch_of(evidence, {}, errors, port, terms_of(port, covered_ranges(evidence), {}), 0.01)
-                         .has_value());
+        EXPECT_FALSE(screening(evidence, errors, port).sketch(0.01).has_value());
 }
 
 TEST(EquationScreening, LatentHeat_IsTakenInWhereTheWireIsHeated) {
@@ -85,8 +87,7 @@ TEST(EquationScreening, LatentHeat_IsTakenInWhereTheWireIsHeated) {
         plant::effect_of(formula("micro.heat_flow", "micro.heater", "contraction_rate", -0.5));
     const Evidence evidence = testing::campaign({plant::typical_setting(latent)}, {"micro-steps"});
     const Errors errors = evidence.errors({}, everything(evidence));
-    const auto sketch = sketch_of(evidence, {}, errors, plant::Port::heat_flow,
-                                  terms_of(plant::Port::heat_flow, covered_ranges(evidence), {}), 0.01);
+    const auto sketch = screening(evidence, errors, plant::Port::heat_flow).sketch(0.01);
     ASSERT_TRUE(sketch.has_value());
     EXPECT_EQ(texts_of(*sketch).front(), "contraction_rate");
     EXPECT_NEAR(sketch->coefficients.front(), -0.5, 0.15);

@@ -1,0 +1,83 @@
+#include "gap/equation/scan.h"
+
+#include "gap/fit/score.h"
+#include "plant/effects/catalogue.h"
+#include "plant/formulas/formula_effect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+namespace fidservo::gap {
+
+namespace {
+
+/// Of a quantity that is off by much, in the port's unit.
+double usual_amount(plant::Port port) {
+    switch (port) {
+        case plant::Port::heater_power:
+            return 10.0;
+        case plant::Port::heat_flow:
+        case plant::Port::transformation:
+            return 5.0;
+        case plant::Port::contraction:
+        case plant::Port::platform:
+        case plant::Port::hall_voltage:
+            return 0.1;
+        default:
+            return 0.02;
+    }
+}
+
+/// The windows of a signal in the four recordings that lose most.
+Wanted worst_recordings(const Evidence& evidence, const CrossFit& beside, Signal signal) {
+    constexpr std::size_t few = 4;
+    std::vector<double> losses(evidence.recordings().size(), 0.0);
+    for (std::size_t w = 0; w < beside.mean_squares.size(); ++w)
+        if (evidence.windows()[w].signal == signal && std::isfinite(beside.mean_squares[w]))
+            losses[evidence.windows()[w].run] += window_loss(beside.mean_squares[w]);
+    std::vector<double> sorted = losses;
+    std::ranges::sort(sorted, std::greater{});
+    const double least = sorted[std::min(few, sorted.size()) - 1];
+    Wanted wanted = only_of(evidence.windows(), everything(evidence), only(signal));
+    for (std::size_t w = 0; w < wanted.size(); ++w)
+        if (losses[evidence.windows()[w].run] < least) wanted[w] = 0;
+    return wanted;
+}
+
+}  // namespace
+
+std::vector<Sketch> scanned(const Evidence& evidence, const CrossFit& beside, plant::Port port,
+                            const std::vector<Term>& terms, std::size_t count) {
+    const plant::Site site = plant::describe(port).site;
+    if (site != plant::Site::micro && site != plant::Site::camera) return {};
+    const Wanted wanted =
+        worst_recordings(evidence, beside, site == plant::Site::micro ? Signal::hall : Signal::tag);
+    struct Scanned {
+        double loss;
+        Sketch sketch;
+    };
+    std::vector<Scanned> found;
+    for (const Term& term : terms) {
+        if (term.texts.size() > 1) continue;
+        Scanned best{std::numeric_limits<double>::infinity(), {}};
+        for (const double amount : {-1.0, -0.2, 0.2, 1.0}) {
+            const Sketch sketch{port, {term}, {amount * usual_amount(port) / term.size}};
+            Hypothesis with = beside.of_half[0];
+            with.push_back(plant::typical_setting(
+                plant::effect_of(formula_of(sketch, plant::describe(port).blocks.front(), "term"))));
+            const double loss = total_loss(evidence.windows(), wanted, evidence.errors(with, wanted));
+            if (loss < best.loss) best = {loss, sketch};
+        }
+        found.push_back(std::move(best));
+    }
+    std::ranges::stable_sort(found, {}, &Scanned::loss);
+    std::vector<Sketch> leading;
+    for (std::size_t k = 0; k < std::min<std::size_t>(count, found.size()); ++k)
+        if (std::isfinite(found[k].loss)) leading.push_back(std::move(found[k].sketch));
+    return leading;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,107 @@
+#include "gap/equation/sketch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fidservo::gap {
+
+namespace {
+
+std::string coefficient_unit(std::string_view of_port, const std::string& of_term) {
+    const std::string unit = of_port.empty() ? "1" : std::string(of_port);
+    if (of_term.empty()) return of_port.empty() ? "" : unit;
+    return of_term.find_first_of(" /") == std::string::npos ? fmt::format("{}/{}", unit, of_term)
+                                                            : fmt::format("{}/({})", unit, of_term);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+    return text;
+}
+
+}  // namespace
+
+std::size_t Sketch::shapes() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(terms, [](const Term& term) { return term.shape.has_value(); }));
+}
+
+FormulaEffect formula_of(const Sketch& sketch, std::string_view block, const std::string& name) {
+    const plant::PortDescription& port = plant::describe(sketch.port);
+    FormulaEffect effect;
+    effect.name = name;
+    effect.acts_on = port.name;
+    const bool may_be = std::ranges::find(port.blocks, block) != port.blocks.end();
+    effect.block = may_be ? std::string(block) : std::string(port.blocks.front());
+    std::vector<std::string> words;
+    char coefficient = 'a', shape = 'p';
+    std::size_t at = 0;
+    for (const Term& term : sketch.terms) {
+        for (const std::string& text : term.texts) {
+            constexpr double reach = 30.0;
+            const std::string letter(1, coefficient++);
+            const double value = sketch.coefficients[at++];
+            const double most = reach * std::max(std::abs(value), 1e-12);
+            effect.formula += fmt::format("{}{} * {}", effect.formula.empty() ? "" : " + ", letter,
+                                          replaced(text, "shape", std::string(1, shape)));
+            effect.parameters.push_back({.name = letter,
+                                         .unit = coefficient_unit(port.unit, term.unit),
+                                         .low = -most,
+                                         .high = most,
+                                         .typical = value != 0.0 ? value : 1e-12,
+                                         .text = term.words});
+        }
+        if (term.shape)
+            effect.parameters.push_back({.name = std::string(1, shape++),
+                                         .unit = term.shape->unit,
+                                         .low = term.shape->low,
+                                         .high = term.shape->high,
+                                         .vanishing = term.shape->value,
+                                         .typical = term.shape->value,
+                                         .role = "shape",
+                                         .starts = {term.shape->value},
+                                         .text = "of what is " + term.words});
+        words.push_back(term.words);
+    }
+    effect.text = fmt::format(
+        "Proposed by a diagnosis for what no listed effect explains, at {}: {}. Beyond what the recordings "
+        "have covered, powers are continued by their end values.",
+        port.name, fmt::join(words, "; and "));
+    effect.source = "the recordings of this rig";
+    return effect;
+}
+
+Sketch first_of(const Sketch& sketch) {
+    const auto count = static_cast<std::ptrdiff_t>(sketch.terms.front().texts.size());
+    return {sketch.port,
+            {sketch.terms.front()},
+            {sketch.coefficients.begin(), sketch.coefficients.begin() + count}};
+}
+
+Sketch without(const Sketch& sketch, std::size_t term) {
+    Sketch rest{sketch.port, {}, {}};
+    std::size_t at = 0;
+    for (std::size_t t = 0; t < sketch.terms.size(); ++t)
+        for (std::size_t k = 0; k < sketch.terms[t].texts.size(); ++k, ++at) {
+            if (t == term) continue;
+            if (k == 0) rest.terms.push_back(sketch.terms[t]);
+            rest.coefficients.push_back(sketch.coefficients[at]);
+        }
+    return rest;
+}
+
+std::optional<Sketch> joined(Sketch sketch, const Sketch& more) {
+    for (const Term& term : more.terms)
+        for (const Term& known : sketch.terms)
+            if (term.family == known.family) return {};
+    sketch.terms.insert(sketch.terms.end(), more.terms.begin(), more.terms.end());
+    sketch.coefficients.insert(sketch.coefficients.end(), more.coefficients.begin(), more.coefficients.end());
+    if (sketch.coefficients.size() > most_coefficients || sketch.shapes() > most_equation_shapes) return {};
+    return sketch;
+}
+
+}  // namespace fidservo::gap
