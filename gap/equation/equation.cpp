@@ -68,17 +68,22 @@ class EquationSearch {
             std::optional<FittedSketch> trial = tried(sketch);
             if (trial && (!best || trial->fitted.loss < best->fitted.loss)) best = std::move(trial);
         };
-        for (const Port port : ports_for(block_)) {
-            const PortScreening screening(evidence_, base_.of_half[0], errors, port, terms(port));
-            if (const auto sketch = screening.sketch(tail_)) try_one(*sketch);
-            for (const Sketch& sketch : screening.leading(most_leading)) try_one(sketch);
-            for (const Sketch& sketch :
-                 scanned(evidence_, base_, port, terms_of(port, ranges_, periods_mm_), most_leading))
-                try_one(sketch);
+        try {
+            for (const Port port : ports_for(block_)) {
+                const PortScreening screening(evidence_, base_.of_half[0], errors, port, terms(port));
+                if (const auto sketch = screening.sketch(tail_)) try_one(*sketch);
+                for (const Sketch& sketch : screening.leading(most_leading)) try_one(sketch);
+                for (const Sketch& sketch :
+                     scanned(evidence_, base_, port, terms_of(port, ranges_, periods_mm_), most_leading))
+                    try_one(sketch);
+            }
+            if (!best) return {};
+            grow(*best);
+            shorten(*best);
+        } catch (const BudgetEnded& end) {
+            if (!best || end.how() == Ended::interrupted) throw;
+            evidence_.budget()->prolong(working_out_s);  // what was found until then is worked out
         }
-        if (!best) return {};
-        grow(*best);
-        shorten(*best);
         const bool is_something =
             signs_agree(*best) && is_no_chance(base_.mean_squares, best->fitted.mean_squares);
         return is_something ? best : std::nullopt;
@@ -86,6 +91,7 @@ class EquationSearch {
 
   private:
     static constexpr std::size_t most_periods = 3, most_leading = 2;
+    static constexpr double working_out_s = 5.0;
 
     std::vector<Term> terms(Port port) {
         std::vector<Term> found = terms_of(port, ranges_, periods_mm_);
@@ -248,6 +254,7 @@ std::optional<ProposedEquation> equation_of(const Evidence& evidence, const Cros
     equation.gap_removed = total_gap(gaps).removed();
     std::tie(equation.gap_removed_low, equation.gap_removed_high) =
         removed_interval(evidence, base.mean_squares, trial->fitted.mean_squares);
+    if (equation.gap_removed_low <= 0.0) return {};
     return ProposedEquation{std::move(equation), std::move(trial->fitted)};
 }
 

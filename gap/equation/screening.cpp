@@ -7,6 +7,7 @@
 #include "gap/evidence/halves.h"
 #include "gap/fit/regression.h"
 #include "gap/fit/score.h"
+#include "gap/residuals/surrogate.h"
 #include "plant/formulas/formula_effect.h"
 
 #include <algorithm>
@@ -54,24 +55,10 @@ std::vector<double> values_of(const Term& term, double coefficient) {
     return values;
 }
 
-/// Way gone from each recording's first row on, row by row, mm.
-std::vector<std::vector<double>> ways_mm(const Evidence& evidence) {
-    std::vector<std::vector<double>> all;
-    for (std::size_t run = 0; run < evidence.recordings().size(); ++run) {
-        std::vector<double>& of_run = all.emplace_back();
-        double way = 0.0;
-        for (const float speed : evidence.course(run).velocity_mm_per_s) {
-            if (std::isfinite(speed)) way += std::abs(static_cast<double>(speed)) * evidence.rig().tick_s;
-            of_run.push_back(way);
-        }
-    }
-    return all;
-}
-
 PortResponses carriage_responses(const Evidence& evidence, const Errors& errors, plant::Port port,
                                  const std::vector<Term>& terms) {
     const CarriageForces forces(evidence, errors, long_half_support);
-    const std::vector<std::vector<double>> way_mm = ways_mm(evidence);
+    const std::vector<std::vector<double>> way_mm = ways_gone_mm(evidence);
     const DeadZone& zone = evidence.rig().macro.dead_zone;
     PortResponses responses;
     responses.errors = forces.lacking();

@@ -143,6 +143,16 @@ void add_fading(Library& library, const std::string& factor, const std::string& 
                        time_constants_s, 0.3, 300.0, words);
 }
 
+/// About the middle of what is covered.
+void add_steps_and_bells(Library& library, const Known& of) {
+    const double reach = of.reach();
+    const std::array widths{0.2 * reach, 0.5 * reach};
+    library.add_shaped({fmt::format("tanh(({} - {:.6g}) / shape)", of.name, of.origin())}, of.unit, widths,
+                       0.02 * reach, 3.0 * reach, fmt::format("that steps with {}", of.words));
+    library.add_shaped({fmt::format("exp(-(({} - {:.6g}) / shape)^2)", of.name, of.origin())}, of.unit,
+                       widths, 0.02 * reach, 3.0 * reach, fmt::format("around the middle of {}", of.words));
+}
+
 void add_carriage_terms(Library& library, plant::Port port, const CoveredRanges& ranges,
                         std::span<const double> periods_mm) {
     const Known place{"place", "mm", ranges.place_mm, "the place on the rail"};
@@ -239,9 +249,11 @@ void add_micro_terms(Library& library, plant::Port port, const CoveredRanges& ra
             library.add("sign(contraction_rate)", "", 1.0,
                         "of one sign in contraction, the other in extension");
             library.add_powers(time, 1);
+            add_steps_and_bells(library, contraction);
             return;
         case plant::Port::contraction:
             library.add_powers(contraction, 3);
+            add_steps_and_bells(library, contraction);
             library.add_powers(wire, 2);
             library.add("contraction_rate", "mm/s", rate, "in proportion to its rate, as a lag is");
             library.add("clip(contraction, 0, 5) * time", "mm s", 2.0 * ranges.time_s.high,

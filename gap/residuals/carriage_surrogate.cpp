@@ -103,8 +103,14 @@ void add_waves_of_drive(std::vector<Column>& columns, const CarriageForces& forc
         drive_after_dead_zone_V, shortest_mm, longest_mm, std::array{1.0});
 }
 
-/// Way gone from a recording's first row on, row by row of every recording, mm.
-std::vector<std::vector<double>> way_mm(const Evidence& evidence) {
+}  // namespace
+
+bool has_own_zeros(const Evidence& evidence) {
+    return std::ranges::any_of(evidence.recordings(),
+                               [](const Recording& recording) { return recording.columns.position; });
+}
+
+std::vector<std::vector<double>> ways_gone_mm(const Evidence& evidence) {
     std::vector<std::vector<double>> all;
     for (std::size_t run = 0; run < evidence.recordings().size(); ++run) {
         std::vector<double>& of_run = all.emplace_back();
@@ -116,13 +122,6 @@ std::vector<std::vector<double>> way_mm(const Evidence& evidence) {
         }
     }
     return all;
-}
-
-}  // namespace
-
-bool has_own_zeros(const Evidence& evidence) {
-    return std::ranges::any_of(evidence.recordings(),
-                               [](const Recording& recording) { return recording.columns.position; });
 }
 
 Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, double edge_V,
@@ -165,7 +164,7 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, dou
     add_force_hats(columns, forces, Dependence::time, 6, time_s, share_passed);
     const Quantity drive_V = [&](const SlidingRow& at) { return effective[at.run][at.row]; };
     add_force_hats(columns, forces, Dependence::time, 6, time_s, drive_V);
-    const std::vector<std::vector<double>> way = way_mm(evidence);
+    const std::vector<std::vector<double>> way = ways_gone_mm(evidence);
     add_force_hats(
         columns, forces, Dependence::way_friction, 6,
         [&](const SlidingRow& at) { return way[at.run][at.row]; }, direction);

@@ -68,6 +68,9 @@ struct Surrogate {
 /// of counts from an end stop.
 bool has_own_zeros(const Evidence& evidence);
 
+/// Way gone from a recording's first row on, row by row of every recording, mm.
+std::vector<std::vector<double>> ways_gone_mm(const Evidence& evidence);
+
 /// Of the forces that the encoder's errors lack. Waves have a phase in each recording where zeros differ: a
 /// half must then have stretches of each run.
 /// @param edge_V  gap/balance/carriage_forces.h

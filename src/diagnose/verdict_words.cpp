@@ -60,8 +60,32 @@ std::string end_words(gap::Ended ended) {
     return "all was tried";
 }
 
+namespace {
+
+const gap::Equation* equation_of(const gap::Diagnosis& diagnosis) {
+    return diagnosis.unexplained && diagnosis.unexplained->equation ? &*diagnosis.unexplained->equation
+                                                                    : nullptr;
+}
+
+/// What an equation does; empty where there is none.
+std::string equation_words(const gap::Diagnosis& diagnosis) {
+    const gap::Equation* equation = equation_of(diagnosis);
+    if (equation == nullptr) return "";
+    return fmt::format(
+        " An equation at {} that these recordings propose removes {} of {}.", equation->acts_on,
+        share_words(equation->gap_removed),
+        equation->in_place_of_names ? "the whole gap, without the effects named" : "what is left");
+}
+
+}  // namespace
+
 std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
     if (diagnosis.signals.empty()) return "Nothing in these recordings could be judged.";
+    if (const gap::Equation* equation = equation_of(diagnosis);
+        equation != nullptr && equation->in_place_of_names)
+        return "Rig and simulator disagree; an equation that the recordings propose explains it better than "
+               "any "
+               "known effect.";
     switch (diagnosis.verdict) {
         case gap::Verdict::no_gap:
             return "No gap was found between the rig and its simulator.";
@@ -106,14 +130,16 @@ std::string verdict_detail(const gap::Diagnosis& diagnosis) {
                 text += " What is left arises " + remainder_words(*diagnosis.unexplained) + ".";
             else if (size_class(diagnosis.gap.after) > 0)
                 text += " What is left is above the noise floor, but without a pattern that could be found.";
-            return text + ties(diagnosis);
+            return text + equation_words(diagnosis) + ties(diagnosis);
         }
         case gap::Verdict::unexplained:
             if (diagnosis.unexplained && diagnosis.unexplained->depends_on.empty())
-                return sizes(diagnosis) + "; nothing was found that the errors depend on.";
+                return sizes(diagnosis) + "; nothing was found that the errors depend on." +
+                       equation_words(diagnosis);
             return sizes(diagnosis) +
                    ". A model without a name, fitted to what the errors depend on, predicts the recordings "
-                   "better; none of the catalogue's effects does.";
+                   "better; none of the catalogue's effects does." +
+                   equation_words(diagnosis);
     }
     return "";
 }

@@ -135,7 +135,7 @@ TEST(SlowEquations, OfDrawnFormulas_AreProposedAndRemoveTheGap) {
     const int tried = drawn_count(2);
     int shown = 0, proposed = 0, right_variables = 0, right_form = 0;
     std::vector<double> removed;
-    std::uint64_t number = 9500;
+    std::uint64_t number = 9800;
     const auto half_a_minute = [] {
         return std::make_shared<const Budget>(fidservo::diagnose::half_a_minute.search_s,
                                               fidservo::diagnose::half_a_minute.whole_s,
