@@ -9,6 +9,7 @@
 #include "gap/fit/score.h"
 #include "gap/residuals/accusation.h"
 #include "gap/search/selection.h"
+#include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include "core/random.h"
 #include "core/rig.h"
 #include "gap/balance/carriage_forces.h"
+#include "gap/candidates/coupling.h"
 #include "gap/evidence/halves.h"
 #include "gap/fit/regression.h"
 #include "gap/fit/score.h"

@@ -81,7 +81,7 @@ class Library {
         for (int power = 1; power <= highest; ++power) {
             std::string text = of.centred();
             if (power > 1) text += fmt::format("^{}", power);
-            if (!factor.empty()) text = factor + " * " + text;
+            if (!factor.empty()) text = fmt::format("{} * {}", factor, text);
             add(std::move(text), of.power_unit(power), std::pow(of.reach(), power),
                 fmt::format("{} {}", names[static_cast<std::size_t>(power - 1)], of.words));
         }
@@ -126,15 +126,16 @@ class Library {
 constexpr std::array time_constants_s{3.0, 10.0, 30.0};
 constexpr std::array falling_speeds_mm_per_s{3.0, 8.0, 20.0, 60.0};
 
-/// Bells along the rail, of a twelfth of what was covered.
+/// Bells along the rail, of a twelfth of what was covered and of a quarter, side by side.
 void add_bells(Library& library, const Covered& place_mm, const std::string& factor) {
-    constexpr int count = 12;
-    const double width_mm = 2.0 * place_mm.half() / count;
     const std::string start = factor.empty() ? "" : factor + " * ";
-    for (int k = 0; k < count; ++k) {
-        const double at_mm = place_mm.low + (k + 0.5) * width_mm;
-        library.add_shaped({fmt::format("{}exp(-((place - shape) / {:.4g})^2)", start, width_mm)}, "mm",
-                           std::array{at_mm}, at_mm - width_mm, at_mm + width_mm, "around one place");
+    for (const int count : {12, 4}) {
+        const double width_mm = 2.0 * place_mm.half() / count;
+        for (int k = 0; k < count; ++k) {
+            const double at_mm = place_mm.low + (k + 0.5) * width_mm;
+            library.add_shaped({fmt::format("{}exp(-((place - shape) / {:.4g})^2)", start, width_mm)}, "mm",
+                               std::array{at_mm}, at_mm - width_mm, at_mm + width_mm, "around one place");
+        }
     }
 }
 
@@ -230,6 +231,7 @@ void add_micro_terms(Library& library, plant::Port port, const CoveredRanges& ra
             library.add_constant("(heater_power > 0)", "the same whenever it is heated");
             library.add("heater_power * time", "degC s", rise * ranges.time_s.high,
                         "in proportion to power and time");
+            add_steps_and_bells(library, {"heater_power", "degC", {0.0, rise}, "the heater's power"});
             return;
         case plant::Port::heat_flow:
             library.add_constant({}, "the same at all times");
@@ -241,6 +243,8 @@ void add_micro_terms(Library& library, plant::Port port, const CoveredRanges& ra
             library.add_powers(contraction, 2);
             library.add("(wire_temp - room_temp) * clip(contraction, 0, 5)", "degC mm", rise * 2.0,
                         "in proportion to warmth times contraction");
+            add_steps_and_bells(library, wire);
+            add_steps_and_bells(library, contraction);
             return;
         case plant::Port::transformation:
             library.add_constant({}, "the same always");
@@ -255,6 +259,7 @@ void add_micro_terms(Library& library, plant::Port port, const CoveredRanges& ra
             library.add_powers(contraction, 3);
             add_steps_and_bells(library, contraction);
             library.add_powers(wire, 2);
+            add_steps_and_bells(library, wire);
             library.add("contraction_rate", "mm/s", rate, "in proportion to its rate, as a lag is");
             library.add("clip(contraction, 0, 5) * time", "mm s", 2.0 * ranges.time_s.high,
                         "in proportion to contraction and time");
@@ -267,6 +272,7 @@ void add_micro_terms(Library& library, plant::Port port, const CoveredRanges& ra
         case plant::Port::hall_voltage:
             library.add_constant({}, "the same always");
             library.add_powers(platform, 3);
+            add_steps_and_bells(library, platform);
             library.add_powers(time, 1);
             add_fading(library, {}, "fading with time");
             library.add("drive", "V", 3.0, "in proportion to the drive's voltage");
@@ -287,6 +293,7 @@ void add_camera_terms(Library& library, plant::Port port, const CoveredRanges& r
         case plant::Port::tag_x:
         case plant::Port::tag_y:
             library.add_powers(tag, 3);
+            add_steps_and_bells(library, tag);
             library.add_waves("tag_x", periods_mm);
             return;
         case plant::Port::frame_time:
@@ -296,6 +303,7 @@ void add_camera_terms(Library& library, plant::Port port, const CoveredRanges& r
         default:
             library.add_constant({}, "constant");
             library.add_powers(camera, 3);
+            add_steps_and_bells(library, camera);
             library.add_powers(time, 2);
             add_fading(library, {}, "fading with time");
             return;
