@@ -42,8 +42,8 @@ Outcome judged(const Identified& identified, const Truths& truths,
                                         std::max(value->interval->high - value->value,
                                                  value->value - value->interval->low));
         if (std::abs(value->value - truth) <= reach + far * value->systematic) continue;
-        const bool warned = std::ranges::any_of(identified.contradictions,
-                                                [&](const Contradiction& of) { return of.key == key; });
+        const bool warned = std::ranges::any_of(
+            identified.contradictions, [&name = key](const Contradiction& of) { return of.key == name; });
         // Data without noise that the model follows as well may have another value: it is what is estimated.
         const IdentifiedValue* best = nullptr;
         Identified of_best;
