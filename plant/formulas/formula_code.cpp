@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
+#include <regex>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -115,7 +116,10 @@ std::string key_of(const FormulaEffect::Memory& memory) {
     return memory.name;
 }
 
-std::string without_stop(std::string message) {
+/// muParser's message without its stop and without the place, which it counts from 0.
+std::string bare(std::string message) {
+    static const std::regex place(R"(( found)? at (expression )?position \d+)");
+    message = std::regex_replace(message, place, "");
     while (!message.empty() && (message.back() == '.' || message.back() == ' ')) message.pop_back();
     return message;
 }
@@ -164,7 +168,7 @@ std::set<std::string> names_in(const std::string& where, const std::string& text
         return names;
     } catch (const mu::Parser::exception_type& error) {
         refuse_at(static_cast<std::size_t>(std::max(0, error.GetPos())) + 1,
-                  without_stop(error.GetMsg()) + "; allowed: numbers, " + listed(allowed) +
+                  bare(error.GetMsg()) + "; allowed: numbers, " + listed(allowed) +
                       ", + - * / ^, comparisons, c ? a : b, " + functions);
     }
     return {};

@@ -25,9 +25,8 @@ std::span<const double> memories_of(const FormulaTerm& term, const FormulaMemory
         text << "no number";
     else
         text << value << ' ' << port.unit;
-    text << " at";
     const auto known = variables_of(port.site);
-    const char* separator = " ";
+    const char* separator = " at ";
     for (const std::size_t k : port.variables) {
         if (!term.code->uses(k)) continue;
         text << separator << known[k].name << " = " << variables[k];
