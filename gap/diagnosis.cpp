@@ -9,4 +9,9 @@ std::string_view name_of(Verdict verdict) {
     return names.at(static_cast<std::size_t>(verdict));
 }
 
+const Equation* proposed_equation(const Diagnosis& diagnosis) {
+    const bool is_there = diagnosis.unexplained && diagnosis.unexplained->equation;
+    return is_there ? &*diagnosis.unexplained->equation : nullptr;
+}
+
 }  // namespace fidservo::gap

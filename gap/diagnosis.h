@@ -119,4 +119,7 @@ struct Diagnosis {
     std::vector<std::string> notes;  ///< what could not be decided, and why
 };
 
+/// What is proposed for what no named effect explains; nullptr: nothing is.
+const Equation* proposed_equation(const Diagnosis& diagnosis);
+
 }  // namespace fidservo::gap

@@ -115,8 +115,7 @@ StepCount advance_by(const MacroAxis& axis, MacroAxisState& state, double comman
     const MacroAxisParameters& parameters = axis.parameters;
     double drive_V = drive_voltage_V(parameters, command_V) + parameters.drive_bias_V;
     if (parameters.formulas.any()) {
-        const double limit_V = parameters.command_limit_V;
-        state.formulas.command_V = std::clamp(command_V, -limit_V, limit_V);
+        state.formulas.command_V = saturated_V(parameters, command_V);
         if (parameters.formulas.act(Port::drive_voltage))
             drive_V += parameters.formulas.value(Port::drive_voltage, variables_at_tick(axis, state, drive_V),
                                                  state.formulas.memory);
@@ -206,8 +205,7 @@ std::array<double, carriage_variable::count> formula_variables(const CarriageFor
 }
 
 double drive_voltage_V(const MacroAxisParameters& parameters, double command_V) {
-    const double limit_V = parameters.command_limit_V;
-    return parameters.drive_gain * std::clamp(command_V, -limit_V, limit_V);
+    return parameters.drive_gain * saturated_V(parameters, command_V);
 }
 
 double effective_voltage_V(const MacroAxisParameters& parameters, double command_V) {
@@ -219,8 +217,7 @@ StepCount advance(const MacroAxis& axis, MacroAxisState& state, double command_V
     const Formulas& formulas = axis.parameters.formulas;
     if (!formulas.any()) return advance_by_tick(axis, state, command_V);
     if (formulas.remember()) {
-        const double limit_V = axis.parameters.command_limit_V;
-        state.formulas.command_V = std::clamp(command_V, -limit_V, limit_V);
+        state.formulas.command_V = saturated_V(axis.parameters, command_V);
         const double drive_V = drive_voltage_V(axis.parameters, command_V) + axis.parameters.drive_bias_V;
         formulas.begin_tick(state.formulas.memory, variables_at_tick(axis, state, drive_V), axis.tick_s);
     }

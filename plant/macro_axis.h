@@ -19,6 +19,9 @@
 #include "plant/standing_force.h"
 #include "plant/transmission.h"
 
+#include <algorithm>
+#include <array>
+
 namespace fidservo {
 struct Rig;
 }
@@ -82,8 +85,6 @@ struct MacroAxis {
     double longest_step_s = 0.0;  ///< of the integration
     WholeSteps whole_steps{};
     bool has_series = false;  ///< motion is a power series
-
-    bool friction_is_listed_and_rigid() const { return !has_bristles && !has_friction_formula; }
 };
 
 /// The axis of a rig, without effects. tau = -T / ln(pole).
@@ -110,6 +111,11 @@ std::array<double, carriage_variable::count> formula_variables(const CarriageFor
 inline double formula_V(const Formulas& formulas, const CarriageFormulaState& seen, Port port,
                         const CarriageSight& sight) {
     return formulas.value(port, formula_variables(seen, sight), seen.memory);
+}
+
+/// A command within the drive's range, V.
+inline double saturated_V(const MacroAxisParameters& parameters, double command_V) {
+    return std::clamp(command_V, -parameters.command_limit_V, parameters.command_limit_V);
 }
 
 /// What the drive puts out, in V: the amplified command, without forces on the carriage.

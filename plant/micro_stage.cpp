@@ -125,7 +125,7 @@ int sample(const MicroStage& stage, MicroStageState& state) {
 
 void advance(const MicroStage& stage, MicroStageState& state, double command_V,
              const CarriageInfluence& carriage) {
-    const double tick_s = seconds(stage.tick_ns);
+    const double tick_s = stage.heater.tick_s;
     ExtraHeat extra;
     if (stage.formulas.any()) {
         state.formulas.command_V = command_V;

@@ -58,10 +58,6 @@ bool is_refused(const HeaterFit& fit, int i) {
         fit.refused, [&](const HeaterRefusal& refusal) { return static_cast<int>(refusal.number) == i; });
 }
 
-}  // namespace
-
-namespace {
-
 /// How many times farther than its standard error says a figure may lie, on the side that is the wider one:
 /// the profile of the squares, everything else fitted again at each value, at four standard errors over what
 /// it would be of a parabola; from 1 to 100, beyond which no end is looked for.

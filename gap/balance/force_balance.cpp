@@ -42,7 +42,7 @@ double formulas_V(const plant::MacroAxisParameters& axis, std::initializer_list<
                   double command_V, const OnItsWay& at, double voltage_V) {
     plant::CarriageFormulaState seen;
     seen.time_s = at.time_s;
-    seen.command_V = std::clamp(command_V, -axis.command_limit_V, axis.command_limit_V);
+    seen.command_V = plant::saturated_V(axis, command_V);
     double sum_V = 0.0;
     for (const plant::Port port : ports)
         if (axis.formulas.act(port))

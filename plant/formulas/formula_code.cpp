@@ -73,10 +73,13 @@ mu::Parser bare_parser() {
     return parser;
 }
 
+bool is_of_name(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
 bool is_name(const std::string& name) {
-    const auto is_part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
     return !name.empty() && std::isdigit(static_cast<unsigned char>(name.front())) == 0 &&
-           std::ranges::all_of(name, is_part);
+           std::ranges::all_of(name, is_of_name);
 }
 
 /// Where an assignment or a string begins; npos: nowhere.
@@ -126,10 +129,7 @@ std::string bare(std::string message) {
 
 /// Where a whole name stands in an expression, counted from 1.
 std::size_t character_of(const std::string& text, const std::string& name) {
-    const auto is_part = [&](std::size_t at) {
-        return at < text.size() &&
-               (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_');
-    };
+    const auto is_part = [&](std::size_t at) { return at < text.size() && is_of_name(text[at]); };
     std::size_t at = text.find(name);
     while (at != std::string::npos && ((at > 0 && is_part(at - 1)) || is_part(at + name.size())))
         at = text.find(name, at + 1);

@@ -168,10 +168,9 @@ void write_diagnosed_rig(const std::filesystem::path& file, const std::filesyste
                          const gap::Diagnosis& diagnosis) {
     RigEdit edit(source);
     std::vector<plant::EffectSetting> settings = diagnosis.hypothesis;
-    if (diagnosis.unexplained && diagnosis.unexplained->equation) {
-        const gap::Equation& equation = *diagnosis.unexplained->equation;
-        if (equation.in_place_of_names) settings.clear();
-        settings.push_back(equation.setting);
+    if (const gap::Equation* equation = gap::proposed_equation(diagnosis)) {
+        if (equation->in_place_of_names) settings.clear();
+        settings.push_back(equation->setting);
     }
     for (const plant::EffectSetting& setting : settings) {
         StatedEffect stated{std::string(setting.effect->name), {}};

@@ -106,10 +106,6 @@ std::string equation_html(const gap::Equation& equation) {
         escaped(equation.text));
 }
 
-bool has_equation(const gap::Diagnosis& diagnosis) {
-    return diagnosis.unexplained && diagnosis.unexplained->equation;
-}
-
 std::string closing_html(const Request& request) {
     std::string html;
     std::string rig = "RIG-AS-FOUND.yaml";
@@ -164,13 +160,13 @@ std::string next_steps_html(const gap::Diagnosis& diagnosis, const Rig& rig, con
     if (diagnosis.next_experiment)
         html +=
             step_section("An experiment that decides", experiment_html(*diagnosis.next_experiment, request));
+    const gap::Equation* equation = gap::proposed_equation(diagnosis);
     if (diagnosis.unexplained)
-        html += step_section(
-            "What no known effect explains",
-            remainder_html(*diagnosis.unexplained) +
-                (has_equation(diagnosis) ? equation_html(*diagnosis.unexplained->equation) : "") +
-                trust_html(diagnosis, rig));
-    if (!diagnosis.effects.empty() || has_equation(diagnosis))
+        html += step_section("What no known effect explains",
+                             remainder_html(*diagnosis.unexplained) +
+                                 (equation != nullptr ? equation_html(*equation) : "") +
+                                 trust_html(diagnosis, rig));
+    if (!diagnosis.effects.empty() || equation != nullptr)
         html += step_section("How to close the gap", closing_html(request));
     if (!diagnosis.notes.empty()) html += step_section("What cannot be decided", notes_html(diagnosis.notes));
     return html;

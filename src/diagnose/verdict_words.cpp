@@ -62,14 +62,9 @@ std::string end_words(gap::Ended ended) {
 
 namespace {
 
-const gap::Equation* equation_of(const gap::Diagnosis& diagnosis) {
-    return diagnosis.unexplained && diagnosis.unexplained->equation ? &*diagnosis.unexplained->equation
-                                                                    : nullptr;
-}
-
 /// What an equation does; empty where there is none.
 std::string equation_words(const gap::Diagnosis& diagnosis) {
-    const gap::Equation* equation = equation_of(diagnosis);
+    const gap::Equation* equation = gap::proposed_equation(diagnosis);
     if (equation == nullptr) return "";
     return fmt::format(
         " An equation at {} that these recordings propose removes {} of {}.", equation->acts_on,
@@ -81,7 +76,7 @@ std::string equation_words(const gap::Diagnosis& diagnosis) {
 
 std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
     if (diagnosis.signals.empty()) return "Nothing in these recordings could be judged.";
-    if (const gap::Equation* equation = equation_of(diagnosis);
+    if (const gap::Equation* equation = gap::proposed_equation(diagnosis);
         equation != nullptr && equation->in_place_of_names)
         return "Rig and simulator disagree; an equation that the recordings propose explains it better than "
                "any "
