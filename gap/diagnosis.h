@@ -86,6 +86,8 @@ struct Equation {
     std::vector<FittedParameter> parameters;
     double gap_removed;  ///< of what is left without it
     double gap_removed_low, gap_removed_high;
+    /// The same where each kind of experiment is predicted from the others; empty where there is one kind.
+    std::optional<double> gap_removed_of_kinds_left_out = {};
     std::string text;  ///< in words
     plant::EffectSetting setting;
     /// Of the whole gap rather than of what the named effects leave, which are not credible.

@@ -5,6 +5,7 @@
 #include "core/rig.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fidservo::plant {
 
@@ -49,6 +50,30 @@ double added(const MicroStage& stage, const MicroStageState& state, Port port) {
                : 0.0;
 }
 
+/// What formulas remember where all has been as it is for long.
+void remember(const MicroStage& stage, MicroStageState& state) {
+    if (stage.formulas.remember())
+        state.formulas.memory = stage.formulas.start(formula_variables(stage, state), seconds(stage.tick_ns));
+}
+
+/// Where formulas leave the temperature of a wire that has stood unheated for long; the room's where they let
+/// it come to no end.
+double settled_degC(const MicroStage& stage, MicroStageState state) {
+    const HeaterParameters& heater = stage.heater.parameters;
+    constexpr int most_rounds = 200;
+    constexpr double level_degC = 1e-9, share = 0.5;
+    for (int round = 0; round < most_rounds; ++round) {
+        const double flow_degC_per_s = added(stage, state, Port::heat_flow);
+        const double tau_s = flow_degC_per_s > 0.0 ? heater.cooling_tau_s : heater.heating_tau_s;
+        const double change_degC = heater.ambient_degC + added(stage, state, Port::heater_power) +
+                                   tau_s * flow_degC_per_s - state.heater.temp_degC;
+        if (std::abs(change_degC) < level_degC) return state.heater.temp_degC;
+        state.heater.temp_degC += share * change_degC;
+        remember(stage, state);
+    }
+    return heater.ambient_degC;
+}
+
 }  // namespace
 
 std::optional<MicroStageParameters> micro_stage_parameters(const Rig& rig) {
@@ -80,9 +105,13 @@ MicroStageState start(const MicroStage& stage, std::uint64_t seed) {
     state.position_mm = stage.stroke_factor * state.wire.contraction_mm;
     if (!stage.formulas.any()) return state;
     state.formulas.wire_mm = state.position_mm;
-    if (stage.formulas.remember())
-        state.formulas.memory = stage.formulas.start(formula_variables(stage, state), seconds(stage.tick_ns));
-    if (stage.formulas.act(Port::transformation)) {
+    remember(stage, state);
+    if (stage.formulas.act(Port::heater_power) || stage.formulas.act(Port::heat_flow)) {
+        state.heater.temp_degC = settled_degC(stage, state);
+        remember(stage, state);
+    }
+    const bool begins_elsewhere = state.heater.temp_degC != stage.heater.parameters.ambient_degC;
+    if (stage.formulas.act(Port::transformation) || begins_elsewhere) {
         state.wire = preisach_start(*stage.fod, table_degC(stage, state));
         state.formulas.wire_mm = stage.stroke_factor * state.wire.contraction_mm;
     }

@@ -116,7 +116,8 @@ std::optional<MicroStageParameters> micro_stage_parameters(const Rig& rig);
 
 MicroStage make_micro_stage(const MicroStageParameters& parameters, double tick_s);
 
-/// A wire that was cold for long: at ambient temperature, fully extended.
+/// A wire that was not heated for long: at ambient temperature, or where formulas of its heat leave it then,
+/// fully extended.
 MicroStageState start(const MicroStage& stage, std::uint64_t seed);
 
 /// The temperature that the wire's table is read at: the wire's, less what its load shifts the transformation

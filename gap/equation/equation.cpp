@@ -2,9 +2,12 @@
 
 #include "core/rig.h"
 #include "gap/balance/period_search.h"
+#include "gap/candidates/coupling.h"
+#include "gap/equation/kinds_left_out.h"
 #include "gap/equation/scan.h"
 #include "gap/equation/screening.h"
 #include "gap/evidence/halves.h"
+#include "gap/evidence/parallel.h"
 #include "gap/fit/gap_size.h"
 #include "gap/fit/score.h"
 #include "gap/residuals/accusation.h"
@@ -13,10 +16,12 @@
 #include "plant/formulas/formula_effect.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,13 +33,16 @@ namespace {
 
 using plant::Port;
 
-/// Ports of a block first, then the others of its stage.
+/// Ports of a block first, then the others of its stage; none where no port is of the block.
 std::vector<Port> ports_for(std::string_view block) {
     std::vector<Port> found;
+    const auto has_block = [&](const plant::PortDescription& port) {
+        return std::ranges::find(port.blocks, block) != port.blocks.end();
+    };
+    if (std::ranges::none_of(plant::ports(), has_block)) return found;
     for (const bool of_block : {true, false})
         for (const plant::PortDescription& port : plant::ports()) {
-            const bool allows = std::ranges::find(port.blocks, block) != port.blocks.end();
-            if (allows != of_block || stage_of(port.blocks.front()) != stage_of(block)) continue;
+            if (has_block(port) != of_block || stage_of(port.blocks.front()) != stage_of(block)) continue;
             found.push_back(port.port);
         }
     return found;
@@ -59,28 +67,22 @@ class EquationSearch {
           fitter_(evidence, SearchOptions{}.windows, {}) {}
 
     std::optional<FittedSketch> best() {
-        const Errors errors = judged_errors(base_.of_half[0]);
         ranges_ = covered_ranges(evidence_);
         if (stage_of(block_) == Stage::macro)
-            for (const PositionPeriod& period : strongest_periods(evidence_, errors))
+            for (const PositionPeriod& period : strongest_periods(evidence_, judged_errors(base_.of_half[0])))
                 if (periods_mm_.size() < most_periods) periods_mm_.push_back(period.period_mm);
         std::optional<FittedSketch> best;
-        const auto try_one = [&](const Sketch& sketch) {
-            std::optional<FittedSketch> trial = tried(sketch);
-            if (trial && (!best || trial->fitted.loss < best->fitted.loss)) best = std::move(trial);
-        };
         try {
-            for (const Port port : ports_for(block_)) {
-                const PortScreening screening(evidence_, base_.of_half[0], errors, port, terms(port));
-                if (const auto sketch = screening.sketch(tail_)) try_one(*sketch);
-                for (const Sketch& sketch : screening.leading(most_leading)) try_one(sketch);
-                for (const Sketch& sketch :
-                     scanned(evidence_, base_, port, terms_of(port, ranges_, periods_mm_), most_leading))
-                    try_one(sketch);
+            for (const Sketch& sketch : most_promising()) {
+                std::optional<FittedSketch> trial = tried(sketch);
+                if (!trial) continue;
+                if (!best || trial->fitted.loss < best->fitted.loss) best = trial;
+                fitted_.push_back(*std::move(trial));
             }
             if (!best) return {};
             grow(*best);
             shorten(*best);
+            simplify(*best);
         } catch (const BudgetEnded& end) {
             if (!best || end.how() == Ended::interrupted) throw;
             evidence_.budget()->prolong(working_out_s);  // what was found until then is worked out
@@ -91,13 +93,68 @@ class EquationSearch {
     }
 
   private:
-    static constexpr std::size_t most_periods = 3, most_leading = 2;
+    static constexpr std::size_t most_periods = 3, most_leading = 2, most_tried = 5;
     static constexpr double working_out_s = 5.0;
 
     std::vector<Term> terms(Port port) {
         std::vector<Term> found = terms_of(port, ranges_, periods_mm_);
         terms_tried_ += static_cast<int>(found.size());
         return found;
+    }
+
+    /// Of all ports, the sketches that save most where they were not fitted, after one fit to the first half;
+    /// best first.
+    std::vector<Sketch> most_promising() {
+        const Errors errors = judged_errors(base_.of_half[0]);
+        std::vector<Sketch> sketches;
+        for (const Port port : ports_for(block_)) {
+            const PortScreening screening(evidence_, base_.of_half[0], errors, port, terms(port));
+            if (auto sketch = screening.sketch(tail_)) sketches.push_back(*std::move(sketch));
+            std::ranges::move(screening.leading(most_leading), std::back_inserter(sketches));
+            std::ranges::move(
+                scanned(evidence_, base_, port, terms_of(port, ranges_, periods_mm_), most_leading),
+                std::back_inserter(sketches));
+        }
+        drop_repeated(sketches);
+        struct Promise {
+            double gain;
+            Sketch sketch;
+        };
+        std::vector<Promise> promises(sketches.size());
+        parallel_for(sketches.size(), [&](std::size_t k) {
+            promises[k] = {promised(sketches[k]), sketches[k]};
+        });
+        std::ranges::stable_sort(promises, std::greater{}, &Promise::gain);
+        sketches.clear();
+        for (Promise& promise : promises)
+            if (sketches.size() < most_tried && promise.gain > 0.0)
+                sketches.push_back(std::move(promise.sketch));
+        return sketches;
+    }
+
+    /// Of those that differ by the values of coefficients alone the first one stays.
+    static void drop_repeated(std::vector<Sketch>& sketches) {
+        std::set<std::string> seen;
+        std::erase_if(sketches, [&](const Sketch& sketch) {
+            std::string text;
+            for (const Term& term : sketch.terms) {
+                text += fmt::format("{} ", fmt::join(term.texts, " "));
+                for (const TermShape& shape : term.shapes) text += fmt::format("{} ", shape.value);
+            }
+            return !seen.insert(fmt::format("{} {}", static_cast<int>(sketch.port), text)).second;
+        });
+    }
+
+    double promised(const Sketch& sketch) const {
+        Hypothesis with = base_.of_half[0];
+        with.push_back(plant::typical_setting(plant::effect_of(formula_of(sketch, block_, name_))));
+        constexpr int few_iterations = 5;
+        const Fit fit = fitter_.fit_places(0, with, {with.size() - 1}, base_.mean_squares,
+                                           {.most_iterations = few_iterations});
+        const Wanted others =
+            only_of(evidence_.windows(), fitter_.half(1), reached_by({fit.hypothesis.back()}));
+        return gained(evidence_.windows(), others, base_.mean_squares,
+                      evidence_.errors(fit.hypothesis, others));
     }
 
     /// Of a hypothesis, in the windows that are judged.
@@ -143,7 +200,7 @@ class EquationSearch {
         for (Term& term : sketch.terms) {
             for (std::size_t k = 0; k < term.texts.size(); ++k)
                 sketch.coefficients[coefficient++] = values[value++];
-            if (term.shape) term.shape->value = values[value++];
+            for (TermShape& shape : term.shapes) shape.value = values[value++];
         }
         return sketch;
     }
@@ -157,7 +214,7 @@ class EquationSearch {
                                                       trial.fitted.of_half[1].back().values[value] <=
                                                   0.0)
                     return false;
-            if (term.shape) ++value;
+            value += term.shapes.size();
         }
         return true;
     }
@@ -167,15 +224,18 @@ class EquationSearch {
         for (Hypothesis& hypothesis : trial.fitted.of_half)
             hypothesis.push_back(plant::typical_setting(*trial.effect));
         const Places last{base_.of_half[0].size()};
-        for (std::size_t side = 0; side < 2; ++side) {
-            Fit fit = fitter_.fit_places(side, trial.fitted.of_half[side], last, base_.mean_squares);
+        std::array<bool, 2> can_be{};
+        parallel_for(2, [&](std::size_t side) {
+            Hypothesis& of_side = trial.fitted.of_half[side];
+            of_side = fitter_.fit_places(side, of_side, last, base_.mean_squares).hypothesis;
             // Again, by the windows that say most once the first fit is known.
-            Errors errors = evidence_.errors(fit.hypothesis, fitter_.half(side));
-            if (errors.empty()) return {};
-            trial.fitted.of_half[side] =
-                fitter_.fit_places(side, fit.hypothesis, last, mean_squares(evidence_.windows(), errors))
-                    .hypothesis;
-        }
+            const Errors errors = evidence_.errors(of_side, fitter_.half(side));
+            can_be[side] = !errors.empty();
+            if (can_be[side])
+                of_side = fitter_.fit_places(side, of_side, last, mean_squares(evidence_.windows(), errors))
+                              .hypothesis;
+        });
+        if (!can_be[0] || !can_be[1]) return {};
         fitter_.judge_beside(base_, {trial.fitted.of_half[0].back()}, trial.fitted);
         if (!std::isfinite(trial.fitted.loss)) return {};
         return trial;
@@ -202,6 +262,24 @@ class EquationSearch {
         }
     }
 
+    static std::size_t complexity(const Sketch& sketch) {
+        return sketch.coefficients.size() + sketch.shapes();
+    }
+
+    /// Of all that was fitted, the one with the fewest parameters that is as good.
+    void simplify(FittedSketch& trial) const {
+        const FittedSketch* simplest = &trial;
+        for (const FittedSketch& other : fitted_) {
+            const std::size_t own = complexity(other.sketch), least = complexity(simplest->sketch);
+            const bool is_simpler =
+                own < least ||
+                (own == least && other.fitted.loss < simplest->fitted.loss && simplest != &trial);
+            if (is_simpler && !is_no_chance(other.fitted.mean_squares, trial.fitted.mean_squares))
+                simplest = &other;
+        }
+        if (simplest != &trial) trial = FittedSketch(*simplest);
+    }
+
     const Evidence& evidence_;
     const CrossFit& base_;
     std::string_view block_;
@@ -210,6 +288,7 @@ class EquationSearch {
     CrossFitter fitter_;
     CoveredRanges ranges_{};
     std::vector<double> periods_mm_;
+    std::vector<FittedSketch> fitted_;
     int terms_tried_ = 0;
 };
 
@@ -256,6 +335,10 @@ std::optional<ProposedEquation> equation_of(const Evidence& evidence, const Cros
     std::tie(equation.gap_removed_low, equation.gap_removed_high) =
         removed_interval(evidence, base.mean_squares, trial->fitted.mean_squares);
     if (equation.gap_removed_low <= 0.0) return {};
+    if (const std::vector<double> left_out = predicted_from_other_kinds(evidence, trial->fitted);
+        !left_out.empty())
+        equation.gap_removed_of_kinds_left_out =
+            total_gap(signal_gaps(evidence, base.mean_squares, left_out)).removed();
     return ProposedEquation{std::move(equation), std::move(trial->fitted)};
 }
 

@@ -1,5 +1,7 @@
 #include "gap/equation/scan.h"
 
+#include "gap/equation/losing.h"
+#include "gap/evidence/parallel.h"
 #include "gap/fit/score.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
@@ -31,38 +33,25 @@ double usual_amount(plant::Port port) {
     }
 }
 
-/// The windows of a signal in the four recordings that lose most.
-Wanted worst_recordings(const Evidence& evidence, const CrossFit& beside, Signal signal) {
-    constexpr std::size_t few = 4;
-    std::vector<double> losses(evidence.recordings().size(), 0.0);
-    for (std::size_t w = 0; w < beside.mean_squares.size(); ++w)
-        if (evidence.windows()[w].signal == signal && std::isfinite(beside.mean_squares[w]))
-            losses[evidence.windows()[w].run] += window_loss(beside.mean_squares[w]);
-    std::vector<double> sorted = losses;
-    std::ranges::sort(sorted, std::greater{});
-    const double least = sorted[std::min(few, sorted.size()) - 1];
-    Wanted wanted = only_of(evidence.windows(), everything(evidence), only(signal));
-    for (std::size_t w = 0; w < wanted.size(); ++w)
-        if (losses[evidence.windows()[w].run] < least) wanted[w] = 0;
-    return wanted;
-}
-
 }  // namespace
 
 std::vector<Sketch> scanned(const Evidence& evidence, const CrossFit& beside, plant::Port port,
                             const std::vector<Term>& terms, std::size_t count) {
     const plant::Site site = plant::describe(port).site;
     if (site != plant::Site::micro && site != plant::Site::camera) return {};
+    constexpr std::size_t few = 4;
     const Wanted wanted =
-        worst_recordings(evidence, beside, site == plant::Site::micro ? Signal::hall : Signal::tag);
+        where_most_is_lost(evidence, site == plant::Site::micro ? Signal::hall : Signal::tag,
+                           beside.mean_squares, 1.0, few, few);
     struct Scanned {
         double loss;
         Sketch sketch;
     };
-    std::vector<Scanned> found;
-    for (const Term& term : terms) {
-        if (term.texts.size() > 1) continue;
-        Scanned best{std::numeric_limits<double>::infinity(), {}};
+    std::vector<Scanned> found(terms.size(), {std::numeric_limits<double>::infinity(), {}});
+    parallel_for(terms.size(), [&](std::size_t t) {
+        const Term& term = terms[t];
+        if (term.texts.size() > 1) return;
+        Scanned& best = found[t];
         for (const double amount : {-1.0, -0.2, 0.2, 1.0}) {
             const Sketch sketch{port, {term}, {amount * usual_amount(port) / term.size}};
             Hypothesis with = beside.of_half[0];
@@ -71,8 +60,7 @@ std::vector<Sketch> scanned(const Evidence& evidence, const CrossFit& beside, pl
             const double loss = total_loss(evidence.windows(), wanted, evidence.errors(with, wanted));
             if (loss < best.loss) best = {loss, sketch};
         }
-        found.push_back(std::move(best));
-    }
+    });
     std::ranges::stable_sort(found, {}, &Scanned::loss);
     std::vector<Sketch> leading;
     for (std::size_t k = 0; k < std::min<std::size_t>(count, found.size()); ++k)

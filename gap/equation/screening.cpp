@@ -5,10 +5,14 @@
 #include "core/rig.h"
 #include "gap/balance/carriage_forces.h"
 #include "gap/candidates/coupling.h"
+#include "gap/equation/losing.h"
+#include "gap/equation/visited.h"
 #include "gap/evidence/halves.h"
+#include "gap/evidence/parallel.h"
 #include "gap/fit/regression.h"
 #include "gap/fit/score.h"
 #include "gap/residuals/surrogate.h"
+#include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
 
 #include <algorithm>
@@ -16,6 +20,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace fidservo::gap {
@@ -31,29 +36,11 @@ struct PortResponses {
 
 namespace {
 
-/// A formula of one coefficient, "one", and a shape.
-FormulaEffect text_of(plant::Port port, const Term& term, const std::string& text) {
-    const plant::PortDescription& at = plant::describe(port);
-    FormulaEffect effect;
-    effect.name = "term";
-    effect.acts_on = at.name;
-    effect.block = at.blocks.front();
-    effect.formula = "one * " + text;
-    effect.parameters.push_back({.name = "one", .low = -1e9, .high = 1e9, .typical = 1.0});
-    if (term.shape)
-        effect.parameters.push_back({.name = "shape",
-                                     .low = term.shape->low,
-                                     .high = term.shape->high,
-                                     .vanishing = term.shape->value,
-                                     .typical = term.shape->value,
-                                     .role = "shape"});
-    return effect;
-}
-
-std::vector<double> values_of(const Term& term, double coefficient) {
-    std::vector<double> values{coefficient};
-    if (term.shape) values.push_back(term.shape->value);
-    return values;
+/// One of a term's expressions as an effect, with its coefficient.
+const plant::Effect& effect_of_text(plant::Port port, const Term& term, std::size_t text,
+                                    double coefficient) {
+    return plant::effect_of(
+        formula_of(one_text_of(port, term, text, coefficient), plant::describe(port).blocks.front(), "term"));
 }
 
 PortResponses carriage_responses(const Evidence& evidence, const Errors& errors, plant::Port port,
@@ -66,11 +53,17 @@ PortResponses carriage_responses(const Evidence& evidence, const Errors& errors,
     const bool is_friction = port == plant::Port::friction, is_reading = port == plant::Port::encoder;
     if (is_friction) responses.coefficient_per_factor = 1.0;
     for (std::size_t t = 0; t < terms.size(); ++t)
-        for (const std::string& text : terms[t].texts) {
-            const plant::FormulaCode& code = plant::FormulaCode::of(text_of(port, terms[t], text));
-            const std::vector<double> one = values_of(terms[t], 1.0);
+        for (std::size_t text = 0; text < terms[t].texts.size(); ++text) {
+            const plant::EffectSetting one =
+                plant::typical_setting(effect_of_text(port, terms[t], text, 1.0));
+            const plant::FormulaCode& code = *one.effect->formula;
+            std::vector<std::vector<double>> remembering_V;
+            if (terms[t].memory)
+                for (std::size_t run = 0; run < evidence.recordings().size(); ++run)
+                    remembering_V.push_back(values_along(evidence, code, one.values, run));
             const auto value = [&](const SlidingRow& row) {
-                if (is_reading) return code.value(std::array{row.position_mm}, {}, one);
+                if (is_reading) return code.value(std::array{row.position_mm}, {}, one.values);
+                if (!remembering_V.empty()) return row.passed * remembering_V[row.run][row.row];
                 plant::CarriageFormulaState seen;
                 seen.time_s = row.time_s;
                 seen.command_V = row.command_V;
@@ -78,7 +71,7 @@ PortResponses carriage_responses(const Evidence& evidence, const Errors& errors,
                 const double value_V = code.value(
                     plant::formula_variables(seen, {row.position_mm, row.velocity_mm_per_s, row.direction,
                                                     dead_zone_V(zone, row.command_V)}),
-                    {}, one);
+                    {}, one.values);
                 return is_friction ? value_V : row.passed * value_V;
             };
             responses.columns.push_back(is_reading ? forces.of_reading(static_cast<int>(t), value)
@@ -87,9 +80,16 @@ PortResponses carriage_responses(const Evidence& evidence, const Errors& errors,
     return responses;
 }
 
-/// A little, in a port's unit: what its term is when its response is taken.
-double a_little_of(plant::Port port) {
+/// A little, in a port's unit: what its term is when its response is taken. Of places that the camera sees
+/// several counts, since where the encoder's zero is found by tags it takes up whole ones.
+double a_little_of(plant::Port port, const Rig& rig) {
+    constexpr double counts = 4.0;
     switch (port) {
+        case plant::Port::camera_x:
+        case plant::Port::camera_y:
+        case plant::Port::tag_x:
+        case plant::Port::tag_y:
+            return counts * rig.macro.encoder_resolution_mm;
         case plant::Port::heater_power:
         case plant::Port::heat_flow:
             return 0.3;
@@ -110,25 +110,36 @@ PortResponses simulated_responses(const Evidence& evidence, const Hypothesis& ba
                                   plant::Port port, const std::vector<Term>& terms) {
     PortResponses responses;
     responses.signal = plant::describe(port).site == plant::Site::camera ? Signal::tag : Signal::hall;
+    constexpr double nearly_all = 0.9;
+    constexpr std::size_t few = 6;
+    const Wanted wanted =
+        where_most_is_lost(evidence, responses.signal, mean_squares(evidence.windows(), errors), nearly_all,
+                           few, evidence.recordings().size());
     responses.errors = errors;
-    const Wanted wanted = only_of(evidence.windows(), everything(evidence), only(responses.signal));
+    for (std::size_t w = 0; w < wanted.size(); ++w) {
+        const Window& window = evidence.windows()[w];
+        if (wanted[w] == 0)
+            std::fill(responses.errors.begin() + static_cast<std::ptrdiff_t>(window.begin),
+                      responses.errors.begin() + static_cast<std::ptrdiff_t>(window.end),
+                      std::numeric_limits<float>::quiet_NaN());
+    }
     const Errors before = evidence.errors(base, wanted);
-    for (std::size_t t = 0; t < terms.size(); ++t) {
-        std::vector<Column> columns;
-        for (const std::string& text : terms[t].texts) {
-            const double coefficient = a_little_of(port) / terms[t].size;
+    std::vector<std::vector<Column>> of_terms(terms.size());
+    parallel_for(terms.size(), [&](std::size_t t) {
+        std::vector<Column>& columns = of_terms[t];
+        for (std::size_t text = 0; text < terms[t].texts.size(); ++text) {
+            const double coefficient = a_little_of(port, evidence.rig()) / terms[t].size;
             Hypothesis with = base;
-            with.push_back(
-                {&plant::effect_of(text_of(port, terms[t], text)), values_of(terms[t], coefficient)});
+            with.push_back(plant::typical_setting(effect_of_text(port, terms[t], text, coefficient)));
             Errors response = evidence.errors(with, wanted);
-            if (response.empty()) break;
+            if (response.empty()) return columns.clear();
             for (std::size_t i = 0; i < response.size(); ++i)
                 response[i] = (response[i] - before[i]) / static_cast<float>(coefficient);
             columns.push_back({static_cast<int>(t), std::move(response)});
         }
-        if (columns.size() == terms[t].texts.size())
-            std::ranges::move(columns, std::back_inserter(responses.columns));
-    }
+    });
+    for (std::vector<Column>& columns : of_terms)
+        std::ranges::move(columns, std::back_inserter(responses.columns));
     return responses;
 }
 
@@ -191,13 +202,12 @@ std::vector<int> admitted(const std::vector<Term>& terms, const std::vector<int>
         const auto is_of_family = [&](int other) {
             return terms[static_cast<std::size_t>(other)].family == term.family;
         };
-        const std::size_t shape = term.shape ? 1 : 0;
         if (std::ranges::any_of(kept, is_of_family) || coefficients + term.texts.size() > most_coefficients ||
-            shapes + shape > most_equation_shapes)
+            shapes + term.shapes.size() > most_equation_shapes)
             continue;
         kept.push_back(group);
         coefficients += term.texts.size();
-        shapes += shape;
+        shapes += term.shapes.size();
     }
     return kept;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,17 +18,30 @@ std::string coefficient_unit(std::string_view of_port, const std::string& of_ter
                                                             : fmt::format("{}/({})", unit, of_term);
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string replaced(std::string text, std::string_view from, const std::string& to) {
     for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
         text.replace(at, from.size(), to);
     return text;
 }
 
+std::string described(const FormulaEffect::Memory& memory) {
+    switch (memory.kind) {
+        case FormulaEffect::Memory::Kind::state:
+            return fmt::format(" d{}/dt = {}.", memory.name, memory.of);
+        case FormulaEffect::Memory::Kind::delay:
+            return fmt::format(" {} is what {} was {} seconds ago.", memory.name, memory.of, memory.by);
+        case FormulaEffect::Memory::Kind::play:
+            return fmt::format(" {} follows {} with a play of {}.", memory.name, memory.of, memory.by);
+    }
+    return {};
+}
+
 }  // namespace
 
 std::size_t Sketch::shapes() const {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(terms, [](const Term& term) { return term.shape.has_value(); }));
+    std::size_t count = 0;
+    for (const Term& term : terms) count += term.shapes.size();
+    return count;
 }
 
 FormulaEffect formula_of(const Sketch& sketch, std::string_view block, const std::string& name) {
@@ -38,16 +52,24 @@ FormulaEffect formula_of(const Sketch& sketch, std::string_view block, const std
     const bool may_be = std::ranges::find(port.blocks, block) != port.blocks.end();
     effect.block = may_be ? std::string(block) : std::string(port.blocks.front());
     std::vector<std::string> words;
-    char coefficient = 'a', shape = 'p';
+    char coefficient = 'a', shape = 'p', memory = 'm';
     std::size_t at = 0;
     for (const Term& term : sketch.terms) {
+        std::vector<std::string> letters;
+        for (std::size_t k = 0; k < term.shapes.size(); ++k) letters.emplace_back(1, shape++);
+        const std::string kept(1, memory);
+        const auto named = [&](std::string text) {
+            for (std::size_t k = 0; k < letters.size(); ++k)
+                text = replaced(std::move(text), shape_names[k], letters[k]);
+            return replaced(std::move(text), memory_name, kept);
+        };
         for (const std::string& text : term.texts) {
             constexpr double reach = 30.0;
             const std::string letter(1, coefficient++);
             const double value = sketch.coefficients[at++];
             const double most = reach * std::max(std::abs(value), 1e-12);
-            effect.formula += fmt::format("{}{} * {}", effect.formula.empty() ? "" : " + ", letter,
-                                          replaced(text, "shape", std::string(1, shape)));
+            effect.formula +=
+                fmt::format("{}{} * {}", effect.formula.empty() ? "" : " + ", letter, named(text));
             effect.parameters.push_back({.name = letter,
                                          .unit = coefficient_unit(port.unit, term.unit),
                                          .low = -most,
@@ -55,24 +77,36 @@ FormulaEffect formula_of(const Sketch& sketch, std::string_view block, const std
                                          .typical = value != 0.0 ? value : 1e-12,
                                          .text = term.words});
         }
-        if (term.shape)
-            effect.parameters.push_back({.name = std::string(1, shape++),
-                                         .unit = term.shape->unit,
-                                         .low = term.shape->low,
-                                         .high = term.shape->high,
-                                         .vanishing = term.shape->value,
-                                         .typical = term.shape->value,
+        for (std::size_t k = 0; k < term.shapes.size(); ++k)
+            effect.parameters.push_back({.name = letters[k],
+                                         .unit = term.shapes[k].unit,
+                                         .low = term.shapes[k].low,
+                                         .high = term.shapes[k].high,
+                                         .vanishing = term.shapes[k].value,
+                                         .typical = term.shapes[k].value,
                                          .role = "shape",
-                                         .starts = {term.shape->value},
+                                         .starts = {term.shapes[k].value},
                                          .text = "of what is " + term.words});
+        if (term.memory) {
+            effect.memories.push_back(
+                {kept, term.memory->kind, named(term.memory->of), named(term.memory->by)});
+            ++memory;
+        }
         words.push_back(term.words);
     }
     effect.text = fmt::format(
         "Proposed by a diagnosis for what no listed effect explains, at {}: {}. Beyond what the recordings "
         "have covered, powers are continued by their end values.",
         port.name, fmt::join(words, "; and "));
+    for (const FormulaEffect::Memory& kept : effect.memories) effect.text += described(kept);
     effect.source = "the recordings of this rig";
     return effect;
+}
+
+Sketch one_text_of(plant::Port port, const Term& term, std::size_t text, double coefficient) {
+    Term one = term;
+    one.texts = {term.texts[text]};
+    return {port, {std::move(one)}, {coefficient}};
 }
 
 Sketch first_of(const Sketch& sketch) {

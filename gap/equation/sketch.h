@@ -23,9 +23,12 @@ struct Sketch {
 /// The most that an equation has.
 inline constexpr std::size_t most_coefficients = 4, most_equation_shapes = 2;
 
-/// As a formula effect: coefficients a, b, c, d; shapes p, q. It is of the block where the port allows that.
+/// As a formula effect: coefficients a, b, c, d; shapes p, q; what it remembers m, n. It is of the block
+/// where the port allows that.
 FormulaEffect formula_of(const Sketch& sketch, std::string_view block, const std::string& name);
 
+/// One of a term's expressions alone.
+Sketch one_text_of(plant::Port port, const Term& term, std::size_t text, double coefficient);
 /// The first term alone.
 Sketch first_of(const Sketch& sketch);
 /// All terms but one.

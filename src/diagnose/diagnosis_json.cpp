@@ -52,6 +52,8 @@ Json json_of(const std::optional<gap::Equation>& equation) {
             {"parameters", json_of(equation->parameters)},
             {"gap_removed", number(equation->gap_removed)},
             {"gap_removed_interval", {number(equation->gap_removed_low), number(equation->gap_removed_high)}},
+            {"gap_removed_of_kinds_left_out",
+             number(equation->gap_removed_of_kinds_left_out.value_or(std::nan("")))},
             {"text", equation->text},
             {"in_place_of_names", equation->in_place_of_names}};
 }
@@ -89,6 +91,9 @@ std::string described(const gap::Equation& equation) {
         equation.in_place_of_names ? " in place of these names" : "", equation.formula, equation.acts_on,
         100.0 * equation.gap_removed, equation.in_place_of_names ? "the gap" : "what is left",
         100.0 * equation.gap_removed_low, 100.0 * equation.gap_removed_high);
+    if (equation.gap_removed_of_kinds_left_out)
+        text += fmt::format("    of experiments of a kind that it was not fitted to {:.1f} %\n",
+                            100.0 * *equation.gap_removed_of_kinds_left_out);
     for (const gap::FittedParameter& parameter : equation.parameters)
         text += fmt::format("    {} = {:.6g} +- {:.2g} {}\n", parameter.name, parameter.value, parameter.std,
                             parameter.unit);

@@ -44,16 +44,27 @@ void demand_whole_rig(const Rig& rig) {
     demand(rig.micro->pi.has_value(), "micro.pi");
 }
 
-/// Sees recordings, the nominal rig, and what the diagnosis is not to try; no label.
-gap::Diagnosis diagnose_blindly(const Rig& nominal, std::vector<Recording> recordings,
-                                const SelfCheckOptions& options, const std::vector<std::string>& without) {
-    const diagnose::TimeLimit limit = diagnose::time_limit(recordings);
-    const auto budget = options.is_limited ? std::make_shared<const gap::Budget>(
-                                                 limit.search_s, limit.whole_s, std::function<bool()>())
-                                           : std::make_shared<const gap::Budget>();
-    const gap::Evidence evidence(nominal, std::move(recordings), budget);
-    return gap::diagnose(evidence, {.only = options.only, .without = without, .selection = {}});
-}
+/// Recordings and the nominal rig, and what the diagnosis is not to try; no label.
+struct Blind {
+    gap::Evidence evidence;
+    gap::DiagnosisOptions options;
+
+    Blind(const Rig& nominal, std::vector<Recording> recordings, const SelfCheckOptions& asked,
+          const std::vector<std::string>& without)
+        : Blind(nominal, diagnose::time_limit(recordings), std::move(recordings), asked, without) {}
+
+  private:
+    Blind(const Rig& nominal, const diagnose::TimeLimit& limit, std::vector<Recording> recordings,
+          const SelfCheckOptions& asked, const std::vector<std::string>& without)
+        : evidence(nominal, std::move(recordings),
+                   asked.is_limited ? std::make_shared<const gap::Budget>(limit.search_s, limit.whole_s,
+                                                                          std::function<bool()>())
+                                    : std::make_shared<const gap::Budget>()) {
+        options.only = asked.only;
+        options.without = without;
+        if (asked.is_limited) options.equation_s = limit.equation_s;
+    }
+};
 
 Outcome run_case(const Rig& nominal, const Case& drawn, const SelfCheckOptions& options) {
     const Clock::time_point start = Clock::now();
@@ -62,9 +73,11 @@ Outcome run_case(const Rig& nominal, const Case& drawn, const SelfCheckOptions& 
                                             : record_campaign(nominal, drawn.true_rig, drawn.campaign_seed);
     const double recording_s = seconds_since(start);
     const Clock::time_point recorded = Clock::now();
-    const gap::Diagnosis diagnosis = diagnose_blindly(nominal, std::move(recordings), options, drawn.without);
+    const Blind blind(nominal, std::move(recordings), options, drawn.without);
+    const gap::Diagnosis diagnosis = gap::diagnose(blind.evidence, blind.options);
     const double diagnosis_s = seconds_since(recorded);
-    return {drawn.number, drawn.label, score(drawn.label, diagnosis), recording_s, diagnosis_s};
+    return {drawn.number, drawn.label, score(drawn.label, diagnosis, &blind.evidence), recording_s,
+            diagnosis_s};
 }
 
 /// Kinds that are drawn together.

@@ -81,6 +81,18 @@ Json json_of(const Outcome& outcome) {
                                {"size", number(discrepancy->size)},
                                {"gap_floors", number(discrepancy->gap_floors)}};
     if (score.dominant_place) json["dominant_place"] = *score.dominant_place;
+    if (const auto& equation = score.equation) {
+        const FormulaEffect& truth = *outcome.label.effects.front().as_formula;
+        json["equation"] = {{"true_port", truth.acts_on},
+                            {"true_formula", truth.formula},
+                            {"acts_on", equation->acts_on},
+                            {"formula", equation->formula},
+                            {"right_variables", equation->right_variables},
+                            {"apart", number(equation->apart)},
+                            {"removed", number(equation->removed)}};
+        if (equation->removed_of_kinds_left_out)
+            json["equation"]["removed_of_kinds_left_out"] = number(*equation->removed_of_kinds_left_out);
+    }
     if (score.removed_of_true) json["removed_of_true"] = number(*score.removed_of_true);
     return json;
 }

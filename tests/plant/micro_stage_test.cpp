@@ -1,7 +1,10 @@
 #include "plant/micro_stage.h"
 
+#include "plant/formulas/formula_code.h"
+#include "tests/plant/formulas/texts.h"
 #include "tests/plant/reference_rig.h"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -50,6 +53,28 @@ TEST(MicroStage, SameCommandFromBothSides_ShowsHysteresis) {
     }
     EXPECT_NEAR(heated.heater.temp_degC, cooled.heater.temp_degC, 1e-6);
     EXPECT_GT(cooled.position_mm, heated.position_mm + 0.5);
+}
+
+/// A loss of heat that grows with the distance from 10 degC above the room, and a second one that lags by
+/// nothing at rest: x / tau = -0.1 (x - 10).
+TEST(MicroStage, FormulaOfHeat_BeginsWhereItLeavesAWireThatStoodForLong) {
+    FormulaEffect text =
+        formula_text("micro.heat_flow", "micro.heater",
+                     "-loss * (wire_temp - room_temp - 10) + (slow - wire_temp)", {{"loss", 0.1}});
+    text.memories.push_back({.name = "slow",
+                             .kind = FormulaEffect::Memory::Kind::state,
+                             .of = "(wire_temp - slow) / 5",
+                             .by = {}});
+    MicroStageParameters parameters = *micro_stage_parameters(reference_rig());
+    parameters.formulas.add(FormulaCode::of(text), std::array{0.1});
+    const MicroStage stage = make_micro_stage(parameters, tick_s);
+    MicroStageState state = start(stage, 1);
+    const double tau_s = parameters.heater.cooling_tau_s;
+    const double rise_degC = 10.0 * 0.1 * tau_s / (1.0 + 0.1 * tau_s);
+    EXPECT_NEAR(state.heater.temp_degC, parameters.heater.ambient_degC + rise_degC, 1e-6);
+    for (int k = 0; k < 5000; ++k) advance(stage, state, 0.0);
+    const double of_a_tick_degC = tick_s * rise_degC / tau_s;  // the flow is added at its beginning
+    EXPECT_NEAR(state.heater.temp_degC, parameters.heater.ambient_degC + rise_degC, of_a_tick_degC);
 }
 
 }  // namespace

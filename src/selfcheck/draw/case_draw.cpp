@@ -5,6 +5,7 @@
 #include "src/selfcheck/draw/listed_effects.h"
 #include "src/selfcheck/draw/put_effect.h"
 #include "src/selfcheck/draw/rounds.h"
+#include "src/selfcheck/draw/true_formula.h"
 #include "src/selfcheck/draw/unlisted_effects.h"
 
 #include <array>
@@ -68,6 +69,8 @@ Case draw_case(const Rig& nominal, std::uint64_t seed, std::size_t number) {
             effects.push_back(put_listed(drawn.true_rig, partner_of(first, k % 2 == 0, draw), draw));
         if (kind == withheld) drawn.without.push_back(effects.front().effect);
     }
+    if (kind == unlisted || kind == withheld)
+        effects.front().as_formula = as_formula(drawn.true_rig, nominal, effects.front().effect);
     return drawn;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 // What a case of the self-check was made with. The scorer alone reads it.
+#include "core/formula_effect.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -37,6 +39,9 @@ struct TrueEffect {
     /// What this effect alone adds to the gap over all signals, sqrt(gap^2 - 1), as measured on the case's
     /// campaign; 0: not measured.
     double gap_floors = 0.0;
+    /// What it adds at a port, where a formula states that (draw/true_formula.h): of effects that no name is
+    /// right for.
+    std::optional<FormulaEffect> as_formula = {};
 };
 
 /// A smooth function that no effect has, on one signal's block.

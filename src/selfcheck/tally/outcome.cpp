@@ -53,17 +53,28 @@ bool is_right(const Label& label, const Score& score) {
     return score.right_block_first && !score.is_confident_wrong;
 }
 
+/// What is proposed, beside what it should be.
+std::string equation_of(const Outcome& outcome) {
+    const std::optional<EquationScore>& equation = outcome.score.equation;
+    if (!equation) return "";
+    const FormulaEffect& truth = *outcome.label.effects.front().as_formula;
+    if (equation->formula.empty())
+        return fmt::format("; no equation for {}: {}", truth.acts_on, truth.formula);
+    return fmt::format("; {}: {} for {}: {}, {:.2g} apart, {:.3g} removed", equation->acts_on,
+                       equation->formula, truth.acts_on, truth.formula, equation->apart, equation->removed);
+}
+
 }  // namespace
 
 std::string line_of(const Outcome& outcome) {
     const Score& score = outcome.score;
     return fmt::format(
-        "case {:>4} {}{}; {:.3g} floors -> {}{}{}; {}; {:.3g} floors left, {:.3g} s + {:.3g} s, {}",
+        "case {:>4} {}{}; {:.3g} floors -> {}{}{}; {}; {:.3g} floors left{}, {:.3g} s + {:.3g} s, {}",
         outcome.number, name_of(outcome.label.kind), truth_of(outcome.label), score.floors,
         gap::name_of(score.verdict), score.named.empty() ? "" : ": ", names_of(score),
         score.named.empty() ? score.first_block
                             : fmt::format("{} {:.2f}", score.first_block, score.first_probability),
-        score.after, outcome.recording_s, outcome.diagnosis_s,
+        score.after, equation_of(outcome), outcome.recording_s, outcome.diagnosis_s,
         is_right(outcome.label, score) ? "right" : "WRONG");
 }
 

@@ -92,7 +92,7 @@ std::optional<double> removed_of_true(const TrueDiscrepancy& left, const gap::To
 
 }  // namespace
 
-Score score(const Label& label, const gap::Diagnosis& diagnosis) {
+Score score(const Label& label, const gap::Diagnosis& diagnosis, const gap::Evidence* evidence) {
     Score score;
     score.verdict = diagnosis.verdict;
     score.before = diagnosis.gap.before;
@@ -132,6 +132,9 @@ Score score(const Label& label, const gap::Diagnosis& diagnosis) {
     score.all_right = !truths.empty() && score.truths_named == truths.size() && sets.size() == truths.size();
     score.says_unexplained =
         diagnosis.verdict == gap::Verdict::unexplained || diagnosis.verdict == gap::Verdict::partly_explained;
+    score.proposes_equation = gap::proposed_equation(diagnosis) != nullptr;
+    if (evidence != nullptr && !label.effects.empty() && label.effects.front().as_formula)
+        score.equation = score_equation(*label.effects.front().as_formula, diagnosis, *evidence);
     return score;
 }
 

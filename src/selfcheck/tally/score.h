@@ -5,6 +5,7 @@
 // indistinguishable from, itself included: it is right if the truth is in its set.
 #include "gap/diagnosis.h"
 #include "src/selfcheck/draw/label.h"
+#include "src/selfcheck/tally/equation_score.h"
 
 #include <optional>
 #include <string>
@@ -52,9 +53,13 @@ struct Score {
     /// Of what its true effects add to the gap, in squares, the share that the explanation removes. What the
     /// true effects leave is the gap that the discrepancy makes alone.
     std::optional<double> removed_of_true;
+    /// Of a case whose effect is a formula that no name is right for.
+    std::optional<EquationScore> equation;
+    bool proposes_equation = false;
 };
 
 /// Of a case with an effect withheld, or with one that the catalogue lacks, every name is wrong.
-Score score(const Label& label, const gap::Diagnosis& diagnosis);
+/// @param evidence  that was diagnosed; nullptr: equations are not scored
+Score score(const Label& label, const gap::Diagnosis& diagnosis, const gap::Evidence* evidence = nullptr);
 
 }  // namespace fidservo::selfcheck

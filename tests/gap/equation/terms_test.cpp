@@ -15,8 +15,8 @@
 namespace fidservo::gap {
 namespace {
 
-const CoveredRanges some_ranges{{0.0, 20.0},   {-4.0, 4.0},  {20.0, 180.0}, {-200.0, 200.0},
-                                {0.0, 1000.0}, {22.0, 90.0}, {0.0, 3.8}};
+const CoveredRanges some_ranges{{0.0, 20.0},  {-4.0, 4.0}, {20.0, 180.0}, {-200.0, 200.0}, {0.0, 1000.0},
+                                {22.0, 90.0}, {0.0, 3.8},  {0.0, 150.0},  {0.0, 190.0},    {20.0, 180.0}};
 
 FormulaEffect formula(const std::string& acts_on, const std::string& block, const std::string& text,
                       double size) {
@@ -37,16 +37,10 @@ TEST(EquationTerms, OfEveryPort_CanBeEvaluatedThere) {
         for (const Term& term : terms) {
             EXPECT_GT(term.size, 0.0);
             EXPECT_FALSE(term.words.empty());
-            for (const std::string& text : term.texts) {
-                FormulaEffect effect =
-                    formula(std::string(port.name), std::string(port.blocks.front()), text, 1.0);
-                if (term.shape)
-                    effect.parameters.push_back({.name = "shape",
-                                                 .low = term.shape->low,
-                                                 .high = term.shape->high,
-                                                 .typical = term.shape->value,
-                                                 .role = "shape"});
-                EXPECT_NO_THROW((void)plant::FormulaCode::of(effect)) << port.name << ": " << text;
+            for (std::size_t text = 0; text < term.texts.size(); ++text) {
+                const FormulaEffect effect =
+                    formula_of(one_text_of(port.port, term, text, 1.0), port.blocks.front(), "of_test");
+                EXPECT_NO_THROW((void)plant::effect_of(effect)) << port.name << ": " << term.texts[text];
             }
         }
     }
@@ -85,7 +79,8 @@ TEST(EquationScreening, RigWithoutAGap_HasNoTermAtAnyPortOfTheCarriage) {
 TEST(EquationScreening, LatentHeat_IsTakenInWhereTheWireIsHeated) {
     const plant::Effect& latent =
         plant::effect_of(formula("micro.heat_flow", "micro.heater", "contraction_rate", -0.5));
-    const Evidence evidence = testing::campaign({plant::typical_setting(latent)}, {"micro-steps"});
+    const Evidence evidence =
+        testing::campaign({plant::typical_setting(latent)}, {"micro-steps", "micro-triangle"});
     const Errors errors = evidence.errors({}, everything(evidence));
     const auto sketch = screening(evidence, errors, plant::Port::heat_flow).sketch(0.01);
     ASSERT_TRUE(sketch.has_value());

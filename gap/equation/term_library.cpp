@@ -1,0 +1,159 @@
+#include "gap/equation/term_library.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace fidservo::gap {
+
+namespace {
+
+using Memory = FormulaEffect::Memory;
+
+std::string six_digits(double value) {
+    return fmt::format("{:.6g}", value);
+}
+
+std::string times(const std::string& factor, const std::string& text) {
+    return factor.empty() ? text : fmt::format("{} * {}", factor, text);
+}
+
+}  // namespace
+
+double KnownVariable::step() const {
+    return 0.5 * std::pow(10.0, std::floor(std::log10(std::max(1e-9, 2.0 * range.half()))) - 1.0);
+}
+
+std::string KnownVariable::clipped() const {
+    return fmt::format("clip({}, {}, {})", name, six_digits(step() * std::floor(range.low / step())),
+                       six_digits(step() * std::ceil(range.high / step())));
+}
+
+double KnownVariable::origin() const {
+    constexpr double hardly = 0.1;
+    const bool has_both_signs = std::min(-range.low, range.high) > hardly * range.half();
+    return has_both_signs ? 0.0 : step() * std::round(range.middle() / step());
+}
+
+std::string KnownVariable::centred() const {
+    const double at = origin();
+    return at == 0.0 ? clipped() : fmt::format("({} - {})", clipped(), six_digits(at));
+}
+
+double KnownVariable::reach() const {
+    return std::max({range.high - origin(), origin() - range.low, 1e-9});
+}
+
+std::string KnownVariable::power_unit(int power) const {
+    if (power == 1) return unit;
+    return unit.find('/') == std::string::npos ? fmt::format("{}{}", unit, power)
+                                               : fmt::format("({}){}", unit, power);
+}
+
+void TermLibrary::add(std::string text, std::string unit, double size, std::string words) {
+    terms_.push_back({{std::move(text)}, std::move(unit), size, {}, next_family_++, std::move(words)});
+}
+
+void TermLibrary::add_constant(const std::string& factor, const std::string& words) {
+    add(factor.empty() ? "1" : factor, "", 1.0, words);
+}
+
+void TermLibrary::add_powers(const KnownVariable& of, int highest, const std::string& factor) {
+    constexpr std::array names{"in proportion to", "growing with the square of", "growing with the cube of"};
+    if (of.origin() != 0.0)
+        add(times(factor, of.clipped()), of.unit, std::max(std::abs(of.range.low), std::abs(of.range.high)),
+            fmt::format("in proportion to {}", of.words));
+    for (int power = 1; power <= highest; ++power) {
+        std::string text = of.centred();
+        if (power > 1) text += fmt::format("^{}", power);
+        add(times(factor, text), of.power_unit(power), std::pow(of.reach(), power),
+            fmt::format("{} {}", names[static_cast<std::size_t>(power - 1)], of.words));
+    }
+}
+
+void TermLibrary::add_product(const KnownVariable& left, const KnownVariable& right) {
+    add(fmt::format("{} * {}", left.centred(), right.centred()), fmt::format("{} {}", left.unit, right.unit),
+        left.reach() * right.reach(), fmt::format("in proportion to {} times {}", left.words, right.words));
+}
+
+void TermLibrary::add_shaped(const std::vector<std::string>& texts, const TermShape& shape,
+                             std::span<const double> values, const std::string& words) {
+    const int family = next_family_++;
+    for (const double value : values)
+        terms_.push_back({texts, "", 1.0, {{shape.unit, value, shape.low, shape.high}}, family, words});
+}
+
+void TermLibrary::add_waves(const std::string& variable, std::span<const double> periods_mm,
+                            const std::string& factor) {
+    for (const double period_mm : periods_mm)
+        add_shaped({times(factor, fmt::format("sin(2 * pi * {} / shape)", variable)),
+                    times(factor, fmt::format("cos(2 * pi * {} / shape)", variable))},
+                   {"mm", period_mm, 0.9 * period_mm, 1.1 * period_mm}, std::array{period_mm},
+                   fmt::format("a wave along the way, {:.3g} mm long", period_mm));
+}
+
+void TermLibrary::add_steps_and_bells(const KnownVariable& of, std::span<const Bend> bends,
+                                      const std::string& factor) {
+    const double half = std::max(of.range.half(), 1e-9);
+    const auto add_bends = [&](const std::string& text, const std::string& words) {
+        const int family = next_family_++;
+        for (const auto& [width, centre] : bends)
+            terms_.push_back(
+                {{times(factor, text)},
+                 "",
+                 1.0,
+                 {{of.unit, width, 0.02 * half, 3.0 * half}, {of.unit, centre, of.range.low, of.range.high}},
+                 family,
+                 words});
+    };
+    add_bends(fmt::format("tanh(({} - centre) / shape)", of.name),
+              fmt::format("that steps with {}", of.words));
+    add_bends(fmt::format("exp(-(({} - centre) / shape)^2)", of.name),
+              fmt::format("around one value of {}", of.words));
+}
+
+void TermLibrary::add_steps_and_bells(const KnownVariable& of) {
+    const double half = std::max(of.range.half(), 1e-9), middle = of.range.middle();
+    add_steps_and_bells(of, std::array{Bend{0.5 * half, middle}, Bend{0.25 * half, middle - 0.5 * half},
+                                       Bend{0.25 * half, middle}, Bend{0.25 * half, middle + 0.5 * half}});
+}
+
+void TermLibrary::add_fading(const std::string& factor, const std::string& words) {
+    constexpr std::array time_constants_s{3.0, 10.0, 30.0};
+    add_shaped({times(factor, "exp(-time / shape)")}, {"s", 0.0, 0.3, 300.0}, time_constants_s, words);
+}
+
+void TermLibrary::add_remembering(const Memory& memory, const KnownVariable& of, const TermShape& shape,
+                                  std::span<const double> values, const std::string& words) {
+    const int family = next_family_++;
+    for (const double value : values)
+        terms_.push_back({{fmt::format("({} - {})", memory_name, of.name)},
+                          of.unit,
+                          of.reach(),
+                          {{shape.unit, value, shape.low, shape.high}},
+                          family,
+                          words,
+                          memory});
+}
+
+void TermLibrary::add_delayed(const KnownVariable& of, const TermShape& shape,
+                              std::span<const double> delays_s) {
+    add_remembering(
+        {.name = std::string(memory_name), .kind = Memory::Kind::delay, .of = of.name, .by = "shape"}, of,
+        shape, delays_s, fmt::format("as if {} came later", of.words));
+}
+
+void TermLibrary::add_lagging(const KnownVariable& of, const TermShape& shape,
+                              std::span<const double> time_constants_s) {
+    add_remembering({.name = std::string(memory_name),
+                     .kind = Memory::Kind::state,
+                     .of = fmt::format("({} - {}) / shape", of.name, memory_name),
+                     .by = {}},
+                    of, shape, time_constants_s,
+                    fmt::format("towards what {} was, as something that follows it slowly", of.words));
+}
+
+}  // namespace fidservo::gap
