@@ -256,6 +256,7 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
         const PlatformModel stage = platform_model(nominal);
         platform = predicted_readings(stage, *links.platform, nullptr);
         links.smoothed = smoothed_reading(*links.platform, platform->path_lsb, rig.macro.command_limit_V);
+        links.smoothed->wire_degC = platform->temperature_degC;
     }
     if (shows_tags(recording, rig))
         links.tags =

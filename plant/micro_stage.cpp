@@ -13,10 +13,12 @@ namespace {
 
 double hall_disturbance_V(const MicroStage& stage, const MicroStageState& state) {
     const HallDisturbance& disturbance = stage.hall_disturbance;
-    const double by_formulas_V = stage.formulas.act(Port::hall_voltage)
-                                     ? formula_hall_V(stage.formulas, seconds(state.time_ns),
-                                                      state.position_mm, state.formulas.carriage)
-                                     : 0.0;
+    const double by_formulas_V =
+        stage.formulas.act(Port::hall_voltage)
+            ? formula_hall_V(stage.formulas,
+                             {seconds(state.time_ns), state.position_mm, state.heater.temp_degC,
+                              stage.heater.parameters.ambient_degC, state.formulas.carriage})
+            : 0.0;
     if (disturbance.is_none()) return by_formulas_V;
     return disturbance.drift_V(seconds(state.time_ns)) + disturbance.leak_V_per_V * state.drive_V +
            by_formulas_V;
@@ -130,16 +132,17 @@ double held_mm(const MicroStage& stage, const MicroStageState& state) {
     return stage.stroke_factor * state.wire.contraction_mm + added(stage, state, Port::contraction);
 }
 
-double formula_hall_V(const Formulas& formulas, double time_s, double platform_mm,
-                      const CarriageInfluence& seen) {
+double formula_hall_V(const Formulas& formulas, const HallSight& seen) {
     using namespace micro_variable;
     std::array<double, count> variables{};
-    variables[time] = time_s;
-    variables[platform] = platform_mm;
-    variables[place] = seen.place_mm;
-    variables[speed] = seen.speed_mm_per_s;
-    variables[acceleration] = seen.shaking.acceleration_mm_per_s2;
-    variables[drive] = seen.drive_V;
+    variables[time] = seen.time_s;
+    variables[wire_temp] = seen.wire_degC;
+    variables[room_temp] = seen.room_degC;
+    variables[platform] = seen.platform_mm;
+    variables[place] = seen.carriage.place_mm;
+    variables[speed] = seen.carriage.speed_mm_per_s;
+    variables[acceleration] = seen.carriage.shaking.acceleration_mm_per_s2;
+    variables[drive] = seen.carriage.drive_V;
     return formulas.value(Port::hall_voltage, variables, {});
 }
 

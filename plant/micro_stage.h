@@ -127,10 +127,15 @@ double table_degC(const MicroStage& stage, const MicroStageState& state);
 /// Where the wire holds the platform at what it remembers now, with what formulas add, mm.
 double held_mm(const MicroStage& stage, const MicroStageState& state);
 
-/// What formulas add to the Hall sensor's voltage at a place of the platform, V.
-/// @param seen  the carriage
-double formula_hall_V(const Formulas& formulas, double time_s, double platform_mm,
-                      const CarriageInfluence& seen);
+/// What formulas of the Hall sensor know.
+struct HallSight {
+    double time_s = 0.0, platform_mm = 0.0;
+    double wire_degC = 0.0, room_degC = 0.0;
+    CarriageInfluence carriage = {};
+};
+
+/// What formulas add to the Hall sensor's voltage, V.
+double formula_hall_V(const Formulas& formulas, const HallSight& seen);
 
 /// The Hall sensor's reading without noise, rounding and the converter's ends, in LSB.
 double mean_reading_lsb(const MicroStage& stage, const MicroStageState& state);

@@ -73,7 +73,7 @@ class EquationSearch {
                 if (periods_mm_.size() < most_periods) periods_mm_.push_back(period.period_mm);
         std::optional<FittedSketch> best;
         try {
-            for (const Sketch& sketch : most_promising()) {
+            for (const Sketch& sketch : most_promising(sketches_of_all_ports(), base_)) {
                 std::optional<FittedSketch> trial = tried(sketch);
                 if (!trial) continue;
                 if (!best || trial->fitted.loss < best->fitted.loss) best = trial;
@@ -93,7 +93,7 @@ class EquationSearch {
     }
 
   private:
-    static constexpr std::size_t most_periods = 3, most_leading = 2, most_tried = 5;
+    static constexpr std::size_t most_periods = 3, most_leading = 2, most_fitted = 8, most_tried = 3;
     static constexpr double working_out_s = 5.0;
 
     std::vector<Term> terms(Port port) {
@@ -102,9 +102,7 @@ class EquationSearch {
         return found;
     }
 
-    /// Of all ports, the sketches that save most where they were not fitted, after one fit to the first half;
-    /// best first.
-    std::vector<Sketch> most_promising() {
+    std::vector<Sketch> sketches_of_all_ports() {
         const Errors errors = judged_errors(base_.of_half[0]);
         std::vector<Sketch> sketches;
         for (const Port port : ports_for(block_)) {
@@ -116,20 +114,38 @@ class EquationSearch {
                 std::back_inserter(sketches));
         }
         drop_repeated(sketches);
-        struct Promise {
-            double gain;
-            Sketch sketch;
-        };
-        std::vector<Promise> promises(sketches.size());
-        parallel_for(sketches.size(), [&](std::size_t k) {
-            promises[k] = {promised(sketches[k]), sketches[k]};
-        });
-        std::ranges::stable_sort(promises, std::greater{}, &Promise::gain);
-        sketches.clear();
-        for (Promise& promise : promises)
-            if (sketches.size() < most_tried && promise.gain > 0.0)
-                sketches.push_back(std::move(promise.sketch));
         return sketches;
+    }
+
+    /// A sketch that was fitted to the first half, and what it saves on the other.
+    struct Promise {
+        double gain = 0.0;
+        Sketch sketch;
+    };
+
+    /// Those that save most beside an explanation where they were not fitted, with the values of that fit;
+    /// best first. Of many, only those are fitted that do best as they are.
+    std::vector<Sketch> most_promising(const std::vector<Sketch>& sketches, const CrossFit& beside) const {
+        constexpr double any = -std::numeric_limits<double>::infinity();
+        const std::vector<Sketch> fitted =
+            sketches.size() <= most_fitted ? sketches
+                                           : best_of(sketches, most_fitted, any, [&](const Sketch& sketch) {
+                                                 return saved(sketch, with(sketch), beside);
+                                             });
+        return best_of(fitted, most_tried, 0.0,
+                       [&](const Sketch& sketch) { return promised(sketch, beside); });
+    }
+
+    /// Judges sketches, and takes the best ones that save more than the least, best first.
+    static std::vector<Sketch> best_of(const std::vector<Sketch>& sketches, std::size_t count, double least,
+                                       const std::function<Promise(const Sketch&)>& judge) {
+        std::vector<Promise> promises(sketches.size());
+        parallel_for(sketches.size(), [&](std::size_t k) { promises[k] = judge(sketches[k]); });
+        std::ranges::stable_sort(promises, std::greater{}, &Promise::gain);
+        std::vector<Sketch> best;
+        for (Promise& promise : promises)
+            if (best.size() < count && promise.gain > least) best.push_back(std::move(promise.sketch));
+        return best;
     }
 
     /// Of those that differ by the values of coefficients alone the first one stays.
@@ -145,16 +161,27 @@ class EquationSearch {
         });
     }
 
-    double promised(const Sketch& sketch) const {
-        Hypothesis with = base_.of_half[0];
-        with.push_back(plant::typical_setting(plant::effect_of(formula_of(sketch, block_, name_))));
+    /// A sketch, as it is, beside the base.
+    Hypothesis with(const Sketch& sketch) const {
+        Hypothesis whole = base_.of_half[0];
+        whole.push_back(plant::typical_setting(plant::effect_of(formula_of(sketch, block_, name_))));
+        return whole;
+    }
+
+    Promise promised(const Sketch& sketch, const CrossFit& beside) const {
+        const Hypothesis start = with(sketch);
         constexpr int few_iterations = 5;
-        const Fit fit = fitter_.fit_places(0, with, {with.size() - 1}, base_.mean_squares,
+        const Fit fit = fitter_.fit_places(0, start, {start.size() - 1}, beside.mean_squares,
                                            {.most_iterations = few_iterations});
-        const Wanted others =
-            only_of(evidence_.windows(), fitter_.half(1), reached_by({fit.hypothesis.back()}));
-        return gained(evidence_.windows(), others, base_.mean_squares,
-                      evidence_.errors(fit.hypothesis, others));
+        return saved(sketch, fit.hypothesis, beside);
+    }
+
+    /// On the second half.
+    Promise saved(const Sketch& sketch, const Hypothesis& hypothesis, const CrossFit& beside) const {
+        const Wanted others = only_of(evidence_.windows(), fitter_.half(1), reached_by({hypothesis.back()}));
+        return {
+            gained(evidence_.windows(), others, beside.mean_squares, evidence_.errors(hypothesis, others)),
+            with_values(sketch, hypothesis.back().values)};
     }
 
     /// Of a hypothesis, in the windows that are judged.
@@ -179,30 +206,24 @@ class EquationSearch {
                                       terms_of(trial.sketch.port, ranges_, periods_mm_), most_leading),
                               std::back_inserter(further));
             if (auto sketch = screening.sketch(tail_)) further.insert(further.begin(), first_of(*sketch));
-            std::optional<FittedSketch> best;
-            for (const Sketch& more : further) {
-                const std::optional<Sketch> longer = joined(fitted_values(trial), more);
-                std::optional<FittedSketch> grown = longer ? tried(*longer) : std::nullopt;
-                if (grown && (!best || grown->fitted.loss < best->fitted.loss)) best = std::move(grown);
-            }
+            const Sketch present = fitted_values(trial);
+            std::vector<Sketch> longer;
+            for (const Sketch& more : further)
+                if (auto both = joined(present, more)) longer.push_back(*std::move(both));
+            drop_repeated(longer);
+            const std::vector<Sketch> promising = most_promising(longer, trial.fitted);
+            const std::optional<FittedSketch> best =
+                promising.empty() ? std::nullopt : tried(promising.front());
             if (!best || !signs_agree(*best) ||
                 !is_no_chance(trial.fitted.mean_squares, best->fitted.mean_squares))
                 return;
-            trial = *std::move(best);
+            trial = *best;
         }
     }
 
     /// With the values that were fitted to the first half.
     static Sketch fitted_values(const FittedSketch& trial) {
-        Sketch sketch = trial.sketch;
-        const std::vector<double>& values = trial.fitted.of_half[0].back().values;
-        std::size_t coefficient = 0, value = 0;
-        for (Term& term : sketch.terms) {
-            for (std::size_t k = 0; k < term.texts.size(); ++k)
-                sketch.coefficients[coefficient++] = values[value++];
-            for (TermShape& shape : term.shapes) shape.value = values[value++];
-        }
-        return sketch;
+        return with_values(trial.sketch, trial.fitted.of_half[0].back().values);
     }
 
     /// Whether all coefficients have the same sign on both halves.
@@ -227,8 +248,6 @@ class EquationSearch {
         std::array<bool, 2> can_be{};
         parallel_for(2, [&](std::size_t side) {
             Hypothesis& of_side = trial.fitted.of_half[side];
-            of_side = fitter_.fit_places(side, of_side, last, base_.mean_squares).hypothesis;
-            // Again, by the windows that say most once the first fit is known.
             const Errors errors = evidence_.errors(of_side, fitter_.half(side));
             can_be[side] = !errors.empty();
             if (can_be[side])
@@ -300,6 +319,18 @@ std::vector<std::string> variables_in(const plant::FormulaCode& code) {
     return names;
 }
 
+/// Empty where all recordings are of one kind, or time ended.
+std::optional<double> removed_of_kinds_left_out(const Evidence& evidence, std::span<const double> before,
+                                                const CrossFit& fitted) {
+    try {
+        const std::vector<double> left_out = predicted_from_other_kinds(evidence, fitted);
+        if (!left_out.empty()) return total_gap(signal_gaps(evidence, before, left_out)).removed();
+    } catch (const BudgetEnded& end) {
+        if (end.how() == Ended::interrupted) throw;
+    }
+    return {};
+}
+
 }  // namespace
 
 std::optional<ProposedEquation> equation_of(const Evidence& evidence, const CrossFit& base,
@@ -335,10 +366,8 @@ std::optional<ProposedEquation> equation_of(const Evidence& evidence, const Cros
     std::tie(equation.gap_removed_low, equation.gap_removed_high) =
         removed_interval(evidence, base.mean_squares, trial->fitted.mean_squares);
     if (equation.gap_removed_low <= 0.0) return {};
-    if (const std::vector<double> left_out = predicted_from_other_kinds(evidence, trial->fitted);
-        !left_out.empty())
-        equation.gap_removed_of_kinds_left_out =
-            total_gap(signal_gaps(evidence, base.mean_squares, left_out)).removed();
+    equation.gap_removed_of_kinds_left_out =
+        removed_of_kinds_left_out(evidence, base.mean_squares, trial->fitted);
     return ProposedEquation{std::move(equation), std::move(trial->fitted)};
 }
 

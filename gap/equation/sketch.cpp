@@ -109,6 +109,16 @@ Sketch one_text_of(plant::Port port, const Term& term, std::size_t text, double 
     return {port, {std::move(one)}, {coefficient}};
 }
 
+Sketch with_values(Sketch sketch, std::span<const double> values) {
+    std::size_t coefficient = 0, value = 0;
+    for (Term& term : sketch.terms) {
+        for (std::size_t k = 0; k < term.texts.size(); ++k)
+            sketch.coefficients[coefficient++] = values[value++];
+        for (TermShape& shape : term.shapes) shape.value = values[value++];
+    }
+    return sketch;
+}
+
 Sketch first_of(const Sketch& sketch) {
     const auto count = static_cast<std::ptrdiff_t>(sketch.terms.front().texts.size());
     return {sketch.port,

@@ -4,6 +4,7 @@
 #include "gap/equation/terms.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,8 @@ FormulaEffect formula_of(const Sketch& sketch, std::string_view block, const std
 
 /// One of a term's expressions alone.
 Sketch one_text_of(plant::Port port, const Term& term, std::size_t text, double coefficient);
+/// @param values  of all coefficients and shapes, in the order of formula_of's parameters
+Sketch with_values(Sketch sketch, std::span<const double> values);
 /// The first term alone.
 Sketch first_of(const Sketch& sketch);
 /// All terms but one.

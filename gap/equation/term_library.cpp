@@ -43,6 +43,10 @@ std::string KnownVariable::centred() const {
     return at == 0.0 ? clipped() : fmt::format("({} - {})", clipped(), six_digits(at));
 }
 
+double KnownVariable::most() const {
+    return std::max({std::abs(range.low), std::abs(range.high), 1e-9});
+}
+
 double KnownVariable::reach() const {
     return std::max({range.high - origin(), origin() - range.low, 1e-9});
 }
@@ -63,20 +67,17 @@ void TermLibrary::add_constant(const std::string& factor, const std::string& wor
 
 void TermLibrary::add_powers(const KnownVariable& of, int highest, const std::string& factor) {
     constexpr std::array names{"in proportion to", "growing with the square of", "growing with the cube of"};
-    if (of.origin() != 0.0)
-        add(times(factor, of.clipped()), of.unit, std::max(std::abs(of.range.low), std::abs(of.range.high)),
-            fmt::format("in proportion to {}", of.words));
     for (int power = 1; power <= highest; ++power) {
-        std::string text = of.centred();
-        if (power > 1) text += fmt::format("^{}", power);
-        add(times(factor, text), of.power_unit(power), std::pow(of.reach(), power),
+        const std::string text = power == 1 ? of.clipped() : fmt::format("{}^{}", of.centred(), power);
+        const double size = power == 1 ? of.most() : std::pow(of.reach(), power);
+        add(times(factor, text), of.power_unit(power), size,
             fmt::format("{} {}", names[static_cast<std::size_t>(power - 1)], of.words));
     }
 }
 
 void TermLibrary::add_product(const KnownVariable& left, const KnownVariable& right) {
-    add(fmt::format("{} * {}", left.centred(), right.centred()), fmt::format("{} {}", left.unit, right.unit),
-        left.reach() * right.reach(), fmt::format("in proportion to {} times {}", left.words, right.words));
+    add(fmt::format("{} * {}", left.clipped(), right.clipped()), fmt::format("{} {}", left.unit, right.unit),
+        left.most() * right.most(), fmt::format("in proportion to {} times {}", left.words, right.words));
 }
 
 void TermLibrary::add_shaped(const std::vector<std::string>& texts, const TermShape& shape,

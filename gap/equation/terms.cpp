@@ -188,6 +188,7 @@ void add_micro_terms(TermLibrary& library, plant::Port port, const CoveredRanges
         case plant::Port::hall_voltage:
             library.add_constant({}, "the same always");
             library.add_powers(platform, 3);
+            add_rise(2);
             library.add_steps_and_bells(platform);
             library.add_powers(time, 1);
             library.add_fading({}, "fading with time");

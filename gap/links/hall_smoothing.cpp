@@ -135,7 +135,7 @@ void hold(std::vector<double>& values, double none) {
 SmoothedReading smoothed_reading(const PlatformRun& run, std::span<const double> path_lsb,
                                  double command_limit_V) {
     const std::vector<double> none(run.hall_adc.size(), std::numeric_limits<double>::quiet_NaN());
-    SmoothedReading found{none, none, none, none};
+    SmoothedReading found{none, none, none, none, {}};
     for (const Stretch& piece : pieces_of(run)) smooth(run, piece, path_lsb, command_limit_V, found);
     hold(found.reading_lsb, 0.0);
     hold(found.std_lsb, run.floor_lsb);

@@ -24,6 +24,7 @@ struct SmoothedReading {
     /// The macro command (limited) that stood before the row, smoothed in the same way: what leaks from it
     /// into the reading leaks in this proportion into the smoothed one.
     std::vector<double> drive_V;
+    std::vector<double> wire_degC;  ///< the wire's temperature by the rig file's model; empty: not known
 };
 
 /// @param path_lsb  the model of the reading, a value a row

@@ -120,16 +120,20 @@ class CameraPlace {
     /// The place at which the sensor's curve and what formulas add to it give a voltage.
     double behind_formulas_mm(double voltage_V, const Moment& at, double at_s) const {
         const plant::MicroStageParameters& micro = *model_.micro;
-        plant::CarriageInfluence seen;
-        seen.drive_V = model_.drive_gain * between(reading_->drive_V, at);
-        seen.place_mm = path_.position_mm[at.row];
-        seen.speed_mm_per_s = path_.velocity_mm_per_s[at.row];
-        seen.shaking.acceleration_mm_per_s2 = path_.acceleration_mm_per_s2[at.row];
+        plant::HallSight seen;
+        seen.time_s = at_s;
+        seen.room_degC = micro.heater.ambient_degC;
+        seen.wire_degC = reading_->wire_degC.empty() ? seen.room_degC : between(reading_->wire_degC, at);
+        seen.carriage.drive_V = model_.drive_gain * between(reading_->drive_V, at);
+        seen.carriage.place_mm = path_.position_mm[at.row];
+        seen.carriage.speed_mm_per_s = path_.velocity_mm_per_s[at.row];
+        seen.carriage.shaking.acceleration_mm_per_s2 = path_.acceleration_mm_per_s2[at.row];
         constexpr int rounds = 6;  // formulas are small beside the curve: each round gains a digit or more
         double place_mm = hall_position_mm(micro.hall, voltage_V);
-        for (int round = 0; round < rounds; ++round)
-            place_mm = hall_position_mm(
-                micro.hall, voltage_V - plant::formula_hall_V(micro.formulas, at_s, place_mm, seen));
+        for (int round = 0; round < rounds; ++round) {
+            seen.platform_mm = place_mm;
+            place_mm = hall_position_mm(micro.hall, voltage_V - plant::formula_hall_V(micro.formulas, seen));
+        }
         return place_mm;
     }
 

@@ -80,7 +80,8 @@ constexpr auto at_heater = std::to_array<std::size_t>(
 constexpr auto at_platform =
     std::to_array<std::size_t>({time, heater_command, heater_power, wire_temp, room_temp, contraction,
                                 contraction_rate, place, speed, acceleration, drive});
-constexpr auto at_hall = std::to_array<std::size_t>({time, platform, place, speed, acceleration, drive});
+constexpr auto at_hall =
+    std::to_array<std::size_t>({time, wire_temp, room_temp, platform, place, speed, acceleration, drive});
 }  // namespace of_micro
 
 namespace of_camera {

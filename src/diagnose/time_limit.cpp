@@ -9,8 +9,8 @@ TimeLimit time_limit(const std::vector<Recording>& recordings) {
     double recorded_s = 0.0;
     for (const Recording& recording : recordings)
         recorded_s += static_cast<double>(recording.rows.size()) * recording.tick_s;
-    const double times =
-        1.0 + per_hour_s * std::max(0.0, recorded_s - short_s) / 3600.0 / half_a_minute.whole_s;
+    const double times = 1.0 + per_hour_s * std::max(0.0, recorded_s - short_s) / 3600.0 /
+                                   (half_a_minute.whole_s + half_a_minute.equation_s);
     return {times * half_a_minute.search_s, times * half_a_minute.whole_s, times * half_a_minute.equation_s};
 }
 

@@ -187,6 +187,7 @@ Maybe of_hall(std::string_view effect, const Departed& rig) {
                    ? hall(format("{} * time", by.drift_V_per_s))
                    : hall(format("{} * (1 - exp(-time / {}))", by.drift_V_per_s * by.drift_settling_s,
                                  by.drift_settling_s));
+    if (effect == "hall_warmth") return hall(format("{} * (wire_temp - room_temp)", by.warm_V_per_degC));
     if (effect == "hall_crosstalk") return hall(format("{} * drive", by.crosstalk_V_per_V));
     return {};
 }
@@ -221,7 +222,6 @@ constexpr std::array reasons{
     Reason{"camera_tilt", "it turns about two axes: two ports"},
     Reason{"lens_distortion", "no port bends the image"},
     Reason{"duhem_hysteresis", "another hysteresis replaces the wire's"},
-    Reason{"hall_warmth", "the Hall sensor's port does not know the wire's temperature"},
     Reason{"pixel_aspect", "no port scales one axis of the image alone"},
     Reason{"tag_side", "no port changes the size of tags"},
     Reason{"macro_controller_gain", "controllers have no port"},
