@@ -39,8 +39,8 @@ class TermLibrary {
     void add(std::string text, std::string unit, double size, std::string words);
     /// @param factor  of order 1; empty: 1
     void add_constant(const std::string& factor, const std::string& words);
-    /// Powers of a variable, from 1 to the highest, 3 at most, the higher ones about its origin, times a factor
-    /// of order 1.
+    /// Powers of a variable, from 1 to the highest, 3 at most, the higher ones about its origin, times a
+    /// factor of order 1.
     void add_powers(const KnownVariable& of, int highest, const std::string& factor = {});
     void add_product(const KnownVariable& left, const KnownVariable& right);
     /// The same function with several values of its shape.

@@ -1,0 +1,320 @@
+#include "gap/equation/equation_search.h"
+
+#include "core/rig.h"
+#include "gap/balance/period_search.h"
+#include "gap/candidates/coupling.h"
+#include "gap/equation/kinds_left_out.h"
+#include "gap/equation/scan.h"
+#include "gap/equation/screening.h"
+#include "gap/evidence/halves.h"
+#include "gap/evidence/parallel.h"
+#include "gap/fit/gap_size.h"
+#include "gap/fit/score.h"
+#include "gap/residuals/accusation.h"
+#include "gap/search/selection.h"
+#include "plant/effects/catalogue.h"
+#include "plant/formulas/formula_effect.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fidservo::gap {
+
+namespace {
+
+using plant::Port;
+
+/// Ports of a block, or the others of its stage; none where no port is of the block.
+std::vector<Port> ports_for(std::string_view block, bool of_block) {
+    std::vector<Port> found;
+    const auto has_block = [&](const plant::PortDescription& port) {
+        return std::ranges::find(port.blocks, block) != port.blocks.end();
+    };
+    if (std::ranges::none_of(plant::ports(), has_block)) return found;
+    for (const plant::PortDescription& port : plant::ports())
+        if (has_block(port) == of_block && stage_of(port.blocks.front()) == stage_of(block))
+            found.push_back(port.port);
+    return found;
+}
+
+class EquationSearch {
+  public:
+    EquationSearch(const Evidence& evidence, const CrossFit& base, std::string_view block, std::string name,
+                   double tail)
+        : evidence_(evidence),
+          base_(base),
+          block_(block),
+          name_(std::move(name)),
+          tail_(tail),
+          fitter_(evidence, SearchOptions{}.windows, {}) {}
+
+    std::optional<FittedSketch> best() {
+        ranges_ = covered_ranges(evidence_);
+        if (stage_of(block_) == Stage::macro)
+            for (const PositionPeriod& period : strongest_periods(evidence_, judged_errors(base_.of_half[0])))
+                if (periods_mm_.size() < most_periods) periods_mm_.push_back(period.period_mm);
+        std::optional<FittedSketch> best;
+        try {
+            for (const bool of_block : {true, false}) {
+                if (best && leaves_nothing(*best)) break;
+                for (const Sketch& sketch : most_promising(sketches_of(ports_for(block_, of_block)), base_)) {
+                    std::optional<FittedSketch> trial = tried(sketch);
+                    if (!trial) continue;
+                    if (!best || trial->fitted.loss < best->fitted.loss) best = trial;
+                    fitted_.push_back(*std::move(trial));
+                }
+            }
+            if (!best) return {};
+            grow(*best);
+            shorten(*best);
+            simplify(*best);
+        } catch (const BudgetEnded& end) {
+            if (!best || end.how() == Ended::interrupted) throw;
+            evidence_.budget()->prolong(working_out_s);  // what was found until then is worked out
+        }
+        const bool is_something =
+            signs_agree(*best) && is_no_chance(base_.mean_squares, best->fitted.mean_squares);
+        return is_something ? best : std::nullopt;
+    }
+
+  private:
+    static constexpr std::size_t most_periods = 3, most_leading = 2, most_fitted = 8, most_tried = 3;
+    static constexpr double working_out_s = 5.0;
+
+    std::vector<Term> terms(Port port) {
+        std::vector<Term> found = terms_of(port, ranges_, periods_mm_);
+        terms_tried_ += static_cast<int>(found.size());
+        return found;
+    }
+
+    bool leaves_nothing(const FittedSketch& trial) const {
+        return total_gap(signal_gaps(evidence_, base_.mean_squares, trial.fitted.mean_squares)).after <
+               least_floors;
+    }
+
+    std::vector<Sketch> sketches_of(const std::vector<Port>& ports) {
+        const Errors errors = judged_errors(base_.of_half[0]);
+        std::vector<Sketch> sketches;
+        for (const Port port : ports) {
+            const PortScreening screening(evidence_, base_.of_half[0], errors, port, terms(port));
+            if (auto sketch = screening.sketch(tail_)) sketches.push_back(*std::move(sketch));
+            std::ranges::move(screening.leading(most_leading), std::back_inserter(sketches));
+            std::ranges::move(
+                scanned(evidence_, base_, port, terms_of(port, ranges_, periods_mm_), most_leading),
+                std::back_inserter(sketches));
+        }
+        drop_repeated(sketches);
+        return sketches;
+    }
+
+    /// A sketch that was fitted to the first half, and what it saves on the other.
+    struct Promise {
+        double gain = 0.0;
+        Sketch sketch;
+    };
+
+    /// Those that save most beside an explanation where they were not fitted, with the values of that fit;
+    /// best first. Of many, only those are fitted that do best as they are.
+    std::vector<Sketch> most_promising(const std::vector<Sketch>& sketches, const CrossFit& beside) const {
+        constexpr double any = -std::numeric_limits<double>::infinity();
+        const std::vector<Sketch> fitted =
+            sketches.size() <= most_fitted ? sketches
+                                           : best_of(sketches, most_fitted, any, [&](const Sketch& sketch) {
+                                                 return saved(sketch, with(sketch), beside);
+                                             });
+        return best_of(fitted, most_tried, 0.0,
+                       [&](const Sketch& sketch) { return promised(sketch, beside); });
+    }
+
+    /// Judges sketches, and takes the best ones that save more than the least, best first.
+    static std::vector<Sketch> best_of(const std::vector<Sketch>& sketches, std::size_t count, double least,
+                                       const std::function<Promise(const Sketch&)>& judge) {
+        std::vector<Promise> promises(sketches.size());
+        parallel_for(sketches.size(), [&](std::size_t k) { promises[k] = judge(sketches[k]); });
+        std::ranges::stable_sort(promises, std::greater{}, &Promise::gain);
+        std::vector<Sketch> best;
+        for (Promise& promise : promises)
+            if (best.size() < count && promise.gain > least) best.push_back(std::move(promise.sketch));
+        return best;
+    }
+
+    /// Of those that differ by the values of coefficients alone the first one stays.
+    static void drop_repeated(std::vector<Sketch>& sketches) {
+        std::set<std::string> seen;
+        std::erase_if(sketches, [&](const Sketch& sketch) {
+            std::string text;
+            for (const Term& term : sketch.terms) {
+                text += fmt::format("{} ", fmt::join(term.texts, " "));
+                for (const TermShape& shape : term.shapes) text += fmt::format("{} ", shape.value);
+            }
+            return !seen.insert(fmt::format("{} {}", static_cast<int>(sketch.port), text)).second;
+        });
+    }
+
+    /// A sketch, as it is, beside the base.
+    Hypothesis with(const Sketch& sketch) const {
+        Hypothesis whole = base_.of_half[0];
+        whole.push_back(plant::typical_setting(plant::effect_of(formula_of(sketch, block_, name_))));
+        return whole;
+    }
+
+    Promise promised(const Sketch& sketch, const CrossFit& beside) const {
+        const Hypothesis start = with(sketch);
+        constexpr int few_iterations = 5;
+        const Fit fit = fitter_.fit_places(0, start, {start.size() - 1}, beside.mean_squares,
+                                           {.most_iterations = few_iterations});
+        return saved(sketch, fit.hypothesis, beside);
+    }
+
+    /// On the second half.
+    Promise saved(const Sketch& sketch, const Hypothesis& hypothesis, const CrossFit& beside) const {
+        const Wanted others = only_of(evidence_.windows(), fitter_.half(1), reached_by({hypothesis.back()}));
+        return {
+            gained(evidence_.windows(), others, beside.mean_squares, evidence_.errors(hypothesis, others)),
+            with_values(sketch, hypothesis.back().values)};
+    }
+
+    /// Of a hypothesis, in the windows that are judged.
+    Errors judged_errors(const Hypothesis& hypothesis) const {
+        Errors errors = evidence_.errors(hypothesis, everything(evidence_));
+        for (std::size_t w = 0; w < base_.mean_squares.size(); ++w)
+            if (std::isnan(base_.mean_squares[w]))
+                std::fill(errors.begin() + static_cast<std::ptrdiff_t>(evidence_.windows()[w].begin),
+                          errors.begin() + static_cast<std::ptrdiff_t>(evidence_.windows()[w].end),
+                          std::numeric_limits<float>::quiet_NaN());
+        return errors;
+    }
+
+    /// Further terms of the same port, screened beside what is fitted, as long as they are no chance.
+    void grow(FittedSketch& trial) {
+        for (;;) {
+            const Hypothesis& whole = trial.fitted.of_half[0];
+            const PortScreening screening(evidence_, whole, judged_errors(whole), trial.sketch.port,
+                                          terms(trial.sketch.port));
+            std::vector<Sketch> further = screening.leading(most_leading);
+            std::ranges::move(scanned(evidence_, trial.fitted, trial.sketch.port,
+                                      terms_of(trial.sketch.port, ranges_, periods_mm_), most_leading),
+                              std::back_inserter(further));
+            if (auto sketch = screening.sketch(tail_)) further.insert(further.begin(), first_of(*sketch));
+            const Sketch present = fitted_values(trial);
+            std::vector<Sketch> longer;
+            for (const Sketch& more : further)
+                if (auto both = joined(present, more)) longer.push_back(*std::move(both));
+            drop_repeated(longer);
+            const std::vector<Sketch> promising = most_promising(longer, trial.fitted);
+            const std::optional<FittedSketch> best =
+                promising.empty() ? std::nullopt : tried(promising.front());
+            if (!best || !signs_agree(*best) ||
+                !is_no_chance(trial.fitted.mean_squares, best->fitted.mean_squares))
+                return;
+            trial = *best;
+        }
+    }
+
+    /// With the values that were fitted to the first half.
+    static Sketch fitted_values(const FittedSketch& trial) {
+        return with_values(trial.sketch, trial.fitted.of_half[0].back().values);
+    }
+
+    /// Whether all coefficients have the same sign on both halves.
+    static bool signs_agree(const FittedSketch& trial) {
+        std::size_t value = 0;
+        for (const Term& term : trial.sketch.terms) {
+            for (std::size_t k = 0; k < term.texts.size(); ++k, ++value)
+                if (term.texts.size() == 1 && trial.fitted.of_half[0].back().values[value] *
+                                                      trial.fitted.of_half[1].back().values[value] <=
+                                                  0.0)
+                    return false;
+            value += term.shapes.size();
+        }
+        return true;
+    }
+
+    std::optional<FittedSketch> tried(const Sketch& sketch) const {
+        FittedSketch trial{sketch, &plant::effect_of(formula_of(sketch, block_, name_)), base_};
+        for (Hypothesis& hypothesis : trial.fitted.of_half)
+            hypothesis.push_back(plant::typical_setting(*trial.effect));
+        const Places last{base_.of_half[0].size()};
+        std::array<bool, 2> can_be{};
+        parallel_for(2, [&](std::size_t side) {
+            Hypothesis& of_side = trial.fitted.of_half[side];
+            const Errors errors = evidence_.errors(of_side, fitter_.half(side));
+            can_be[side] = !errors.empty();
+            if (can_be[side])
+                of_side = fitter_.fit_places(side, of_side, last, mean_squares(evidence_.windows(), errors))
+                              .hypothesis;
+        });
+        if (!can_be[0] || !can_be[1]) return {};
+        fitter_.judge_beside(base_, {trial.fitted.of_half[0].back()}, trial.fitted);
+        if (!std::isfinite(trial.fitted.loss)) return {};
+        return trial;
+    }
+
+    bool is_no_chance(std::span<const double> without, std::span<const double> with) const {
+        const Comparison comparison = compare(evidence_.windows(), without, with);
+        return comparison.gain > least_gain &&
+               comparison.significance >
+                   significance_bound(comparison.blocks, std::max(1, terms_tried_), tail_);
+    }
+
+    /// Gives up terms without which it is as good, the one that is missed least first.
+    void shorten(FittedSketch& trial) const {
+        while (trial.sketch.terms.size() > 1) {
+            std::optional<FittedSketch> shortest;
+            for (std::size_t t = 0; t < trial.sketch.terms.size(); ++t) {
+                std::optional<FittedSketch> shorter = tried(without(fitted_values(trial), t));
+                if (shorter && (!shortest || shorter->fitted.loss < shortest->fitted.loss))
+                    shortest = std::move(shorter);
+            }
+            if (!shortest || is_no_chance(shortest->fitted.mean_squares, trial.fitted.mean_squares)) return;
+            trial = *std::move(shortest);
+        }
+    }
+
+    static std::size_t complexity(const Sketch& sketch) {
+        return sketch.coefficients.size() + sketch.shapes();
+    }
+
+    /// Of all that was fitted, the one with the fewest parameters that is as good.
+    void simplify(FittedSketch& trial) const {
+        const FittedSketch* simplest = &trial;
+        for (const FittedSketch& other : fitted_) {
+            const std::size_t own = complexity(other.sketch), least = complexity(simplest->sketch);
+            const bool is_simpler =
+                own < least ||
+                (own == least && other.fitted.loss < simplest->fitted.loss && simplest != &trial);
+            if (is_simpler && !is_no_chance(other.fitted.mean_squares, trial.fitted.mean_squares))
+                simplest = &other;
+        }
+        if (simplest != &trial) trial = FittedSketch(*simplest);
+    }
+
+    const Evidence& evidence_;
+    const CrossFit& base_;
+    std::string_view block_;
+    std::string name_;
+    double tail_;
+    CrossFitter fitter_;
+    CoveredRanges ranges_{};
+    std::vector<double> periods_mm_;
+    std::vector<FittedSketch> fitted_;
+    int terms_tried_ = 0;
+};
+
+}  // namespace
+
+std::optional<FittedSketch> search_equation(const Evidence& evidence, const CrossFit& base,
+                                            std::string_view block, const std::string& name, double tail) {
+    return EquationSearch(evidence, base, block, name, tail).best();
+}
+
+}  // namespace fidservo::gap
