@@ -64,15 +64,19 @@ class EquationSearch {
                 if (periods_mm_.size() < most_periods) periods_mm_.push_back(period.period_mm);
         std::optional<FittedSketch> best;
         try {
-            for (const bool of_block : {true, false}) {
-                if (best && leaves_nothing(*best)) break;
-                for (const Sketch& sketch : most_promising(sketches_of(ports_for(block_, of_block)), base_)) {
+            const std::vector<Port> own = ports_for(block_, true), others = ports_for(block_, false);
+            const auto try_all = [&](const std::vector<Sketch>& sketches) {
+                for (const Sketch& sketch : most_promising(sketches, base_)) {
                     std::optional<FittedSketch> trial = tried(sketch);
                     if (!trial) continue;
                     if (!best || trial->fitted.loss < best->fitted.loss) best = trial;
                     fitted_.push_back(*std::move(trial));
                 }
-            }
+                return best && leaves_nothing(*best);
+            };
+            for (const auto& [ports, scans] :
+                 {std::pair{own, false}, {own, true}, {others, false}, {others, true}})
+                if (try_all(scans ? scanned_at(ports) : screened_at(ports))) break;
             if (!best) return {};
             grow(*best);
             shorten(*best);
@@ -88,7 +92,7 @@ class EquationSearch {
 
   private:
     static constexpr std::size_t most_periods = 3, most_leading = 2, most_fitted = 8, most_tried = 3;
-    static constexpr double working_out_s = 5.0;
+    static constexpr double working_out_s = 2.5;
 
     std::vector<Term> terms(Port port) {
         std::vector<Term> found = terms_of(port, ranges_, periods_mm_);
@@ -101,18 +105,26 @@ class EquationSearch {
                least_floors;
     }
 
-    std::vector<Sketch> sketches_of(const std::vector<Port>& ports) {
+    /// By sparse regression.
+    std::vector<Sketch> screened_at(const std::vector<Port>& ports) {
         const Errors errors = judged_errors(base_.of_half[0]);
         std::vector<Sketch> sketches;
         for (const Port port : ports) {
             const PortScreening screening(evidence_, base_.of_half[0], errors, port, terms(port));
             if (auto sketch = screening.sketch(tail_)) sketches.push_back(*std::move(sketch));
             std::ranges::move(screening.leading(most_leading), std::back_inserter(sketches));
+        }
+        drop_repeated(sketches);
+        return sketches;
+    }
+
+    /// By larger amounts.
+    std::vector<Sketch> scanned_at(const std::vector<Port>& ports) const {
+        std::vector<Sketch> sketches;
+        for (const Port port : ports)
             std::ranges::move(
                 scanned(evidence_, base_, port, terms_of(port, ranges_, periods_mm_), most_leading),
                 std::back_inserter(sketches));
-        }
-        drop_repeated(sketches);
         return sketches;
     }
 

@@ -72,6 +72,31 @@ void TermLibrary::add_powers(const KnownVariable& of, int highest, const std::st
         const double size = power == 1 ? of.most() : std::pow(of.reach(), power);
         add(times(factor, text), of.power_unit(power), size,
             fmt::format("{} {}", names[static_cast<std::size_t>(power - 1)], of.words));
+        if (power == 2) add_squares_elsewhere(of, factor);
+    }
+}
+
+/// Of the family of the square about the origin, which was added last.
+void TermLibrary::add_squares_elsewhere(const KnownVariable& of, const std::string& factor) {
+    Term square = terms_.back();
+    square.texts = {times(factor, fmt::format("({} - shape)^2", of.clipped()))};
+    const double half = of.range.half(), middle = of.range.middle();
+    for (const double share : {-0.5, 0.5}) {
+        square.shapes = {{of.unit, middle + share * half, middle - 2.0 * half, middle + 2.0 * half}};
+        terms_.push_back(square);
+    }
+}
+
+void TermLibrary::add_knees(const std::string& text, const KnownVariable& of, const std::string& words) {
+    const int family = next_family_++;
+    for (const double share : {0.2, 0.5, 0.8}) {
+        const double at = of.range.low + share * (of.range.high - of.range.low);
+        terms_.push_back({{text},
+                          of.unit,
+                          0.5 * (of.range.high - of.range.low),
+                          {{of.unit, at, of.range.low, of.range.high}},
+                          family,
+                          words});
     }
 }
 

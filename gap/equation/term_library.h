@@ -39,8 +39,8 @@ class TermLibrary {
     void add(std::string text, std::string unit, double size, std::string words);
     /// @param factor  of order 1; empty: 1
     void add_constant(const std::string& factor, const std::string& words);
-    /// Powers of a variable, from 1 to the highest, 3 at most, the higher ones about its origin, times a
-    /// factor of order 1.
+    /// Powers of a variable, from 1 to the highest, 3 at most, the higher ones about its origin, squares
+    /// about other centres as well, which are a shape; times a factor of order 1.
     void add_powers(const KnownVariable& of, int highest, const std::string& factor = {});
     void add_product(const KnownVariable& left, const KnownVariable& right);
     /// The same function with several values of its shape.
@@ -60,6 +60,9 @@ class TermLibrary {
                              const std::string& factor = {});
     /// The same, a wide one about the middle of what is covered and narrow ones over all of it.
     void add_steps_and_bells(const KnownVariable& of);
+    /// What begins at a value of a variable, which is a shape.
+    /// @param text  with `shape` in it
+    void add_knees(const std::string& text, const KnownVariable& of, const std::string& words);
     /// exp(-time / shape), times a factor of order 1.
     void add_fading(const std::string& factor, const std::string& words);
     /// What a variable was a while ago less what it is.
@@ -71,6 +74,7 @@ class TermLibrary {
                      std::span<const double> time_constants_s);
 
   private:
+    void add_squares_elsewhere(const KnownVariable& of, const std::string& factor);
     void add_remembering(const FormulaEffect::Memory& memory, const KnownVariable& of, const TermShape& shape,
                          std::span<const double> values, const std::string& words);
 

@@ -73,6 +73,9 @@ void add_carriage_terms(TermLibrary& library, plant::Port port, const CoveredRan
         library.add(fmt::format("{0} * abs({0})", command.clipped()), "V2", std::pow(command.reach(), 2),
                     "growing with the square of the command");
         library.add_powers(command, 3);
+        library.add_knees("sign(command) * max(0, abs(command) - shape)",
+                          {"command", "V", {0.0, ranges.command_V.high}, "the command"},
+                          "in proportion to the command beyond a size at which it begins");
         library.add_product(command, place);
         library.add_product(command, time);
         library.add_waves("place", periods_mm, command.clipped());
@@ -114,6 +117,7 @@ void add_micro_terms(TermLibrary& library, plant::Port port, const CoveredRanges
     const KnownVariable time{"time", "s", ranges.time_s, "time"};
     const KnownVariable place{"place", "mm", ranges.place_mm, "the carriage's place"};
     const KnownVariable speed{"speed", "mm/s", ranges.speed_mm_per_s, "the carriage's speed"};
+    const KnownVariable heater{"heater_command", "V", ranges.heater_V, "the heater's voltage"};
     const KnownVariable heating{"heater_power", "degC", ranges.power_degC, "the heater's power"};
     const double rise = std::max(1.0, ranges.wire_degC.high - ranges.wire_degC.low);
     const double rate = std::max(0.1, ranges.contraction_mm.high - ranges.contraction_mm.low);
@@ -137,6 +141,8 @@ void add_micro_terms(TermLibrary& library, plant::Port port, const CoveredRanges
             library.add("heater_power * time", "degC s", rise * ranges.time_s.high,
                         "in proportion to power and time");
             library.add_steps_and_bells(heating);
+            library.add_knees("max(0, heater_command - shape)", heater,
+                              "in proportion to the heater's voltage beyond one at which it begins");
             return;
         case plant::Port::heat_flow:
             library.add_constant({}, "the same at all times");
@@ -242,6 +248,7 @@ CoveredRanges covered_ranges(const Evidence& evidence) {
             .wire_degC = wire.covered(micro_variable::wire_temp),
             .contraction_mm = wire.covered(micro_variable::contraction),
             .power_degC = wire.covered(micro_variable::heater_power),
+            .heater_V = wire.covered(micro_variable::heater_command),
             .tag_mm = view.covered(camera_variable::tag_x),
             .view_mm = view.covered(camera_variable::camera_place)};
 }

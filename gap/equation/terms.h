@@ -31,6 +31,7 @@ struct Covered {
 struct CoveredRanges {
     Covered time_s, command_V, place_mm, speed_mm_per_s, way_mm, wire_degC, contraction_mm;
     Covered power_degC = {};            ///< of the heater
+    Covered heater_V = {};              ///< its command
     Covered tag_mm = {}, view_mm = {};  ///< tags' places along the rail, and the camera's
 };
 

@@ -15,7 +15,7 @@ struct TimeLimit {
 
 /// Half a minute: less than that for the names, of which four fifths are the search's; the rest is for an
 /// equation.
-inline constexpr TimeLimit half_a_minute{0.8 * 18.0, 18.0, 10.5};
+inline constexpr TimeLimit half_a_minute{0.8 * 18.0, 18.0, 8.5};
 
 /// Half a minute, and where recordings are longer than ten minutes, 84 s more for each further hour.
 TimeLimit time_limit(const std::vector<Recording>& recordings);

@@ -15,8 +15,9 @@
 namespace fidservo::gap {
 namespace {
 
-const CoveredRanges some_ranges{{0.0, 20.0},  {-4.0, 4.0}, {20.0, 180.0}, {-200.0, 200.0}, {0.0, 1000.0},
-                                {22.0, 90.0}, {0.0, 3.8},  {0.0, 150.0},  {0.0, 190.0},    {20.0, 180.0}};
+const CoveredRanges some_ranges{{0.0, 20.0},   {-4.0, 4.0},  {20.0, 180.0}, {-200.0, 200.0},
+                                {0.0, 1000.0}, {22.0, 90.0}, {0.0, 3.8},    {0.0, 150.0},
+                                {0.0, 1.9},    {0.0, 190.0}, {20.0, 180.0}};
 
 FormulaEffect formula(const std::string& acts_on, const std::string& block, const std::string& text,
                       double size) {
