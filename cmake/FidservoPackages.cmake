@@ -25,9 +25,9 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME fidservo)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "libraries of fidservo, for programs of one's own
-Static libraries, headers and CMake targets: fiducials measured with their covariance, controllers, the simulated
-rig, calibration, identification, diagnosis, recordings; eight example
-programs.")
+Static libraries, headers and CMake targets: fiducials measured with their
+covariance, controllers, the simulated rig, calibration, identification,
+diagnosis, recordings; eight example programs.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libfidservo-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # The libraries link against no shared ones themselves; whoever links them needs all of these.

@@ -11,12 +11,10 @@ namespace fidservo {
 
 namespace {
 
-std::vector<std::string> option_words(const CLI::App& app) {
+std::vector<std::string> options_of(const CLI::App& app) {
     std::vector<std::string> words;
-    for (const CLI::Option* option : app.get_options()) {
-        for (const std::string& name : option->get_snames()) words.push_back("-" + name);
-        for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
-    }
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& word : option_words(*option)) words.push_back(word);
     return words;
 }
 
@@ -29,7 +27,7 @@ std::vector<std::string> command_words(const CLI::App& app) {
 /// A branch of the script's case: what may follow the words of a command.
 std::string branch(const Command& command) {
     return fmt::format("        '{}') commands='{}' options='{}' ;;\n", fmt::join(command.words, " "),
-                       fmt::join(command_words(*command.app), " "), fmt::join(option_words(*command.app), " "));
+                       fmt::join(command_words(*command.app), " "), fmt::join(options_of(*command.app), " "));
 }
 
 }  // namespace

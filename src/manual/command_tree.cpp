@@ -26,4 +26,11 @@ std::vector<Command> all_commands(const CLI::App& program) {
     return commands;
 }
 
+std::vector<std::string> option_words(const CLI::Option& option) {
+    std::vector<std::string> words;
+    for (const std::string& name : option.get_snames()) words.push_back("-" + name);
+    for (const std::string& name : option.get_lnames()) words.push_back("--" + name);
+    return words;
+}
+
 }  // namespace fidservo

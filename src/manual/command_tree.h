@@ -4,7 +4,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace fidservo {
 
@@ -19,5 +20,8 @@ std::vector<Command> all_commands(const CLI::App& program);
 
 /// The commands that follow a command's words.
 std::vector<const CLI::App*> commands_of(const CLI::App& app);
+
+/// As what an option may be given: -h, --help.
+std::vector<std::string> option_words(const CLI::Option& option);
 
 }  // namespace fidservo

@@ -49,7 +49,8 @@ std::string short_description(const CLI::App& app) {
 
 std::string synopsis(const Command& command) {
     const CLI::App& app = *command.app;
-    std::string line = fmt::format(".B {}\n[OPTIONS]", roff(fmt::format("{}", fmt::join(command.words, " "))));
+    std::string line =
+        fmt::format(".B {}\n[OPTIONS]", roff(fmt::format("{}", fmt::join(command.words, " "))));
     const CLI::Formatter formatter;
     for (const CLI::Option* option : app.get_options())
         if (option->get_positional()) line += " " + roff(formatter.make_option_usage(option));
@@ -57,13 +58,14 @@ std::string synopsis(const Command& command) {
     return line + "\n";
 }
 
-std::string options_of(const CLI::App& app, bool positional) {
+std::string option_list(const CLI::App& app, bool positional) {
     std::string text;
     const CLI::Formatter formatter;
     for (const CLI::Option* option : app.get_options()) {
         if (option->get_positional() != positional) continue;
-        text += fmt::format(".TP\n\\fB{}\\fR{}\n{}\n", roff(formatter.make_option_name(option, positional)),
-                            roff(formatter.make_option_opts(option)),
+        const std::string name = positional ? formatter.make_option_name(option, true)
+                                            : fmt::format("{}", fmt::join(option_words(*option), ", "));
+        text += fmt::format(".TP\n\\fB{}\\fR{}\n{}\n", roff(name), roff(formatter.make_option_opts(option)),
                             roff(formatter.make_option_desc(option)));
     }
     return text;
@@ -72,8 +74,9 @@ std::string options_of(const CLI::App& app, bool positional) {
 std::string commands_below(const Command& command) {
     std::string text;
     for (const CLI::App* below : commands_of(*command.app))
-        text += fmt::format(".TP\n\\fB{}\\fR\n{}. See \\fB{}\\-{}\\fR(1).\n", roff(below->get_name()),
-                            roff(short_description(*below)), roff(page_name(command)), roff(below->get_name()));
+        text +=
+            fmt::format(".TP\n\\fB{}\\fR\n{}. See \\fB{}\\-{}\\fR(1).\n", roff(below->get_name()),
+                        roff(short_description(*below)), roff(page_name(command)), roff(below->get_name()));
     return text;
 }
 
@@ -98,8 +101,8 @@ std::string exit_codes(const CLI::App& program) {
 std::string see_also(const std::vector<Command>& all, const Command& command) {
     std::vector<std::string> others;
     for (const Command& other : all)
-        if (other.app != command.app && (command.words.size() == 1 || other.words.size() == 1 ||
-                                         other.words[1] == command.words[1]))
+        if (other.app != command.app &&
+            (command.words.size() == 1 || other.words.size() == 1 || other.words[1] == command.words[1]))
             others.push_back(fmt::format("\\fB{}\\fR(1)", roff(page_name(other))));
     return fmt::format("{}\n", fmt::join(others, ",\n"));
 }
@@ -118,9 +121,9 @@ std::vector<ManPage> man_pages(const CLI::App& program, std::string_view version
                  section("NAME", fmt::format("{} \\- {}\n", roff(name), roff(short_description(app)))) +
                  section("SYNOPSIS", synopsis(command)) +
                  section("DESCRIPTION", roff(short_description(app)) + ".\n") +
-                 section("COMMANDS", commands_below(command)) +
-                 section("ARGUMENTS", options_of(app, true)) + section("OPTIONS", options_of(app, false)) +
-                 section("EXAMPLE", example_of(app)) + section("EXIT STATUS", exit_codes(program)) +
+                 section("COMMANDS", commands_below(command)) + section("ARGUMENTS", option_list(app, true)) +
+                 section("OPTIONS", option_list(app, false)) + section("EXAMPLE", example_of(app)) +
+                 section("EXIT STATUS", exit_codes(program)) +
                  section("SEE ALSO", see_also(commands, command))});
     }
     return pages;

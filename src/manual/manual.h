@@ -15,10 +15,12 @@ struct ManPage {
     std::string text;  ///< in roff, with the macros of man(7)
 };
 
-/// A page of the program and one of each command: fidservo.1, fidservo-inspect.1, fidservo-calibrate-camera.1.
+/// A page of the program and one of each command: fidservo.1, fidservo-inspect.1,
+/// fidservo-calibrate-camera.1.
 std::vector<ManPage> man_pages(const CLI::App& program, std::string_view version);
 
-/// A script for bash that completes the program's commands and options. Where neither fits, files are completed.
+/// A script for bash that completes the program's commands and options. Where neither fits, files are
+/// completed.
 std::string bash_completion(const CLI::App& program);
 
 }  // namespace fidservo

@@ -12,6 +12,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+namespace fidservo {
 namespace {
 
 void write(const std::filesystem::path& path, const std::string& text) {
@@ -23,14 +24,15 @@ void write(const std::filesystem::path& path, const std::string& text) {
 
 void write_manual(const std::filesystem::path& folder) {
     int exit_code = 0;
-    const auto program = fidservo::make_command_line(exit_code);
+    const auto program = make_command_line(exit_code);
     std::filesystem::create_directories(folder / "man1");
-    for (const fidservo::ManPage& page : fidservo::man_pages(*program, fidservo::program_version()))
+    for (const ManPage& page : man_pages(*program, program_version()))
         write(folder / "man1" / page.name, page.text);
-    write(folder / "fidservo", fidservo::bash_completion(*program));
+    write(folder / "fidservo", bash_completion(*program));
 }
 
 }  // namespace
+}  // namespace fidservo
 
 int main(int argc, char** argv) {
     if (argc != 2) {
@@ -38,7 +40,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        write_manual(argv[1]);
+        fidservo::write_manual(argv[1]);
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "write_manual: %s: %s\n", argv[1], error.what());

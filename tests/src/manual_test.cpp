@@ -40,7 +40,8 @@ struct Manual {
 std::set<std::string> options_in(const std::string& text) {
     static const std::regex option("(^|[\\s,])(--?[A-Za-z][A-Za-z-]*)");
     std::set<std::string> found;
-    for (auto hit = std::sregex_iterator(text.begin(), text.end(), option); hit != std::sregex_iterator(); ++hit)
+    for (auto hit = std::sregex_iterator(text.begin(), text.end(), option); hit != std::sregex_iterator();
+         ++hit)
         found.insert((*hit)[2]);
     return found;
 }
@@ -50,7 +51,8 @@ std::set<std::string> options_in_help(const CLI::App& command) {
     static const std::regex line("\n  (-[^ {]*)");
     const std::string help = command.help();
     std::set<std::string> found;
-    for (auto hit = std::sregex_iterator(help.begin(), help.end(), line); hit != std::sregex_iterator(); ++hit)
+    for (auto hit = std::sregex_iterator(help.begin(), help.end(), line); hit != std::sregex_iterator();
+         ++hit)
         found.merge(options_in((*hit)[1]));
     return found;
 }
@@ -63,8 +65,8 @@ std::string without_roff(std::string text) {
 /// What bash offers for the last of the words.
 std::set<std::string> completed(const std::string& script_file, const std::vector<std::string>& words) {
     const std::string line = fmt::format(
-        "bash -c 'source \"{}\"; COMP_WORDS=({}); COMP_CWORD={}; _fidservo; echo \"${{COMPREPLY[@]}}\"'", script_file,
-        fmt::join(words, " "), words.size() - 1);
+        "bash -c 'source \"{}\"; COMP_WORDS=({}); COMP_CWORD={}; _fidservo; echo \"${{COMPREPLY[@]}}\"'",
+        script_file, fmt::join(words, " "), words.size() - 1);
     const std::unique_ptr<FILE, int (*)(FILE*)> bash(popen(line.c_str(), "r"), pclose);
     std::set<std::string> offered;
     std::array<char, 256> word{};
@@ -79,7 +81,8 @@ TEST(Manual, Pages_HaveEveryOptionOfHelp) {
     for (std::size_t k = 0; k < commands.size(); ++k) {
         const std::set<std::string> wanted = options_in_help(*commands[k].app);
         EXPECT_THAT(wanted, Contains("--help"));
-        EXPECT_THAT(options_in(without_roff(manual.pages[k].text)), IsSupersetOf(wanted)) << manual.pages[k].name;
+        EXPECT_THAT(options_in(without_roff(manual.pages[k].text)), IsSupersetOf(wanted))
+            << manual.pages[k].name;
     }
 }
 
