@@ -36,7 +36,7 @@ Plate tag_grid() {
 
 int main() {
     const Plate grid = tag_grid();
-    vision::TagDetector detector(vision::thorough_options());
+    vision::TagDetector detector;
     std::vector<calib::TargetImage> images;
     const std::vector<Eigen::Vector2d> tilts_rad{{0, 0},   {0.4, 0},  {-0.4, 0},
                                                  {0, 0.4}, {0, -0.4}, {0.3, 0.3}};
