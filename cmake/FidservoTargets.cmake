@@ -47,9 +47,9 @@ add_library(fidservo_test_options INTERFACE)
 target_link_libraries(fidservo_test_options INTERFACE fidservo_compile_options)
 target_compile_options(fidservo_test_options INTERFACE $<$<CONFIG:Release>:-O1>)
 
-# fidservo_library(NAME [FAST] [NOT_INSTALLED] [GROUP n] SOURCES a.cpp ... USES targets... [HEADERS a.h ...]): the one library target of a
-# room; n sources are compiled as one. FAST: with all that the optimiser can. HEADERS: the room's interface, for those who use
-# the installed library; it is what the page of the interfaces shows. NOT_INSTALLED: a library of tests.
+# fidservo_library(NAME [FAST] [NOT_INSTALLED] [GROUP n] SOURCES a.cpp ... USES targets... [HEADERS a.h ...]): the one library
+# target of a room; n sources are compiled as one. FAST: with all that the optimiser can. HEADERS: the room's interface, for
+# those who use the installed library; it is what the page of the interfaces shows. NOT_INSTALLED: a library of tests.
 function(fidservo_library name)
   cmake_parse_arguments(ARG "FAST;NOT_INSTALLED" "GROUP" "SOURCES;USES;PRIVATELY;HEADERS" ${ARGN})
   if(NOT ARG_GROUP)

@@ -48,9 +48,9 @@ struct MicroControllerParams {
 enum class MicroPhase : std::uint8_t {
     off,        ///< no heat
     open_loop,  ///< a command given from outside
-    approach,
-    hold,
-    failed  ///< the target was not reached in time; the command holds the last temperature
+    approach,   ///< a move is under way
+    hold,       ///< the move has ended, the platform stays
+    failed      ///< the target was not reached in time; the command holds the last temperature
 };
 
 /// All that the controller remembers from tick to tick.
