@@ -47,15 +47,19 @@ add_library(fidservo_test_options INTERFACE)
 target_link_libraries(fidservo_test_options INTERFACE fidservo_compile_options)
 target_compile_options(fidservo_test_options INTERFACE $<$<CONFIG:Release>:-O1>)
 
-# fidservo_library(NAME [FAST] [GROUP n] SOURCES a.cpp ... USES targets...): the one library target of a room; n sources are
-# compiled as one. FAST: with all that the optimiser can.
+# fidservo_library(NAME [FAST] [NOT_INSTALLED] [GROUP n] SOURCES a.cpp ... USES targets... [HEADERS a.h ...]): the one library
+# target of a room; n sources are compiled as one. FAST: with all that the optimiser can. HEADERS: the room's interface, for
+# those who use the installed library; it is what the page of the interfaces shows. NOT_INSTALLED: a library of tests.
 function(fidservo_library name)
-  cmake_parse_arguments(ARG "FAST" "GROUP" "SOURCES;USES;PRIVATELY" ${ARGN})
+  cmake_parse_arguments(ARG "FAST;NOT_INSTALLED" "GROUP" "SOURCES;USES;PRIVATELY;HEADERS" ${ARGN})
   if(NOT ARG_GROUP)
     set(ARG_GROUP 16)
   endif()
   add_library(fidservo_${name} STATIC ${ARG_SOURCES})
-  target_link_libraries(fidservo_${name} PUBLIC fidservo_compile_options ${ARG_USES} PRIVATE ${ARG_PRIVATELY})
+  target_link_libraries(fidservo_${name} PUBLIC $<BUILD_INTERFACE:fidservo_compile_options> ${ARG_USES} PRIVATE ${ARG_PRIVATELY})
+  if(NOT ARG_NOT_INSTALLED)
+    fidservo_export(${name} HEADERS ${ARG_HEADERS})
+  endif()
   if(ARG_FAST)
     target_compile_options(fidservo_${name} PRIVATE $<$<CONFIG:Release>:-O3>)
   endif()

@@ -30,13 +30,15 @@ enum class Heartbeat {
               ///< time
 };
 
+/// How a guardian watches.
 struct GuardianOptions {
-    Heartbeat heartbeat = Heartbeat::loop;
+    Heartbeat heartbeat = Heartbeat::loop;  ///< whose heartbeat
     std::chrono::milliseconds timeout{20};  ///< without a heartbeat, until the outputs are set to zero
     /// A line is appended when the guardian had to act; empty: none.
     std::filesystem::path log_file;
 };
 
+/// A process that owns the outputs, and switches them off when this one is gone or silent.
 class Guardian {
   public:
     /// Starts the guardian process, which opens the board and sets it to zero. Call it before the program
@@ -64,6 +66,7 @@ class Guardian {
     /// Reason::device if the board did not confirm. Later calls do nothing.
     Status finish();
 
+    /// The guardian's process.
     pid_t pid() const { return process_; }
 
   private:

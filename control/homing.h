@@ -7,24 +7,31 @@
 
 namespace fidservo::control {
 
+/// What a rig's homing needs.
 struct HomingParams {
-    MacroControllerParams macro;
-    double speed_count_per_s = 600.0;  ///< of the ramp (30 mm/s at 50 um)
-    double stuck_error_count = 60.0;   ///< ramp ahead of the carriage by this much...
-    double stuck_s = 0.100;            ///< ...without a count for this long
-    double longest_travel_count = 4400.0;
+    MacroControllerParams macro;           ///< of the controller that follows the ramp
+    double speed_count_per_s = 600.0;      ///< of the ramp (30 mm/s at 50 um)
+    double stuck_error_count = 60.0;       ///< ramp ahead of the carriage by this much...
+    double stuck_s = 0.100;                ///< ...without a count for this long
+    double longest_travel_count = 4400.0;  ///< farther than this there is no stop
 };
 
-enum class HomingPhase : std::uint8_t { seeking, at_stop, failed };
+/// Where homing is.
+enum class HomingPhase : std::uint8_t {
+    seeking,  ///< the ramp goes on
+    at_stop,  ///< the stop is found
+    failed,   ///< there is none within the longest travel
+};
 
+/// All that homing remembers from tick to tick.
 struct HomingState {
-    HomingPhase phase = HomingPhase::seeking;
-    MacroControllerState macro;
-    double ramp_count = 0.0;  ///< how far the ramp has gone
-    std::int64_t start_count = 0;
-    std::int64_t stop_count = 0;  ///< the reading at the end stop, once found
-    double still_s = 0.0;
-    bool started = false;
+    HomingPhase phase = HomingPhase::seeking;  ///< where it is
+    MacroControllerState macro;                ///< of the controller that follows the ramp
+    double ramp_count = 0.0;                   ///< how far the ramp has gone
+    std::int64_t start_count = 0;              ///< the reading at the beginning
+    std::int64_t stop_count = 0;               ///< the reading at the end stop, once found
+    double still_s = 0.0;                      ///< how long the carriage has stood
+    bool started = false;                      ///< whether the first reading has come
 };
 
 /// One tick. @return the macro command in V; zero once the stop is found or the travel is exceeded.

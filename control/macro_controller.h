@@ -8,21 +8,23 @@
 
 namespace fidservo::control {
 
+/// A macro stage under its controller.
 struct MacroControllerParams {
-    PdGains pd;
-    double limit_V;
-    double tick_s;
+    PdGains pd;              ///< gains of the nonlinear PD
+    double limit_V;          ///< largest command
+    double tick_s;           ///< time between ticks
     double quiet_s = 0.150;  ///< without command and without a count: several velocity time constants
 };
 
+/// All that the controller remembers from tick to tick.
 struct MacroControllerState {
-    std::optional<double> setpoint_count;  ///< without one the motor is off
-    PdState pd;
-    std::optional<std::int64_t> last_count;
-    double quiet_s = 0.0;  ///< since the last command or count
-    std::int64_t steady_count = 0;
-    int steady_ticks = 0;  ///< for which readings have been within a count of steady_count
-    double command_V = 0.0;
+    std::optional<double> setpoint_count;    ///< without one the motor is off
+    PdState pd;                              ///< of the nonlinear PD
+    std::optional<std::int64_t> last_count;  ///< the reading before; empty at first
+    double quiet_s = 0.0;                    ///< since the last command or count
+    std::int64_t steady_count = 0;           ///< the reading that steady_ticks counts from
+    int steady_ticks = 0;                    ///< for which readings have been within a count of steady_count
+    double command_V = 0.0;                  ///< the last one
 };
 
 /// One tick. @return the command in V

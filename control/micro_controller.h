@@ -19,12 +19,13 @@
 
 namespace fidservo::control {
 
+/// How a move is shaped: numbers that hold for stages of this kind.
 struct MicroShaping {
-    double landing_tau_s = 0.010;       ///< of the exponential landing
-    double fine_landing_tau_s = 0.020;  ///< of moves shorter than fine_move_mm
-    double fine_move_mm = 0.005;
-    double overreach_mm = 0.0025;  ///< how far beyond the target the reference aims
-    double fine_overreach_mm = 0.001;
+    double landing_tau_s = 0.010;          ///< of the exponential landing
+    double fine_landing_tau_s = 0.020;     ///< of moves shorter than fine_move_mm
+    double fine_move_mm = 0.005;           ///< moves shorter than this are fine ones
+    double overreach_mm = 0.0025;          ///< how far beyond the target the reference aims
+    double fine_overreach_mm = 0.001;      ///< overreach of fine moves
     double authority = 0.97;               ///< share of the heater's reach that the reference may use
     double hold_back_degC = 6.0;           ///< from the turning point to the hold temperature
     double filter_tau_s = 0.008;           ///< of the deviation between sensor and reference
@@ -32,47 +33,51 @@ struct MicroShaping {
     double flat_slope_mm_per_degC = 0.01;  ///< a branch flatter than this tells little about the temperature
     double ambient_learning = 0.25;  ///< share of a move's temperature surprise that is put down to the room
     double ambient_step_degC = 0.5;  ///< at most, a move
-    double timeout_s = 6.0;
+    double timeout_s = 6.0;          ///< after which a move has failed
 };
 
+/// A micro stage under its controller.
 struct MicroControllerParams {
-    MicroModel model;
-    PiGains pi;
-    double tick_s;
-    MicroShaping shaping;
+    MicroModel model;      ///< what is believed of the stage
+    PiGains pi;            ///< gains of the inner loop
+    double tick_s;         ///< time between ticks
+    MicroShaping shaping;  ///< of moves
 };
 
+/// What the controller is doing.
 enum class MicroPhase : std::uint8_t {
     off,        ///< no heat
     open_loop,  ///< a command given from outside
-    approach,
-    hold,
-    failed  ///< the target was not reached in time; the command holds the last temperature
+    approach,   ///< a move is under way
+    hold,       ///< the move has ended, the platform stays
+    failed      ///< the target was not reached in time; the command holds the last temperature
 };
 
+/// All that the controller remembers from tick to tick.
 struct MicroControllerState {
-    MicroPhase phase = MicroPhase::off;
-    PreisachMemory wire{};      ///< the model's wire
-    HeaterParameters heater{};  ///< the model's, with the ambient temperature as learnt
-    double command_V = 0.0;
-    double position_mm = 0.0;  ///< of the last sample, through the Hall curve
-    double average_mm = 0.0;   ///< low-pass of position_mm
+    MicroPhase phase = MicroPhase::off;  ///< what it is doing
+    PreisachMemory wire{};               ///< the model's wire
+    HeaterParameters heater{};           ///< the model's, with the ambient temperature as learnt
+    double command_V = 0.0;              ///< the last one
+    double position_mm = 0.0;            ///< of the last sample, through the Hall curve
+    double average_mm = 0.0;             ///< low-pass of position_mm
     // of the approach
-    double target_mm = 0.0;
-    double reference_mm = 0.0;
-    double reference_degC = 0.0;
-    double goal_degC = 0.0;
-    double deviation_mm = 0.0;  ///< low-pass of position - reference
-    PreisachMemory start_wire;
-    PiState pi{0.0};
-    double surprise_degC = 0.0;  ///< sum of the observer's corrections
-    double elapsed_s = 0.0;
-    bool up = true;
-    bool fine = false;
+    double target_mm = 0.0;       ///< where the move is to end
+    double reference_mm = 0.0;    ///< where the platform should be now
+    double reference_degC = 0.0;  ///< where the wire's temperature should be now
+    double goal_degC = 0.0;       ///< where the temperature reference ends
+    double deviation_mm = 0.0;    ///< low-pass of position - reference
+    PreisachMemory start_wire;    ///< the wire where the approach began
+    PiState pi{0.0};              ///< of the inner loop
+    double surprise_degC = 0.0;   ///< sum of the observer's corrections
+    double elapsed_s = 0.0;       ///< since the move began
+    bool up = true;               ///< whether the move contracts the wire
+    bool fine = false;            ///< whether it is a fine move
     // of the hold
-    double hold_V = 0.0;
+    double hold_V = 0.0;  ///< command of the hold
 };
 
+/// A stage without heat, its wire cold and extended.
 MicroControllerState micro_start(const MicroControllerParams& params);
 
 /// Begins a move to `target_mm` (platform position). Moves of zero length begin too: they turn the wire back.
@@ -80,6 +85,7 @@ void micro_begin_move(const MicroControllerParams& params, MicroControllerState&
 
 /// Heat off / a command given from outside, V.
 void micro_switch_off(MicroControllerState& state);
+/// A command given from outside, V.
 void micro_open_loop(MicroControllerState& state, double command_V);
 
 /// One tick.

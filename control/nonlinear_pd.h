@@ -6,7 +6,7 @@ namespace fidservo::control {
 
 /// A run starts at rest with e[-1] = 0.
 struct PdState {
-    double last_error_count = 0.0;
+    double last_error_count = 0.0;  ///< of the tick before
 };
 
 /// PD with dead-zone inverse (publication, eq. 9 with the minus sign):
@@ -14,9 +14,10 @@ struct PdState {
 /// @return the command in V within +-limit_V
 double pd_update(const PdGains& gains, double limit_V, PdState& state, double error_count);
 
+/// What a PID remembers from tick to tick.
 struct PidState {
-    double integral_V = 0.0;
-    double last_error_count = 0.0;
+    double integral_V = 0.0;        ///< of the error, in the command's unit
+    double last_error_count = 0.0;  ///< of the tick before
 };
 
 /// The benchmark PID, without any knowledge of friction; the integral stops at the command's limit.

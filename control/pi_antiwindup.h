@@ -4,8 +4,9 @@
 
 namespace fidservo::control {
 
+/// What a PI remembers from tick to tick.
 struct PiState {
-    double integral_V;
+    double integral_V;  ///< of the error, in the command's unit
 };
 
 /// The published start: the integrator at the heater's onset.

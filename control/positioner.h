@@ -26,68 +26,74 @@ namespace fidservo::control {
 
 /// From the camera's axis to the target along the stage axis, mm, at the middle of a frame's exposure.
 struct TargetOffset {
-    TimeNs time_ns;
-    double needed_mm;
-    double std_mm;
+    TimeNs time_ns;    ///< middle of the exposure
+    double needed_mm;  ///< distance still to go
+    double std_mm;     ///< one standard deviation
 };
 
+/// What a rig's positioning needs.
 struct PositionerParams {
-    MacroControllerParams macro;
-    MicroControllerParams micro;
-    double count_mm;
+    MacroControllerParams macro;         ///< of the macro controller
+    MicroControllerParams micro;         ///< of the micro controller
+    double count_mm;                     ///< of the encoder, mm per count
     double reach_low_mm, reach_high_mm;  ///< platform positions that moves may end at
     double park_low_mm, park_high_mm;    ///< positions that the macro stage leaves as they are
-    double tolerance_mm = 0.001;
-    double micro_settle_s = 0.030;
+    double tolerance_mm = 0.001;         ///< within which a motion has arrived
+    double micro_settle_s = 0.030;       ///< how long the hold is given to take over
     /// What a stage at rest may shake or creep by from frame to frame, one standard deviation. Two frames
     /// confirm the rest if they differ by no more than four of this and of their own together.
     double rest_std_mm = 0.0001;
-    double look_timeout_s = 0.5;
-    double macro_timeout_s = 8.0;
-    int macro_near_count = 1;  ///< the PD's last nudges are left to the micro stage
-    int most_moves = 8;
-    int most_recentres = 3;
+    double look_timeout_s = 0.5;   ///< after which no frame has come: a fault
+    double macro_timeout_s = 8.0;  ///< after which the carriage has not come
+    int macro_near_count = 1;      ///< the PD's last nudges are left to the micro stage
+    int most_moves = 8;            ///< of the micro stage, in one motion
+    int most_recentres = 3;        ///< of the carriage, in one motion
 };
 
+/// Where a motion is; the top of control/positioner.h says what each phase does.
 enum class PositionerPhase : std::uint8_t {
-    idle,
-    macro_move,
-    macro_settle,
-    look,
-    micro_move,
-    micro_settle,
-    arrived,
-    failed
+    idle,          ///< no motion yet
+    macro_move,    ///< the carriage goes
+    macro_settle,  ///< it comes to rest
+    look,          ///< frames tell what is left
+    micro_move,    ///< the platform goes
+    micro_settle,  ///< the hold takes over
+    arrived,       ///< within tolerance
+    failed         ///< PositionerState::why
 };
 
 /// Encoder counts between which the carriage may be sent.
 struct CarriageTravel {
+    /// The lowest and the highest.
     double low_count, high_count;
 };
 
+/// All that the supervisor remembers from tick to tick.
 struct PositionerState {
-    PositionerPhase phase = PositionerPhase::idle;
-    MacroControllerState macro;
-    MicroControllerState micro;
-    CarriageTravel travel{};
-    Reason why = Reason::no_convergence;  ///< of a failure
-    double phase_s = 0.0;                 ///< since the phase began
-    double move_s = 0.0;                  ///< since the motion began
-    double macro_s = 0.0;                 ///< of the motion: until the macro stage was settled
-    double micro_s = 0.0;                 ///< of the motion: since the first micro move
-    TimeNs rest_since_ns = 0;
-    std::array<TargetOffset, 2> looks{};  ///< the last frames at rest
-    int frames = 0;
-    TargetOffset reached{};  ///< combine_looks() of those that agreed
-    int moves = 0;
-    int recentres = 0;
+    PositionerPhase phase = PositionerPhase::idle;  ///< where the motion is
+    MacroControllerState macro;                     ///< of the macro controller
+    MicroControllerState micro;                     ///< of the micro controller
+    CarriageTravel travel{};                        ///< between which the carriage may be sent
+    Reason why = Reason::no_convergence;            ///< of a failure
+    double phase_s = 0.0;                           ///< since the phase began
+    double move_s = 0.0;                            ///< since the motion began
+    double macro_s = 0.0;                           ///< of the motion: until the macro stage was settled
+    double micro_s = 0.0;                           ///< of the motion: since the first micro move
+    TimeNs rest_since_ns = 0;                       ///< since when the stage has been at rest
+    std::array<TargetOffset, 2> looks{};            ///< the last frames at rest
+    int frames = 0;                                 ///< looks so far, at this rest
+    TargetOffset reached{};                         ///< combine_looks() of those that agreed
+    int moves = 0;                                  ///< of the micro stage, so far
+    int recentres = 0;                              ///< of the carriage, so far
 };
 
+/// What the supervisor asks for in a tick.
 struct PositionerOutput {
-    StageCommand command;
-    bool wants_frames = false;
+    StageCommand command;       ///< for the stage, until the next tick
+    bool wants_frames = false;  ///< whether the camera should look
 };
 
+/// A stage at rest, without heat.
 PositionerState positioner_start(const PositionerParams& params);
 
 /// Begins a motion. @param needed_mm  distance to go as the registration knows it, good to a fraction of the

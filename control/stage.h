@@ -8,15 +8,15 @@ namespace fidservo::control {
 
 /// What the board samples at a tick.
 struct StageSample {
-    TimeNs time_ns = 0;
-    std::int64_t encoder_count = 0;
-    int hall_adc = 0;
+    TimeNs time_ns = 0;              ///< of the sampling, on the program's clock
+    std::int64_t encoder_count = 0;  ///< counts since power came on
+    int hall_adc = 0;                ///< of the platform's Hall sensor, LSB
 };
 
 /// What the board holds until the next tick, V. Zero switches the motor and the heater off.
 struct StageCommand {
-    double macro_V = 0.0;
-    double micro_V = 0.0;
+    double macro_V = 0.0;  ///< of the motor
+    double micro_V = 0.0;  ///< of the heater
 };
 
 /// A stage that is ticked: read, then write, once a tick. Single-threaded.

@@ -32,9 +32,10 @@ struct GreyNoiseSeen {
 
 /// One tag in one frame. What is saturated, too blurred or outside of the image is not_measured.
 struct TagAppearance {
-    TimeNs time_ns = 0;  ///< of the frame, as its detection has it
-    int tag_id = -1;
+    TimeNs time_ns = 0;            ///< of the frame, as its detection has it
+    int tag_id = -1;               ///< which tag
     std::array<TagSide, 4> sides;  ///< from corner k to corner k + 1
+    /// Noise of the paper's and of the ink's pixels.
     GreyNoiseSeen white, black;
 };
 

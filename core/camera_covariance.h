@@ -24,17 +24,22 @@ enum CameraNumber : int {
     camera_distance,  ///< mm
     camera_rotation,  ///< rad
     camera_tilt_u,    ///< rad
-    camera_tilt_v,
-    camera_axis_y,  ///< rad
-    camera_axis_z,
-    camera_k1
+    camera_tilt_v,    ///< rad
+    camera_axis_y,    ///< rad
+    camera_axis_z,    ///< rad
+    camera_k1         ///< of the lens
 };
+/// How many numbers of a camera's geometry a calibration may leave open.
 inline constexpr int camera_numbers = 7;
 
+/// These numbers, in the order of the rig file's geometry_covariance.
 using CameraNumbers = Eigen::Matrix<double, camera_numbers, 1>;
+/// Their covariance, in the numbers' own units.
 using CameraCovariance = Eigen::Matrix<double, camera_numbers, camera_numbers>;
 
+/// The numbers of a camera.
 CameraNumbers numbers_of(const CameraGeometry& camera);
+/// The camera that has these numbers, and all else of the one given.
 CameraGeometry with_numbers(CameraGeometry camera, const CameraNumbers& numbers);
 
 /// Whether a symmetric matrix is one: no variance negative, no direction's below rounding.
@@ -42,16 +47,20 @@ bool is_covariance(const CameraCovariance& matrix);
 
 /// The numbers that say a symmetric matrix: its lower triangle, row by row.
 inline constexpr int camera_triangle_numbers = camera_numbers * (camera_numbers + 1) / 2;
+/// The lower triangle of a symmetric matrix, row by row.
 std::vector<double> lower_triangle(const CameraCovariance& matrix);
+/// The symmetric matrix that has this lower triangle.
 CameraCovariance from_lower_triangle(std::span<const double, camera_triangle_numbers> numbers);
 
 /// J: rows plate x and y, a column for each number; mm per mm, rad or 1.
 using VectorByCamera = Eigen::Matrix<double, 2, camera_numbers>;
+/// J of the vector on the plate between two points of an image, seen from position s.
 VectorByCamera vector_by_camera(const CameraGeometry& camera, const Eigen::Vector2d& from_px,
                                 const Eigen::Vector2d& to_px, double s_mm);
 
 /// J C J^T, mm^2; no variance is below zero, whatever rounding makes of it.
 Eigen::Matrix2d vector_covariance_mm2(const VectorByCamera& slopes, const CameraCovariance& covariance);
+/// The same of the vector between two points of an image, seen from position s.
 Eigen::Matrix2d vector_covariance_mm2(const CameraGeometry& camera, const CameraCovariance& covariance,
                                       const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px,
                                       double s_mm);

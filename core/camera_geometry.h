@@ -19,15 +19,16 @@
 
 namespace fidservo {
 
+/// A camera over the plate, as the top of core/camera_geometry.h describes it.
 struct CameraGeometry {
-    int width_px;
-    int height_px;
-    double focal_px;
-    Eigen::Vector2d principal_point_px;
-    double distance_mm;        ///< Z: from the camera's centre to the plate
-    double focal_ratio = 1.0;  ///< q: height of a square pixel's picture to its width, f_y / f_x
-    LensDistortion distortion = {};
-    double rotation_rad = 0.0;
+    int width_px;                        ///< of the image
+    int height_px;                       ///< of the image
+    double focal_px;                     ///< f: focal length over a pixel's width
+    Eigen::Vector2d principal_point_px;  ///< (u0, v0)
+    double distance_mm;                  ///< Z: from the camera's centre to the plate
+    double focal_ratio = 1.0;            ///< q: height of a square pixel's picture to its width, f_y / f_x
+    LensDistortion distortion = {};      ///< of the lens
+    double rotation_rad = 0.0;           ///< of R_z, from u towards v
     Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();  ///< rotation vector's parts along u and v
     /// The stage's axis a = (1, axis_rad.x, axis_rad.y) / |.| in the plate's frame.
     Eigen::Vector2d axis_rad = Eigen::Vector2d::Zero();

@@ -5,12 +5,13 @@
 
 namespace fidservo {
 
+/// A camera as its rig file describes it.
 struct CameraParameters {
-    CameraGeometry geometry;
-    double frame_rate_hz;
-    double exposure_s;
-    double full_well_e;
-    double read_noise_e;
+    CameraGeometry geometry;    ///< where it pictures a point of the plate
+    double frame_rate_hz;       ///< frames a second
+    double exposure_s;          ///< time that a pixel gathers light
+    double full_well_e;         ///< electrons that make a pixel white
+    double read_noise_e;        ///< standard deviation, electrons
     double blur_px;             ///< standard deviation of the optical blur
     double latency_s;           ///< from the middle of the exposure to the frame's arrival
     double corner_noise_px;     ///< of recorded detections that were not made from images

@@ -19,13 +19,19 @@
 
 namespace fidservo {
 
-enum class DeadZoneBranch { left = -1, inside = 0, right = 1 };
+/// Where a voltage lies.
+enum class DeadZoneBranch {
+    left = -1,   ///< below the zone: motion to the left
+    inside = 0,  ///< no motion
+    right = 1,   ///< above the zone: motion to the right
+};
 
 /// Whether V is one straight line through 0: no dead zone.
 inline bool is_straight(const DeadZone& zone) {
     return zone.threshold_V == 0.0 && zone.offset_V == 0.0;
 }
 
+/// The branch that a voltage is on.
 inline DeadZoneBranch dead_zone_branch(const DeadZone& zone, double drive_V) {
     if (is_straight(zone)) return DeadZoneBranch::right;
     const double size_V = std::abs(drive_V);

@@ -23,22 +23,22 @@ using CornerCovariances = std::array<Eigen::Matrix2d, 4>;
 /// are those of the print: in a mirrored picture they go round the other way, and only by that it is known as
 /// one.
 struct TagDetection {
-    TimeNs time_ns = 0;  ///< middle of the frame's exposure
-    int tag_id = -1;
-    int corrected_bits = 0;        ///< code bits that differ from the code book
-    double decision_margin = 0.0;  ///< contrast between black and white bits, grey levels
-    std::array<Eigen::Vector2d, 4> corners_px;
-    TagPrint print;  ///< as which it was read
+    TimeNs time_ns = 0;                         ///< middle of the frame's exposure
+    int tag_id = -1;                            ///< by the family's code book
+    int corrected_bits = 0;                     ///< code bits that differ from the code book
+    double decision_margin = 0.0;               ///< contrast between black and white bits, grey levels
+    std::array<Eigen::Vector2d, 4> corners_px;  ///< in the order of tag_corners
+    TagPrint print;                             ///< as which it was read
     /// Whether the corners were measured along the edges of the tag, or are as the detector found them;
     /// empty: not known.
     std::optional<bool> is_refined = {};
-    std::optional<CornerCovariances> covariances_px2 = {};
+    std::optional<CornerCovariances> covariances_px2 = {};  ///< of the corners, where they were measured
 };
 
 /// Where the camera is, from one tag whose place on the plate is known.
 struct CameraPosition {
-    TimeNs time_ns;  ///< middle of the exposure
-    int tag_id;
+    TimeNs time_ns;   ///< middle of the exposure
+    int tag_id;       ///< which tag told it
     double s_mm;      ///< plate x under the optical axis
     double s_std_mm;  ///< one standard deviation
     double y_mm;      ///< plate y under the optical axis; zero on an ideal stage

@@ -4,6 +4,7 @@
 
 namespace fidservo {
 
+/// Why there is no value.
 enum class Reason {
     no_tag,             ///< no fiducial in the image
     wrong_tag,          ///< a fiducial, but not the one expected at this place

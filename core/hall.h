@@ -7,17 +7,19 @@
 
 namespace fidservo {
 
+/// The sensor's curve and its converter, as the top of core/hall.h uses them.
 struct HallParameters {
-    double mid_V;
-    double span_V;
-    double centre_mm;
-    double half_range_mm;
-    double cubic;  ///< above -1; at least 0 in a rig file
-    int adc_bits;
-    double adc_range_V;
-    double noise_lsb;  ///< r.m.s., before rounding
+    double mid_V;          ///< at the centre
+    double span_V;         ///< from the centre to either end
+    double centre_mm;      ///< place of the platform where the field is zero
+    double half_range_mm;  ///< from the centre to either end of the curve
+    double cubic;          ///< above -1; at least 0 in a rig file
+    int adc_bits;          ///< of the converter
+    double adc_range_V;    ///< full scale of the converter
+    double noise_lsb;      ///< r.m.s., before rounding
 };
 
+/// The voltage of one step of the converter, V.
 double hall_lsb_V(const HallParameters& hall);
 
 /// Sensor voltage in V at a platform position in mm.

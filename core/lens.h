@@ -27,7 +27,12 @@
 
 namespace fidservo {
 
-enum class LensModel { plumb_bob, equidistant };
+/// Which formula pictures a direction.
+enum class LensModel {
+    plumb_bob,    ///< Brown's: radial and tangential
+    equidistant,  ///< Kannala and Brandt's: of fisheyes
+};
+/// All of them.
 inline constexpr std::array lens_models{LensModel::plumb_bob, LensModel::equidistant};
 
 /// As rig files, ROS and the command line name it.
@@ -35,9 +40,10 @@ std::string_view name_of(LensModel model);
 
 /// A model and its coefficients: k1, k2, p1, p2, k3 of plumb_bob, k1 to k4 of equidistant.
 struct LensDistortion {
+    /// Radial k1, k2, k3 and tangential p1, p2; an equidistant lens has k1 to k4 only.
     double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
-    double k4 = 0.0;
-    LensModel model = LensModel::plumb_bob;
+    double k4 = 0.0;                         ///< of equidistant
+    LensModel model = LensModel::plumb_bob;  ///< which formula they belong to
 
     /// A pinhole.
     bool is_none() const {

@@ -9,11 +9,12 @@
 
 namespace fidservo {
 
+/// A micro stage as the program believes it to be.
 struct MicroModel {
-    HeaterParameters heater;
-    std::shared_ptr<const FodTable> fod;
-    double stroke_scale = 1.0;  ///< contraction = stroke_scale f
-    HallParameters hall;
+    HeaterParameters heater;              ///< of the wire
+    std::shared_ptr<const FodTable> fod;  ///< the wire's hysteresis
+    double stroke_scale = 1.0;            ///< contraction = stroke_scale f
+    HallParameters hall;                  ///< the sensor's nominal curve
     /// Platform position in mm as a polynomial of d = nominal Hall position - centre:
     /// x = k0 + k1 d + k2 d^2 + k3 d^3.
     std::array<double, 4> hall_correction;

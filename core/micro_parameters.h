@@ -8,31 +8,33 @@
 
 namespace fidservo {
 
+/// The wire's heater, as the top of plant/heater.h uses it.
 struct HeaterParameters {
-    double onset_V;
-    double limit_V;
-    double gain_degC_per_V;
-    double heating_tau_s;
-    double cooling_tau_s;
-    double ambient_degC;
+    double onset_V;          ///< below which nothing heats
+    double limit_V;          ///< largest command
+    double gain_degC_per_V;  ///< steady rise of temperature per volt beyond the onset
+    double heating_tau_s;    ///< time constant while the wire warms
+    double cooling_tau_s;    ///< time constant while it cools
+    double ambient_degC;     ///< of the room
 };
 
 /// w = kp e + I,  c = clamp(w, low, high),  I += T (ki e + kaw (c - w)),  e in mm.
 struct PiGains {
-    double kp_V_per_mm;
-    double ki_V_per_mm_s;
-    double kaw_per_s;
-    double low_V;
-    double high_V;
+    double kp_V_per_mm;    ///< gain of the error
+    double ki_V_per_mm_s;  ///< gain of its integral
+    double kaw_per_s;      ///< rate at which the integral gives way at the limits
+    double low_V;          ///< smallest command
+    double high_V;         ///< largest command
 };
 
+/// The micro stage as its rig file describes it.
 struct MicroParameters {
-    double low_mm;  ///< travel
-    double high_mm;
-    HeaterParameters heater;
-    std::shared_ptr<const FodTable> fod;
-    HallParameters hall;
-    std::optional<PiGains> pi;
+    double low_mm;                        ///< travel
+    double high_mm;                       ///< upper end of the travel
+    HeaterParameters heater;              ///< of the wire
+    std::shared_ptr<const FodTable> fod;  ///< the wire's hysteresis
+    HallParameters hall;                  ///< the platform's sensor
+    std::optional<PiGains> pi;            ///< empty: the rig has no such controller
 };
 
 }  // namespace fidservo

@@ -11,50 +11,56 @@
 
 namespace fidservo {
 
+/// A tag on the plate.
 struct PlateTag {
-    int id;
-    Eigen::Vector2d centre_mm;
+    int id;                     ///< by the family's code book
+    Eigen::Vector2d centre_mm;  ///< its place
     double side_mm;  ///< of the outline: the black border square, for families that have a plain border
-    double angle_rad = 0.0;
-    TagPrint print = {};
+    double angle_rad = 0.0;  ///< by which it is turned
+    TagPrint print = {};     ///< how it is printed
 
     bool operator==(const PlateTag&) const = default;
 };
 
+/// A printed disc.
 struct Dot {
-    Eigen::Vector2d centre_mm;
-    double diameter_mm;
+    Eigen::Vector2d centre_mm;  ///< its place
+    double diameter_mm;         ///< its size
 };
 
+/// A printed rectangle.
 struct Pad {
-    Eigen::Vector2d centre_mm;
-    Eigen::Vector2d size_mm;  ///< width along its own x, height along its own y
-    double angle_rad = 0.0;
+    Eigen::Vector2d centre_mm;  ///< its place
+    Eigen::Vector2d size_mm;    ///< width along its own x, height along its own y
+    double angle_rad = 0.0;     ///< by which it is turned
 };
 
+/// A printed straight stroke.
 struct Line {
-    Eigen::Vector2d from_mm;
-    Eigen::Vector2d to_mm;
-    double width_mm;
+    Eigen::Vector2d from_mm;  ///< middle of one end
+    Eigen::Vector2d to_mm;    ///< middle of the other end
+    double width_mm;          ///< its thickness
 };
 
 /// A polyline damage, darker or brighter than what it crosses.
 struct Scratch {
-    std::vector<Eigen::Vector2d> points_mm;
-    double width_mm;
+    std::vector<Eigen::Vector2d> points_mm;  ///< its corners, in order
+    double width_mm;                         ///< its thickness
 };
 
+/// Something printed, or damaged.
 struct Feature {
-    std::string name;
-    std::variant<Dot, Pad, Line, Scratch> shape;
-    double reflectance;  ///< 0 black .. 1 white
+    std::string name;                             ///< by which recipes and results call it
+    std::variant<Dot, Pad, Line, Scratch> shape;  ///< what it is, and where
+    double reflectance;                           ///< 0 black .. 1 white
 };
 
+/// What lies under the camera.
 struct Plate {
-    double paper_reflectance = 0.9;
-    double ink_reflectance = 0.1;
-    std::vector<PlateTag> tags;     ///< all printed alike
-    std::vector<Feature> features;  ///< later ones lie over earlier ones
+    double paper_reflectance = 0.9;  ///< of the ground, 0 black .. 1 white
+    double ink_reflectance = 0.1;    ///< of tags, 0 black .. 1 white
+    std::vector<PlateTag> tags;      ///< all printed alike
+    std::vector<Feature> features;   ///< later ones lie over earlier ones
 
     /// Of all its tags.
     TagPrint print() const { return tags.empty() ? TagPrint{} : tags.front().print; }

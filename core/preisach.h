@@ -27,12 +27,17 @@ class FodTable {
     /// f(peak, temp) in mm; temp is clamped to at most peak.
     double contraction_mm(double peak_degC, double temp_degC) const;
 
+    /// The first temperature of the grid.
     double low_degC() const { return low_degC_; }
+    /// The last temperature of the grid.
     double high_degC() const { return high_degC_; }
+    /// From node to node.
     double step_degC() const { return step_degC_; }
+    /// How many temperatures the grid has.
     std::size_t nodes() const { return nodes_; }
     /// f at positive saturation: the full stroke.
     double stroke_mm() const { return contraction_mm(high_degC_, high_degC_); }
+    /// f at two nodes, by their places in the grid.
     double node_mm(std::size_t peak, std::size_t temp) const { return square_mm_[peak * nodes_ + temp]; }
 
   private:
@@ -43,8 +48,8 @@ class FodTable {
 
 /// One remembered loop: heated to `peak`, then cooled to `valley`.
 struct PreisachLoop {
-    double peak_degC;
-    double valley_degC;
+    double peak_degC;       ///< where it was turned from heating to cooling
+    double valley_degC;     ///< where it was turned from cooling to heating
     double contraction_mm;  ///< of this and all outer loops together
 };
 

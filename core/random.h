@@ -6,16 +6,19 @@
 
 namespace fidservo {
 
+/// A source of random numbers: the same from the same seed, on every machine.
 class NoiseStream {
   public:
     /// @param source  name of the noise source, e.g. "hall"
     NoiseStream(std::uint64_t seed, std::string_view source);
 
-    std::uint64_t bits();
-    double uniform();  ///< in [0, 1)
-    double normal();   ///< mean 0, standard deviation 1
+    std::uint64_t bits();  ///< 64 random bits.
+    double uniform();      ///< in [0, 1)
+    double normal();       ///< mean 0, standard deviation 1
 
+    /// How many numbers were drawn.
     std::uint64_t position() const { return position_; }
+    /// Goes to where that many numbers were drawn.
     void seek(std::uint64_t position) { position_ = position; }
 
   private:

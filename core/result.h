@@ -10,7 +10,7 @@ namespace fidservo {
 enum class Reason;  ///< core/failure.h lists them
 
 struct Failure {
-    Reason reason;
+    Reason reason;     ///< for programs
     std::string text;  ///< one line for people, without the reason's name
 };
 
@@ -21,8 +21,10 @@ class [[nodiscard]] Result : public tl::expected<T, Failure> {
     using tl::expected<T, Failure>::expected;
 };
 
+/// Nothing, or the reason why it was not done.
 using Status = Result<void>;
 
+/// What a function returns that has no value to give.
 inline tl::unexpected<Failure> failure(Reason reason, std::string text) {
     return tl::make_unexpected(Failure{reason, std::move(text)});
 }

@@ -15,22 +15,24 @@ namespace fidservo {
 
 /// An effect beyond the model that the rig is known to have, by its name in the simulator's catalogue.
 struct StatedEffect {
+    /// One number of the effect.
     struct Parameter {
-        std::string name;
-        double value;
+        std::string name;  ///< as the catalogue has it
+        double value;      ///< in the parameter's unit
     };
-    std::string name;
-    std::vector<Parameter> parameters;
+    std::string name;                           ///< as the catalogue has it
+    std::vector<Parameter> parameters;          ///< as the file states them
     std::optional<FormulaEffect> formula = {};  ///< of what the simulator's catalogue does not list
 };
 
+/// A rig as its file describes it.
 struct Rig {
-    std::string name;
-    double tick_s;
-    MacroParameters macro;
-    std::optional<MicroParameters> micro;
-    std::optional<CameraParameters> camera;
-    std::optional<FiducialParameters> fiducials;
+    std::string name;                             ///< of the rig
+    double tick_s;                                ///< of the control loop
+    MacroParameters macro;                        ///< the carriage and its drive
+    std::optional<MicroParameters> micro;         ///< the platform, its wire and its sensor
+    std::optional<CameraParameters> camera;       ///< what looks at the plate
+    std::optional<FiducialParameters> fiducials;  ///< the grid of tags on the plate
     std::vector<StatedEffect> effects;  ///< the simulator has them; controllers know nothing of them
 };
 

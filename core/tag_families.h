@@ -22,6 +22,7 @@ struct TagFamily {
     /// Of every id; the cells 'd' in the order of the layout, the last one the lowest bit, 1 is white.
     std::span<const std::uint64_t> codes;
 
+    /// How many tags it has.
     int size() const { return static_cast<int>(codes.size()); }
     /// All is inside the outline, and a black border just inside of it, which may be made wider.
     bool has_plain_border() const { return cells == outline_cells; }
@@ -38,12 +39,13 @@ const TagFamily* find_tag_family(std::string_view name);
 
 /// How tags are printed.
 struct TagPrint {
-    const TagFamily* family = &usual_tag_family();
+    const TagFamily* family = &usual_tag_family();  ///< whose code book
     int border_cells = 1;  ///< width of the border; 2 on a kalibr AprilGrid, for families with a plain border
     bool inverted = false;  ///< black is white, white is black, the paper around too
 
     bool operator==(const TagPrint&) const = default;
 
+    /// Side of the outline in cells of the tag as it is printed.
     int outline_cells() const { return family->outline_cells + 2 * (border_cells - 1); }
     /// The side of all that is printed and of one cell of paper around it, in sides of the outline.
     double share_with_zone() const {
@@ -59,17 +61,21 @@ constexpr std::size_t cell_at(int row, int column, int cells_a_side) {
 
 /// The cells of a tag, row by row from the upper left.
 struct TagPattern {
+    /// Side of the largest tag in cells, its rim included.
     static constexpr int most_cells = 11;
 
-    int cells = 0;  ///< a side of all that is printed
-    int rim = 0;    ///< cells between its edge and the outline
-    std::bitset<most_cells * most_cells> white;
-    std::bitset<most_cells * most_cells> code;  ///< the cells that tell the id
-    bool paper_is_white = true;                 ///< around the tag
-    bool corners_are_free = true;               ///< of black squares, which touch them on an AprilGrid
+    int cells = 0;                               ///< a side of all that is printed
+    int rim = 0;                                 ///< cells between its edge and the outline
+    std::bitset<most_cells * most_cells> white;  ///< row by row, rim included
+    std::bitset<most_cells * most_cells> code;   ///< the cells that tell the id
+    bool paper_is_white = true;                  ///< around the tag
+    bool corners_are_free = true;                ///< of black squares, which touch them on an AprilGrid
 
+    /// By the cell's place in `white`.
     bool operator[](std::size_t cell) const { return white[cell]; }
+    /// Side of the outline in cells.
     int outline_cells() const { return cells - 2 * rim; }
+    /// Whether a cell is white.
     bool is_white(int row, int column) const { return white[cell_at(row, column, cells)]; }
     /// Whether it is white just inside the outline, and black just outside.
     bool is_white_inside() const { return is_white(rim, rim); }

@@ -4,15 +4,20 @@
 
 namespace fidservo {
 
+/// A time or a duration, ns.
 using TimeNs = std::int64_t;
 
+/// Nanoseconds in a second.
 inline constexpr TimeNs ns_per_s = 1'000'000'000;
+/// Nanoseconds in a millisecond.
 inline constexpr TimeNs ns_per_ms = 1'000'000;
 
+/// A duration in s.
 constexpr double seconds(TimeNs t_ns) {
     return static_cast<double>(t_ns) * 1e-9;
 }
 
+/// A duration in us.
 constexpr double microseconds(TimeNs t_ns) {
     return 1e-3 * static_cast<double>(t_ns);
 }

@@ -12,20 +12,29 @@
 namespace fidservo::gap {
 
 /// How a diagnosis came to its end.
-enum class Ended { finished, budget, interrupted };
+enum class Ended {
+    finished,     ///< all was done
+    budget,       ///< the time was over
+    interrupted,  ///< by the user
+};
+/// As the report has it.
 std::string_view name_of(Ended ended);
 
 /// Thrown where the budget is asked after its end.
 class BudgetEnded : public std::exception {
   public:
+    /// With what ended it.
     explicit BudgetEnded(Ended how) : how_(how) {}
+    /// For people.
     const char* what() const noexcept override { return "the time for the diagnosis is over"; }
+    /// What ended it.
     Ended how() const { return how_; }
 
   private:
     Ended how_;
 };
 
+/// How long a diagnosis may take, and who may end it.
 class Budget {
   public:
     /// No end.
@@ -43,6 +52,7 @@ class Budget {
     void prolong(double extra_s) const;
     /// What follows takes a known time, and is done whatever happens: writing a report.
     void end() const { part_.store(Part::over, std::memory_order_relaxed); }
+    /// Whether the user has ended it.
     bool is_interrupted() const { return interrupted_ && interrupted_(); }
 
   private:
@@ -51,7 +61,11 @@ class Budget {
     Clock::time_point search_end_ = Clock::time_point::max();
     mutable std::atomic<Clock::time_point> whole_end_ = Clock::time_point::max();
     std::function<bool()> interrupted_;
-    enum class Part { search, working_out, over };
+    enum class Part {
+        search,       ///< effects are looked for
+        working_out,  ///< what was found is worked out
+        over,         ///< nothing more may begin
+    };
     mutable std::atomic<Part> part_ = Part::search;
 };
 

@@ -8,6 +8,7 @@
 
 namespace fidservo::gap {
 
+/// What a diagnosis is asked to try.
 struct DiagnosisOptions {
     std::vector<std::string> only;     ///< effects to try; empty: all
     std::vector<std::string> without;  ///< effects to leave out, with all of their class
@@ -19,7 +20,7 @@ struct DiagnosisOptions {
     /// How long an equation may be looked for where something is left, s, beyond the evidence's budget; 0:
     /// not at all.
     double equation_s = 0.0;
-    SelectionOptions selection;
+    SelectionOptions selection;  ///< how the search goes; the defaults are those of the program
 };
 
 /// Where the evidence's budget ends before all is done, the best until then. Throws InputError where nothing

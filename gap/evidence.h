@@ -35,7 +35,16 @@ struct Rig;
 
 namespace fidservo::gap {
 
-enum class Signal : std::uint8_t { encoder, hall, tag, macro_command, micro_command, image };
+/// What is predicted and compared; the top of gap/evidence.h says from what.
+enum class Signal : std::uint8_t {
+    encoder,        ///< the carriage's reading
+    hall,           ///< the platform's reading
+    tag,            ///< the corners of a tag
+    macro_command,  ///< the macro controller's command
+    micro_command,  ///< the micro controller's command
+    image,          ///< blur, light and noise of tags
+};
+/// How many signals there are.
 inline constexpr std::size_t signal_count = 6;
 
 /// A signal's place in arrays of signal_count.
@@ -43,6 +52,7 @@ constexpr std::size_t index_of(Signal signal) {
     return static_cast<std::size_t>(signal);
 }
 
+/// As files have it.
 std::string_view name_of(Signal signal);
 std::string_view unit_of(Signal signal);  ///< count, adc, px, V, V, floor
 
@@ -57,9 +67,9 @@ inline constexpr std::size_t image_values = 10;
 
 /// A stretch of one recording over which one signal is predicted from the state at its start.
 struct Window {
-    std::size_t run = 0;  ///< which recording
-    Signal signal = Signal::encoder;
-    TimeNs start_ns = 0;
+    std::size_t run = 0;                  ///< which recording
+    Signal signal = Signal::encoder;      ///< which
+    TimeNs start_ns = 0;                  ///< its first tick
     std::size_t first_row = 0, rows = 0;  ///< of the recording
     std::size_t begin = 0, end = 0;  ///< its values in Errors: one a row; of tags, corner_values a detection;
                                      ///< of images, image_values an appearance
@@ -94,7 +104,8 @@ struct Course {
 
 /// A signal of a recording that was not judged, or a part of one, and why.
 struct Omission {
-    std::string recording;
+    std::string recording;  ///< which
+    /// What was not judged, and why.
     std::string signal, why;
     double left_out_s = 0.0, recorded_s = 0.0;  ///< 0 where it is not a matter of time
 };
@@ -104,6 +115,7 @@ using Wanted = std::vector<std::uint8_t>;
 
 struct TagSighting;
 
+/// Recordings of a rig, and what hypotheses predict of them.
 class Evidence {
   public:
     struct Parts;  ///< gap/evidence_parts.h
@@ -114,18 +126,24 @@ class Evidence {
     /// BudgetEnded.
     Evidence(const Rig& rig, std::vector<Recording> recordings, std::shared_ptr<const Budget> budget = {});
     ~Evidence();
+    /// Takes over all that the other has.
     Evidence(Evidence&&) noexcept;
 
+    /// As its file describes it.
     const Rig& rig() const;
+    /// Asked by all that takes long; may be empty.
     const std::shared_ptr<const Budget>& budget() const;
+    /// In the order in which they were given.
     const std::vector<Recording>& recordings() const;
     /// By run, then by signal, then by time.
     const std::vector<Window>& windows() const;
     /// In the signal's unit; 1 for images, whose errors have none. NaN for signals that no window has.
     double floor(Signal signal) const;
+    /// What is not judged, and why.
     const std::vector<Omission>& omissions() const;
     /// Whether it is known where on the rail the carriage is in a recording (gap/links/power_on.h).
     bool knows_places(std::size_t run) const;
+    /// What moved the rig in a recording.
     const Course& course(std::size_t run) const;
     /// One of a recording's detections, in the order of Window::first_detection (gap/links/tag_link.h).
     const TagSighting& sighting(std::size_t run, std::size_t detection) const;

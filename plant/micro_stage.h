@@ -45,35 +45,38 @@ struct HallDisturbance {
         return leak_lag_s == 0.0 ? 1.0 : -std::expm1(-time_s / leak_lag_s);
     }
 
+    /// Whether nothing comes to the voltage.
     bool is_none() const { return drift_V_per_s == 0.0 && leak_V_per_V == 0.0; }
 };
 
+/// All numbers of the micro stage, open to changes by effects.
 struct MicroStageParameters {
-    HeaterParameters heater;
-    SecondMass mass = {};
-    double heater_delay_s = 0.0;
-    std::shared_ptr<const FodTable> fod;
-    double table_shift_degC = 0.0;         ///< of the transformation temperatures against the table
-    double table_shift_degC_per_mm = 0.0;  ///< and by this much more with the wire's contraction
-    double stroke_factor = 1.0;            ///< contraction per contraction of the table
-    SwingParameters swing = {};
-    HallParameters hall;
-    HallDisturbance hall_disturbance = {};
-    Formulas formulas = {};  ///< at the ports of the micro stage
+    HeaterParameters heater;                ///< of the wire
+    SecondMass mass = {};                   ///< what the wire warms besides itself
+    double heater_delay_s = 0.0;            ///< from a command to its effect
+    std::shared_ptr<const FodTable> fod;    ///< the wire's hysteresis
+    double table_shift_degC = 0.0;          ///< of the transformation temperatures against the table
+    double table_shift_degC_per_mm = 0.0;   ///< and by this much more with the wire's contraction
+    double stroke_factor = 1.0;             ///< contraction per contraction of the table
+    SwingParameters swing = {};             ///< of the platform about the wire
+    HallParameters hall;                    ///< the platform's sensor
+    HallDisturbance hall_disturbance = {};  ///< what comes to its voltage
+    Formulas formulas = {};                 ///< at the ports of the micro stage
 };
 
 /// Immutable.
 struct MicroStage {
-    Heater heater;
-    std::shared_ptr<const FodTable> fod;
+    Heater heater;                        ///< ready to tick
+    std::shared_ptr<const FodTable> fod;  ///< the wire's hysteresis
+    /// As in the parameters.
     double table_shift_degC, table_shift_degC_per_mm;
-    double stroke_factor;
+    double stroke_factor;                ///< contraction per contraction of the table
     std::optional<PlatformSwing> swing;  ///< empty: none
-    HallSensor hall;
-    HallDisturbance hall_disturbance;
+    HallSensor hall;                     ///< ready to tick
+    HallDisturbance hall_disturbance;    ///< what comes to its voltage
     double leak_share;  ///< of the way to the drive's voltage that what leaks of it goes in a tick
-    TimeNs tick_ns;
-    Formulas formulas;
+    TimeNs tick_ns;     ///< time between ticks
+    Formulas formulas;  ///< at the ports of the micro stage
 
     /// Whether a tick depends on what the carriage does.
     bool feels_carriage() const {
@@ -85,7 +88,7 @@ struct MicroStage {
 
 /// What the carriage does to the platform on it during a tick.
 struct CarriageInfluence {
-    Shaking shaking = {};
+    Shaking shaking = {};                         ///< acceleration that makes the platform swing
     double drive_V = 0.0;                         ///< voltage of the macro drive
     double place_mm = 0.0, speed_mm_per_s = 0.0;  ///< of the carriage, at the tick's end
 };
@@ -97,23 +100,25 @@ struct MicroFormulaState {
     double contraction_mm_per_s = 0.0;  ///< its rate over the last tick
     double beside_mm = 0.0;             ///< what formulas add to the platform's place, contained in it
     CarriageInfluence carriage = {};    ///< of the last tick
-    FormulaMemory memory = {};
+    FormulaMemory memory = {};          ///< what formulas remember
 };
 
+/// All that a run changes.
 struct MicroStageState {
-    HeaterState heater;
-    PreisachMemory wire;
-    double position_mm;  ///< of the platform, 0 where the wire is fully extended
-    NoiseStream hall_noise;
-    SwingState swing = {};  ///< contained in position_mm
-    TimeNs time_ns = 0;
-    double drive_V = 0.0;  ///< the macro drive's voltage in the last tick, filtered as what leaks of it
-    MicroFormulaState formulas = {};
+    HeaterState heater;      ///< the wire's temperature
+    PreisachMemory wire;     ///< what the wire remembers
+    double position_mm;      ///< of the platform, 0 where the wire is fully extended
+    NoiseStream hall_noise;  ///< of the Hall sensor
+    SwingState swing = {};   ///< contained in position_mm
+    TimeNs time_ns = 0;      ///< since the start
+    double drive_V = 0.0;    ///< the macro drive's voltage in the last tick, filtered as what leaks of it
+    MicroFormulaState formulas = {};  ///< what formulas see and remember
 };
 
 /// The micro stage of a rig, without effects; empty if it has none.
 std::optional<MicroStageParameters> micro_stage_parameters(const Rig& rig);
 
+/// A stage ready to tick, and what follows from its numbers for one tick.
 MicroStage make_micro_stage(const MicroStageParameters& parameters, double tick_s);
 
 /// A wire that was not heated for long: at ambient temperature, or where formulas of its heat leave it then,

@@ -27,39 +27,41 @@ namespace fidservo::plant {
 
 /// All numbers of the physics, open to changes by effects. Parts that the rig does not have are empty.
 struct PlantParameters {
-    double tick_s = 0.0;
-    MacroAxisParameters axis;
-    Encoder encoder{};
-    std::optional<MicroStageParameters> micro;
-    std::optional<CameraDeviation> camera;
+    double tick_s = 0.0;                        ///< T
+    MacroAxisParameters axis;                   ///< the macro stage
+    Encoder encoder{};                          ///< of the carriage
+    std::optional<MicroStageParameters> micro;  ///< the platform, its wire and its sensor
+    std::optional<CameraDeviation> camera;      ///< how the camera differs from what the file says
 };
 
 /// The rig as its file describes it, ready to tick. Immutable.
 struct StagePlant {
-    double tick_s = 0.0;
-    MacroAxis axis;
-    Encoder encoder{};
-    std::optional<MicroStage> micro;
-    std::optional<CameraDeviation> camera;
+    double tick_s = 0.0;                    ///< T
+    MacroAxis axis;                         ///< the macro stage
+    Encoder encoder{};                      ///< of the carriage
+    std::optional<MicroStage> micro;        ///< the platform, its wire and its sensor
+    std::optional<CameraDeviation> camera;  ///< how the camera differs from what the file says
 };
 
 /// All that a run changes. A plain value: a copy is a snapshot.
 struct StageState {
-    MacroAxisState axis;
-    EncoderState encoder;
-    std::optional<MicroStageState> micro;
+    MacroAxisState axis;                   ///< of the carriage
+    EncoderState encoder;                  ///< what it has counted from
+    std::optional<MicroStageState> micro;  ///< of the platform and its wire
 };
 
 /// What the board samples at a tick. Without a micro stage hall_adc is 0.
 struct StageReading {
-    std::int64_t encoder_count = 0;
-    int hall_adc = 0;
+    std::int64_t encoder_count = 0;  ///< since power came on
+    int hall_adc = 0;                ///< of the platform's sensor, LSB
 };
 
 /// The parameters of a rig as its file describes it, with the effects that the file states.
 PlantParameters plant_parameters(const Rig& rig);
 
+/// A rig of these numbers, ready to tick.
 StagePlant make_stage_plant(const PlantParameters& parameters);
+/// The rig as its file describes it, ready to tick.
 StagePlant make_stage_plant(const Rig& rig);
 
 /// A rig at rest with a cold wire; the carriage stands at a position within the travel, in mm.

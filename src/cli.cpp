@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -89,21 +90,26 @@ void log_to_stderr() {
 
 }  // namespace
 
-int run_command_line(int argc, const char* const* argv) {
-    silence_libraries();
-    log_to_stderr();
-    CLI::App app{"Visual inspection on a macro-micro positioning stage, on the rig or on its simulation.",
-                 "fidservo"};
-    app.set_version_flag("--version", std::string("fidservo ") + program_version());
-    app.require_subcommand(1);
-    app.footer(
+std::unique_ptr<CLI::App> make_command_line(int& exit_code) {
+    auto app = std::make_unique<CLI::App>(
+        "Visual inspection on a macro-micro positioning stage, on the rig or on its simulation.", "fidservo");
+    app->set_version_flag("--version", std::string("fidservo ") + program_version());
+    app->require_subcommand(1);
+    app->footer(
         "Exit codes: 0 done; 1 done, but the answer is no (a failed inspection, a target not reached);\n"
         "2 wrong input; 3 a device or run fault.\n\n"
         "fidservo COMMAND --help shows a command's options, their units and an example.");
+    for (const auto& add_command : add_commands) add_command(*app, exit_code);
+    return app;
+}
+
+int run_command_line(int argc, const char* const* argv) {
+    silence_libraries();
+    log_to_stderr();
     int exit_code = exit_done;
-    for (const auto& add_command : add_commands) add_command(app, exit_code);
+    const std::unique_ptr<CLI::App> app = make_command_line(exit_code);
     try {
-        return parse_and_run(app, exit_code, argc, argv);
+        return parse_and_run(*app, exit_code, argc, argv);
     } catch (const InputError& error) {
         return complain(exit_wrong_input, error.what());
     } catch (const RunFault& fault) {

@@ -11,25 +11,27 @@
 
 namespace fidservo::vision {
 
+/// An image and when it was taken.
 struct Frame {
-    cv::Mat image;          ///< CV_8UC1
-    TimeNs time_ns = 0;     ///< middle of the exposure
-    TimeNs arrival_ns = 0;  ///< when the program could first have it
-    std::uint64_t sequence = 0;
-    std::string source;  ///< file name, of an image on disk
+    cv::Mat image;               ///< CV_8UC1
+    TimeNs time_ns = 0;          ///< middle of the exposure
+    TimeNs arrival_ns = 0;       ///< when the program could first have it
+    std::uint64_t sequence = 0;  ///< the camera's own number of it
+    std::string source;          ///< file name, of an image on disk
 };
 
 /// What became of the frames that a camera took.
 struct FrameCounts {
-    std::uint64_t handed_out = 0;
-    std::uint64_t skipped = 0;  ///< a newer one had come before anybody asked
-    std::uint64_t lost = 0;     ///< taken by the camera and never delivered: gaps in its numbers
-    std::uint64_t damaged = 0;  ///< delivered with an error, cut short, or not to be decoded
+    std::uint64_t handed_out = 0;  ///< to whoever asked
+    std::uint64_t skipped = 0;     ///< a newer one had come before anybody asked
+    std::uint64_t lost = 0;        ///< taken by the camera and never delivered: gaps in its numbers
+    std::uint64_t damaged = 0;     ///< delivered with an error, cut short, or not to be decoded
     std::uint64_t unstamped =
         0;  ///< without a usable time stamp: their time is the arrival's less the latency
     std::uint64_t reconnects = 0;  ///< the camera was lost and came back
 
     bool operator==(const FrameCounts&) const = default;
+    /// Adds another camera's, or another time's.
     FrameCounts& operator+=(const FrameCounts& more) {
         handed_out += more.handed_out;
         skipped += more.skipped;
@@ -41,6 +43,7 @@ struct FrameCounts {
     }
 };
 
+/// Something that takes images by itself and hands out the newest.
 class Camera {
   public:
     Camera() = default;

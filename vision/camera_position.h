@@ -16,13 +16,13 @@ namespace fidservo::vision {
 
 /// Camera position with all that the fit says.
 struct PositionFit {
-    CameraPosition position;
-    double y_std_mm;
+    CameraPosition position;  ///< by this tag
+    double y_std_mm;          ///< one standard deviation
     double
         rotation_rad;  ///< of the tag on the plate against its nominal angle, from x towards y: a diagnosis
-    double rotation_std_rad;
-    double residual_rms_px;  ///< of the eight corner coordinates against the tag so placed and turned
-    RefinedTag tag;          ///< what it was fitted to
+    double rotation_std_rad;  ///< one standard deviation
+    double residual_rms_px;   ///< of the eight corner coordinates against the tag so placed and turned
+    RefinedTag tag;           ///< what it was fitted to
 };
 
 /// Camera position s and offset y at which the image of the tag's centre c is the picture of its nominal
@@ -37,6 +37,7 @@ struct PositionFit {
 /// the position.
 PositionFit fit_position(const CameraGeometry& camera, const PlateTag& nominal, const RefinedTag& seen);
 
+/// What is known beforehand, and what counts as hidden.
 struct LocateOptions {
     /// Where the stage believes the camera is, to within a third of a tag's cell. Only used to tell why the
     /// expected tag is not found where no other tag tells where to look.

@@ -13,10 +13,10 @@ namespace fidservo::vision {
 /// Motion of a tag in the image: dx to the right, dy down. A camera that moves right (s grows) over a plate
 /// at rest sees its tags move left: dx = -(s - s_first).
 struct Displacement {
-    TimeNs time_ns;
-    int tag_id;
-    Eigen::Vector2d moved_um;
-    Eigen::Vector2d std_um;  ///< of the two centres and, far from the start, of the scale
+    TimeNs time_ns;            ///< middle of the frame's exposure
+    int tag_id;                ///< which tag
+    Eigen::Vector2d moved_um;  ///< from where it was first seen
+    Eigen::Vector2d std_um;    ///< of the two centres and, far from the start, of the scale
 };
 
 /// Turns detections, frame after frame, into displacements from the frame in which each tag was first seen.

@@ -12,7 +12,7 @@ namespace fidservo::vision {
 
 /// As which tags are looked for.
 struct TagReading {
-    TagPrint print;
+    TagPrint print;         ///< of the tags that are looked for
     bool mirrored = false;  ///< the picture is: seen through the glass, from behind, by way of a mirror
 
     bool operator==(const TagReading&) const = default;
@@ -32,8 +32,10 @@ std::shared_ptr<apriltag_family> shared_tag_book(const TagReading& reading, int 
 
 /// Ends a detector, not the books that it was given.
 struct EndLibraryDetector {
+    /// Gives the detector back to its library.
     void operator()(apriltag_detector* ended) const;
 };
+/// The library's detector, owned.
 using LibraryDetector = std::unique_ptr<apriltag_detector, EndLibraryDetector>;
 
 /// A detector of the library that runs in the caller's thread, on the image as it is. The books must outlive

@@ -38,9 +38,12 @@ bool by_id_from_left(const TagDetection& a, const TagDetection& b);
 /// Finds tags. Holds working memory: use one detector a thread; different detectors are independent.
 class TagDetector {
   public:
+    /// A detector that looks as the options say.
     explicit TagDetector(const TagDetectorOptions& options = machine_camera_options());
     ~TagDetector();
+    /// Takes over all that the other has.
     TagDetector(TagDetector&&) noexcept;
+    /// Takes over all that the other has.
     TagDetector& operator=(TagDetector&&) noexcept;
 
     /// Every tag in the image whose pattern explains enough of it (least_explained()), by_id_from_left. The

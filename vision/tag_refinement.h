@@ -13,6 +13,7 @@
 
 namespace fidservo::vision {
 
+/// Of the eight coordinates of a tag's corners, px^2.
 using CornerCovariance = Eigen::Matrix<double, 8, 8>;
 
 /// RefinedTag::explained below which a tag that could be refined is yet not measured by.
@@ -23,8 +24,8 @@ struct RefinedTag {
     TagDetection detection;  ///< with the refined corners
     CornerCovariance
         covariance_px2;  ///< of (u0, v0, u1, v1, ...): corners share edges, so it is not diagonal
-    Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< image of the tag's centre
-    Eigen::Matrix2d centre_covariance_px2 = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();              ///< image of the tag's centre
+    Eigen::Matrix2d centre_covariance_px2 = Eigen::Matrix2d::Zero();  ///< of the centre
     double explained = 1.0;  ///< share of the edges' length that looks like this tag; the rest was left out
     double blur_px = 0.0;    ///< standard deviation of the edges' profiles, optics and pixel together
     double ink_spread_px = 0.0;  ///< by which every black edge reaches farther out than the code says
@@ -42,7 +43,7 @@ struct RefinementOptions {
     /// perspective is fitted too, which costs precision (1.4 times the standard deviation); so it is where a
     /// tag fits a free perspective but not the camera's.
     std::optional<CameraGeometry> camera;
-    GreyNoise noise{white_grey / 10000.0, 0.1, 0.0};
+    GreyNoise noise{white_grey / 10000.0, 0.1, 0.0};  ///< of the camera
     /// Of the picture during the exposure. Zero: unknown; the edges' unequal blurs tell it.
     Eigen::Vector2d motion_px = Eigen::Vector2d::Zero();
     /// Standard deviation of the edges' profiles to begin with: a good guess saves a step or two.

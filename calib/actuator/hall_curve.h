@@ -17,25 +17,27 @@
 
 namespace fidservo::calib {
 
+/// One reading beside a reference.
 struct HallSample {
-    double reference_mm;
-    double adc;
+    double reference_mm;  ///< displacement by the reference
+    double adc;           ///< the sensor's reading, LSB
 };
 
+/// A fitted curve, with standard errors.
 struct HallCurve {
-    HallParameters hall;
-    double mid_std_V, span_std_V;
+    HallParameters hall;           ///< the curve
+    double mid_std_V, span_std_V;  ///< standard errors of the voltages, V
     /// Standard errors of what only data over the whole S determine. Without them centre and cubic are those
     /// of the nominal curve, and `refused` says why.
     double centre_std_mm, cubic_std;
-    std::optional<Failure> refused;
-    double residual_lsb;       ///< r.m.s. of reading minus curve
-    double low_mm, high_mm;    ///< of the references
-    double mean_um_per_bit;    ///< over the travel
-    double finest_um_per_bit;  ///< where the curve is steepest
-    double coarsest_um_per_bit;
-    std::size_t samples;
-    std::size_t saturated;  ///< readings at an end of the converter's range, left out
+    std::optional<Failure> refused;  ///< empty if the data determine all
+    double residual_lsb;             ///< r.m.s. of reading minus curve
+    double low_mm, high_mm;          ///< of the references
+    double mean_um_per_bit;          ///< over the travel
+    double finest_um_per_bit;        ///< where the curve is steepest
+    double coarsest_um_per_bit;      ///< where it is flattest
+    std::size_t samples;             ///< pairs that it was fitted to
+    std::size_t saturated;           ///< readings at an end of the converter's range, left out
 };
 
 /// Least squares over the readings; standard errors count correlated residuals once.

@@ -17,29 +17,42 @@
 namespace fidservo::calib {
 
 /// The numbers fitted, in this order.
-enum class HeaterNumber { onset, gain, heating_tau, cooling_tau, ambient };
+enum class HeaterNumber {
+    onset,        ///< onset_V
+    gain,         ///< gain_degC_per_V
+    heating_tau,  ///< heating_tau_s
+    cooling_tau,  ///< cooling_tau_s
+    ambient,      ///< ambient_degC
+};
+/// How many numbers a heater has.
 inline constexpr std::size_t heater_numbers = 5;
+/// As rig files name it.
 std::string_view name_of(HeaterNumber number);
 
+/// A number that the runs do not determine, and why.
 struct HeaterRefusal {
-    HeaterNumber number;
-    std::string reason;
+    HeaterNumber number;  ///< which
+    std::string reason;   ///< in words
 };
 
 /// Two runs that, each by itself, say different things of a number.
 struct HeaterContradiction {
-    HeaterNumber number;
+    HeaterNumber number;    ///< which number the runs contradict each other about
     double apart;           ///< in standard errors of the difference
     std::size_t low, high;  ///< of the runs
+    /// The two runs' values, with standard errors.
     double low_value, low_std, high_value, high_std;
 };
 
 /// What is determined of numbers that are not, each by itself.
 struct HeaterCombination {
-    std::string name, unit;  ///< per V, or per unit of the drive
+    /// Of the combination, for people; its unit has per V, or per unit of the drive.
+    std::string name, unit;
+    /// Its value and standard error.
     double value, std;
 };
 
+/// A heater as runs tell it.
 struct HeaterFit {
     /// Numbers that the data do not determine are those of the model given.
     HeaterParameters heater;
@@ -47,13 +60,13 @@ struct HeaterFit {
     /// errors correlated over time (calib/batch_variance.h) and runs that differ (calib/heterogeneity.h).
     std::array<double, heater_numbers> std;
     std::array<double, heater_numbers> freedom;  ///< of Student's law for intervals
-    std::vector<HeaterRefusal> refused;
-    double residual_rms;  ///< of the readings that have weight, in their unit
+    std::vector<HeaterRefusal> refused;          ///< what they do not determine
+    double residual_rms;                         ///< of the readings that have weight, in their unit
     /// R.m.s. of the residual over that of the readings about their mean, both weighted.
     double missed_share;
-    std::vector<HeaterContradiction> contradictions;
-    std::vector<HeaterCombination> combinations;
-    std::size_t samples;
+    std::vector<HeaterContradiction> contradictions;  ///< where runs contradict each other
+    std::vector<HeaterCombination> combinations;      ///< what they determine only together
+    std::size_t samples;                              ///< that it was fitted to
 };
 
 /// What the Hall sensor shows. The start of the iteration is the heater fitted to the temperature that the
@@ -72,6 +85,7 @@ Result<HeaterFit> fit_heater_to_temperature(const std::vector<HeaterRun>& runs);
 /// What the sensor would read under a run's commands.
 std::vector<double> predict_hall(const MicroModel& model, const HeaterParameters& heater,
                                  const HeaterRun& run);
+/// The temperatures that a run's commands give by the model, degC, sample by sample.
 std::vector<double> predict_temperature(const HeaterParameters& heater, const HeaterRun& run);
 
 }  // namespace fidservo::calib

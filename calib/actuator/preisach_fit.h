@@ -19,6 +19,7 @@
 
 namespace fidservo::calib {
 
+/// What the data are, where they do not say so themselves.
 struct PreisachFitOptions {
     /// Of the grid, 3..80.
     std::size_t nodes = 25;
@@ -32,18 +33,19 @@ struct PreisachFitOptions {
     std::size_t first = 0, last = SIZE_MAX;
 };
 
+/// A wire's table, fitted to temperatures and contractions.
 struct PreisachFit {
-    FodTable table;  ///< f >= 0, f(low, low) = 0
-    double offset;
+    FodTable table;                ///< f >= 0, f(low, low) = 0
+    double offset;                 ///< of the output where the table is zero, in its unit
     double direction;              ///< +1 if the output rises with the input, -1 if it falls
     std::vector<double> node_std;  ///< standard error of each node of the table's lower triangle, row by row
     std::vector<bool> determined;  ///< likewise, see determined_nodes
     double penalty;                ///< relative to the mean information of a cell
-    double residual_rms;
-    double held_out_rms;         ///< in the cross-validation, at this penalty
-    double correlation_samples;  ///< over which residuals are correlated; in the standard errors
-    std::size_t samples;         ///< that entered the fit
-    double least_reversal;
+    double residual_rms;           ///< root mean square of what the model leaves, in the output's unit
+    double held_out_rms;           ///< in the cross-validation, at this penalty
+    double correlation_samples;    ///< over which residuals are correlated; in the standard errors
+    std::size_t samples;           ///< that entered the fit
+    double least_reversal;         ///< the smallest turn of the input in the data, in its unit
 };
 
 /// Fails with Reason::not_identifiable on data that are too short, not finite, do not move, or never reach an

@@ -28,8 +28,9 @@ struct MacroBuild {
 /// above the threshold.
 MacroBuild macro_build(const MacroParameters& macro);
 
+/// A number with its standard error.
 struct MacroEstimate {
-    double value;
+    double value;                                              ///< in the unit of its name
     double std;                                                ///< one standard error
     double freedom = std::numeric_limits<double>::infinity();  ///< of Student's law for intervals
 
@@ -46,45 +47,47 @@ struct MacroEstimate {
 struct MacroContradiction {
     std::string figure;  ///< "gain", "time constant", ...
     double apart;        ///< in standard errors of the difference
+    /// The recordings that have the lowest and the highest value.
     std::string low_recording, high_recording;
+    /// What these recordings say.
     MacroEstimate low, high;
 };
 
 /// A force that the recordings show and the model does not have.
 struct MacroMissing {
-    std::string depends_on;
-    double share;  ///< of the residual's squares
+    std::string depends_on;  ///< what the force depends on: position, speed, ...
+    double share;            ///< of the residual's squares
 };
 
 /// Each of these is determined or refused by itself (Reason::not_identifiable).
 struct MacroIdentification {
     Result<MacroEstimate> gain_mm_per_s_per_V;  ///< K: speed per effective volt, 1 V at unit_V
     Result<MacroEstimate> time_constant_s;      ///< tau
-    Result<MacroEstimate> threshold_V;
-    Result<MacroEstimate> zone_offset_V;  ///< a0: effective voltage at the threshold, eq. (7)
-    Result<MacroEstimate> zone_slope;     ///< delta, eq. (7)
-    Result<MacroEstimate> friction_V;     ///< Coulomb friction in effective volts
-    Result<MacroEstimate> drive_offset_V;
-    bool threshold_assumed = false;  ///< a0 is for the rig file's threshold
-    bool friction_at_bound = false;  ///< friction came out at 0, below which it cannot be
+    Result<MacroEstimate> threshold_V;          ///< the smallest command that moves the carriage
+    Result<MacroEstimate> zone_offset_V;        ///< a0: effective voltage at the threshold, eq. (7)
+    Result<MacroEstimate> zone_slope;           ///< delta, eq. (7)
+    Result<MacroEstimate> friction_V;           ///< Coulomb friction in effective volts
+    Result<MacroEstimate> drive_offset_V;       ///< a command that stands for a force on the carriage
+    bool threshold_assumed = false;             ///< a0 is for the rig file's threshold
+    bool friction_at_bound = false;             ///< friction came out at 0, below which it cannot be
 
     /// Where gain and time constant cannot be told apart: their ratio, the acceleration that a volt gives.
     std::optional<MacroEstimate> acceleration_mm_per_s2_per_V;
-    std::vector<MacroContradiction> contradictions;
-    std::vector<MacroMissing> missing;  ///< the largest share first
+    std::vector<MacroContradiction> contradictions;  ///< where recordings contradict each other
+    std::vector<MacroMissing> missing;               ///< the largest share first
     /// Of the force, integrated over windows: see missed_share() in macro_recordings.h.
     std::optional<double> missed_share;
     double white_noise_mm;            ///< of the readings, as residuals show it from tick to tick
     std::vector<MacroMotion> rivals;  ///< other minima that the data do not exclude
-    int reversals = 0;
-    double coasted_s = 0.0;
+    int reversals = 0;                ///< turns of direction that it was told by
+    double coasted_s = 0.0;           ///< time without drive that it was told by
 
     MacroMotion motion;     ///< the fitted model
     double residual_count;  ///< r.m.s. of prediction minus reading over the windows
-    double window_s;
-    int windows;
-    double used_s;      ///< recorded time that entered the fit
-    double left_out_s;  ///< at an end stop, or in pieces too short
+    double window_s;        ///< length of the windows that were predicted
+    int windows;            ///< how many they are
+    double used_s;          ///< recorded time that entered the fit
+    double left_out_s;      ///< at an end stop, or in pieces too short
 };
 
 /// Fits the model of macro_motion.h to all recordings together, closed or open loop.

@@ -15,15 +15,17 @@
 
 namespace fidservo::calib {
 
+/// Which numbers of a lens are meant, in the order of LensParameter.
 using LensMask = std::array<bool, lens_parameters>;
 
 /// Focal length, principal point and k1.
 LensMask usual_lens();
 
+/// What is fitted, and what is believed beforehand.
 struct CameraCalibrationOptions {
-    int width_px = 0;
-    int height_px = 0;
-    LensModel model = LensModel::plumb_bob;
+    int width_px = 0;                        ///< of the images
+    int height_px = 0;                       ///< of the images
+    LensModel model = LensModel::plumb_bob;  ///< the lens's
     /// Which of the lens's parameters are fitted; the others keep the values of a lens without distortion.
     /// Empty: the usual ones, and the model's other coefficients as far as they improve the fit at 1 %.
     std::optional<LensMask> fitted;
@@ -37,26 +39,28 @@ struct CameraCalibrationOptions {
 
 /// A tag's corners as seen minus as the calibrated camera shows them.
 struct SightResidual {
-    int tag_id;
-    std::array<Eigen::Vector2d, 4> seen_px;
-    std::array<Eigen::Vector2d, 4> error_px;
-    bool used;  ///< false: it fits so badly that it was left out
+    int tag_id;                               ///< which tag
+    std::array<Eigen::Vector2d, 4> seen_px;   ///< its corners as they were measured
+    std::array<Eigen::Vector2d, 4> error_px;  ///< seen less shown
+    bool used;                                ///< false: it fits so badly that it was left out
 };
 
+/// A view's pose and what it leaves.
 struct ViewFit {
-    std::string name;
-    PlanePose pose;
+    std::string name;                        ///< of the image
+    PlanePose pose;                          ///< of the target before the camera
     Eigen::Matrix<double, 6, 6> covariance;  ///< of (rotation vector of R, t)
-    double rms_px;  ///< r.m.s. distance of the used corners from where they should be
-    std::vector<SightResidual> tags;
+    double rms_px;                    ///< r.m.s. distance of the used corners from where they should be
+    std::vector<SightResidual> tags;  ///< tag by tag
 };
 
+/// A camera as views of a target tell it.
 struct CameraCalibration {
-    CameraGeometry camera;  ///< the lens; rotation, tilt and distance are those of the first view
-    LensMask fitted;
+    CameraGeometry camera;   ///< the lens; rotation, tilt and distance are those of the first view
+    LensMask fitted;         ///< which numbers of the lens were fitted
     double tag_scale = 1.0;  ///< of the tags' sides to those said, where that was fitted
     Eigen::Matrix<double, lens_parameters, lens_parameters> covariance;  ///< zero where not fitted
-    std::vector<ViewFit> views;
+    std::vector<ViewFit> views;                                          ///< each one's pose and residuals
     double rms_px;       ///< r.m.s. distance of the used corners, as OpenCV counts the reprojection error
     double chi2;         ///< sum of squares of the residuals of the used tags in their own variances
     int freedom;         ///< what was measured less what was fitted
@@ -65,6 +69,7 @@ struct CameraCalibration {
     /// The views in the order of `views`, as they are without knowledge of the lens.
     std::vector<TargetView> seen;
 
+    /// Standard error, in the parameter's own unit.
     double std_of(LensParameter parameter) const;
 };
 

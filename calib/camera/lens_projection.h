@@ -14,18 +14,18 @@ namespace fidservo::calib {
 /// size of the target's tags about their middles, as a share of what is said of them, by which a target's
 /// description is checked.
 enum LensParameter {
-    focal,
-    focal_ratio,
-    centre_u,
-    centre_v,
-    k1,
-    k2,
-    p1,
-    p2,
-    k3,
-    k4,
-    tag_scale,
-    lens_parameters
+    focal,           ///< f, px
+    focal_ratio,     ///< q
+    centre_u,        ///< u0, px
+    centre_v,        ///< v0, px
+    k1,              ///< radial
+    k2,              ///< radial
+    p1,              ///< tangential, of plumb_bob
+    p2,              ///< tangential, of plumb_bob
+    k3,              ///< radial
+    k4,              ///< of equidistant
+    tag_scale,       ///< of the target, not of the lens
+    lens_parameters  ///< how many they are
 };
 
 /// As rig files' provenance and reports name it.
@@ -52,8 +52,10 @@ inline bool belongs_to(LensModel model, LensParameter parameter) {
     return parameter != k4 || is_equidistant;
 }
 
+/// A lens as a solver sees it: its numbers, in the order of LensParameter.
 using Lens = std::array<double, lens_parameters>;
 
+/// The numbers of a camera's lens.
 inline Lens lens_of(const CameraGeometry& camera) {
     const LensDistortion& d = camera.distortion;
     return {camera.focal_px,

@@ -11,19 +11,20 @@ namespace fidservo::calib {
 
 /// One grey level of the photon-transfer line.
 struct TransferPoint {
-    double mean_grey;
+    double mean_grey;     ///< of a set of pixels, grey levels
     double variance;      ///< of one pixel from frame to frame, grey levels squared, rounding included
     double variance_std;  ///< standard error
 };
 
+/// A camera's noise, with standard errors.
 struct PhotonTransfer {
-    double full_well_e;  ///< electrons at the grey level 255
-    double full_well_std_e;
-    double read_noise_e;  ///< 0 if the line's floor is not above rounding
-    double read_noise_std_e;
-    double gain_spread;  ///< standard deviation of the pixels' gains; 0 if it is not seen
-    double gain_spread_std;
-    std::vector<TransferPoint> points;
+    double full_well_e;                 ///< electrons at the grey level 255
+    double full_well_std_e;             ///< its standard error
+    double read_noise_e;                ///< 0 if the line's floor is not above rounding
+    double read_noise_std_e;            ///< its standard error
+    double gain_spread;                 ///< standard deviation of the pixels' gains; 0 if it is not seen
+    double gain_spread_std;             ///< its standard error
+    std::vector<TransferPoint> points;  ///< what it was fitted to
     double misfit;  ///< mean square of the points about the line in their variances, a degree of freedom
 };
 

@@ -11,8 +11,8 @@ namespace fidservo::calib {
 
 /// Q = R P + t: from the target's frame (z = 0 on the target, away from the camera) to the camera's, mm.
 struct PlanePose {
-    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d shift_mm = Eigen::Vector3d::UnitZ();
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();   ///< R: from the target's frame to the camera's
+    Eigen::Vector3d shift_mm = Eigen::Vector3d::UnitZ();  ///< t: the target's origin in the camera's frame
 
     /// The camera's centre in the target's frame, mm: (s, y, -Z).
     Eigen::Vector3d centre_mm() const { return -turn.transpose() * shift_mm; }

@@ -16,9 +16,9 @@ namespace fidservo::calib {
 
 /// An image with what the detector found in it.
 struct TargetImage {
-    std::string name;
-    cv::Mat grey;  ///< CV_8UC1
-    std::vector<TagDetection> found;
+    std::string name;                 ///< for people: the image's file
+    cv::Mat grey;                     ///< CV_8UC1
+    std::vector<TagDetection> found;  ///< by the detector
 };
 
 /// The target's tags in an image, refined; those that cannot be refined, that the target does not have and
@@ -26,9 +26,11 @@ struct TargetImage {
 TargetView view_of(const TargetImage& image, const std::vector<PlateTag>& target,
                    const vision::RefinementOptions& options);
 
+/// How images are measured and the lens is fitted.
 struct ImageCalibrationOptions {
-    CameraCalibrationOptions lens;
-    vision::GreyNoise noise = vision::RefinementOptions{}.noise;
+    CameraCalibrationOptions lens;  ///< of the fit
+    vision::GreyNoise noise =
+        vision::RefinementOptions{}.noise;  ///< of the camera, for the weights of pixels
 };
 
 /// Refinement and calibration in turn: first every tag with a perspective of its own; then, with each view's

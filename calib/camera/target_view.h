@@ -13,14 +13,14 @@ namespace fidservo::calib {
 
 /// A tag in a view. Lengths may be in any unit; that of `printed` is the unit of all results.
 struct TagSight {
-    PlateTag printed;
-    vision::RefinedTag seen;
+    PlateTag printed;         ///< as the target has it
+    vision::RefinedTag seen;  ///< as the image shows it
 };
 
 /// What one image shows of the target.
 struct TargetView {
-    std::string name;  ///< for people: the image's file
-    std::vector<TagSight> tags;
+    std::string name;            ///< for people: the image's file
+    std::vector<TagSight> tags;  ///< those that were measured
 };
 
 /// Weights of a tag's corners by what was measured of them: W with W C W^T = I on the directions that C
@@ -28,7 +28,7 @@ struct TargetView {
 /// directions nothing was measured, and W is zero there.
 struct CornerWeights {
     Eigen::Matrix<double, 8, 8> whiten;  ///< rows beyond the rank are zero
-    int rank;
+    int rank;                            ///< how many rows count
 };
 
 /// @param extra_std_px  added in squares to every measured direction

@@ -35,25 +35,30 @@ enum class Role {
     phase,     ///< of that wave at the left end of the rail
 };
 
+/// A number of an effect.
 struct EffectParameter {
-    std::string_view name;  ///< with its unit, e.g. "shift_degC"
-    std::string_view unit;  ///< empty for a pure number
-    double low;             ///< physical bounds, both included
-    double high;
-    double vanishing;  ///< without effect, exactly; of what only shapes the effect, the typical value
-    double typical;    ///< where none is given
-    std::string_view meaning;
-    Role role = Role::size;
+    std::string_view name;     ///< with its unit, e.g. "shift_degC"
+    std::string_view unit;     ///< empty for a pure number
+    double low;                ///< physical bounds, both included
+    double high;               ///< the largest value that is tried
+    double vanishing;          ///< without effect, exactly; of what only shapes the effect, the typical value
+    double typical;            ///< where none is given
+    std::string_view meaning;  ///< in words
+    Role role = Role::size;    ///< what it is to a search
     /// From which a search may begin; empty: from the typical value, or anywhere on the rail.
     std::span<const double> starts = {};
     /// Of an optional one: values this near to the vanishing one count as that.
     double negligible = 0.0;
 
+    /// Whether it is a size.
     bool is_size() const { return role == Role::size; }
+    /// Whether it is one of a few choices.
     bool is_choice() const { return role == Role::choice; }
+    /// Whether a value is nearer to the upper bound.
     bool is_high(double value) const { return value - low > high - value; }
     /// Whether it is a choice of what is not the vanishing value.
     bool is_unusual(double value) const { return is_choice() && is_high(value) != is_high(vanishing); }
+    /// Whether a value is as good as the one without effect.
     bool is_negligible(double value) const { return std::abs(value - vanishing) < negligible; }
     /// The value that acts.
     double acting(double value) const { return is_negligible(value) ? vanishing : value; }
@@ -69,9 +74,11 @@ constexpr EffectParameter with_role(EffectParameter of, Role role, std::span<con
     of.starts = starts;
     return of;
 }
+/// A parameter as a size, with values from which a search may begin.
 constexpr EffectParameter size(EffectParameter of, std::span<const double> starts) {
     return with_role(of, Role::size, starts);
 }
+/// A parameter as a shape, with values from which a search may begin.
 constexpr EffectParameter shape(EffectParameter of, std::span<const double> starts = {}) {
     return with_role(of, Role::shape, starts);
 }
@@ -100,19 +107,20 @@ struct PlainerForm {
     double (*size)(std::span<const double> richer, double middle_mm) = nullptr;
 };
 
+/// An effect of the catalogue: all that there is to know of it.
 struct Effect {
-    std::string_view name;
-    std::string_view block;  ///< e.g. "macro.drive"
-    Part part;
-    std::string_view text;  ///< what it is, for people, with its equation
-    std::string_view source;
-    std::span<const EffectParameter> parameters;
+    std::string_view name;                        ///< by which files and options call it
+    std::string_view block;                       ///< e.g. "macro.drive"
+    Part part;                                    ///< which part of the rig it changes
+    std::string_view text;                        ///< what it is, for people, with its equation
+    std::string_view source;                      ///< where its equation is from
+    std::span<const EffectParameter> parameters;  ///< its numbers, in the order of values
     /// One value per parameter, within bounds; the part exists. Of a formula: nullptr.
     void (*apply)(PlantParameters& plant, std::span<const double> values) = nullptr;
     /// Whether it acts at a place on the rail that its parameters state, so that only who knows where the
     /// carriage is can find it. What repeats along the rail does not: its phase counts from anywhere.
     bool needs_place = false;
-    PlainerForm plainer = {};
+    PlainerForm plainer = {};  ///< the plainer effect that it contains
     /// Another effect that no recording can tell it from.
     const Effect* same_as = nullptr;
     /// What acts in place of apply (plant/formulas/formula_effect.h); nullptr of listed ones.
@@ -131,8 +139,8 @@ void put(const Effect& effect, PlantParameters& plant, std::span<const double> v
 
 /// An effect with the values of its parameters, in its order.
 struct EffectSetting {
-    const Effect* effect;
-    std::vector<double> values;
+    const Effect* effect;        ///< which
+    std::vector<double> values;  ///< of its parameters, in their order
 
     bool operator==(const EffectSetting&) const = default;
 };

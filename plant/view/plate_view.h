@@ -33,7 +33,9 @@ class PlateView {
     PlateView(const CameraParameters& camera, const Plate& plate, const ViewOptions& options,
               const CameraDeviation& deviation = {});
     ~PlateView();
+    /// Takes over all that the other has.
     PlateView(PlateView&&) noexcept;
+    /// Takes over all that the other has.
     PlateView& operator=(PlateView&&) noexcept;
 
     /// The frame number `frame`, CV_8UC1, pixel centres at integer coordinates.

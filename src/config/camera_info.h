@@ -11,12 +11,12 @@ namespace fidservo {
 
 /// What such a file says of the image as the camera gives it.
 struct CameraInfo {
-    std::string camera_name;
-    int width_px;
-    int height_px;
-    Eigen::Vector2d focal_px;  ///< f_x, f_y
-    Eigen::Vector2d principal_point_px;
-    LensDistortion distortion;  ///< plumb_bob
+    std::string camera_name;             ///< as the file has it; may be empty
+    int width_px;                        ///< of the image
+    int height_px;                       ///< of the image
+    Eigen::Vector2d focal_px;            ///< f_x, f_y
+    Eigen::Vector2d principal_point_px;  ///< (u0, v0)
+    LensDistortion distortion;           ///< plumb_bob
 };
 
 /// The camera's intrinsics without its place.

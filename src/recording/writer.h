@@ -25,27 +25,29 @@ enum class WhenFull {
     wait,  ///< until there is room; in simulation, which can be faster than any disk
 };
 
+/// What a recording says of itself.
 struct RecordingOptions {
-    std::string name;
-    std::string rig;
-    std::string experiment;
-    double tick_s = 0.001;
+    std::string name;                                 ///< of the recording
+    std::string rig;                                  ///< by the rig file's name
+    std::string experiment;                           ///< what is done, in words
+    double tick_s = 0.001;                            ///< from row to row
     std::optional<EncoderZero> encoder_zero = {};     ///< as far as it is known at the start
     std::optional<ControllerNames> controllers = {};  ///< empty: not stated
-    RecordingOrigin origin = {};
-    std::vector<PlateTag> plate = {};        ///< gives plate.yaml; empty: the rig file's
-    StageColumns columns;                    ///< to be written
-    std::optional<CameraParameters> camera;  ///< gives cam0/sensor.yaml and detections.csv
-    bool detections = false;                 ///< to be added although no camera is given
-    CornerColumns corners = CornerColumns::places;
-    bool frames = false;   ///< to be kept as images
-    double ring_s = 12.0;  ///< how long the disk may stall
-    WhenFull when_full = WhenFull::fail;
+    RecordingOrigin origin = {};                      ///< by which stage, camera and program it is made
+    std::vector<PlateTag> plate = {};                 ///< gives plate.yaml; empty: the rig file's
+    StageColumns columns;                             ///< to be written
+    std::optional<CameraParameters> camera;           ///< gives cam0/sensor.yaml and detections.csv
+    bool detections = false;                          ///< to be added although no camera is given
+    CornerColumns corners = CornerColumns::places;    ///< what is written of a detection's corners
+    bool frames = false;                              ///< to be kept as images
+    double ring_s = 12.0;                             ///< how long the disk may stall
+    WhenFull when_full = WhenFull::fail;              ///< what to do when the ring is full
 };
 
 /// The columns that a rig's recordings have.
 StageColumns columns_of(const Rig& rig);
 
+/// A recording folder in the making.
 class RecordingWriter {
   public:
     /// Makes the folder, which must not exist, and starts the writing thread. Throws InputError.
@@ -57,13 +59,17 @@ class RecordingWriter {
 
     // One thread at a time may call these. They neither allocate nor wait (WhenFull::fail). They fail with
     // Reason::device once the disk has failed or the ring is full: nothing was lost up to then.
+    /// A tick, after those before it.
     Status add(const StageRow& row);
+    /// A tag, after those before it.
     Status add(const TagDetection& detection);
     /// Keeps a frame as cam0/data/TIME.png. The image is shared, not copied: do not write to it afterwards.
     Status add_frame(TimeNs time_ns, const cv::Mat& image);
 
     // What recording.yaml states besides; written at the end. These may allocate.
+    /// Something that happened.
     void add(RecordingEvent event);
+    /// As it is known by then.
     void set_encoder_zero(const EncoderZero& zero);
 
     /// Writes all that was handed over, waits until the disk has it, and states that the recording is

@@ -8,12 +8,13 @@ namespace fidservo {
 
 struct Rig;
 
+/// Stage and camera of a session, and what watches over them.
 struct RigDevices {
-    std::shared_ptr<SimulatedRig> simulated;  ///< where stage and camera are both simulated
-    std::shared_ptr<control::Guardian> guardian;
-    std::shared_ptr<control::Stage> stage;
-    std::shared_ptr<control::StageLoop> loop;  ///< where stage or camera are real: ticks in real time
-    std::shared_ptr<vision::Camera> camera;
+    std::shared_ptr<SimulatedRig> simulated;      ///< where stage and camera are both simulated
+    std::shared_ptr<control::Guardian> guardian;  ///< owns the outputs
+    std::shared_ptr<control::Stage> stage;        ///< ticked by the session, or by `loop` where there is one
+    std::shared_ptr<control::StageLoop> loop;     ///< where stage or camera are real: ticks in real time
+    std::shared_ptr<vision::Camera> camera;       ///< what looks at the plate
 };
 
 /// Stage and camera as the options name them. What is simulated is the rig as its file (options.sim_rig_file,

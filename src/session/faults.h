@@ -8,6 +8,7 @@
 
 namespace fidservo {
 
+/// What fails.
 enum class FaultKind {
     frames_dropped,     ///< two frames of three are lost
     frames_late,        ///< every frame arrives 100 ms later than it should
@@ -26,10 +27,11 @@ enum class FaultKind {
 
 /// A fault and when it is there, in session time.
 struct Fault {
-    FaultKind kind;
-    double from_s = 0.0;
-    double for_s = 1e9;
+    FaultKind kind;       ///< what fails
+    double from_s = 0.0;  ///< from when on
+    double for_s = 1e9;   ///< how long; without end by default
 
+    /// Whether it is in force at a time.
     bool is_on(TimeNs now_ns) const {
         return now_ns >= nanoseconds(from_s) && now_ns < nanoseconds(from_s + for_s);
     }

@@ -24,20 +24,20 @@ class Pilot;
 
 /// What a motion to a fiducial-relative target reached, as the camera measured it at rest.
 struct Arrival {
-    int tag_id = -1;            ///< the fiducial that was measured
-    double target_dx_um = 0.0;  ///< of the camera's axis from that fiducial's centre
-    double reached_dx_um = 0.0;
-    double reached_std_um = 0.0;
-    double reached_dy_um = 0.0;
-    double macro_time_s = 0.0;  ///< from the command to the settled macro stage
-    double micro_time_s = 0.0;  ///< from the first micro setpoint to the confirmed arrival
-    int micro_moves = 0;        ///< the approach and its corrections
-    bool within_tolerance = false;
+    int tag_id = -1;                ///< the fiducial that was measured
+    double target_dx_um = 0.0;      ///< of the camera's axis from that fiducial's centre
+    double reached_dx_um = 0.0;     ///< of the camera's axis from that fiducial's centre
+    double reached_std_um = 0.0;    ///< one standard deviation of that
+    double reached_dy_um = 0.0;     ///< across the stage's axis
+    double macro_time_s = 0.0;      ///< from the command to the settled macro stage
+    double micro_time_s = 0.0;      ///< from the first micro setpoint to the confirmed arrival
+    int micro_moves = 0;            ///< the approach and its corrections
+    bool within_tolerance = false;  ///< whether it is as near as the session was told
 };
 
 /// What the session was told.
 struct SessionOptions {
-    std::filesystem::path rig_file;
+    std::filesystem::path rig_file;  ///< of the rig that is driven
     /// The rig that is simulated, where it differs from what rig_file says; the program never sees it. Empty:
     /// rig_file.
     std::filesystem::path sim_rig_file;
@@ -53,7 +53,10 @@ struct SessionOptions {
 };
 
 /// Does a recording keep the images too, or only what was found in them?
-enum class KeepFrames { no, yes };
+enum class KeepFrames {
+    no,   ///< what was found in them
+    yes,  ///< the images too
+};
 
 /// Puts a machine together, homes it, moves it and takes pictures at rest. Ends with both stage commands
 /// zero, whatever happens.

@@ -16,6 +16,7 @@
 
 namespace fidservo {
 
+/// One truth in virtual time, for a stage and a camera.
 class SimulatedRig {
   public:
     /// @param physics  the rig as it is, which may differ from its file
@@ -23,18 +24,23 @@ class SimulatedRig {
     SimulatedRig(const plant::PlantParameters& physics, const CameraParameters& camera, const Plate& printed,
                  std::uint64_t seed);
 
+    /// Samples the sensors.
     control::StageSample read();
+    /// Applies a command for a tick, which passes.
     void write(const control::StageCommand& command);
     /// The newest frame that has arrived and was not handed out.
     std::optional<vision::Frame> poll();
 
+    /// Since the start.
     TimeNs now_ns() const { return tick_ * tick_ns_; }
     /// The truth: for tests and for drawing, never for what runs on the rig.
     const plant::StageState& truth() const { return state_; }
+    /// The rig as it is, which may differ from its file.
     const plant::StagePlant& physics() const { return plant_; }
 
     /// The whole physical state as JSON text, exact.
     std::string snapshot() const;
+    /// Goes on from a snapshot. Throws InputError where the text is none.
     void restore(const std::string& snapshot);
 
   private:
@@ -53,6 +59,7 @@ class SimulatedRig {
 /// The rig's stage side. Every command also goes to the guardian's board, where there is a guardian.
 class SimulatedStage final : public control::Stage {
   public:
+    /// Without a guardian commands go to the rig alone.
     SimulatedStage(std::shared_ptr<SimulatedRig> rig, std::shared_ptr<control::Guardian> guardian)
         : rig_(std::move(rig)), guardian_(std::move(guardian)) {}
     Result<control::StageSample> read() override;
@@ -63,8 +70,10 @@ class SimulatedStage final : public control::Stage {
     std::shared_ptr<control::Guardian> guardian_;
 };
 
+/// The rig's camera side.
 class SimulatedCamera final : public vision::Camera {
   public:
+    /// Sees the rig as it is when it is asked.
     explicit SimulatedCamera(std::shared_ptr<SimulatedRig> rig) : rig_(std::move(rig)) {}
     Result<std::optional<vision::Frame>> poll(TimeNs now_ns) override;
 

@@ -21,17 +21,22 @@ inline double value_at(const Course& course, double t_s) {
 }
 
 /// What follows a macro setpoint.
-enum class MacroLoop { nonlinear_pd, benchmark_pid };
+enum class MacroLoop {
+    nonlinear_pd,   ///< the published controller: MacroParameters::pd
+    benchmark_pid,  ///< the one that it is compared with: MacroParameters::pid
+};
 
 /// What one recording commands. A stage follows its setpoint with its controller wherever one is in force,
 /// otherwise its voltage; where there is neither, the command is zero. A controller starts anew each time a
 /// setpoint comes into force.
 struct Experiment {
-    std::string kind;
-    double duration_s = 0.0;
+    std::string kind;          ///< one of experiment_kinds(), or of one's own
+    double duration_s = 0.0;   ///< how long it takes
     double carriage_mm = 0.0;  ///< at the start, at rest, homed before; the wire is cold
+    /// Of the carriage: where it should be, or the motor's voltage.
     Course macro_setpoint_mm = {}, macro_V = {};
-    MacroLoop macro_loop = MacroLoop::nonlinear_pd;
+    MacroLoop macro_loop = MacroLoop::nonlinear_pd;  ///< what follows the setpoint
+    /// Of the platform: where it should be, or the heater's voltage.
     Course micro_setpoint_mm = {}, micro_V = {};
 };
 
@@ -52,8 +57,8 @@ std::string missing_for(std::string_view kind, const Rig& rig);
 
 /// A recording of a campaign. Its name says which experiment it is and no more.
 struct CampaignRun {
-    std::string kind;
-    std::string name;
+    std::string kind;  ///< one of experiment_kinds()
+    std::string name;  ///< of the recording
 };
 
 /// Two of each experiment that the rig can do.

@@ -2,6 +2,9 @@
 #include "tests/house/house_rules.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -110,6 +113,17 @@ TEST(House, ADiagnosis_AsksForNoEffectByItsNameBlockOrUnit) {
     EXPECT_THAT(effects_asked_for({"gap/a.cpp", "if (parameter.unit == \"mm\")"}, one), SizeIs(1));
     EXPECT_THAT(effects_asked_for({"src/a.cpp", "if (effect.name == \"hall_gain\")"}, one), IsEmpty());
     EXPECT_THAT(in_the_house([](const auto& file) { return effects_asked_for(file, house()); }), IsEmpty());
+}
+
+TEST(House, Examples_AreShorterThan60Lines) {
+    std::size_t examples = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(FIDSERVO_SOURCE_DIR "/examples")) {
+        if (entry.path().extension() != ".cpp") continue;
+        std::ifstream file(entry.path());
+        EXPECT_LT(std::count(std::istreambuf_iterator<char>(file), {}, '\n'), 60) << entry.path();
+        ++examples;
+    }
+    EXPECT_EQ(examples, 8);
 }
 
 TEST(House, Files_HoldNoNotesToSelf) {

@@ -20,6 +20,7 @@ namespace fidservo::vision {
 /// library takes sides below 2^15 px. A header that claims more is refused before memory is taken; so is one
 /// whose pixels cannot come out of so small a file by its compression (1032 : 1 at most for PNG).
 inline constexpr std::uint64_t most_side_px = (1U << 14) - 1;
+/// Pixels of the largest image that is read.
 inline constexpr std::uint64_t most_pixels = most_side_px * most_side_px;
 
 /// Fails with Reason::device if a side is longer than most_side_px.
@@ -81,6 +82,7 @@ struct PageOfFile {
 /// image has one page as well, which read_stored() refuses. Where a TIFF's list of pages is broken off, the
 /// last page is one with a damage. Fails with Reason::device: more than most_pages.
 Result<std::vector<PageOfFile>> list_pages(const std::filesystem::path& file);
+/// Pages of the longest file that is read.
 inline constexpr std::size_t most_pages = 65535;
 
 /// Do the first bytes of the file make it an image of a format that is read?

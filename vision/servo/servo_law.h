@@ -12,8 +12,8 @@ namespace fidservo::vision {
 
 /// How the camera sees and sits on the platform, and how hard the law pulls.
 struct ServoParameters {
-    CameraGeometry camera;
-    double gain = 1.0;  ///< lambda; 1 makes the whole way in one step
+    CameraGeometry camera;  ///< that looks at the plate
+    double gain = 1.0;      ///< lambda; 1 makes the whole way in one step
 };
 
 /// What the camera sees of one tag, and where that tag is.

@@ -9,13 +9,15 @@
 
 namespace fidservo::vision::v4l2 {
 
+/// A camera of this machine.
 struct ListedCamera {
     std::filesystem::path node;  ///< /dev/video0
     std::filesystem::path
         by_id;  ///< a path that stays the same across restarts; empty if the system gives none
+    /// As the driver names itself, its device, and where that is plugged in.
     std::string driver, card, bus;
-    std::vector<OfferedFormat> formats;
-    std::vector<Control> controls;
+    std::vector<OfferedFormat> formats;  ///< what it can send
+    std::vector<Control> controls;       ///< what can be set
     std::string trouble;  ///< why it could not be asked; then all of the above but the paths is empty
 };
 

@@ -12,11 +12,12 @@ enum class Memory {
     user,    ///< the program; the driver fills it
 };
 
+/// How a camera is to be set.
 struct CaptureSettings {
-    int width_px = 0;
-    int height_px = 0;
-    double frame_rate_hz = 0.0;
-    double exposure_s = 0.0;
+    int width_px = 0;                   ///< of the image
+    int height_px = 0;                  ///< of the image
+    double frame_rate_hz = 0.0;         ///< frames a second
+    double exposure_s = 0.0;            ///< time that a pixel gathers light
     double latency_s = 0.0;             ///< FrameDelays: for frames without a time stamp
     std::optional<PixelFormat> pixels;  ///< empty: the first of the preferred ones that the camera offers
     std::optional<int> gain;            ///< in the driver's units; empty: stays as it is, not automatic

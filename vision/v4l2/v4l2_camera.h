@@ -20,6 +20,7 @@
 
 namespace fidservo::vision::v4l2 {
 
+/// A camera that Linux drives.
 class V4l2Camera final : public Camera {
   public:
     /// Opens the camera, fixes its settings and starts it. Throws InputError for settings that it cannot

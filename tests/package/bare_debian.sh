@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# bare_debian.sh PACKAGES FOLDER: installs the packages in a bare Debian 12, made in FOLDER, as a user would who has nothing
+# else: the program, with which the demo is inspected, then the libraries, against which the examples are built and run.
+# As root. Nothing outside FOLDER changes; what is mounted is gone when it ends.
+set -euo pipefail
+(($# == 2)) || { echo "usage: bare_debian.sh PACKAGES FOLDER" >&2 && exit 2; }
+packages=$(realpath "$1")
+mkdir -p "$2"
+folder=$(realpath "$2")
+if [[ ${in_namespace:-} != yes ]]; then
+    in_namespace=yes exec unshare --mount --propagation private "${BASH_SOURCE[0]}" "$packages" "$folder"
+fi
+
+say() { printf '\n== %s\n' "$*"; }
+
+inside() {
+    chroot "$folder/debian" env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root \
+        LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive bash -euo pipefail -c "$1"
+}
+
+say "a bare Debian in $folder/debian"
+rm -rf "$folder/debian"
+debootstrap --variant=minbase bookworm "$folder/debian" >"$folder/debootstrap.log"
+mount -t proc proc "$folder/debian/proc"
+cp "$packages"/*.deb "$folder/debian/root/"
+
+say "the program"
+begin=$SECONDS
+inside 'apt-get update -qq && apt-get install -qq -y --no-install-recommends /root/fidservo_*.deb' >"$folder/install-program.log" 2>&1
+printf 'installed in %d s\n' $((SECONDS - begin))
+inside 'cd /root && fidservo inspect /usr/share/fidservo/demo/recipe.yaml --out demo || (($? == 1)); test -s demo/report.html' |
+    tail -2
+printf 'the first report after %d s\n' $((SECONDS - begin))
+inside 'test -e /usr/share/man/man1/fidservo-calibrate-camera.1.gz
+    source /usr/share/bash-completion/completions/fidservo
+    COMP_WORDS=(fidservo goto --t) COMP_CWORD=2
+    _fidservo
+    [[ ${COMPREPLY[*]} == --tag ]]'
+
+say "the libraries"
+begin=$SECONDS
+inside 'apt-get install -qq -y --no-install-recommends make /root/libfidservo-dev_*.deb' >"$folder/install-development.log" 2>&1
+printf 'installed in %d s\n' $((SECONDS - begin))
+inside 'cp -r /usr/share/doc/fidservo/examples /root/ && cd /root/examples
+    cmake -B build >/dev/null && cmake --build build -j "$(nproc)"
+    ctest --test-dir build --output-on-failure'
