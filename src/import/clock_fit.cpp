@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
+#include <optional>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -99,20 +99,24 @@ LagScan scan_lags(const std::vector<double>& y, const std::vector<double>& x) {
     return scan;
 }
 
-/// The largest |r|, and the largest one outside of the hill that the first stands on.
-std::pair<std::size_t, double> best_and_second(const std::vector<double>& correlation) {
-    const auto size_at = [&](std::size_t k) { return std::abs(correlation[k]); };
+/// Where |r| is largest, and where it is largest outside of the hill that the first stands on.
+struct Peaks {
     std::size_t best = 0;
+    std::optional<std::size_t> second;
+};
+
+Peaks peaks_of(const std::vector<double>& correlation) {
+    const auto size_at = [&](std::size_t k) { return std::abs(correlation[k]); };
+    Peaks peaks;
     for (std::size_t k = 1; k < correlation.size(); ++k)
-        if (size_at(k) > size_at(best)) best = k;
-    const double foot = 0.5 * size_at(best);
-    std::size_t low = best, high = best;
+        if (size_at(k) > size_at(peaks.best)) peaks.best = k;
+    const double foot = 0.5 * size_at(peaks.best);
+    std::size_t low = peaks.best, high = peaks.best;
     while (low > 0 && size_at(low - 1) > foot) --low;
     while (high + 1 < correlation.size() && size_at(high + 1) > foot) ++high;
-    double second = 0.0;
     for (std::size_t k = 0; k < correlation.size(); ++k)
-        if (k < low || k > high) second = std::max(second, size_at(k));
-    return {best, second};
+        if ((k < low || k > high) && (!peaks.second || size_at(k) > size_at(*peaks.second))) peaks.second = k;
+    return peaks;
 }
 
 /// The fit's unknowns: shift in the middle of the track, rate, scale and offset of the values.
@@ -192,19 +196,24 @@ Alignment align(const MotionTrack& track, const MotionTrack& reference, double s
     return now;
 }
 
-std::string why_no_common_motion(const Alignment& alignment, double second, std::size_t lags) {
-    const double r2 = alignment.correlation * alignment.correlation;
+/// The share of the reference's energy that a fit leaves; never less than what lines between samples do.
+double left_by(const Alignment& alignment) {
+    constexpr double of_lines = 1e-6;
+    return std::max(of_lines, 1.0 - alignment.correlation * alignment.correlation);
+}
+
+std::string why_no_common_motion(const Alignment& alignment, const std::optional<Alignment>& other,
+                                 std::size_t lags) {
     const double n = std::max(4.0, alignment.independent);
     // Fisher's z of one look, at the level of all looks together: exp(-z^2 / 2) < level / lags.
-    const double z = std::atanh(std::min(std::abs(alignment.correlation), 1.0 - 1e-12)) * std::sqrt(n - 3.0);
+    const double z = std::atanh(std::sqrt(1.0 - left_by(alignment))) * std::sqrt(n - 3.0);
     if (0.5 * z * z < std::log(static_cast<double>(lags) / chance_of_error))
         return fmt::format("the two see no common motion: their largest correlation is {:.2f}",
                            alignment.correlation);
-    const double odds = 0.5 * n * std::log((1.0 - second * second) / std::max(1e-12, 1.0 - r2));
-    if (odds < std::log(1.0 / chance_of_error))
+    if (other && 0.5 * n * std::log(left_by(*other) / left_by(alignment)) < std::log(1.0 / chance_of_error))
         return fmt::format(
             "the motion repeats: correlation {:.4f}, and {:.4f} with another offset; give offset_s",
-            std::abs(alignment.correlation), second);
+            std::abs(alignment.correlation), std::abs(other->correlation));
     return {};
 }
 
@@ -228,13 +237,15 @@ tl::expected<ClockFit, std::string> fit_clock(const MotionTrack& track, const Mo
     if (y.size() < fewest_samples || x.size() < fewest_samples)
         return tl::make_unexpected(std::string("one of the two is too short"));
     const LagScan scan = scan_lags(y, x);
-    const auto [best, second] = best_and_second(scan.correlation);
-    const double lag_s = static_cast<double>(scan.first + static_cast<std::ptrdiff_t>(best)) * step_s;
-    const double shift_s = reference.time_s.front() + lag_s - track.time_s.front();
-    const Alignment alignment =
-        align(track, reference, shift_s, std::max(median_step(track.time_s), median_step(reference.time_s)));
-    if (const std::string why = why_no_common_motion(alignment, second, scan.correlation.size());
-        !why.empty())
+    const Peaks peaks = peaks_of(scan.correlation);
+    const double slope_step_s = std::max(median_step(track.time_s), median_step(reference.time_s));
+    const auto align_at = [&](std::size_t peak) {
+        const double lag_s = static_cast<double>(scan.first + static_cast<std::ptrdiff_t>(peak)) * step_s;
+        return align(track, reference, reference.time_s.front() + lag_s - track.time_s.front(), slope_step_s);
+    };
+    const Alignment alignment = align_at(peaks.best);
+    const auto other = peaks.second ? std::optional(align_at(*peaks.second)) : std::nullopt;
+    if (const std::string why = why_no_common_motion(alignment, other, scan.correlation.size()); !why.empty())
         return tl::make_unexpected(why);
     const double back_s = track.time_s.front() - alignment.middle_s;
     const Eigen::Matrix4d& covariance = alignment.covariance;

@@ -21,8 +21,8 @@ struct ReadColumn {
     std::size_t index = 0;
     FieldKind kind = FieldKind::number;
     LoggedSignal signal{};
-    bool is_whole = true;         ///< all of its fields are integers without a point
-    std::optional<int> decimals{};///< of its fields so far
+    bool is_whole = true;           ///< all of its fields are integers without a point
+    std::optional<int> decimals{};  ///< of its fields so far
     bool decimals_differ = false;
     std::optional<ClockTime> first{};  ///< of times of day
 };

@@ -18,8 +18,8 @@ struct Close {
 using OwnedVariable = std::unique_ptr<matvar_t, Close>;
 
 /// libmatio copies what it is given, and says so nowhere in its types.
-OwnedVariable variable_of(const char* name, matio_classes of, matio_types type, std::array<std::size_t, 2> size,
-                          const void* data) {
+OwnedVariable variable_of(const char* name, matio_classes of, matio_types type,
+                          std::array<std::size_t, 2> size, const void* data) {
     return OwnedVariable(Mat_VarCreate(name, of, type, 2, size.data(), const_cast<void*>(data), 0));
 }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <map>
@@ -56,6 +58,25 @@ class Bag {
     }
     std::unique_ptr<sqlite3, SqliteClose> database_;
 };
+
+/// A database of SQLite states its pages, where its header's two counters of changes agree (SQLite's file
+/// format, 1.3.7).
+void demand_all_pages(const char* file) {
+    std::array<unsigned char, 100> header{};
+    std::ifstream stream(file, std::ios::binary | std::ios::ate);
+    const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(0, stream.tellg()));
+    stream.seekg(0);
+    stream.read(reinterpret_cast<char*>(header.data()), header.size());
+    const auto number_at = [&](std::size_t at, std::size_t bytes) {
+        std::uint64_t number = 0;
+        for (std::size_t k = 0; k < bytes; ++k) number = number * 256 + header[at + k];
+        return number;
+    };
+    const std::uint64_t page_bytes = number_at(16, 2) == 1 ? 65536 : number_at(16, 2);
+    if (number_at(24, 4) == number_at(92, 4) && page_bytes * number_at(28, 4) > size)
+        throw BagError(
+            fmt::format("breaks off: it states {} bytes and has {}", page_bytes * number_at(28, 4), size));
+}
 
 std::string_view blob_of(sqlite3_stmt* row, int column) {
     const void* bytes = sqlite3_column_blob(row, column);
@@ -237,6 +258,7 @@ void read_topic(const std::shared_ptr<const Bag>& bag, const Topic& topic, Log& 
 
 LogOrFault read_rosbag2_file(const char* file) {
     try {
+        demand_all_pages(file);
         const auto bag = std::make_shared<const Bag>(file);
         std::vector<Topic> topics;
         bag->each("SELECT id, name, type, serialization_format FROM topics ORDER BY name", 0,
