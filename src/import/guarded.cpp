@@ -34,11 +34,11 @@ constexpr bool has_address_sanitizer() {
 #endif
 }
 
-void bound_this_process() {
+void bound_this_process(const ReadingLimits& limits) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const rlimit memory{most_reading_bytes, most_reading_bytes}, none{0, 0};
-    const rlimit time{most_reading_s, most_reading_s + 1};
+    const rlimit memory{limits.bytes, limits.bytes}, none{0, 0};
+    const rlimit time{limits.processor_s, limits.processor_s + 1};
     if (!has_address_sanitizer()) ::setrlimit(RLIMIT_AS, &memory);
     ::setrlimit(RLIMIT_CPU, &time);
     ::setrlimit(RLIMIT_CORE, &none);
@@ -53,8 +53,9 @@ bool write_all(int descriptor, std::string_view bytes) {
     return true;
 }
 
-[[noreturn]] void read_and_end(const std::filesystem::path& file, LogReader reader, int descriptor) {
-    bound_this_process();
+[[noreturn]] void read_and_end(const std::filesystem::path& file, LogReader reader, int descriptor,
+                               const ReadingLimits& limits) {
+    bound_this_process(limits);
     int code = out_of_memory;
     try {
         const LogOrFault answer = reader(file.c_str());
@@ -82,16 +83,15 @@ std::string all_bytes(int descriptor) {
     return bytes;
 }
 
-std::string how_it_ended(int status) {
+std::string how_it_ended(int status, const ReadingLimits& limits) {
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-        return fmt::format("reading it took more than {} s of the processor", most_reading_s);
+        return fmt::format("reading it took more than {} s of the processor", limits.processor_s);
     if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM))
         return "reading it was interrupted";
     if (WIFSIGNALED(status))
         return fmt::format("the format's library crashed on it ({})", ::strsignal(WTERMSIG(status)));
     if (WEXITSTATUS(status) == out_of_memory)
-        return fmt::format("reading it takes more memory than the {} GiB that it may",
-                           most_reading_bytes >> 30U);
+        return fmt::format("reading it takes more memory than the {} GiB that it may", limits.bytes >> 30U);
     return fmt::format("the format's library ended the reading process (exit code {})", WEXITSTATUS(status));
 }
 
@@ -111,10 +111,10 @@ class Descriptor {
 
 }  // namespace
 
-Log read_guarded(const std::filesystem::path& file, LogReader reader) {
+Log read_guarded(const std::filesystem::path& file, LogReader reader, const ReadingLimits& limits) {
     const Descriptor answer(::memfd_create("fidservo-import", MFD_CLOEXEC));
     const pid_t child = answer.number() < 0 ? -1 : ::fork();
-    if (child == 0) read_and_end(file, reader, answer.number());
+    if (child == 0) read_and_end(file, reader, answer.number(), limits);
     if (child < 0)
         throw RunFault(
             fmt::format("{}: no process can be made to read it: {}", file.string(), std::strerror(errno)));
@@ -123,7 +123,7 @@ Log read_guarded(const std::filesystem::path& file, LogReader reader) {
     const auto fail = [&](std::string_view why) {
         throw InputError(fmt::format("{}: {}", file.string(), why));
     };
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail(how_it_ended(status));
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail(how_it_ended(status, limits));
     const std::string bytes = all_bytes(answer.number());
     if (bytes.empty()) fail("the reading process gave no answer");
     if (bytes.front() == static_cast<char>(Ending::fault)) fail(bytes.substr(1));

@@ -10,11 +10,13 @@ namespace fidservo::imports {
 using LogReader = LogOrFault (*)(const char* file);
 
 /// What a reading process may take.
-inline constexpr std::uint64_t most_reading_bytes = std::uint64_t{8} << 30U;
-inline constexpr unsigned most_reading_s = 300;
+struct ReadingLimits {
+    std::uint64_t bytes = std::uint64_t{8} << 30U;
+    unsigned processor_s = 120;
+};
 
 /// What the reader makes of a file; cameras do not come through. Throws InputError "FILE: ...": its fault, or
 /// how its process ended. Ctrl-C ends the process.
-Log read_guarded(const std::filesystem::path& file, LogReader reader);
+Log read_guarded(const std::filesystem::path& file, LogReader reader, const ReadingLimits& limits = {});
 
 }  // namespace fidservo::imports

@@ -14,6 +14,7 @@
 #include "src/identify/text_table.h"
 #include "src/import/assemble.h"
 #include "src/import/draft_map.h"
+#include "src/import/guarded.h"
 #include "src/import/import_map.h"
 #include "src/import/import_module.h"
 #include "src/import/recording_folder.h"
@@ -185,14 +186,23 @@ void read_journal(std::string_view bytes) {
     answered([&] { (void)inspect::Journal::resume(file, inspect::RunIdentity{}); });
 }
 
+namespace {
+
+/// libhdf5 runs for ever on some damaged files, which its process is there for.
+constexpr imports::ReadingLimits short_reading{.processor_s = 2};
+
+}  // namespace
+
 void read_mat(std::string_view bytes) {
     const fs::path file = folder().write("log.mat", bytes);
-    (void)imports::import_module(file).read_mat(file.c_str());
+    answered(
+        [&] { (void)imports::read_guarded(file, imports::import_module(file).read_mat, short_reading); });
 }
 
 void read_hdf5(std::string_view bytes) {
     const fs::path file = folder().write("log.h5", bytes);
-    (void)imports::import_module(file).read_hdf5(file.c_str());
+    answered(
+        [&] { (void)imports::read_guarded(file, imports::import_module(file).read_hdf5, short_reading); });
 }
 
 void read_bag(std::string_view bytes) {

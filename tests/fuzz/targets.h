@@ -30,7 +30,7 @@ void read_table(std::string_view bytes);
 /// A list of images and times as another program writes it.
 void read_frame_index(std::string_view bytes);
 void read_journal(std::string_view bytes);
-/// Other programs' logs, by their libraries, in this process.
+/// Other programs' logs, by their libraries in a process of their own, as the program does.
 void read_mat(std::string_view bytes);
 void read_hdf5(std::string_view bytes);
 /// A bag of ROS 2 with its frames.

@@ -132,6 +132,10 @@ LogOrFault take_all_memory(const char*) {
         all.push_back(std::make_unique_for_overwrite<char[]>(gigabyte));
 }
 
+LogOrFault never_end(const char*) {
+    for (volatile int k = 0;; k = 1 - k) continue;
+}
+
 LogOrFault one_signal(const char* file) {
     Log log;
     log.signals.push_back({.name = file,
@@ -155,6 +159,8 @@ TEST(GuardedReading, WhatHappensInIt_IsOneLine) {
     EXPECT_EQ(log.texts.at("a"), "b");
     EXPECT_THAT(message_of([] { read_guarded("bad.mat", crash); }),
                 HasSubstr("bad.mat: the format's library"));
+    EXPECT_THAT(message_of([] { read_guarded("bad.h5", never_end, {.processor_s = 1}); }),
+                HasSubstr("bad.h5: reading it took more than 1 s of the processor"));
 #if !defined(__SANITIZE_ADDRESS__)
     EXPECT_THAT(message_of([] { read_guarded("bad.mat", take_all_memory); }),
                 HasSubstr("takes more memory than the 8 GiB"));

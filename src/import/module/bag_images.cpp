@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cctype>
-#include <ranges>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -55,8 +54,10 @@ LoggedFrame frame_of_image(std::string_view message) {
     const std::string_view data = cdr.octets();
     const auto encoding = std::ranges::find(encodings, name, &Encoding::name);
     if (encoding == encodings.end())
-        throw CdrError(fmt::format("encoding '{}': allowed: {}", name.substr(0, 40),
-                                   fmt::join(encodings | std::views::transform(&Encoding::name), ", ")));
+        throw CdrError(fmt::format(
+            "encoding '{}': allowed: mono8, mono16, 8UC1, 16UC1, rgb8, bgr8, rgba8, bgra8, bayer_ and rggb8, "
+            "bggr8, gbrg8 or grbg8",
+            name.substr(0, 40)));
     if (width == 0 || height == 0 || width > longest_side_px || height > longest_side_px)
         throw CdrError(
             fmt::format("{} x {} px: sides of 1 to {} px are read", width, height, longest_side_px));

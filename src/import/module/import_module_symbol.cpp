@@ -4,8 +4,12 @@
 #include "src/import/module/mat_log.h"
 #include "src/import/module/rosbag2_log.h"
 
-extern "C" const fidservo::imports::ImportModule fidservo_import_module;
+namespace fidservo::imports {
 
-const fidservo::imports::ImportModule fidservo_import_module{
-    fidservo::imports::read_mat_file, fidservo::imports::read_hdf5_file, fidservo::imports::read_rosbag2_file,
-    fidservo::imports::write_mat_file, fidservo::imports::write_hdf5_file};
+extern "C" {
+extern const ImportModule fidservo_import_module;
+const ImportModule fidservo_import_module{read_mat_file, read_hdf5_file, read_rosbag2_file, write_mat_file,
+                                          write_hdf5_file};
+}
+
+}  // namespace fidservo::imports
