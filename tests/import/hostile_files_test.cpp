@@ -8,6 +8,7 @@
 #include "tests/src/temporary_folder.h"
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <memory>
 #include <random>
@@ -133,7 +134,7 @@ LogOrFault take_all_memory(const char*) {
 }
 
 LogOrFault never_end(const char*) {
-    for (volatile int k = 0;; k = 1 - k) continue;
+    for (std::atomic<int> turns = 0;; ++turns) continue;
 }
 
 LogOrFault one_signal(const char* file) {
