@@ -125,6 +125,11 @@ struct Guess {
     std::vector<std::pair<const Hint*, const LoggedSignal*>> columns;
 };
 
+/// A recording has one of the columns that do.
+bool says_where(const Hint& hint) {
+    return hint.column == "encoder" || hint.column == "position";
+}
+
 Guess guess(const std::vector<Log>& logs) {
     Guess made;
     for (const Log& log : logs)
@@ -138,18 +143,10 @@ Guess guess(const std::vector<Log>& logs) {
                     return !word.empty() && words.contains(std::string(word));
                 });
                 const bool is_taken = std::ranges::any_of(made.columns, [&](const auto& pair) {
-                    return pair.first == &hint ||
-                           (pair.first->unit == hint.unit && hint.column == "position") ||
-                           (pair.first->column == "encoder" && hint.column == "position") ||
-                           (pair.first->column == "position" && hint.column == "encoder");
+                    return pair.first == &hint || (says_where(hint) && says_where(*pair.first));
                 });
                 if (!is_meant) continue;
-                if (!is_taken ||
-                    (hint.column == "position" &&
-                     made.columns.end() == std::ranges::find_if(made.columns, [](const auto& pair) {
-                         return pair.first->column == "position" || pair.first->column == "encoder";
-                     })))
-                    made.columns.emplace_back(&hint, &signal);
+                if (!is_taken) made.columns.emplace_back(&hint, &signal);
                 break;
             }
         }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -139,6 +140,8 @@ Log exported(const fs::path& folder, const Recording& recording, ExportFormat fo
 void demand_absent(const fs::path& file) {
     if (fs::exists(file))
         throw InputError(fmt::format("--out: {}: exists already; nothing is overwritten", file.string()));
+    if (const fs::path folder = fs::absolute(file).parent_path(); !fs::is_directory(folder))
+        throw InputError(fmt::format("--out: {}: there is no folder {}", file.string(), folder.string()));
 }
 
 fs::path beside(const fs::path& file, std::string_view ending) {
@@ -205,7 +208,11 @@ std::vector<std::string> export_recording(const fs::path& folder, ExportFormat f
         const ImportModule& module = import_module(file);
         const std::string fault =
             (format == ExportFormat::mat ? module.write_mat : module.write_hdf5)(file.c_str(), log);
-        if (!fault.empty()) throw RunFault(fmt::format("{}: {}", file.string(), fault));
+        if (!fault.empty()) {
+            std::error_code ignored;
+            fs::remove(file, ignored);
+            throw RunFault(fmt::format("{}: {}", file.string(), fault));
+        }
     }
     if (!recording.frames.empty())
         written.push_back(fmt::format("{} frames stay in {}: images are not exported",
