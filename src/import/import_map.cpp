@@ -109,6 +109,7 @@ std::map<std::string, SignalChoice> read_choices(const YamlValue& yaml,
 
 std::vector<std::string> stage_names() {
     std::vector<std::string> names;
+    names.reserve(stage_columns.size());
     for (const StageColumn& column : stage_columns) names.emplace_back(name_of_title(column.title));
     return names;
 }

@@ -65,7 +65,7 @@ std::string to_bytes(const Log& log) {
         bytes.list(signal.whole);
         bytes.text(signal.times);
         bytes.text(signal.fault);
-        bytes.number(static_cast<std::uint64_t>(signal.decimals + 1));
+        bytes.number(static_cast<std::uint64_t>(signal.decimals) + 1);
     }
     bytes.number(log.texts.size());
     for (const auto& [name, text] : log.texts) {

@@ -66,15 +66,16 @@ TEST(MatLog, ObjectsOfMatlab_AreRefusedByNameWithTheLineThatSavesThem) {
     EXPECT_THAT(message,
                 HasSubstr("tt.mat: TT: is an object of MATLAB's class timetable, which only MATLAB reads"));
     EXPECT_THAT(message, HasSubstr("timetable2table(TT)"));
-    for (const auto& [matlab_class, line] : {std::pair{"string", "char(v)"},
-                                             {"datetime", "posixtime(v)"},
-                                             {"timeseries", "v.Time"},
-                                             {"Simulink.SimulationData.Dataset", "v{1}.Values"},
-                                             {"MyClass", "struct(v)"}})
-        EXPECT_THAT(message_of([&] {
-                        read_log(folder.write("o.mat", testing::opaque_mat("v", matlab_class)), no_options);
-                    }),
-                    HasSubstr(line));
+    const std::vector<std::pair<std::string, std::string>> lines{
+        {"string", "char(v)"},
+        {"datetime", "posixtime(v)"},
+        {"timeseries", "v.Time"},
+        {"Simulink.SimulationData.Dataset", "v{1}.Values"},
+        {"MyClass", "struct(v)"}};
+    for (const auto& one : lines) {
+        const auto object = folder.write("o.mat", testing::opaque_mat("v", one.first));
+        EXPECT_THAT(message_of([&] { read_log(object, no_options); }), HasSubstr(one.second));
+    }
 }
 
 TEST(MatLog, ObjectBesideNumbers_IsListedAndTheNumbersAreRead) {

@@ -96,7 +96,7 @@ void read_compound(Reading& reading, hid_t dataset, hid_t type, const std::strin
         const Hdf5Handle as_double(only(H5T_NATIVE_DOUBLE), H5Tclose),
             as_whole(only(H5T_NATIVE_INT64), H5Tclose);
         read_numbers(reading, dataset, member.id(), as_double.id(), as_whole.id(),
-                     {.name = name + "." + plain, .unit = title_parts(plain).unit}, shape);
+                     {.name = fmt::format("{}.{}", name, plain), .unit = title_parts(plain).unit}, shape);
     }
 }
 

@@ -172,7 +172,7 @@ class MatReader {
                     signal = text.mapped();
             }
             if (values != nullptr && append_of(*values) != nullptr)
-                add_array(*values, name + "." + signal, times);
+                add_array(*values, fmt::format("{}.{}", name, signal), times);
         }
     }
 
@@ -185,11 +185,12 @@ class MatReader {
             return;
         }
         const unsigned number_of_fields = Mat_VarGetNumberOfFields(const_cast<matvar_t*>(&variable));
-        for (std::uint64_t k = 0; k < std::min<std::uint64_t>(count, most_columns); ++k)
+        for (std::uint64_t k = 0; k < std::min<std::uint64_t>(count, most_columns); ++k) {
+            const std::string element = count == 1 ? name : fmt::format("{}[{}]", name, k + 1);
             for (unsigned field = 0; field < number_of_fields; ++field)
                 add(Mat_VarGetStructFieldByIndex(const_cast<matvar_t*>(&variable), field, k),
-                    (count == 1 ? name : fmt::format("{}[{}]", name, k + 1)) + "." + fields[field], times,
-                    depth + 1);
+                    fmt::format("{}.{}", element, fields[field]), times, depth + 1);
+        }
     }
 
     void add_cells(const matvar_t& variable, const std::string& name, int depth) {

@@ -40,8 +40,10 @@ std::string write_mat_file(const char* file, const Log& log) {
     bool is_written = true;
     for (const auto& [group, signals] : groups) {
         std::vector<std::string> names;
+        names.reserve(signals.size());
         for (const LoggedSignal* signal : signals) names.push_back(signal->name.substr(group.size() + 1));
         std::vector<const char*> fields;
+        fields.reserve(names.size() + 1);
         for (const std::string& name : names) fields.push_back(name.c_str());
         fields.push_back(nullptr);
         const std::array<std::size_t, 2> one{1, 1};
