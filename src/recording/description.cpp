@@ -121,22 +121,26 @@ std::string description_yaml(const Recording& recording, const RecordingOrigin& 
     return std::string(yaml.c_str()) + '\n';
 }
 
+void read_statements(const YamlValue& map, Recording& recording) {
+    recording.name = map.at("name").text();
+    recording.rig = map.at("rig").text();
+    recording.experiment = map.at("experiment").text();
+    recording.is_seen = map.find("camera").has_value();
+    for (const char* for_people : {"stage", "camera", "program"})
+        if (const auto text = map.find(for_people)) (void)text->text();
+    if (const auto zero = map.find("encoder_zero")) recording.encoder_zero = encoder_zero_of(*zero);
+    if (const auto names = map.find("controllers")) recording.controllers = controllers_of(*names);
+    if (const auto events = map.find("events")) recording.events = events_of(*events);
+}
+
 void read_description(const std::filesystem::path& file, Recording& recording) {
     const YamlValue root = YamlValue::load(file);
     root.allow_only({"format", "name", "rig", "tick_s", "experiment", "stage", "camera", "program",
                      "encoder_zero", "controllers", "finished", "events"});
     root.at("format").one_of({recording_format});
-    recording.name = root.at("name").text();
-    recording.rig = root.at("rig").text();
+    read_statements(root, recording);
     recording.tick_s = root.at("tick_s").number({0.0, 1.0, true});
-    recording.experiment = root.at("experiment").text();
-    recording.is_seen = root.find("camera").has_value();
-    for (const char* for_people : {"stage", "camera", "program"})
-        if (const auto text = root.find(for_people)) (void)text->text();
-    if (const auto zero = root.find("encoder_zero")) recording.encoder_zero = encoder_zero_of(*zero);
-    if (const auto names = root.find("controllers")) recording.controllers = controllers_of(*names);
     if (const auto finished = root.find("finished")) recording.is_unfinished = !finished->boolean();
-    if (const auto events = root.find("events")) recording.events = events_of(*events);
 }
 
 }  // namespace fidservo

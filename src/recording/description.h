@@ -7,6 +7,8 @@
 
 namespace fidservo {
 
+class YamlValue;
+
 /// What a recording was made with, in words for people; empty: not stated. Nothing is concluded from it.
 struct RecordingOrigin {
     std::string stage;    ///< sim | comedi:/dev/comedi0
@@ -22,5 +24,9 @@ std::string description_yaml(const Recording& recording, const RecordingOrigin& 
 
 /// Reads recording.yaml into those fields of a recording that it states. Throws InputError.
 void read_description(const std::filesystem::path& file, Recording& recording);
+
+/// The part of it that a map of an import shares: all but format, tick_s and finished. Which keys are allowed
+/// is for the caller to say. Throws InputError.
+void read_statements(const YamlValue& map, Recording& recording);
 
 }  // namespace fidservo

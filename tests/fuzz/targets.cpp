@@ -12,6 +12,13 @@
 #include "src/config/rig_file.h"
 #include "src/config/yaml_reader.h"
 #include "src/identify/text_table.h"
+#include "src/import/assemble.h"
+#include "src/import/draft_map.h"
+#include "src/import/guarded.h"
+#include "src/import/import_map.h"
+#include "src/import/import_module.h"
+#include "src/import/recording_folder.h"
+#include "src/import/table_log.h"
 #include "src/inspect/journal.h"
 #include "src/inspect/recipe/recipe.h"
 #include "src/recording/frame_index.h"
@@ -177,6 +184,54 @@ void read_journal(std::string_view bytes) {
     const fs::path file = folder().write("journal.jsonl", bytes);
     answered([&] { (void)inspect::killed_before_it_began(file); });
     answered([&] { (void)inspect::Journal::resume(file, inspect::RunIdentity{}); });
+}
+
+namespace {
+
+/// libhdf5 runs for ever on some damaged files, which its process is there for.
+constexpr imports::ReadingLimits short_reading{.processor_s = 2};
+
+}  // namespace
+
+void read_mat(std::string_view bytes) {
+    const fs::path file = folder().write("log.mat", bytes);
+    answered(
+        [&] { (void)imports::read_guarded(file, imports::import_module(file).read_mat, short_reading); });
+}
+
+void read_hdf5(std::string_view bytes) {
+    const fs::path file = folder().write("log.h5", bytes);
+    answered(
+        [&] { (void)imports::read_guarded(file, imports::import_module(file).read_hdf5, short_reading); });
+}
+
+void read_bag(std::string_view bytes) {
+    const fs::path file = folder().write("bag.db3", bytes);
+    const imports::LogOrFault log = imports::import_module(file).read_rosbag2(file.c_str());
+    if (!log) return;
+    for (const imports::LoggedCamera& camera : log->cameras)
+        for (std::size_t k = 0; k < std::min<std::size_t>(3, camera.times_ns.size()); ++k)
+            (void)camera.frame(k);
+}
+
+void read_import_map(std::string_view bytes) {
+    imports::Log log{.file = "log.csv"};
+    for (const char* name : {"t", "x", "u", "id"}) log.signals.push_back({.name = name});
+    for (int k = 0; k < 40; ++k)
+        for (imports::LoggedSignal& signal : log.signals)
+            signal.values.push_back(signal.name == "t" ? 0.01 * k : k % 7);
+    log.signals[1].unit = "mm";
+    answered([&] {
+        const imports::Assembled made = imports::assemble(
+            {log}, imports::parse_import_map(std::string(bytes), folder().path() / "map.yaml"));
+        (void)imports::stage_text(made.recording, made.decimals);
+        (void)imports::detections_text(made.recording.detections);
+    });
+}
+
+void read_table_log(std::string_view bytes) {
+    const fs::path file = folder().write("log.csv", bytes);
+    answered([&] { (void)imports::draft_map({imports::read_table_log(file, {.are_offered = false})}); });
 }
 
 }  // namespace fidservo::fuzz

@@ -30,6 +30,15 @@ void read_table(std::string_view bytes);
 /// A list of images and times as another program writes it.
 void read_frame_index(std::string_view bytes);
 void read_journal(std::string_view bytes);
+/// Other programs' logs, by their libraries in a process of their own, as the program does.
+void read_mat(std::string_view bytes);
+void read_hdf5(std::string_view bytes);
+/// A bag of ROS 2 with its frames.
+void read_bag(std::string_view bytes);
+/// A map of an import, and what it makes of a small log.
+void read_import_map(std::string_view bytes);
+/// A text table as an import reads it, and the map that is drafted for it.
+void read_table_log(std::string_view bytes);
 
 struct NamedTarget {
     std::string_view name;  ///< of the fuzzer, and of its folder in corpus/
@@ -51,6 +60,11 @@ inline constexpr std::array targets{
     NamedTarget{"table", read_table},
     NamedTarget{"frame_index", read_frame_index},
     NamedTarget{"journal", read_journal},
+    NamedTarget{"mat", read_mat},
+    NamedTarget{"hdf5", read_hdf5},
+    NamedTarget{"bag", read_bag},
+    NamedTarget{"import_map", read_import_map},
+    NamedTarget{"table_log", read_table_log},
 };
 
 }  // namespace fidservo::fuzz

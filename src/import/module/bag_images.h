@@ -1,0 +1,21 @@
+#pragma once
+// Cameras' messages of ROS 2.
+#include "src/import/log.h"
+#include "src/import/module/cdr.h"
+
+#include <string>
+#include <string_view>
+
+namespace fidservo::imports {
+
+/// sensor_msgs/Image as grey: mono8, mono16, 8UC1, 16UC1, rgb8, bgr8, rgba8, bgra8 and bayer_*8; colour
+/// becomes luma. Throws CdrError.
+LoggedFrame frame_of_image(std::string_view message);
+
+/// sensor_msgs/CompressedImage: its PNG or JPEG as it is. Throws CdrError.
+LoggedFrame frame_of_compressed(std::string_view message);
+
+/// sensor_msgs/CameraInfo as YAML, as load_camera_info() reads it. Throws CdrError.
+std::string text_of_camera_info(std::string_view message);
+
+}  // namespace fidservo::imports

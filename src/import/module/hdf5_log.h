@@ -1,0 +1,16 @@
+#pragma once
+// HDF5 files by libhdf5.
+#include "src/import/log.h"
+
+#include <string>
+
+namespace fidservo::imports {
+
+/// Datasets of numbers by their paths, columns of two dimensions as PATH[k], members of compounds as
+/// PATH.MEMBER; units from the attribute `unit` or `units`; scalar strings as texts.
+LogOrFault read_hdf5_file(const char* file);
+
+/// A group for each signal's path, with the attribute `unit`. What went wrong, or nothing.
+std::string write_hdf5_file(const char* file, const Log& log);
+
+}  // namespace fidservo::imports

@@ -1,0 +1,22 @@
+#pragma once
+// MATLAB's own objects (timetables, strings, datetimes), which no other program can read, by name and class.
+#include <map>
+#include <string>
+
+namespace fidservo::imports {
+
+/// What the file's elements show without their data.
+struct MatContents {
+    std::map<std::string, std::string> objects{};  ///< class by variable
+    std::string damage{};                          ///< where the file breaks off; empty: it does not
+};
+
+/// Of a file of format 5.
+MatContents look_into_mat5(const char* file);
+/// Of a file of format 7.3, an HDF5 file.
+MatContents look_into_mat73(const char* file);
+
+/// One sentence: what the variable is, and the line of MATLAB that saves it as numbers.
+std::string advice_on_object(const std::string& variable, const std::string& matlab_class);
+
+}  // namespace fidservo::imports

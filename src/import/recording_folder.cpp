@@ -1,0 +1,90 @@
+#include "src/import/recording_folder.h"
+
+#include "core/input_error.h"
+#include "src/config/plate_file.h"
+#include "src/interrupt.h"
+#include "src/recording/durable_file.h"
+#include "src/recording/row_format.h"
+#include "vision/images/image_file.h"
+
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace fidservo::imports {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw InputError(fmt::format("--out: {}: cannot be made: {}", folder.string(), error.message()));
+}
+
+void write_frames(const fs::path& folder, const Assembled& made) {
+    constexpr int fast_compression = 1;
+    make_folder(folder / "data");
+    std::string index = frames_header();
+    for (std::size_t k = 0; k < made.frame_times_ns.size(); ++k) {
+        if (interrupt_requested())
+            throw InputError(fmt::format("interrupted ({}): nothing was written", interrupt_name()));
+        const auto frame = made.camera->frame(k);
+        if (!frame)
+            throw InputError(fmt::format("{}: frame {}: {}", made.camera->name, k + 1, frame.error()));
+        const std::string ending = frame->ending.empty() ? ".png" : frame->ending;
+        const FrameName name{made.frame_times_ns[k], fmt::format("{}{}", made.frame_times_ns[k], ending)};
+        if (frame->bytes.empty()) {
+            const std::vector<unsigned char> png = vision::encode_png(frame->grey, fast_compression);
+            write_or_throw(folder / "data" / name.filename,
+                           {reinterpret_cast<const char*>(png.data()), png.size()});
+        } else {
+            write_or_throw(folder / "data" / name.filename, frame->bytes);
+        }
+        append_frame(index, name);
+    }
+    write_or_throw(folder / "data.csv", index);
+}
+
+void write_files(const fs::path& folder, const Assembled& made) {
+    const Recording& recording = made.recording;
+    make_folder(folder);
+    write_or_throw(folder / "recording.yaml", description_yaml(recording, made.origin));
+    if (!recording.plate.empty()) write_or_throw(folder / "plate.yaml", plate_yaml(recording.plate));
+    if (!recording.rows.empty()) {
+        make_folder(folder / "stage0");
+        write_or_throw(folder / "stage0/data.csv", stage_text(recording, made.decimals));
+    }
+    if (!recording.detections.empty()) {
+        make_folder(folder / "cam0");
+        write_or_throw(folder / "cam0/detections.csv", detections_text(recording.detections));
+    }
+    if (made.camera != nullptr) write_frames(folder / "cam0", made);
+    if (!made.camera_info.empty()) write_or_throw(folder / "camera_info.yaml", made.camera_info);
+}
+
+}  // namespace
+
+void write_folder(const fs::path& folder, const Assembled& made) {
+    if (fs::exists(folder))
+        throw InputError(fmt::format("--out: {}: exists already; nothing is overwritten", folder.string()));
+    fs::path unfinished = folder.lexically_normal();
+    if (!unfinished.has_filename()) unfinished = unfinished.parent_path();
+    const fs::path finished = unfinished;
+    unfinished += ".unfinished";
+    if (fs::exists(unfinished))
+        throw InputError(
+            fmt::format("--out: {}: is left of an import that was killed; remove it", unfinished.string()));
+    try {
+        write_files(unfinished, made);
+        fs::rename(unfinished, finished);
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove_all(unfinished, ignored);
+        throw;
+    }
+}
+
+}  // namespace fidservo::imports

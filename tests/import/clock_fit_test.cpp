@@ -1,0 +1,102 @@
+#include "src/import/clock_fit.h"
+
+#include <cmath>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace fidservo::imports {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A motion that does not repeat: the sum of three sines without a common period, beneath a hill.
+double motion(double t_s) {
+    return 3.0 * std::sin(2.1 * t_s) + std::sin(5.3 * t_s + 1.0) + 2.0 * std::sin(0.77 * t_s) +
+           4.0 * std::exp(-0.5 * (t_s - 11.0) * (t_s - 11.0));
+}
+
+/// Samples of the motion by a clock: it shows t where the reference shows offset + t + rate (t - first).
+MotionTrack track_on_clock(double first_s, double step_s, std::size_t count, double offset_s, double rate_ppm,
+                           double scale, double noise, unsigned seed) {
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> draw(0.0, noise);
+    MotionTrack track;
+    for (std::size_t k = 0; k < count; ++k) {
+        const double t = first_s + static_cast<double>(k) * step_s;
+        track.time_s.push_back(t);
+        track.value.push_back(scale * motion(offset_s + t + 1e-6 * rate_ppm * (t - first_s)) +
+                              draw(generator));
+    }
+    return track;
+}
+
+TEST(ClockFit, OffsetAndRate_AreFoundWithinTheirStds) {
+    int outside = 0;
+    constexpr int rounds = 40;
+    for (unsigned seed = 1; seed <= rounds; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 generator(seed);
+        std::uniform_real_distribution<double> unit(-1.0, 1.0);
+        const double offset_s = 3.0 * unit(generator), rate_ppm = 300.0 * unit(generator);
+        const MotionTrack reference = track_on_clock(0.0, 0.001, 20'000, 0.0, 0.0, 1.0, 0.01, 2 * seed);
+        const MotionTrack track = track_on_clock(2.0 - 3.0 * offset_s / 3.0, 0.0167, 700, offset_s, rate_ppm,
+                                                 -40.0, 2.0, 2 * seed + 1);
+        const auto fit = fit_clock(track, reference);
+        ASSERT_TRUE(fit) << fit.error();
+        const double z = (fit->offset_s - offset_s) / fit->offset_std_s,
+                     z_rate = (fit->rate_ppm - rate_ppm) / fit->rate_std_ppm;
+        EXPECT_LT(std::abs(z), 5.0) << fit->offset_s << " for " << offset_s << ", std " << fit->offset_std_s;
+        EXPECT_LT(std::abs(z_rate), 5.0)
+            << fit->rate_ppm << " for " << rate_ppm << ", std " << fit->rate_std_ppm;
+        EXPECT_LT(fit->correlation, -0.9) << "the track is mirrored";
+        EXPECT_LT(fit->offset_std_s, 2e-3);
+        outside += std::abs(z) > 2.0 || std::abs(z_rate) > 2.0;
+    }
+    // 1 in 11 by chance; 12 of 40 has a probability below 0.1 %.
+    EXPECT_LE(outside, 11);
+}
+
+TEST(ClockFit, MotionThatRepeats_HasNoAnswer) {
+    MotionTrack reference, track;
+    for (int k = 0; k < 20'000; ++k) {
+        reference.time_s.push_back(0.001 * k);
+        reference.value.push_back(std::sin(2.0 * M_PI * 0.001 * k));
+        track.time_s.push_back(0.001 * k);
+        track.value.push_back(std::sin(2.0 * M_PI * (0.001 * k - 0.1)));
+    }
+    const auto fit = fit_clock(track, reference);
+    ASSERT_FALSE(fit);
+    EXPECT_THAT(fit.error(), HasSubstr("the motion repeats"));
+}
+
+TEST(ClockFit, NothingInCommon_IsSaid) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 generator(seed);
+        std::normal_distribution<double> draw;
+        MotionTrack a, b;
+        for (int k = 0; k < 3000; ++k) {
+            a.time_s.push_back(0.01 * k);
+            a.value.push_back(draw(generator));
+            b.time_s.push_back(0.01 * k);
+            b.value.push_back(draw(generator));
+        }
+        const auto fit = fit_clock(a, b);
+        ASSERT_FALSE(fit) << fit->offset_s;
+        EXPECT_THAT(fit.error(), HasSubstr("no common motion"));
+    }
+    const MotionTrack rest{{0.0, 1.0, 2.0}, {1.0, 1.0, 1.0}};
+    EXPECT_FALSE(fit_clock(rest, rest));
+    MotionTrack still;
+    for (int k = 0; k < 100; ++k) {
+        still.time_s.push_back(k);
+        still.value.push_back(1.0);
+    }
+    EXPECT_THAT(fit_clock(still, track_on_clock(0.0, 0.01, 3000, 0.0, 0.0, 1.0, 0.0, 1)).error(),
+                HasSubstr("does not move"));
+}
+
+}  // namespace
+}  // namespace fidservo::imports
