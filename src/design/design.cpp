@@ -17,7 +17,8 @@ constexpr double shortest_piece_s = 0.02;
 constexpr double slowest_hz = 0.05, fastest_hz = 10.0;
 /// Share of a travel at either end that setpoints leave free, for a controller may go beyond a setpoint.
 constexpr double margin = 0.04;
-constexpr double places_V = 1e4, places_mm = 1e3, places_hz = 1e4;
+constexpr double of_products = 1e-6;  // of products
+constexpr double places_V = 1e4, places_mm = 1e3, places_hz = 1e6;
 
 struct Range {
     double low, high;
@@ -77,7 +78,7 @@ DesignedPiece rounded_piece(DesignedPiece piece, const Range& range) {
     piece.end = to_places(range.clamped(piece.end), places);
     piece.frequency_hz = to_places(piece.frequency_hz, places_hz);
     const double room = std::min(range.high - piece.value, piece.value - range.low);
-    piece.amplitude = std::floor(std::min(piece.amplitude, room) * places) / places;
+    piece.amplitude = std::floor(std::min(piece.amplitude, room) * places + of_products) / places;
     if (piece.shape == Shape::sine && piece.amplitude <= 0.0) piece.shape = Shape::constant;
     if (piece.shape != Shape::ramp) piece.end = 0.0;
     if (piece.shape != Shape::sine) piece.amplitude = piece.frequency_hz = 0.0;

@@ -42,7 +42,7 @@ struct Design {
 /// The longer one of the two stages' sequences.
 double duration_s(const Design& design);
 
-/// With values and times as an experiment file states them: whole ticks, 0.1 mV, 1 um, 0.1 mHz; within what
+/// With values and times as an experiment file states them: whole ticks, 0.1 mV, 1 um, 1 uHz; within what
 /// the stages can be told, and cut off after longest_s. Pieces that vanish are left out.
 Design rounded(Design design, const Rig& rig);
 

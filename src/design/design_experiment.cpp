@@ -152,7 +152,7 @@ class DesignSearch {
         int asked = 0;
         Candidate best = start;
         const auto value_at = [&](const std::vector<double>& at) {
-            say(fmt::format("variation {} of a good one, odds e^{:.1f}", ++asked, best.judgement.value));
+            say(fmt::format("variation {} of a good one", ++asked));
             const Design design = with_numbers(start.design, at, rig);
             Judgement judgement = judged(design, briefly);
             const double value = judgement.value;

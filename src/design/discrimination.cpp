@@ -123,7 +123,7 @@ std::vector<WindowProducts> products_of(std::span<const gap::Window> windows, co
 
 Adjusted adjusted(std::span<const WindowProducts> windows, const Eigen::VectorXd& zero) {
     constexpr int most_iterations = 30;
-    constexpr double least_gain = 1e-6;
+    constexpr double least_gain = 1e-9;  // relative
     const Eigen::Index width = zero.size();
     Eigen::VectorXd step = Eigen::VectorXd::Zero(width);
     double loss = loss_at(windows, zero, step);
@@ -138,7 +138,7 @@ Adjusted adjusted(std::span<const WindowProducts> windows, const Eigen::VectorXd
         }
         const Eigen::VectorXd next = normal.ldlt().solve(right);
         const double reached = loss_at(windows, zero, next);
-        if (!(reached < loss - least_gain)) break;
+        if (!(reached < loss * (1.0 - least_gain))) break;
         step = next;
         loss = reached;
     }

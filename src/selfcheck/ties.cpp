@@ -49,6 +49,17 @@ bool is_resolved(const Label& label, const gap::Diagnosis& diagnosis) {
 
 }  // namespace
 
+std::string words_of(const Tie& tie) {
+    const auto settled = [](const std::optional<Settlement>& settlement) -> std::string {
+        if (!settlement) return "none";
+        return fmt::format("{} {}: {}", settlement->experiment,
+                           settlement->is_resolved ? "resolves it" : "leaves",
+                           fmt::join(settlement->named, " + "));
+    };
+    return fmt::format("tie {}; by design: {}; by the list: {}\n", fmt::join(tie.set, " + "),
+                       settled(tie.by_design), settled(tie.by_list));
+}
+
 std::optional<Tie> settle_tie(const Rig& nominal, const Case& drawn, const std::vector<Recording>& recordings,
                               const gap::Diagnosis& diagnosis, const DiagnoseAgain& diagnose_again) {
     const bool is_tied = std::ranges::any_of(
@@ -65,7 +76,7 @@ std::optional<Tie> settle_tie(const Rig& nominal, const Case& drawn, const std::
     const std::string name = "designed";
     const auto settled = [&](const std::string& origin,
                              const std::optional<design::Candidate>& candidate) -> std::optional<Settlement> {
-        if (!candidate || candidate->judgement.value < design::least_log_odds) return {};
+        if (!candidate) return {};
         std::vector<Recording> all = recordings;
         all.push_back(simulate_reference(drawn.true_rig.rig, drawn.true_rig.departures,
                                          design::experiment_of(candidate->design, origin, nominal),
@@ -77,6 +88,7 @@ std::optional<Tie> settle_tie(const Rig& nominal, const Case& drawn, const std::
     const design::DesignedExperiment designed =
         design::design_experiment(judge, name, budget, design::small_effort);
     tie.design_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!designed.best || designed.best->judgement.value < design::least_log_odds) return tie;
     tie.by_design = settled(name, designed.best);
     const std::optional<design::Candidate> listed = design::best_of_list(judge, designed.decidable);
     tie.by_list = settled(listed ? listed->origin : "", listed);

@@ -26,6 +26,9 @@ struct Tie {
     double design_s = 0.0;  ///< wall clock
 };
 
+/// One line: what was tied, and what each experiment has made of it.
+std::string words_of(const Tie& tie);
+
 using DiagnoseAgain = std::function<gap::Diagnosis(std::vector<Recording>)>;
 
 /// Records the designed experiment and, apart from it, the best one of the list on the case's rig and
