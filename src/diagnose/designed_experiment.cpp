@@ -65,10 +65,9 @@ double worst_log_odds(const DesignedNext& next) {
 std::string purpose(const DesignedNext& next) {
     std::string text;
     if (!next.candidate.judgement.log_odds.empty()) {
-        text = fmt::format(
-            "in the simulator it tells {} apart, whichever of them it is, with odds of {} where "
-            "that is hardest",
-            enumerated(readable_names(next.question.separates)), odds_words(worst_log_odds(next)));
+        text = fmt::format("in the simulator it tells {} apart, with odds of {} where that is hardest",
+                           enumerated(readable_names(next.question.separates)),
+                           odds_words(worst_log_odds(next)));
     }
     if (next.question.unknown) {
         std::vector<std::string> quantities;

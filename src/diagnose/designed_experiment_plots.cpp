@@ -121,25 +121,23 @@ class Plots {
                        std::string(plot_group), height_px, std::move(traces)});
     }
 
-    /// The setpoint, if there is one, and the command of a stage, under the diagnosis's own explanation.
-    void add_commands(const Recording& recording, bool has_micro) {
-        add("macro", "Motor command", "V",
-            {{"command",
-              drawn_of(recording, points_, [](const StageRow& row) { return row.macro_command_V; }), true, 2,
-              false}});
-        add("macro-setpoint", "Setpoint of the carriage", "mm",
-            {{"setpoint",
-              drawn_of(recording, points_, [](const StageRow& row) { return row.macro_setpoint_mm; }), true,
-              3, false}});
-        if (!has_micro) return;
-        add("micro", "Heater command", "V",
-            {{"command",
-              drawn_of(recording, points_, [](const StageRow& row) { return row.micro_command_V; }), true, 2,
-              false}});
-        add("micro-setpoint", "Setpoint of the platform", "mm",
-            {{"setpoint",
-              drawn_of(recording, points_, [](const StageRow& row) { return row.micro_setpoint_mm; }), true,
-              3, false}});
+    /// A value of the rows as each explanation predicts it.
+    template <typename Value>
+    void add_predicted(std::string_view part, const std::string& title, std::string_view unit, int digits,
+                       const std::vector<Recording>& recordings, const DesignedNext& next,
+                       const Value& value) {
+        std::vector<report::Trace> traces;
+        for (std::size_t k = 0; k < recordings.size(); ++k)
+            traces.push_back({name_in_plots(next.question.explanations[k]),
+                              drawn_of(recordings[k], points_, value), false, digits, false});
+        add(part, title, unit, std::move(traces));
+    }
+
+    void add_setpoint(std::string_view part, const std::string& title, double StageRow::*setpoint,
+                      const Recording& recording) {
+        add(part, title, "mm",
+            {{"setpoint", drawn_of(recording, points_, [&](const StageRow& row) { return row.*setpoint; }),
+              true, 3, false}});
     }
 
     std::vector<report::TimePlot> all;
@@ -162,24 +160,23 @@ std::string designed_experiment_html(const Rig& rig, const DesignedNext& next) {
         axis.time_s.push_back(static_cast<double>(row) * rig.tick_s);
     const std::size_t points = axis.time_s.size();
     Plots plots(points);
-    plots.add_commands(recordings.front(), rig.micro.has_value());
-    std::vector<report::Trace> places, readings;
-    for (std::size_t k = 0; k < recordings.size(); ++k) {
-        const std::string name = name_in_plots(explanations[k]);
-        places.push_back({name,
-                          drawn_of(recordings[k], points,
-                                   [&](const StageRow& row) {
-                                       return row.encoder_count * rig.macro.encoder_resolution_mm;
-                                   }),
-                          false, 3, false});
-        readings.push_back({name,
-                            drawn_of(recordings[k], points, [](const StageRow& row) { return row.hall_adc; }),
-                            false, 1, false});
+    if (!next.candidate.design.macro.empty()) {
+        plots.add_setpoint("macro-setpoint", "Setpoint of the carriage", &StageRow::macro_setpoint_mm,
+                           recordings.front());
+        plots.add_predicted("macro", "Motor command, by each explanation", "V", 2, recordings, next,
+                            [](const StageRow& row) { return row.macro_command_V; });
+        plots.add_predicted(
+            "encoder", "Encoder reading that each explanation predicts", "mm", 3, recordings, next,
+            [&](const StageRow& row) { return row.encoder_count * rig.macro.encoder_resolution_mm; });
     }
-    plots.add("encoder", "Encoder reading that each explanation predicts, from the end of the travel", "mm",
-              std::move(places));
-    if (rig.micro)
-        plots.add("hall", "Hall reading that each explanation predicts", "adc", std::move(readings));
+    if (!next.candidate.design.micro.empty()) {
+        plots.add_setpoint("micro-setpoint", "Setpoint of the platform", &StageRow::micro_setpoint_mm,
+                           recordings.front());
+        plots.add_predicted("micro", "Heater command, by each explanation", "V", 2, recordings, next,
+                            [](const StageRow& row) { return row.micro_command_V; });
+        plots.add_predicted("hall", "Hall reading that each explanation predicts", "adc", 1, recordings, next,
+                            [](const StageRow& row) { return row.hall_adc; });
+    }
     std::vector<ShownDuel> duels(next.question.duels.size());
     gap::parallel_for(duels.size(),
                       [&](std::size_t k) { duels[k] = shown_duel(rig, next, experiment, k, axis.time_s); });
