@@ -84,6 +84,18 @@ class DesignSearch {
         for (std::size_t k = 0; k < improved; ++k) improve(seen_[k]);
     }
 
+    /// By all that was looked at so far; all duels where none is decided.
+    void find_decidable() {
+        std::vector<bool> decided(decidable_.size(), false);
+        for (const Candidate& candidate : seen_)
+            for (std::size_t k = 0; k < decided.size(); ++k)
+                decided[k] = decided[k] || candidate.judgement.log_odds[k] >= least_log_odds;
+        if (std::ranges::count(decided, true) == 0) return;
+        decidable_ = decided;
+        for (Candidate& candidate : seen_)
+            candidate.judgement.value = value_by(candidate.judgement, decidable_);
+    }
+
     /// Of what was found the best ones, and the best one of the list, closely. Throws BudgetEnded.
     void look_closely() {
         constexpr std::size_t finalists = 3;
@@ -113,18 +125,6 @@ class DesignSearch {
   private:
     static constexpr std::string_view drawn_origin = "drawn", improved_origin = "improved";
     static double value_of(const Candidate& candidate) { return candidate.judgement.value; }
-
-    /// By all that was looked at; all where none is.
-    void find_decidable() {
-        std::vector<bool> decided(decidable_.size(), false);
-        for (const Candidate& candidate : seen_)
-            for (std::size_t k = 0; k < decided.size(); ++k)
-                decided[k] = decided[k] || candidate.judgement.log_odds[k] >= least_log_odds;
-        if (std::ranges::count(decided, true) == 0) return;
-        decidable_ = decided;
-        for (Candidate& candidate : seen_)
-            candidate.judgement.value = value_by(candidate.judgement, decidable_);
-    }
 
     void say(std::string_view what) const {
         if (tell_) tell_(what);
@@ -192,6 +192,7 @@ DesignedExperiment design_experiment(const Judge& judge, const std::string& name
         }
     };
     within_budget([&] { search.search(); });
+    search.find_decidable();
     if (budget) budget->end_search();
     if (designed.ended != gap::Ended::interrupted) within_budget([&] { search.look_closely(); });
     designed.best = search.best();

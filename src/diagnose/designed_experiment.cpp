@@ -48,6 +48,7 @@ std::string quantity_name(design::Quantity quantity) {
 
 std::vector<std::string> readable_names(const std::vector<std::string>& names) {
     std::vector<std::string> words;
+    words.reserve(names.size());
     for (const std::string& name : names)
         words.push_back(name == "equation" ? "the equation" : readable(name));
     return words;
