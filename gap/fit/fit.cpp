@@ -304,7 +304,8 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
     Linearised linearised(predict, parameters, windows, counted, options);
     linearised.PrepareForEvaluation(false, true);
     const auto size = static_cast<Eigen::Index>(parameters.size());
-    Fit result{start, total_loss(windows, counted, linearised.errors), Eigen::MatrixXd::Zero(size, size)};
+    const Eigen::MatrixXd unknown = Eigen::MatrixXd::Zero(size, size);
+    Fit result{start, total_loss(windows, counted, linearised.errors), unknown, unknown};
     if (parameters.size() == 0 || linearised.errors.empty()) return result;
     const double loss_at_start = linearised.loss();
 

@@ -8,6 +8,8 @@
 #include "src/commands/self_check.h"
 #include "src/config/effects_file.h"
 #include "src/config/rig_file.h"
+#include "src/config/stage_keys.h"
+#include "src/diagnose/designed_experiment.h"
 #include "src/diagnose/diagnosis_json.h"
 #include "src/diagnose/frame_looks.h"
 #include "src/diagnose/matters.h"
@@ -40,7 +42,7 @@ struct DiagnoseOptions {
     std::vector<std::filesystem::path> recordings;
     std::filesystem::path rig_file;
     std::vector<std::string> only, without, matters;
-    std::filesystem::path effects_file, json, report, write_rig;
+    std::filesystem::path effects_file, json, report, write_rig, write_experiment;
     SelfCheckRequest self_check;
 };
 
@@ -76,9 +78,18 @@ int check_itself(const DiagnoseOptions& options) {
     if (!options.effects_file.empty())
         throw InputError("--self-check: it draws effects itself; no --effects-file");
     if (!options.matters.empty()) throw InputError("--self-check: it judges by the floor; no --matters");
-    if (!options.report.empty() || !options.write_rig.empty())
-        throw InputError("--self-check: writes --json only, no --report and no --write-rig");
+    if (!options.report.empty() || !options.write_rig.empty() || !options.write_experiment.empty())
+        throw InputError("--self-check: writes --json only, no --report, --write-rig and --write-experiment");
     return run_self_check(options.self_check, options.rig_file, options.only, options.json);
+}
+
+/// `record` and `simulate` know a file that describes an experiment by its ending.
+void demand_experiment_file(const std::filesystem::path& file) {
+    if (!file.empty() && file.extension() != ".yaml" && file.extension() != ".yml")
+        throw InputError(
+            fmt::format("--write-experiment: {}: the name must end in .yaml or .yml, as record and "
+                        "simulate know an experiment file by that",
+                        file.string()));
 }
 
 /// Predictions take and give back the same few megabytes thousands of times: the heap is to keep them.
@@ -88,6 +99,31 @@ void keep_memory() {
     ::mallopt(M_TOP_PAD, top_pad);
     ::mallopt(M_TRIM_THRESHOLD, never);
 #endif
+}
+
+/// Designs the experiment that --write-experiment asks for, writes it and proposes it. Without one the
+/// diagnosis says why.
+std::shared_ptr<const diagnose::DesignedNext> write_experiment(const DiagnoseOptions& options,
+                                                               const gap::Evidence& evidence,
+                                                               gap::Diagnosis& diagnosis) {
+    if (options.write_experiment.empty()) return nullptr;
+    evidence.budget()->end_search();
+    evidence.budget()->prolong(diagnose::design_limit_s);
+    diagnose::SearchProgress progress(diagnose::design_limit_s);
+    const diagnose::DesignRequest request{
+        .file = options.write_experiment,
+        .wire_limit_degC =
+            watchdog_params(evidence.rig(), load_stage_keys(options.rig_file).watchdog).wire_limit_degC};
+    const diagnose::DesignAnswer answer = diagnose::design_next(
+        evidence, diagnosis, request, [&](std::string_view what) { progress.tell(what); });
+    if (answer.next) {
+        write_or_throw(options.write_experiment, diagnose::file_text(*answer.next));
+        diagnosis.next_experiment = diagnose::proposal_of(*answer.next);
+    } else {
+        diagnosis.notes.push_back(fmt::format("no experiment was written to {}: {}",
+                                              options.write_experiment.string(), answer.why_none));
+    }
+    return answer.next;
 }
 
 int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const gap::SignalLimits& matters,
@@ -108,22 +144,25 @@ int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const ga
     diagnose::SearchProgress progress(limit.whole_s);
     how.selection.search.tell = [&](std::string_view what) { progress.tell(what); };
     gap::Diagnosis diagnosis = gap::diagnose(evidence, how);
-    budget->end();
     diagnosis.notes.insert(diagnosis.notes.end(), read.notes.begin(), read.notes.end());
     diagnosis.next_experiment = diagnose::next_experiment(evidence.rig(), diagnosis);
+    const auto designed = write_experiment(options, evidence, diagnosis);
+    budget->end();
     fmt::print("{}", describe(diagnosis));
     if (!options.json.empty()) write_or_throw(options.json, diagnosis_json(diagnosis));
     if (!options.write_rig.empty()) {
         write_diagnosed_rig(options.write_rig, options.rig_file, diagnosis);
         fmt::print("rig file: {}\n", options.write_rig.string());
     }
+    if (designed) fmt::print("experiment: {}\n", options.write_experiment.string());
     if (!options.report.empty()) {
         write_or_throw(options.report, diagnose::diagnosis_report(evidence, diagnosis,
                                                                   {.rig_file = options.rig_file,
                                                                    .recordings = options.recordings,
                                                                    .only = options.only,
                                                                    .without = options.without,
-                                                                   .written_rig = options.write_rig}));
+                                                                   .written_rig = options.write_rig,
+                                                                   .designed = designed}));
         fmt::print("report: {}\n", options.report.string());
     }
     return exit_done;
@@ -140,6 +179,8 @@ int run_diagnose(const DiagnoseOptions& options) {
     if (options.recordings.empty()) throw InputError("RECORDING: give one recording folder at least");
     demand_new_file("--report", options.report);
     demand_new_file("--write-rig", options.write_rig);
+    demand_new_file("--write-experiment", options.write_experiment);
+    demand_experiment_file(options.write_experiment);
     const Rig rig = load_rig(options.rig_file);
     const gap::SignalLimits matters = diagnose::what_matters(options.matters, rig);
     try {
@@ -187,6 +228,11 @@ void add_diagnose(CLI::App& app, int& exit_code) {
     command->add_option("--json", options->json, "New file for the whole diagnosis")->type_name("FILE");
     command->add_option("--report", options->report, "New file for the report")->type_name("FILE.html");
     command->add_option("--write-rig", options->write_rig, "New rig file that states the effects found")
+        ->type_name("FILE.yaml");
+    command
+        ->add_option("--write-experiment", options->write_experiment,
+                     "New experiment file for record: the 30 s that tell best what these recordings leave "
+                     "open; a minute more")
         ->type_name("FILE.yaml");
     add_self_check_options(*command, options->self_check);
     add_example(*command, "fidservo diagnose --rig assets/rig.yaml recordings/ --json diagnosis.json");

@@ -58,6 +58,16 @@ void add_self_check_options(CLI::App& diagnose, SelfCheckRequest& request) {
         ->type_name("A,B,..")
         ->delimiter(',')
         ->check(CLI::IsMember(names));
+    add("--recordings", request.recordings,
+        "Of each campaign these recordings only, as macro-pulses-1: with fewer, more stays tied")
+        ->type_name("A,B,..")
+        ->delimiter(',');
+    diagnose
+        .add_flag(
+            "--settle-ties", request.settles_ties,
+            "Where effects are tied, record the designed experiment and the best of the list, and diagnose "
+            "again with each")
+        ->needs(self_check);
 }
 
 int run_self_check(const SelfCheckRequest& request, const std::filesystem::path& rig_file,
@@ -67,7 +77,9 @@ int run_self_check(const SelfCheckRequest& request, const std::filesystem::path&
                                         .kinds = {},
                                         .seed = request.seed,
                                         .only = only,
-                                        .is_limited = true};
+                                        .is_limited = true,
+                                        .recordings = request.recordings,
+                                        .settles_ties = request.settles_ties};
     const auto kinds = kinds_by_name();
     for (const std::string& name : request.kinds) options.kinds.push_back(kinds.at(name));
     watch_for_interrupts();

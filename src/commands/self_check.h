@@ -15,6 +15,8 @@ struct SelfCheckRequest {
     std::uint64_t seed = 1;
     std::size_t first = 0;
     std::vector<std::string> kinds;
+    std::vector<std::string> recordings;
+    bool settles_ties = false;
 };
 
 void add_self_check_options(CLI::App& diagnose, SelfCheckRequest& request);

@@ -51,8 +51,9 @@ std::string experiment_html(const gap::ProposedExperiment& proposed, const Reque
     std::string html = fmt::format("<p>{}</p>\n", escaped(proposed.text));
     if (!names.empty()) html += fmt::format("<p>It tells apart: {}.</p>\n", escaped(enumerated(names)));
     html += "<p>See in the simulator what it commands, then record the same on the rig:</p>\n" +
-            command_html(fmt::format("fidservo simulate {} --rig {} --out simulated-{}",
-                                     shell_word(proposed.experiment), rig, proposed.experiment)) +
+            command_html(fmt::format(
+                "fidservo simulate {} --rig {} --out simulated-{}", shell_word(proposed.experiment), rig,
+                shell_word(std::filesystem::path(proposed.experiment).stem().string()))) +
             "<p>Then diagnose again, with the new recording beside the others:</p>\n" +
             command_html(diagnose_command(request, " NEW-RECORDING", " --report REPORT.html"));
     return html;

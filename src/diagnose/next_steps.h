@@ -1,8 +1,10 @@
 #pragma once
 // What to do after a diagnosis, with the commands to run.
 #include "gap/diagnosis.h"
+#include "src/diagnose/designed_experiment.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct Request {
     std::vector<std::filesystem::path> recordings;
     std::vector<std::string> only, without;  ///< effects
     std::filesystem::path written_rig;       ///< empty if none was asked for
+    std::shared_ptr<const DesignedNext> designed = nullptr;
 };
 
 /// An experiment that decides, what to do about a remainder, how to close the gap, and what could not be

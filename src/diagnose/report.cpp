@@ -4,6 +4,7 @@
 #include "src/commit.h"
 #include "src/diagnose/chain_drawing.h"
 #include "src/diagnose/dependence_charts.h"
+#include "src/diagnose/designed_experiment_plots.h"
 #include "src/diagnose/finding_tables.h"
 #include "src/diagnose/predictions.h"
 #include "src/diagnose/recording_gaps.h"
@@ -146,6 +147,9 @@ std::string diagnosis_report(const gap::Evidence& evidence, const gap::Diagnosis
     }
     page.body +=
         report::section("next", "What to do next", next_steps_html(diagnosis, evidence.rig(), request));
+    if (request.designed)
+        page.body += report::section("experiment", "The designed experiment",
+                                     designed_experiment_html(evidence.rig(), *request.designed));
     if (!diagnosis.signals.empty())
         page.body += report::section("traces", "Recorded and predicted", traces_html(evidence, predictions));
     const std::string dependence = dependence_html(evidence, diagnosis, predictions);

@@ -49,7 +49,11 @@ std::optional<std::string> overheating(const Rig& rig, const Recording& recordin
 
 std::optional<std::string> why_not(const Rig& rig, const Experiment& experiment,
                                    std::optional<double> wire_limit_degC) {
-    const Recording recording = foreseen(rig, experiment);
+    return why_not(rig, experiment, foreseen(rig, experiment), wire_limit_degC);
+}
+
+std::optional<std::string> why_not(const Rig& rig, const Experiment& experiment, const Recording& recording,
+                                   std::optional<double> wire_limit_degC) {
     if (auto beyond = end_of_travel(rig, experiment, recording)) return beyond;
     if (!rig.micro || !wire_limit_degC) return std::nullopt;
     return overheating(rig, recording, *wire_limit_degC);

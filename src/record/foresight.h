@@ -1,5 +1,6 @@
 #pragma once
 // What an experiment would do to a rig, told in advance from the rig file.
+#include "core/recording.h"
 #include "src/simulation/experiments.h"
 
 #include <optional>
@@ -13,6 +14,10 @@ struct Rig;
 /// would leave its travel, or the wire become too hot. Empty if it can.
 /// @param wire_limit_degC  empty: the wire cannot be damaged
 std::optional<std::string> why_not(const Rig& rig, const Experiment& experiment,
+                                   std::optional<double> wire_limit_degC);
+
+/// The same by a recording of it that was made in advance, on whatever the rig is taken for.
+std::optional<std::string> why_not(const Rig& rig, const Experiment& experiment, const Recording& recording,
                                    std::optional<double> wire_limit_degC);
 
 }  // namespace fidservo

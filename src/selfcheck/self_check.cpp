@@ -11,6 +11,7 @@
 #include "src/selfcheck/draw/crowded_draw.h"
 #include "src/selfcheck/draw/filmed_campaign.h"
 #include "src/selfcheck/draw/frames_draw.h"
+#include "src/selfcheck/ties.h"
 
 #include <algorithm>
 #include <array>
@@ -44,6 +45,15 @@ void demand_whole_rig(const Rig& rig) {
     demand(rig.micro->pi.has_value(), "micro.pi");
 }
 
+void demand_recordings(const Rig& rig, const std::vector<std::string>& names) {
+    std::vector<std::string> allowed;
+    for (const CampaignRun& run : campaign_runs(rig)) allowed.push_back(run.name);
+    for (const std::string& name : names)
+        if (std::ranges::find(allowed, name) == allowed.end())
+            throw InputError(fmt::format("--recordings: {}: a campaign has no such recording; allowed: {}",
+                                         name, fmt::join(allowed, ", ")));
+}
+
 /// Recordings and the nominal rig, and what the diagnosis is not to try; no label.
 struct Blind {
     gap::Evidence evidence;
@@ -71,13 +81,23 @@ Outcome run_case(const Rig& nominal, const Case& drawn, const SelfCheckOptions& 
     std::vector<Recording> recordings = has_frames(drawn.label.kind)
                                             ? film_campaign(nominal, drawn.true_rig, drawn.campaign_seed)
                                             : record_campaign(nominal, drawn.true_rig, drawn.campaign_seed);
+    if (!options.recordings.empty())
+        std::erase_if(recordings, [&](const Recording& recording) {
+            return std::ranges::find(options.recordings, recording.name) == options.recordings.end();
+        });
     const double recording_s = seconds_since(start);
     const Clock::time_point recorded = Clock::now();
-    const Blind blind(nominal, std::move(recordings), options, drawn.without);
+    const Blind blind(nominal, recordings, options, drawn.without);
     const gap::Diagnosis diagnosis = gap::diagnose(blind.evidence, blind.options);
     const double diagnosis_s = seconds_since(recorded);
-    return {drawn.number, drawn.label, score(drawn.label, diagnosis, &blind.evidence), recording_s,
-            diagnosis_s};
+    Outcome outcome{drawn.number, drawn.label, score(drawn.label, diagnosis, &blind.evidence), recording_s,
+                    diagnosis_s};
+    if (options.settles_ties)
+        outcome.tie = settle_tie(nominal, drawn, recordings, diagnosis, [&](std::vector<Recording> more) {
+            const Blind again(nominal, std::move(more), options, drawn.without);
+            return gap::diagnose(again.evidence, again.options);
+        });
+    return outcome;
 }
 
 /// Kinds that are drawn together.
@@ -120,6 +140,7 @@ SelfCheck run_self_check(const Rig& nominal, const SelfCheckOptions& options,
                          const std::function<void(const SelfCheck&)>& done) {
     demand_whole_rig(nominal);
     const Family& family = family_of(options.kinds);
+    demand_recordings(nominal, options.recordings);
     SelfCheck check;
     Progress progress("cases", options.cases);
     for (std::size_t number = options.first; check.finished() < options.cases; ++number) {

@@ -25,6 +25,8 @@ struct SelfCheckOptions {
     /// Whether a diagnosis ends when the command's would (src/diagnose/time_limit.h); otherwise it takes what
     /// it takes, and is the same on any machine.
     bool is_limited = false;
+    std::vector<std::string> recordings;  ///< of a campaign's, those that are made; empty: all
+    bool settles_ties = false;            ///< src/selfcheck/ties.h
 };
 
 /// A case that could not be diagnosed.

@@ -45,6 +45,22 @@ Json json_of(const NamedEffect& named) {
             {"gap", {{"before", number(named.gap_before)}, {"after", number(named.gap_after)}}}};
 }
 
+Json json_of(const std::optional<Settlement>& settlement) {
+    if (!settlement) return nullptr;
+    return {{"experiment", settlement->experiment},
+            {"expected_log_odds", number(settlement->log_odds)},
+            {"resolved", settlement->is_resolved},
+            {"named", settlement->named}};
+}
+
+Json json_of(const Tie& tie) {
+    return {{"set", tie.set},
+            {"holds_truth", tie.holds_truth},
+            {"by_design", json_of(tie.by_design)},
+            {"by_list", json_of(tie.by_list)},
+            {"design_s", number(tie.design_s)}};
+}
+
 Json json_of(const Outcome& outcome) {
     Json effects = Json::array();
     for (const TrueEffect& effect : outcome.label.effects) effects.push_back(json_of(effect));
@@ -80,6 +96,7 @@ Json json_of(const Outcome& outcome) {
                                {"depends_on", discrepancy->depends_on},
                                {"size", number(discrepancy->size)},
                                {"gap_floors", number(discrepancy->gap_floors)}};
+    if (outcome.tie) json["tie"] = json_of(*outcome.tie);
     if (score.dominant_place) json["dominant_place"] = *score.dominant_place;
     if (const auto& equation = score.equation) {
         const FormulaEffect& truth = *outcome.label.effects.front().as_formula;
@@ -120,7 +137,9 @@ Json options_of(const SelfCheckOptions& options) {
             {"first", options.first},
             {"seed", options.seed},
             {"kinds", kinds},
-            {"only", options.only}};
+            {"only", options.only},
+            {"recordings", options.recordings},
+            {"settles_ties", options.settles_ties}};
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include "tests/src/run_program.h"
 #include "tests/src/temporary_folder.h"
 
+#include <filesystem>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,6 +37,44 @@ TEST(DiagnoseCommand, Report_IsWrittenOnce) {
     const ProgramRun again = run_program(arguments, folder.path());
     EXPECT_EQ(again.exit_code, 2);
     EXPECT_THAT(again.err, HasSubstr("--report: report.html: exists already"));
+}
+
+TEST(DiagnoseCommand, ExperimentFile_HasAnEndingThatRecordKnows) {
+    const TemporaryFolder folder;
+    const ProgramRun run = run_program({"diagnose", "rest", "--write-experiment", "next.txt"}, folder.path());
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr("--write-experiment: next.txt: the name must end in .yaml or .yml"));
+}
+
+TEST(DiagnoseCommand, NothingTied_WritesNoExperiment_AndSaysSo) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_program({"simulate", "rest", "--out", "rest"}, folder.path()).exit_code, 0);
+    const ProgramRun run = run_program(
+        {"diagnose", "--effects", "hall_gain", "rest", "--write-experiment", "next.yaml"}, folder.path());
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("note: no experiment was written to next.yaml: nothing is tied"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "next.yaml"));
+}
+
+TEST(SlowDiagnoseCommand, Tie_LeadsToAnExperimentThatSimulateTakes) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_program({"simulate", "macro-square", "--effect", "drive_offset:offset_V=0.03", "--seed",
+                           "5", "--out", "square"},
+                          folder.path())
+                  .exit_code,
+              0);
+    const ProgramRun run =
+        run_program({"diagnose", "square", "--effects", "drive_offset,cable_force", "--write-experiment",
+                     "my next.yaml", "--json", "found.json", "--report", "report.html"},
+                    folder.path());
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("experiment: my next.yaml"));
+    EXPECT_THAT(testing::text_of(folder / "found.json"), HasSubstr("\"experiment\": \"my next.yaml\""));
+    EXPECT_THAT(testing::text_of(folder / "report.html"), HasSubstr("The designed experiment"));
+    EXPECT_THAT(testing::text_of(folder / "my next.yaml"), HasSubstr("name: my-next"));
+    const ProgramRun simulated =
+        run_program({"simulate", "my next.yaml", "--out", "simulated"}, folder.path());
+    EXPECT_EQ(simulated.exit_code, 0) << simulated.err;
 }
 
 }  // namespace

@@ -68,14 +68,15 @@ std::string equation_of(const Outcome& outcome) {
 
 std::string line_of(const Outcome& outcome) {
     const Score& score = outcome.score;
-    return fmt::format(
-        "case {:>4} {}{}; {:.3g} floors -> {}{}{}; {}; {:.3g} floors left{}, {:.3g} s + {:.3g} s, {}",
-        outcome.number, name_of(outcome.label.kind), truth_of(outcome.label), score.floors,
-        gap::name_of(score.verdict), score.named.empty() ? "" : ": ", names_of(score),
-        score.named.empty() ? score.first_block
-                            : fmt::format("{} {:.2f}", score.first_block, score.first_probability),
-        score.after, equation_of(outcome), outcome.recording_s, outcome.diagnosis_s,
-        is_right(outcome.label, score) ? "right" : "WRONG");
+    return (outcome.tie ? words_of(*outcome.tie) : "") +
+           fmt::format(
+               "case {:>4} {}{}; {:.3g} floors -> {}{}{}; {}; {:.3g} floors left{}, {:.3g} s + {:.3g} s, {}",
+               outcome.number, name_of(outcome.label.kind), truth_of(outcome.label), score.floors,
+               gap::name_of(score.verdict), score.named.empty() ? "" : ": ", names_of(score),
+               score.named.empty() ? score.first_block
+                                   : fmt::format("{} {:.2f}", score.first_block, score.first_probability),
+               score.after, equation_of(outcome), outcome.recording_s, outcome.diagnosis_s,
+               is_right(outcome.label, score) ? "right" : "WRONG");
 }
 
 }  // namespace fidservo::selfcheck

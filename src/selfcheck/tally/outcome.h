@@ -1,6 +1,10 @@
 #pragma once
 #include "src/selfcheck/draw/label.h"
 #include "src/selfcheck/tally/score.h"
+#include "src/selfcheck/ties.h"
+
+#include <cstddef>
+#include <optional>
 
 namespace fidservo::selfcheck {
 
@@ -9,8 +13,9 @@ struct Outcome {
     std::size_t number = 0;
     Label label;
     Score score;
-    double recording_s = 0.0;  ///< wall clock
-    double diagnosis_s = 0.0;  ///< likewise, from recordings in memory to the diagnosis
+    double recording_s = 0.0;     ///< wall clock
+    double diagnosis_s = 0.0;     ///< likewise, from recordings in memory to the diagnosis
+    std::optional<Tie> tie = {};  ///< where ties are settled
 };
 
 /// One line: the truth, what was said, whether that is right.

@@ -2,6 +2,7 @@
 
 #include "src/selfcheck/tally/crowded_figures.h"
 #include "src/selfcheck/tally/equation_figures.h"
+#include "src/selfcheck/tally/tie_figures.h"
 
 #include <algorithm>
 #include <array>
@@ -212,6 +213,7 @@ Tally tally(std::span<const Outcome> outcomes) {
                  .reliability = reliability_of_first(outcomes)};
     result.limits = limits_of(outcomes, result);
     std::ranges::copy(crowded_shares(outcomes), std::back_inserter(result.shares));
+    std::ranges::copy(tie_shares(outcomes), std::back_inserter(result.shares));
     std::ranges::copy(crowded_limits(outcomes), std::back_inserter(result.limits));
     std::ranges::copy(equation_shares(outcomes), std::back_inserter(result.shares));
     std::ranges::copy(equation_limits(outcomes), std::back_inserter(result.limits));

@@ -145,7 +145,8 @@ TEST(Fit, WindowsWithoutAValue_GiveTheStartBack) {
     const Fit found =
         fit(knows_nothing, windows, Wanted(windows_count, 1), {plant::parse_effect("drive_gain:factor=1.1")});
     EXPECT_EQ(found.hypothesis.front().values.front(), 1.1);
-    EXPECT_EQ(found.covariance(0, 0), 0.0);
+    EXPECT_EQ(found.covariance, Eigen::MatrixXd::Zero(1, 1));
+    EXPECT_EQ(found.curvature_covariance, Eigen::MatrixXd::Zero(1, 1));
 }
 
 TEST(Fit, RefusedHypothesis_IsGivenBackAsItIs) {
