@@ -91,6 +91,13 @@ std::string equation_html(const gap::Equation& equation) {
     for (const gap::FittedParameter& parameter : equation.parameters)
         rows += fmt::format("<tr><td>{}</td><td>{:.6g} \u00b1 {:.2g}</td><td>{}</td></tr>\n",
                             escaped(parameter.name), parameter.value, parameter.std, escaped(parameter.unit));
+    const std::string elsewhere =
+        equation.gap_removed_of_kinds_left_out
+            ? fmt::format(
+                  " Of experiments of a kind that it was not fitted to, each kind predicted from the "
+                  "others, it removes {:.1f} %.",
+                  100.0 * *equation.gap_removed_of_kinds_left_out)
+            : std::string();
     return fmt::format(
         "<p>An equation for it, proposed by these recordings and by nothing else, and added at "
         "<code>{}</code>:</p>\n"
@@ -99,12 +106,12 @@ std::string equation_html(const gap::Equation& equation) {
         "thead>"
         "<tbody>\n{}</tbody></table>\n<p>It removes {:.1f} % (95 %: {:.1f} to {:.1f} %) of {}, on windows "
         "that it was "
-        "not fitted to. {}</p>\n",
+        "not fitted to.{} {}</p>\n",
         escaped(equation.acts_on), escaped(equation.formula), rows, 100.0 * equation.gap_removed,
         100.0 * equation.gap_removed_low, 100.0 * equation.gap_removed_high,
         equation.in_place_of_names ? "the whole gap, in place of the effects named, which are not credible"
                                    : "what is left",
-        escaped(equation.text));
+        elsewhere, escaped(equation.text));
 }
 
 std::string closing_html(const Request& request) {
