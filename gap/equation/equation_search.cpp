@@ -92,7 +92,7 @@ class EquationSearch {
 
   private:
     static constexpr std::size_t most_periods = 3, most_leading = 2, most_fitted = 8, most_tried = 3;
-    static constexpr double working_out_s = 2.5;
+    static constexpr double working_out_s = 2.0;
 
     std::vector<Term> terms(Port port) {
         std::vector<Term> found = terms_of(port, ranges_, periods_mm_);

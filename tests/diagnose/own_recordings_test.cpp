@@ -160,11 +160,13 @@ TEST_F(SlowSharedCase, MotorOfOthers_IsAnsweredInTime_WithFrictionAmongWhatItCan
     if (IsSkipped()) return;
     const nlohmann::json diagnosis = diagnosis_of(folder_, out_ / "diagnosis.json", folder_ / "rig.yaml");
     ASSERT_FALSE(diagnosis.at("effects").empty());
-    const auto& first = diagnosis.at("effects").front();
-    EXPECT_GT(first.at("gap_removed"), 0.99);
-    std::vector<std::string> named = first.at("indistinguishable_from");
-    named.push_back(first.at("effect"));
-    EXPECT_NE(std::ranges::find(named, "coulomb_friction"), named.end()) << first.dump(2);
+    EXPECT_GT(diagnosis.at("effects").back().at("gap_removed"), 0.99);
+    std::vector<std::string> named;
+    for (const nlohmann::json& effect : diagnosis.at("effects")) {
+        named.push_back(effect.at("effect"));
+        for (const std::string other : effect.at("indistinguishable_from")) named.push_back(other);
+    }
+    EXPECT_NE(std::ranges::find(named, "coulomb_friction"), named.end()) << diagnosis.at("effects").dump(2);
 }
 
 /// Slow, because what sanitizers slow down is over before it says what it does.
