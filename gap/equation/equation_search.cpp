@@ -33,17 +33,17 @@ namespace {
 
 using plant::Port;
 
-/// Ports of a block, or the others of its stage; none where no port is of the block.
-std::vector<Port> ports_for(std::string_view block, bool of_block) {
-    std::vector<Port> found;
-    const auto has_block = [&](const plant::PortDescription& port) {
-        return std::ranges::find(port.blocks, block) != port.blocks.end();
-    };
-    if (std::ranges::none_of(plant::ports(), has_block)) return found;
-    for (const plant::PortDescription& port : plant::ports())
-        if (has_block(port) == of_block && stage_of(port.blocks.front()) == stage_of(block))
-            found.push_back(port.port);
-    return found;
+/// The ports of a block's stage in three parts: those that are the block's own, those that its effects may be
+/// at as well, and the others. None where no port is of the block.
+std::array<std::vector<Port>, 3> ports_for(std::string_view block) {
+    std::array<std::vector<Port>, 3> parts;
+    for (const plant::PortDescription& port : plant::ports()) {
+        if (stage_of(port.blocks.front()) != stage_of(block)) continue;
+        const bool may_be = std::ranges::find(port.blocks, block) != port.blocks.end();
+        parts.at(port.blocks.front() == block ? 0 : may_be ? 1 : 2).push_back(port.port);
+    }
+    if (parts[0].empty() && parts[1].empty()) return {};
+    return parts;
 }
 
 class EquationSearch {
@@ -64,7 +64,6 @@ class EquationSearch {
                 if (periods_mm_.size() < most_periods) periods_mm_.push_back(period.period_mm);
         std::optional<FittedSketch> best;
         try {
-            const std::vector<Port> own = ports_for(block_, true), others = ports_for(block_, false);
             const auto try_all = [&](const std::vector<Sketch>& sketches) {
                 for (const Sketch& sketch : most_promising(sketches, base_)) {
                     std::optional<FittedSketch> trial = tried(sketch);
@@ -74,9 +73,8 @@ class EquationSearch {
                 }
                 return best && leaves_nothing(*best);
             };
-            for (const auto& [ports, scans] :
-                 {std::pair{own, false}, {own, true}, {others, false}, {others, true}})
-                if (try_all(scans ? scanned_at(ports) : screened_at(ports))) break;
+            for (const std::vector<Port>& ports : ports_for(block_))
+                if (try_all(screened_at(ports)) || try_all(scanned_at(ports))) break;
             if (!best) return {};
             grow(*best);
             shorten(*best);
