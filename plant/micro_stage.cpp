@@ -11,37 +11,46 @@ namespace fidservo::plant {
 
 namespace {
 
+HallSight hall_sight(const MicroStage& stage, const MicroStageState& state) {
+    return {seconds(state.time_ns), state.position_mm, state.heater.temp_degC,
+            stage.heater.parameters.ambient_degC, state.formulas.carriage};
+}
+
 double hall_disturbance_V(const MicroStage& stage, const MicroStageState& state) {
     const HallDisturbance& disturbance = stage.hall_disturbance;
-    const double by_formulas_V =
-        stage.formulas.act(Port::hall_voltage)
-            ? formula_hall_V(stage.formulas,
-                             {seconds(state.time_ns), state.position_mm, state.heater.temp_degC,
-                              stage.heater.parameters.ambient_degC, state.formulas.carriage})
-            : 0.0;
+    const double by_formulas_V = stage.formulas.act(Port::hall_voltage)
+                                     ? formula_hall_V(stage.formulas, hall_sight(stage, state))
+                                     : 0.0;
     if (disturbance.is_none()) return by_formulas_V;
     return disturbance.drift_V(seconds(state.time_ns)) + disturbance.leak_V_per_V * state.drive_V +
            by_formulas_V;
 }
 
-std::array<double, micro_variable::count> formula_variables(const MicroStage& stage,
-                                                            const MicroStageState& state) {
+using MicroVariables = std::array<double, micro_variable::count>;
+
+/// What the Hall sensor's formulas know of them; the others are 0.
+MicroVariables formula_variables(const HallSight& seen) {
     using namespace micro_variable;
-    const MicroFormulaState& seen = state.formulas;
-    const HeaterParameters& heater = stage.heater.parameters;
-    std::array<double, count> variables{};
-    variables[time] = seconds(state.time_ns);
-    variables[heater_command] = seen.command_V;
-    variables[heater_power] = heater_rise_degC(heater, seen.command_V);
-    variables[wire_temp] = state.heater.temp_degC;
-    variables[room_temp] = heater.ambient_degC;
-    variables[contraction] = seen.wire_mm;
-    variables[contraction_rate] = seen.contraction_mm_per_s;
-    variables[platform] = state.position_mm;
+    MicroVariables variables{};
+    variables[time] = seen.time_s;
+    variables[wire_temp] = seen.wire_degC;
+    variables[room_temp] = seen.room_degC;
+    variables[platform] = seen.platform_mm;
     variables[place] = seen.carriage.place_mm;
     variables[speed] = seen.carriage.speed_mm_per_s;
     variables[acceleration] = seen.carriage.shaking.acceleration_mm_per_s2;
     variables[drive] = seen.carriage.drive_V;
+    return variables;
+}
+
+MicroVariables formula_variables(const MicroStage& stage, const MicroStageState& state) {
+    using namespace micro_variable;
+    const MicroFormulaState& seen = state.formulas;
+    MicroVariables variables = formula_variables(hall_sight(stage, state));
+    variables[heater_command] = seen.command_V;
+    variables[heater_power] = heater_rise_degC(stage.heater.parameters, seen.command_V);
+    variables[contraction] = seen.wire_mm;
+    variables[contraction_rate] = seen.contraction_mm_per_s;
     return variables;
 }
 
@@ -133,17 +142,7 @@ double held_mm(const MicroStage& stage, const MicroStageState& state) {
 }
 
 double formula_hall_V(const Formulas& formulas, const HallSight& seen) {
-    using namespace micro_variable;
-    std::array<double, count> variables{};
-    variables[time] = seen.time_s;
-    variables[wire_temp] = seen.wire_degC;
-    variables[room_temp] = seen.room_degC;
-    variables[platform] = seen.platform_mm;
-    variables[place] = seen.carriage.place_mm;
-    variables[speed] = seen.carriage.speed_mm_per_s;
-    variables[acceleration] = seen.carriage.shaking.acceleration_mm_per_s2;
-    variables[drive] = seen.carriage.drive_V;
-    return formulas.value(Port::hall_voltage, variables, {});
+    return formulas.value(Port::hall_voltage, formula_variables(seen), {});
 }
 
 double mean_reading_lsb(const MicroStage& stage, const MicroStageState& state) {

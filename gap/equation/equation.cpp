@@ -17,14 +17,6 @@ namespace fidservo::gap {
 
 namespace {
 
-std::vector<std::string> variables_in(const plant::FormulaCode& code) {
-    std::vector<std::string> names;
-    const auto known = plant::variables_of(code.port().site);
-    for (std::size_t k = 0; k < known.size(); ++k)
-        if (code.uses(k)) names.emplace_back(known[k].name);
-    return names;
-}
-
 /// Empty where all recordings are of one kind, or time ended.
 std::optional<double> removed_of_kinds_left_out(const Evidence& evidence, std::span<const double> before,
                                                 const CrossFit& fitted) {
@@ -49,7 +41,7 @@ std::optional<ProposedEquation> equation_of(const Evidence& evidence, const Cros
     const plant::EffectSetting& setting = fitted.hypothesis.back();
     Equation equation{.acts_on = std::string(code.port().name),
                       .formula = code.effect().formula,
-                      .variables = variables_in(code),
+                      .variables = code.variable_names(),
                       .parameters = {},
                       .gap_removed = 0.0,
                       .gap_removed_low = 0.0,

@@ -1,9 +1,7 @@
 #include "gap/equation/equation_search.h"
 
-#include "core/rig.h"
 #include "gap/balance/period_search.h"
 #include "gap/candidates/coupling.h"
-#include "gap/equation/kinds_left_out.h"
 #include "gap/equation/scan.h"
 #include "gap/equation/screening.h"
 #include "gap/evidence/halves.h"
@@ -59,8 +57,9 @@ class EquationSearch {
 
     std::optional<FittedSketch> best() {
         ranges_ = covered_ranges(evidence_);
+        const Errors errors = judged_errors(base_.of_half[0]);
         if (stage_of(block_) == Stage::macro)
-            for (const PositionPeriod& period : strongest_periods(evidence_, judged_errors(base_.of_half[0])))
+            for (const PositionPeriod& period : strongest_periods(evidence_, errors))
                 if (periods_mm_.size() < most_periods) periods_mm_.push_back(period.period_mm);
         std::optional<FittedSketch> best;
         try {
@@ -74,7 +73,7 @@ class EquationSearch {
                 return best && leaves_nothing(*best);
             };
             for (const std::vector<Port>& ports : ports_for(block_))
-                if (try_all(screened_at(ports)) || try_all(scanned_at(ports))) break;
+                if (try_all(screened_at(ports, errors)) || try_all(scanned_at(ports))) break;
             if (!best) return {};
             grow(*best);
             shorten(*best);
@@ -104,8 +103,8 @@ class EquationSearch {
     }
 
     /// By sparse regression.
-    std::vector<Sketch> screened_at(const std::vector<Port>& ports) {
-        const Errors errors = judged_errors(base_.of_half[0]);
+    /// @param errors  of the base
+    std::vector<Sketch> screened_at(const std::vector<Port>& ports, const Errors& errors) {
         std::vector<Sketch> sketches;
         for (const Port port : ports) {
             const PortScreening screening(evidence_, base_.of_half[0], errors, port, terms(port));
@@ -126,7 +125,7 @@ class EquationSearch {
         return sketches;
     }
 
-    /// A sketch that was fitted to the first half, and what it saves on the other.
+    /// A sketch, and what it saves on the second half, to which it was not fitted.
     struct Promise {
         double gain = 0.0;
         Sketch sketch;
@@ -305,7 +304,7 @@ class EquationSearch {
             if (is_simpler && !is_no_chance(other.fitted.mean_squares, trial.fitted.mean_squares))
                 simplest = &other;
         }
-        if (simplest != &trial) trial = FittedSketch(*simplest);
+        if (simplest != &trial) trial = *simplest;
     }
 
     const Evidence& evidence_;

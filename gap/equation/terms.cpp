@@ -16,27 +16,22 @@ namespace fidservo::gap {
 
 namespace {
 
-/// What a site's formulas saw in all recordings.
-class SeenOverall {
-  public:
-    SeenOverall(const Evidence& evidence, plant::Site site) {
-        for (std::size_t run = 0; run < evidence.recordings().size(); ++run)
-            for (const SeenVariables& seen : variables_along(evidence, site, run)) seen_.push_back(seen);
-    }
-
-    Covered covered(std::size_t variable) const {
-        Covered range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-        for (const SeenVariables& seen : seen_) {
-            if (!std::isfinite(seen[variable])) continue;
-            range.low = std::min(range.low, seen[variable]);
-            range.high = std::max(range.high, seen[variable]);
-        }
-        return range.low <= range.high ? range : Covered{};
-    }
-
-  private:
-    std::vector<SeenVariables> seen_;
-};
+/// Of each variable of a site, what its formulas saw in all recordings; nothing of what is nowhere known.
+std::array<Covered, plant::most_variables> covered_by(const Evidence& evidence, plant::Site site) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    std::array<Covered, plant::most_variables> ranges{};
+    ranges.fill({infinite, -infinite});
+    for (std::size_t run = 0; run < evidence.recordings().size(); ++run)
+        for (const SeenVariables& seen : variables_along(evidence, site, run))
+            for (std::size_t k = 0; k < seen.size(); ++k) {
+                if (!std::isfinite(seen[k])) continue;
+                ranges[k].low = std::min(ranges[k].low, seen[k]);
+                ranges[k].high = std::max(ranges[k].high, seen[k]);
+            }
+    for (Covered& range : ranges)
+        if (range.low > range.high) range = {};
+    return ranges;
+}
 
 /// Along the rail, of a twelfth of what was covered and of a quarter, side by side.
 std::vector<TermLibrary::Bend> bends_along(const Covered& range) {
@@ -237,20 +232,21 @@ void add_camera_terms(TermLibrary& library, plant::Port port, const CoveredRange
 }  // namespace
 
 CoveredRanges covered_ranges(const Evidence& evidence) {
-    const SeenOverall carriage(evidence, plant::Site::carriage), wire(evidence, plant::Site::micro),
-        view(evidence, plant::Site::camera);
+    const auto carriage = covered_by(evidence, plant::Site::carriage),
+               wire = covered_by(evidence, plant::Site::micro),
+               view = covered_by(evidence, plant::Site::camera);
     using namespace plant;
-    return {.time_s = carriage.covered(carriage_variable::time),
-            .command_V = carriage.covered(carriage_variable::command),
-            .place_mm = carriage.covered(carriage_variable::place),
-            .speed_mm_per_s = carriage.covered(carriage_variable::speed),
-            .way_mm = carriage.covered(carriage_variable::way),
-            .wire_degC = wire.covered(micro_variable::wire_temp),
-            .contraction_mm = wire.covered(micro_variable::contraction),
-            .power_degC = wire.covered(micro_variable::heater_power),
-            .heater_V = wire.covered(micro_variable::heater_command),
-            .tag_mm = view.covered(camera_variable::tag_x),
-            .view_mm = view.covered(camera_variable::camera_place)};
+    return {.time_s = carriage[carriage_variable::time],
+            .command_V = carriage[carriage_variable::command],
+            .place_mm = carriage[carriage_variable::place],
+            .speed_mm_per_s = carriage[carriage_variable::speed],
+            .way_mm = carriage[carriage_variable::way],
+            .wire_degC = wire[micro_variable::wire_temp],
+            .contraction_mm = wire[micro_variable::contraction],
+            .power_degC = wire[micro_variable::heater_power],
+            .heater_V = wire[micro_variable::heater_command],
+            .tag_mm = view[camera_variable::tag_x],
+            .view_mm = view[camera_variable::camera_place]};
 }
 
 std::vector<Term> terms_of(plant::Port port, const CoveredRanges& ranges,

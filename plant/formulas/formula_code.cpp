@@ -305,6 +305,14 @@ FormulaCode::Machine& FormulaCode::machine() const {
     return *kept.machine;
 }
 
+std::vector<std::string> FormulaCode::variable_names() const {
+    std::vector<std::string> names;
+    const auto known = variables_of(port_->site);
+    for (std::size_t k = 0; k < known.size(); ++k)
+        if (uses(k)) names.emplace_back(known[k].name);
+    return names;
+}
+
 double FormulaCode::value(std::span<const double> variables, std::span<const double> memories,
                           std::span<const double> parameters) const {
     Machine& here = machine();

@@ -11,6 +11,8 @@
 #include <bitset>
 #include <cstddef>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace fidservo::plant {
 
@@ -27,6 +29,8 @@ class FormulaCode {
     const PortDescription& port() const { return *port_; }
     /// Whether any of its expressions has a variable of its site.
     bool uses(std::size_t variable) const { return used_.test(variable); }
+    /// The names of those that they have, in the site's order.
+    std::vector<std::string> variable_names() const;
 
     /// The formula's value. May be called from several threads: each has its own parser.
     /// @param variables  of the site, in their order

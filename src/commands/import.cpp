@@ -26,10 +26,8 @@ struct ImportOptions {
     std::filesystem::path map_file, out;
 };
 
-/// The map that is given, or that a file carries because fidservo export wrote it.
-std::optional<imports::ImportMap> map_for(const ImportOptions& options,
-                                          const std::vector<imports::Log>& logs) {
-    if (!options.map_file.empty()) return imports::load_import_map(options.map_file);
+/// The map that a file carries because fidservo export wrote it.
+std::optional<imports::ImportMap> carried_map(const std::vector<imports::Log>& logs) {
     for (const imports::Log& log : logs) {
         const auto text = log.texts.find(imports::map_text);
         if (text == log.texts.end()) continue;
@@ -42,11 +40,12 @@ std::optional<imports::ImportMap> map_for(const ImportOptions& options,
 }
 
 int run_import(const ImportOptions& options) {
-    TableOptions table{.are_offered = false};
-    if (!options.map_file.empty()) table = imports::load_import_map(options.map_file).table;
+    std::optional<imports::ImportMap> map;
+    if (!options.map_file.empty()) map = imports::load_import_map(options.map_file);
+    const TableOptions table = map ? map->table : TableOptions{.are_offered = false};
     std::vector<imports::Log> logs;
     for (const std::filesystem::path& file : options.files) logs.push_back(imports::read_log(file, table));
-    const auto map = map_for(options, logs);
+    if (!map) map = carried_map(logs);
     if (!map) {
         fmt::print("{}", imports::draft_map(logs));
         spdlog::info("without a map nothing is written: edit the lines above and give them by --map");

@@ -7,6 +7,7 @@
 #include "gap/evidence/parallel.h"
 #include "gap/fit/fit.h"
 #include "gap/fit/score.h"
+#include "src/design/exchanges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -153,18 +154,12 @@ struct Other {
 
 std::vector<Other> others_of(const gap::Diagnosis& diagnosis) {
     std::vector<Other> others;
-    for (std::size_t k = 0; k < diagnosis.effects.size(); ++k)
-        for (const plant::EffectSetting& rival : diagnosis.effects[k].rivals) {
-            if (std::ranges::find(diagnosis.hypothesis, rival.effect, &plant::EffectSetting::effect) !=
-                diagnosis.hypothesis.end())
-                continue;  // in the end it was found beside the other
-            const plant::Effect& own = *diagnosis.hypothesis[k].effect;
-            gap::Hypothesis exchanged = diagnosis.hypothesis;
-            exchanged[k] = rival;
-            others.push_back({std::string(rival.effect->name), diagnosis.effects[k].effect,
-                              std::move(exchanged), gap::is_limit_of(own, *rival.effect),
-                              gap::is_limit_of(*rival.effect, own)});
-        }
+    for (Exchange& exchange : exchanges(diagnosis)) {
+        const plant::Effect& own = *diagnosis.hypothesis[exchange.place].effect;
+        others.push_back({std::string(exchange.rival->name), diagnosis.effects[exchange.place].effect,
+                          std::move(exchange.hypothesis), gap::is_limit_of(own, *exchange.rival),
+                          gap::is_limit_of(*exchange.rival, own)});
+    }
     if (const gap::Equation* equation = gap::proposed_equation(diagnosis)) {
         gap::Hypothesis with = equation->in_place_of_names ? gap::Hypothesis{} : diagnosis.hypothesis;
         with.push_back(equation->setting);

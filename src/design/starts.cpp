@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -137,13 +138,20 @@ void carriage_small_steps(Drawing& draw) {
     while (!draw.is_over()) draw.setpoint(draw.carriage_mm(middle - widest, middle + widest), period_s);
 }
 
-void carriage_ramps(Drawing& draw) {
-    double place_mm = draw.carriage_mm(0.05, 0.95);
+/// Ramps of the setpoint from place to place.
+void ramps(Drawing& draw, double place_mm, const std::function<double()>& next_place_mm,
+           const std::function<double()>& next_duration_s) {
     while (!draw.is_over()) {
-        const double next_mm = draw.carriage_mm(0.05, 0.95);
-        draw.ramp(Follows::setpoint, place_mm, next_mm, draw.log_between(0.5, 8.0));
+        const double next_mm = next_place_mm();
+        draw.ramp(Follows::setpoint, place_mm, next_mm, next_duration_s());
         place_mm = next_mm;
     }
+}
+
+void carriage_ramps(Drawing& draw) {
+    ramps(
+        draw, draw.carriage_mm(0.05, 0.95), [&] { return draw.carriage_mm(0.05, 0.95); },
+        [&] { return draw.log_between(0.5, 8.0); });
 }
 
 void carriage_places_and_pulses(Drawing& draw) {
@@ -184,12 +192,9 @@ void platform_steps(Drawing& draw) {
 }
 
 void platform_ramps(Drawing& draw) {
-    double place_mm = draw.platform_mm(0.05, 0.3);
-    while (!draw.is_over()) {
-        const double next_mm = draw.platform_mm(0.05, 0.9);
-        draw.ramp(Follows::setpoint, place_mm, next_mm, draw.between(1.0, 8.0));
-        place_mm = next_mm;
-    }
+    ramps(
+        draw, draw.platform_mm(0.05, 0.3), [&] { return draw.platform_mm(0.05, 0.9); },
+        [&] { return draw.between(1.0, 8.0); });
 }
 
 void platform_sines(Drawing& draw) {

@@ -54,27 +54,23 @@ void demand_recordings(const Rig& rig, const std::vector<std::string>& names) {
                                          name, fmt::join(allowed, ", ")));
 }
 
-/// Recordings and the nominal rig, and what the diagnosis is not to try; no label.
-struct Blind {
-    gap::Evidence evidence;
-    gap::DiagnosisOptions options;
+gap::Evidence evidence_of(const Rig& nominal, std::vector<Recording> recordings,
+                          const SelfCheckOptions& options) {
+    const diagnose::TimeLimit limit = diagnose::time_limit(recordings);
+    const auto budget = options.is_limited ? std::make_shared<const gap::Budget>(
+                                                 limit.search_s, limit.whole_s, std::function<bool()>())
+                                           : std::make_shared<const gap::Budget>();
+    return {nominal, std::move(recordings), budget};
+}
 
-    Blind(const Rig& nominal, std::vector<Recording> recordings, const SelfCheckOptions& asked,
-          const std::vector<std::string>& without)
-        : Blind(nominal, diagnose::time_limit(recordings), std::move(recordings), asked, without) {}
-
-  private:
-    Blind(const Rig& nominal, const diagnose::TimeLimit& limit, std::vector<Recording> recordings,
-          const SelfCheckOptions& asked, const std::vector<std::string>& without)
-        : evidence(nominal, std::move(recordings),
-                   asked.is_limited ? std::make_shared<const gap::Budget>(limit.search_s, limit.whole_s,
-                                                                          std::function<bool()>())
-                                    : std::make_shared<const gap::Budget>()) {
-        options.only = asked.only;
-        options.without = without;
-        if (asked.is_limited) options.equation_s = limit.equation_s;
-    }
-};
+/// Sees recordings, the nominal rig, and what the diagnosis is not to try; no label.
+gap::Diagnosis diagnose_blindly(const gap::Evidence& evidence, const SelfCheckOptions& options,
+                                const std::vector<std::string>& without) {
+    const double equation_s =
+        options.is_limited ? diagnose::time_limit(evidence.recordings()).equation_s : 0.0;
+    return gap::diagnose(
+        evidence, {.only = options.only, .without = without, .equation_s = equation_s, .selection = {}});
+}
 
 Outcome run_case(const Rig& nominal, const Case& drawn, const SelfCheckOptions& options) {
     const Clock::time_point start = Clock::now();
@@ -87,15 +83,14 @@ Outcome run_case(const Rig& nominal, const Case& drawn, const SelfCheckOptions& 
         });
     const double recording_s = seconds_since(start);
     const Clock::time_point recorded = Clock::now();
-    const Blind blind(nominal, recordings, options, drawn.without);
-    const gap::Diagnosis diagnosis = gap::diagnose(blind.evidence, blind.options);
+    const gap::Evidence evidence = evidence_of(nominal, recordings, options);
+    const gap::Diagnosis diagnosis = diagnose_blindly(evidence, options, drawn.without);
     const double diagnosis_s = seconds_since(recorded);
-    Outcome outcome{drawn.number, drawn.label, score(drawn.label, diagnosis, &blind.evidence), recording_s,
+    Outcome outcome{drawn.number, drawn.label, score(drawn.label, diagnosis, &evidence), recording_s,
                     diagnosis_s};
     if (options.settles_ties)
         outcome.tie = settle_tie(nominal, drawn, recordings, diagnosis, [&](std::vector<Recording> more) {
-            const Blind again(nominal, std::move(more), options, drawn.without);
-            return gap::diagnose(again.evidence, again.options);
+            return diagnose_blindly(evidence_of(nominal, std::move(more), options), options, drawn.without);
         });
     return outcome;
 }

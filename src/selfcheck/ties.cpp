@@ -1,14 +1,13 @@
 #include "src/selfcheck/ties.h"
 
 #include "core/rig.h"
-#include "gap/candidates/candidate.h"
 #include "src/config/stage_keys.h"
 #include "src/design/design_experiment.h"
+#include "src/selfcheck/tally/score.h"
 #include "src/simulation/simulate_reference.h"
 
 #include <algorithm>
 #include <chrono>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,34 +16,26 @@
 namespace fidservo::selfcheck {
 namespace {
 
-using ClassSet = std::set<std::string>;
-
-/// The classes that an effect is not told from, its own among them.
-ClassSet classes_of(const gap::FoundEffect& found) {
-    ClassSet classes{std::string(gap::class_of(found.effect))};
-    for (const std::string& other : found.indistinguishable_from) classes.emplace(gap::class_of(other));
-    return classes;
-}
-
 std::vector<std::string> named_by(const gap::Diagnosis& diagnosis) {
     std::vector<std::string> named;
     for (const gap::FoundEffect& found : diagnosis.effects)
-        named.push_back(fmt::format("{}", fmt::join(classes_of(found), "|")));
+        named.push_back(fmt::format("{}", fmt::join(classes_named(found), "|")));
     return named;
 }
 
 bool holds_all(const Label& label, const gap::Diagnosis& diagnosis) {
     return std::ranges::all_of(label.effects, [&](const TrueEffect& truth) {
         return std::ranges::any_of(diagnosis.effects, [&](const gap::FoundEffect& found) {
-            return classes_of(found).contains(truth.class_name);
+            return classes_named(found).contains(truth.class_name);
         });
     });
 }
 
 bool is_resolved(const Label& label, const gap::Diagnosis& diagnosis) {
     return diagnosis.effects.size() == label.effects.size() && holds_all(label, diagnosis) &&
-           std::ranges::all_of(diagnosis.effects,
-                               [](const gap::FoundEffect& found) { return classes_of(found).size() == 1; });
+           std::ranges::all_of(diagnosis.effects, [](const gap::FoundEffect& found) {
+               return classes_named(found).size() == 1;
+           });
 }
 
 }  // namespace

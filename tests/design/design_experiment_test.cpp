@@ -3,6 +3,7 @@
 
 #include "plant/effects/catalogue.h"
 #include "src/simulation/simulate.h"
+#include "tests/diagnose/tied.h"
 #include "tests/reference_rig.h"
 
 #include <algorithm>
@@ -12,16 +13,7 @@
 namespace fidservo::design {
 namespace {
 
-/// One effect found, tied with another.
-gap::Diagnosis tied(const std::string& found, const std::string& rival) {
-    gap::Diagnosis diagnosis;
-    diagnosis.hypothesis = {plant::parse_effect(found)};
-    gap::FoundEffect effect{};
-    effect.effect = diagnosis.hypothesis.front().effect->name;
-    effect.rivals = {plant::parse_effect(rival)};
-    diagnosis.effects = {effect};
-    return diagnosis;
-}
+using fidservo::testing::tied;
 
 gap::Evidence recorded(const gap::Hypothesis& truth, std::string_view kind) {
     const Experiment experiment = make_experiment(kind, reference_rig(), 1, "recorded");

@@ -3,6 +3,7 @@
 
 #include "plant/effects/catalogue.h"
 #include "src/simulation/experiments.h"
+#include "tests/diagnose/tied.h"
 #include "tests/reference_rig.h"
 
 #include <algorithm>
@@ -14,16 +15,7 @@ namespace fidservo {
 
 namespace {
 
-/// One effect found, tied with another.
-gap::Diagnosis tied(const std::string& found, const std::string& rival) {
-    gap::Diagnosis diagnosis;
-    diagnosis.hypothesis = {plant::parse_effect(found)};
-    gap::FoundEffect effect{};
-    effect.effect = diagnosis.hypothesis.front().effect->name;
-    effect.rivals = {plant::parse_effect(rival)};
-    diagnosis.effects = {effect};
-    return diagnosis;
-}
+using fidservo::testing::tied;
 
 TEST(NextExperiment, OfTwoCausesInTheDrive_MovesTheCarriage_AndTakesHalfAMinuteAtMost) {
     const auto proposed = diagnose::next_experiment(

@@ -98,10 +98,8 @@ double apart(const gap::Evidence& evidence, const FormulaCode& truth, std::span<
 /// Those that say the same: a heater's power follows its command; friction always has the direction; the
 /// room's temperature hardly changes.
 std::set<std::string> variables_of(const FormulaCode& code) {
-    std::set<std::string> names;
-    const auto known = plant::variables_of(code.port().site);
-    for (std::size_t k = 0; k < known.size(); ++k)
-        if (code.uses(k)) names.emplace(known[k].name);
+    const std::vector<std::string> used = code.variable_names();
+    std::set<std::string> names(used.begin(), used.end());
     names.erase("direction");
     names.erase("room_temp");
     if (names.erase("heater_command") > 0) names.insert("heater_power");

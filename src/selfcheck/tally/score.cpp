@@ -12,12 +12,6 @@ namespace {
 
 using Classes = std::set<std::string>;
 
-Classes set_of(const gap::FoundEffect& found) {
-    Classes classes{std::string(gap::class_of(found.effect))};
-    for (const std::string& other : found.indistinguishable_from) classes.emplace(gap::class_of(other));
-    return classes;
-}
-
 /// What a right answer may name.
 Classes nameable(const Label& label) {
     Classes classes;
@@ -92,6 +86,12 @@ std::optional<double> removed_of_true(const TrueDiscrepancy& left, const gap::To
 
 }  // namespace
 
+std::set<std::string> classes_named(const gap::FoundEffect& found) {
+    Classes classes{std::string(gap::class_of(found.effect))};
+    for (const std::string& other : found.indistinguishable_from) classes.emplace(gap::class_of(other));
+    return classes;
+}
+
 Score score(const Label& label, const gap::Diagnosis& diagnosis, const gap::Evidence* evidence) {
     Score score;
     score.verdict = diagnosis.verdict;
@@ -107,7 +107,7 @@ Score score(const Label& label, const gap::Diagnosis& diagnosis, const gap::Evid
     std::vector<Classes> sets;
     double gap_before = score.before;
     for (const gap::FoundEffect& found : diagnosis.effects) {
-        sets.push_back(set_of(found));
+        sets.push_back(classes_named(found));
         const bool is_right = meet(truths, sets.back());
         const double gap_after = gap_left(score.before, found.gap_removed);
         score.named.push_back({found.effect, std::string(gap::class_of(found.effect)), is_right,

@@ -8,6 +8,7 @@
 #include "src/selfcheck/tally/equation_score.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace fidservo::selfcheck {
 /// A wrong name with this probability or more is a confident wrong name: in most cases, and in rigs with many
 /// causes at once.
 inline constexpr double confident = 0.9, confident_of_crowded = 0.5;
+
+/// The set of classes that an effect found stands for, its own among them.
+std::set<std::string> classes_named(const gap::FoundEffect& found);
 
 /// An effect that a diagnosis names.
 struct NamedEffect {
