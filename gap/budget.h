@@ -43,7 +43,7 @@ enum class Seconds {
 };
 
 /// Rows of recordings (ticks of 1 ms) predicted within a second, by definition: about what two cores do.
-inline constexpr double rows_a_second = 80e6;
+inline constexpr double rows_a_second = 50e6;
 
 /// How long a diagnosis may take, and who may end it.
 class Budget {
