@@ -95,7 +95,8 @@ FleetJson judgement_json(const FleetFindings& findings, const Judgement& judgeme
             {"block", quantity.block},
             {"parameter", quantity.parameter},
             {"unit", quantity.unit},
-            {judgement.matter == Matter::trend ? "change_a_week" : "change", rounded(judgement.size.value / per_unit)},
+            {judgement.matter == Matter::trend ? "change_a_week" : "change",
+             rounded(judgement.size.value / per_unit)},
             {"std", rounded(judgement.size.std / per_unit)},
             {"floors", rounded(judgement.size.value)},
             {"now", rounded(quantity.in_units(judgement.now))},
@@ -114,10 +115,12 @@ FleetJson judgement_json(const FleetFindings& findings, const Judgement& judgeme
 
 }  // namespace
 
-std::string fleet_json(const Collected& collected, const FleetFindings& findings, const std::filesystem::path& cured) {
+std::string fleet_json(const Collected& collected, const FleetFindings& findings,
+                       const std::filesystem::path& cured) {
     FleetJson effects = FleetJson::array(), judgements = FleetJson::array(), failed = FleetJson::array();
     for (const QuantityFindings& found : findings.quantities) effects.push_back(effect_json(findings, found));
-    for (const Judgement& judgement : findings.judgements) judgements.push_back(judgement_json(findings, judgement));
+    for (const Judgement& judgement : findings.judgements)
+        judgements.push_back(judgement_json(findings, judgement));
     for (const FleetResult& result : collected.results)
         if (!result.done) failed.push_back({{"campaign", result.campaign}, {"reason", result.reason}});
     const FleetJson all{{"format", "fidservo-fleet/1"},

@@ -9,6 +9,7 @@ namespace fidservo::fleet {
 
 /// The file of `fleet report --json`: format fidservo-fleet/1 (docs/fleet-report.md).
 /// @param cured  the rig file that was written; empty: none
-std::string fleet_json(const Collected& collected, const FleetFindings& findings, const std::filesystem::path& cured);
+std::string fleet_json(const Collected& collected, const FleetFindings& findings,
+                       const std::filesystem::path& cured);
 
 }  // namespace fidservo::fleet

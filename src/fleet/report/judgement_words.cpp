@@ -61,9 +61,11 @@ std::string change_words(const Quantity& quantity, double floors) {
     return with_unit((change < 0.0 ? "" : "+") + three_digits(change), quantity);
 }
 
-std::string unit_names(const FleetFindings& findings, const std::vector<std::size_t>& units, std::size_t most) {
+std::string unit_names(const FleetFindings& findings, const std::vector<std::size_t>& units,
+                       std::size_t most) {
     std::vector<std::string> names;
-    for (std::size_t k = 0; k < std::min(units.size(), most); ++k) names.push_back(findings.units[units[k]].name);
+    for (std::size_t k = 0; k < std::min(units.size(), most); ++k)
+        names.push_back(findings.units[units[k]].name);
     if (units.size() > most) names.push_back(fmt::format("{} more", units.size() - most));
     return diagnose::enumerated(names);
 }
@@ -73,8 +75,9 @@ std::string whose_words(const FleetFindings& findings, const Judgement& judgemen
         case Whose::all:
             return judgement.matter == Matter::deviation ? "All of them: the model is wrong" : "All units";
         case Whose::group:
-            return judgement.group.empty() ? fmt::format("{} units, since the same date", judgement.units.size())
-                                           : diagnose::capitalised(judgement.group);
+            return judgement.group.empty()
+                       ? fmt::format("{} units, since the same date", judgement.units.size())
+                       : diagnose::capitalised(judgement.group);
         case Whose::unit:
             break;
     }
@@ -107,19 +110,23 @@ std::string evidence_sentences(const FleetFindings& findings, const Judgement& j
     std::string text;
     if (judgement.matter != Matter::deviation)
         text = fmt::format(
-            "Found first with the recordings of {}. All diagnoses together speak for a change {} times more than an alarm asks "
+            "Found first with the recordings of {}. All diagnoses together speak for a change {} times more "
+            "than an alarm asks "
             "for, which itself is false at most {} times a unit-year.",
             date_of(*judgement.found_s), ratio_words(judgement.log_odds), false_alarms_a_unit_year);
     if (judgement.probability < 1.0 || judgement.log_all != 0.0)
         text += fmt::format(
-            "{}Against no deviation the likelihood is {} times larger with one value for all units, {} with a batch of "
-            "its own, {} with one unit of its own; odds {} to 1 with what having looked elsewhere costs, probability {}.",
+            "{}Against no deviation the likelihood is {} times larger with one value for all units, {} with "
+            "a batch of "
+            "its own, {} with one unit of its own; odds {} to 1 with what having looked elsewhere costs, "
+            "probability {}.",
             text.empty() ? "" : " ", ratio_words(judgement.log_all), ratio_words(judgement.log_group),
             ratio_words(judgement.log_unit), ratio_words(judgement.log_odds),
             diagnose::probability_words(judgement.probability));
     const QuantityFindings& found = findings.quantities[judgement.quantity];
-    text += fmt::format(" Units that are alike differ by {} floors, and scatter by {} floors from one diagnosis to the next.",
-                        three_digits(found.population.spread), three_digits(found.scatter.std));
+    text += fmt::format(
+        " Units that are alike differ by {} floors, and scatter by {} floors from one diagnosis to the next.",
+        three_digits(found.population.spread), three_digits(found.scatter.std));
     return text;
 }
 
@@ -130,21 +137,26 @@ std::vector<std::string> what_to_do(const FleetFindings& findings, const Judgeme
     const std::string cure = advice == nullptr ? "" : std::string(advice->cure);
     std::vector<std::string> steps;
     if (judgement.matter != Matter::deviation)
-        steps.push_back(fmt::format("Look up what was done to {} between {} and {}: a part exchanged, a screw loosened, a move, a new program.",
-                                    judgement.whose == Whose::unit ? "it" : "them", date_of(judgement.since->earliest_s),
-                                    date_of(judgement.since->latest_s)));
+        steps.push_back(
+            fmt::format("Look up what was done to {} between {} and {}: a part exchanged, a screw loosened, "
+                        "a move, a new program.",
+                        judgement.whose == Whose::unit ? "it" : "them", date_of(judgement.since->earliest_s),
+                        date_of(judgement.since->latest_s)));
     if (judgement.matter == Matter::trend)
         steps.push_back(fmt::format("Plan the repair: going on like this it is {} floors off in four weeks.",
                                     three_digits(std::abs(judgement.now + 4.0 * judgement.size.value))));
     if (judgement.whose == Whose::all && judgement.matter == Matter::deviation) {
         steps.push_back("Check it on one unit: " + check);
-        steps.push_back(fmt::format("If it is so, let the rig file of all units state {} = {}: cured-rig.yaml, beside the results, does where --rig is given.",
-                                    quantity.parameter, value_words(quantity, judgement.size.value)));
+        steps.push_back(
+            fmt::format("If it is so, let the rig file of all units state {} = {}: cured-rig.yaml, beside "
+                        "the results, does where --rig is given.",
+                        quantity.parameter, value_words(quantity, judgement.size.value)));
         return steps;
     }
     steps.push_back(check);
     if (judgement.whose == Whose::group)
-        steps.push_back("Compare one of these units with one of the others: parts, supplier, place, who adjusted them.");
+        steps.push_back(
+            "Compare one of these units with one of the others: parts, supplier, place, who adjusted them.");
     steps.push_back(cure);
     return steps;
 }

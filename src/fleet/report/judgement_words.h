@@ -27,7 +27,8 @@ std::string value_words(const Quantity& quantity, double floors);
 std::string change_words(const Quantity& quantity, double floors);
 
 /// Names of units, the first few and how many more.
-std::string unit_names(const FleetFindings& findings, const std::vector<std::size_t>& units, std::size_t most = 8);
+std::string unit_names(const FleetFindings& findings, const std::vector<std::size_t>& units,
+                       std::size_t most = 8);
 
 /// For files: "all", "group", "unit".
 std::string_view name_of(Whose whose);
