@@ -33,13 +33,15 @@ std::vector<ChangeColumn> columns_of(std::span<const Point> all, std::span<const
     return columns;
 }
 
-/// Whether M passes the bound without any one of the points, too.
-bool stands_without_any(std::span<const Point> points, const Scatter& scatter,
+/// Whether M passes the bound without any one of the diagnoses, too. A point that stands for several is none.
+bool stands_without_any(const CountedPoints& kept, std::size_t count, const Scatter& scatter,
                         std::span<const ChangeColumn> known, double log_bound) {
-    std::vector<Point> fewer(points.begin() + 1, points.end());
-    for (std::size_t left_out = 0; left_out < points.size(); ++left_out) {
+    for (std::size_t left_out = 0; left_out < count; ++left_out) {
+        if (left_out + 1 < count && kept.index[left_out + 1] > kept.index[left_out] + 1) continue;
+        std::vector<Point> fewer(kept.points.begin(),
+                                 kept.points.begin() + static_cast<std::ptrdiff_t>(count));
+        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(left_out));
         if (scan(fewer, scatter, known).log_sum() < log_bound) return false;
-        if (left_out < fewer.size()) fewer[left_out] = points[left_out];
     }
     return true;
 }
@@ -47,10 +49,10 @@ bool stands_without_any(std::span<const Point> points, const Scatter& scatter,
 /// The place among the counted points at which a further change is found first.
 std::optional<std::size_t> first_alarm(const CountedPoints& kept, const Scatter& scatter,
                                        std::span<const ChangeColumn> known, double log_bound) {
-    for (std::size_t count = 3; count <= kept.points.size(); ++count) {
+    for (std::size_t count = 2; count <= kept.points.size(); ++count) {
         const std::span<const Point> until(kept.points.data(), count);
         if (scan(until, scatter, known).log_sum() >= log_bound &&
-            stands_without_any(until, scatter, known, log_bound))
+            stands_without_any(kept, count, scatter, known, log_bound))
             return count - 1;
     }
     return {};
