@@ -72,7 +72,7 @@ TEST(SlowFleetFigures, Step_IsDatedToItsWeek) {
         const std::size_t at = 4 + seed % 5, unit = seed % 50, effect = seed % drawn_effects().size();
         DrawnFleet fleet = fleet_of(seed, 12);
         fleet.truth = [&](std::size_t e, std::size_t u, std::size_t week) {
-            return e == effect && u == unit && week >= at ? 2.0 : 0.0;
+            return e == effect && u == unit && week >= at ? 4.0 : 0.0;
         };
         const FleetFindings findings = findings_of(draw(fleet));
         for (const Judgement& judgement : findings.judgements) {
@@ -84,7 +84,7 @@ TEST(SlowFleetFigures, Step_IsDatedToItsWeek) {
             covered += judgement.since->earliest_s < true_s && true_s <= judgement.since->latest_s ? 1 : 0;
         }
     }
-    std::printf("step of two floors: dated to its week %d of %d, interval has it %d\n", dated, histories,
+    std::printf("step of four floors: dated to its week %d of %d, interval has it %d\n", dated, histories,
                 covered);
     EXPECT_GE(dated, 95);
 }

@@ -16,25 +16,43 @@ std::span<const Point> timed(const UnitFindings& unit) {
     return std::span(unit.series.points).subspan(unit.series.untimed);
 }
 
-/// What has changed, with the scatter of the units that have not.
-void look_for_changes(std::vector<UnitFindings>& units, double bound, QuantityFindings& found) {
+WithinScatter scatter_of(const QuantityFindings& found) {
     std::vector<std::vector<Point>> points;
-    for (const UnitFindings& unit : units) points.emplace_back(timed(unit).begin(), timed(unit).end());
-    WithinScatter scatter(points);
-    // Units that changed pass for scatter of the others until they are left out.
-    for (int pass = 0; pass < 2; ++pass)
-        for (std::size_t u = 0; u < units.size(); ++u) {
-            if (pass == 1 && !units[u].changes.empty()) scatter.leave_out(u);
-            if (pass == 0) units[u].changes = find_changes(points[u], scatter.without(u), bound);
-        }
-    for (std::size_t u = 0; u < units.size(); ++u) {
-        const Scatter of_others = scatter.without(u);
-        units[u].changes = find_changes(points[u], of_others, bound);
-        const std::span<const Point> counted =
-            units[u].changes.empty() ? std::span<const Point>(units[u].series.points) : timed(units[u]);
-        units[u].level = level_now(counted, of_others, units[u].changes);
+    for (const UnitFindings& unit : found.units) points.emplace_back(timed(unit).begin(), timed(unit).end());
+    return WithinScatter(points);
+}
+
+/// Of all quantities, for each unit of the fleet by the others.
+std::vector<Scatter> scatter_by_others(const FleetFindings& findings,
+                                       std::span<const WithinScatter> scatters) {
+    std::vector<std::vector<std::optional<std::size_t>>> places(
+        findings.units.size(), std::vector<std::optional<std::size_t>>(scatters.size()));
+    for (std::size_t q = 0; q < scatters.size(); ++q)
+        for (std::size_t place = 0; place < findings.quantities[q].units.size(); ++place)
+            places[findings.quantities[q].units[place].series.unit][q] = place;
+    std::vector<Scatter> by_others;
+    for (const auto& unit : places) by_others.push_back(common_scatter(scatters, unit));
+    return by_others;
+}
+
+/// What has changed, with the scatter of the units that have not.
+void look_for_changes(QuantityFindings& found, WithinScatter scatter, std::span<const Scatter> common,
+                      double bound) {
+    const auto of_others = [&](std::size_t u) {
+        return scatter.without(u, common[found.units[u].series.unit]);
+    };
+    for (std::size_t u = 0; u < found.units.size(); ++u)
+        found.units[u].changes = find_changes(timed(found.units[u]), of_others(u), bound);
+    // Units that changed passed for scatter of the others.
+    for (std::size_t u = 0; u < found.units.size(); ++u)
+        if (!found.units[u].changes.empty()) scatter.leave_out(u);
+    for (std::size_t u = 0; u < found.units.size(); ++u) {
+        UnitFindings& unit = found.units[u];
+        unit.changes = find_changes(timed(unit), of_others(u), bound);
+        const std::span<const Point> all = unit.series.points;
+        unit.level = level_now(unit.changes.empty() ? all : timed(unit), of_others(u), unit.changes);
     }
-    found.scatter = scatter.of_all();
+    found.scatter = scatter.of_all(common.front());
 }
 
 /// Which units have a share that is not everybody's.
@@ -61,13 +79,17 @@ void pool(QuantityFindings& found) {
             odd[u] ? found.units[u].level : pooled(found.units[u].level, found.population);
 }
 
-QuantityFindings judged(const std::vector<FleetResult>& results, const std::vector<UnitHistory>& histories,
-                        QuantityOverFleet fleet, double bound) {
+QuantityFindings unjudged(QuantityOverFleet fleet) {
     QuantityFindings found;
     found.quantity = std::move(fleet.quantity);
     for (QuantitySeries& series : fleet.units)
         found.units.push_back({.series = std::move(series), .changes = {}, .level = {}, .pooled = {}});
-    look_for_changes(found.units, bound, found);
+    return found;
+}
+
+/// Whose the deviations are, and units' values given the fleet.
+void attribute_and_pool(const std::vector<FleetResult>& results, const std::vector<UnitHistory>& histories,
+                        QuantityFindings& found) {
     found.groups = groups_of(results, histories, found.units);
     std::vector<Level> levels;
     for (const UnitFindings& unit : found.units) levels.push_back(unit.level);
@@ -75,7 +97,6 @@ QuantityFindings judged(const std::vector<FleetResult>& results, const std::vect
     for (const UnitGroup& group : found.groups) sets.push_back(group.units);
     found.attribution = attribute(levels, sets, static_cast<double>(quantities_looked_at()));
     pool(found);
-    return found;
 }
 
 std::vector<std::size_t> fleet_units(const QuantityFindings& found, const std::vector<std::size_t>& places) {
@@ -183,8 +204,16 @@ FleetFindings findings_of(const std::vector<FleetResult>& results) {
     findings.looks_a_year = looks_a_year(results, findings.units);
     findings.bound = alarm_bound(static_cast<double>(quantities_looked_at()), findings.looks_a_year,
                                  false_alarms_a_unit_year);
-    for (QuantityOverFleet& fleet : quantities_over_fleet(results, findings.units))
-        findings.quantities.push_back(judged(results, findings.units, std::move(fleet), findings.bound));
+    std::vector<WithinScatter> scatters;
+    for (QuantityOverFleet& fleet : quantities_over_fleet(results, findings.units)) {
+        findings.quantities.push_back(unjudged(std::move(fleet)));
+        scatters.push_back(scatter_of(findings.quantities.back()));
+    }
+    const std::vector<Scatter> common = scatter_by_others(findings, scatters);
+    for (std::size_t q = 0; q < findings.quantities.size(); ++q) {
+        look_for_changes(findings.quantities[q], std::move(scatters[q]), common, findings.bound);
+        attribute_and_pool(results, findings.units, findings.quantities[q]);
+    }
     for (std::size_t q = 0; q < findings.quantities.size(); ++q)
         add_judgements(results, findings.quantities[q], q, findings.judgements);
     std::ranges::stable_sort(findings.judgements, {}, [](const Judgement& judgement) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace fidservo::fleet {
@@ -11,6 +12,7 @@ namespace {
 /// Degrees of freedom that are looked at. The last is as good as a scale that all units share.
 constexpr std::array scale_degrees{2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 64.0, 128.0, 1e5};
 constexpr std::size_t sigma_count = 45;
+constexpr double least_contrasts = 10.0;
 
 /// 0, and from 0.02 floors on in steps of a fifth up to 44.
 double sigma_at(std::size_t k) {
@@ -50,36 +52,50 @@ std::vector<double> log_likelihoods(const std::vector<Point>& points) {
     return over_grid;
 }
 
+/// The sigma that is likeliest with degrees of freedom, those of the grid next below them.
+double likeliest_sigma(const std::vector<double>& over_grid, double degrees) {
+    const auto above = std::ranges::upper_bound(scale_degrees, degrees) - scale_degrees.begin();
+    const std::size_t d = above == 0 ? 0 : static_cast<std::size_t>(above) - 1;
+    std::size_t likeliest = 0;
+    for (std::size_t k = 1; k < sigma_count; ++k)
+        if (over_grid[k * scale_degrees.size() + d] > over_grid[likeliest * scale_degrees.size() + d])
+            likeliest = k;
+    return sigma_at(likeliest);
+}
+
 }  // namespace
 
 WithinScatter::WithinScatter(std::span<const std::vector<Point>> units)
     : sum_(sigma_count * scale_degrees.size(), 0.0) {
     for (const std::vector<Point>& points : units) {
-        std::vector<Point> named;
-        std::ranges::copy_if(points, std::back_inserter(named),
-                             [](const Point& point) { return point.named && point.std > 0.0; });
-        of_unit_.push_back(log_likelihoods(named));
-        contrasts_of_unit_.push_back(named.size() > 1 ? static_cast<double>(named.size()) - 1.0 : 0.0);
+        double unnamed = 0.0, variances = 0.0;
+        for (const Point& point : points) {
+            unnamed += point.named ? 0.0 : 1.0;
+            variances += point.named ? 0.0 : point.std * point.std;
+        }
+        unnamed_of_unit_.push_back(unnamed);
+        unnamed_variance_of_unit_.push_back(variances);
+        const bool counts = unnamed == 0.0 && points.size() > 1;
+        of_unit_.push_back(log_likelihoods(counts ? points : std::vector<Point>{}));
+        contrasts_of_unit_.push_back(counts ? static_cast<double>(points.size()) - 1.0 : 0.0);
         contrasts_ += contrasts_of_unit_.back();
         for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += of_unit_.back()[k];
     }
 }
 
-Scatter WithinScatter::best(const std::vector<double>& sum, double contrasts) const {
-    if (contrasts < 1.0) return {};
-    const auto at = static_cast<std::size_t>(std::ranges::max_element(sum) - sum.begin());
-    return {sigma_at(at / scale_degrees.size()),
-            std::min(contrasts, scale_degrees[at % scale_degrees.size()])};
+Scatter WithinScatter::best(const std::vector<double>& sum, double contrasts, const Scatter& common) {
+    return contrasts < least_contrasts ? common
+                                       : Scatter{likeliest_sigma(sum, common.degrees), common.degrees};
 }
 
-Scatter WithinScatter::of_all() const {
-    return best(sum_, contrasts_);
+Scatter WithinScatter::of_all(const Scatter& common) const {
+    return best(sum_, contrasts_, common);
 }
 
-Scatter WithinScatter::without(std::size_t unit) const {
+Scatter WithinScatter::without(std::size_t unit, const Scatter& common) const {
     std::vector<double> sum = sum_;
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] -= of_unit_[unit][k];
-    return best(sum, contrasts_ - contrasts_of_unit_[unit]);
+    return best(sum, contrasts_ - contrasts_of_unit_[unit], common);
 }
 
 void WithinScatter::leave_out(std::size_t unit) {
@@ -87,6 +103,38 @@ void WithinScatter::leave_out(std::size_t unit) {
     contrasts_ -= contrasts_of_unit_[unit];
     std::ranges::fill(of_unit_[unit], 0.0);
     contrasts_of_unit_[unit] = 0.0;
+}
+
+Scatter common_scatter(std::span<const WithinScatter> quantities,
+                       std::span<const std::optional<std::size_t>> unit) {
+    std::array<double, scale_degrees.size()> profile{};
+    std::vector<double> sum(sigma_count * scale_degrees.size(), 0.0);
+    double contrasts = 0.0, unnamed = 0.0, unnamed_variances = 0.0;
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+        const WithinScatter& quantity = quantities[q];
+        for (std::size_t u = 0; u < quantity.unnamed_of_unit_.size(); ++u) {
+            if (unit[q] == u) continue;
+            unnamed += quantity.unnamed_of_unit_[u];
+            unnamed_variances += quantity.unnamed_variance_of_unit_[u];
+        }
+        contrasts += quantity.contrasts_ - (unit[q] ? quantity.contrasts_of_unit_[*unit[q]] : 0.0);
+        for (std::size_t d = 0; d < scale_degrees.size(); ++d) {
+            double best = -std::numeric_limits<double>::infinity();
+            for (std::size_t at = d; at < sum.size(); at += scale_degrees.size()) {
+                const double of_others =
+                    quantity.sum_[at] - (unit[q] ? quantity.of_unit_[*unit[q]][at] : 0.0);
+                sum[at] += of_others;
+                best = std::max(best, of_others);
+            }
+            profile[d] += best;
+        }
+    }
+    if (contrasts < least_contrasts && unnamed >= least_contrasts)
+        return {std::sqrt(unnamed_variances / unnamed), scale_degrees.back()};
+    if (contrasts < 1.0) return {};
+    const double degrees =
+        scale_degrees[static_cast<std::size_t>(std::ranges::max_element(profile) - profile.begin())];
+    return {likeliest_sigma(sum, degrees), std::min(contrasts, degrees)};
 }
 
 }  // namespace fidservo::fleet
