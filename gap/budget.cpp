@@ -17,28 +17,29 @@ std::string_view name_of(Ended ended) {
     return "finished";
 }
 
-Budget::Budget(double search_s, double whole_s, std::function<bool()> interrupted)
-    : interrupted_(std::move(interrupted)) {
-    const auto after = [now = Clock::now()](double seconds) {
-        return now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-    };
-    search_end_ = after(search_s);
-    whole_end_ = after(whole_s);
+Budget::Budget(double search_s, double whole_s, std::function<bool()> interrupted, Seconds seconds)
+    : search_end_s_(search_s),
+      whole_end_s_(whole_s),
+      interrupted_(std::move(interrupted)),
+      seconds_(seconds) {}
+
+double Budget::now_s() const {
+    if (seconds_ == Seconds::by_effort) return static_cast<double>(rows()) / rows_a_second;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 void Budget::prolong(double extra_s) const {
-    const auto end = whole_end_.load(std::memory_order_relaxed);
-    if (end == Clock::time_point::max()) return;
-    const auto extra = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(extra_s));
-    whole_end_.store(std::max(end, Clock::now()) + extra, std::memory_order_relaxed);
+    const double end_s = whole_end_s_.load(std::memory_order_relaxed);
+    if (end_s == never) return;
+    whole_end_s_.store(std::max(end_s, now_s()) + extra_s, std::memory_order_relaxed);
 }
 
 void Budget::check() const {
     const Part part = part_.load(std::memory_order_relaxed);
     if (part == Part::over) return;
     if (is_interrupted()) throw BudgetEnded(Ended::interrupted);
-    const auto end = part == Part::search ? search_end_ : whole_end_.load(std::memory_order_relaxed);
-    if (end != Clock::time_point::max() && Clock::now() > end) throw BudgetEnded(Ended::budget);
+    const double end_s = part == Part::search ? search_end_s_ : whole_end_s_.load(std::memory_order_relaxed);
+    if (end_s != never && now_s() > end_s) throw BudgetEnded(Ended::budget);
 }
 
 }  // namespace fidservo::gap

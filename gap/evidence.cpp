@@ -308,7 +308,7 @@ double Evidence::effort() const {
     std::size_t rows = 0;
     for (const Recording& recording : parts_->recordings) rows += recording.rows.size();
     constexpr std::size_t five_minutes = 300'000;
-    return static_cast<double>(parts_->effort) / static_cast<double>(std::max(rows, five_minutes));
+    return static_cast<double>(parts_->budget->rows()) / static_cast<double>(std::max(rows, five_minutes));
 }
 
 Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted, double start_offset_count) const {
@@ -327,10 +327,10 @@ Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted, doub
                       errors.begin() + static_cast<std::ptrdiff_t>(window.begin));
         }
         if (std::ranges::none_of(touched.signals, std::identity{})) return errors;
-        parts_->effort += parts.windows.size() * rows_worth_a_window;
+        parts.budget->count(parts.windows.size() * rows_worth_a_window);
         parallel_for(parts.recordings.size(), [&](std::size_t run) {
-            parts_->effort +=
-                RunPredictor(parts, run, wanted, models, touched.carriage).predict(touched.signals, errors);
+            parts.budget->count(
+                RunPredictor(parts, run, wanted, models, touched.carriage).predict(touched.signals, errors));
         });
         return errors;
     } catch (const InputError&) {

@@ -15,9 +15,7 @@
 #include "gap/links/tag_link.h"
 
 #include <array>
-#include <atomic>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -51,8 +49,7 @@ struct Evidence::Parts {
     HallRange hall_range;
     std::vector<Omission> omissions;
     std::vector<Course> courses;
-    Errors nominal;                         ///< without a hypothesis
-    std::atomic<std::uint64_t> effort = 0;  ///< in rows (Evidence::effort)
+    Errors nominal;  ///< without a hypothesis
 };
 
 /// Throws InputError where a recording cannot be of this rig.

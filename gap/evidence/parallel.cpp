@@ -22,6 +22,10 @@ std::size_t take_cores(std::size_t wanted) {
 
 }  // namespace
 
+void use_cores(std::size_t count) {
+    idle_cores = std::max<std::size_t>(1, count) - 1;
+}
+
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work) {
     std::atomic<std::size_t> next = 0;
     std::exception_ptr failed;

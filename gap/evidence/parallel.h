@@ -8,4 +8,8 @@ namespace fidservo::gap {
 /// may call it again. The first exception is thrown again once all have ended.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work);
 
+/// On how many cores of the machine all calls together work from now on, at least 1; at first on all. To be
+/// called while none is under way.
+void use_cores(std::size_t count);
+
 }  // namespace fidservo::gap

@@ -11,16 +11,15 @@
 #include "src/config/stage_keys.h"
 #include "src/diagnose/designed_experiment.h"
 #include "src/diagnose/diagnosis_json.h"
-#include "src/diagnose/frame_looks.h"
 #include "src/diagnose/matters.h"
 #include "src/diagnose/next_experiment.h"
+#include "src/diagnose/read_recordings.h"
 #include "src/diagnose/report.h"
 #include "src/diagnose/search_progress.h"
 #include "src/diagnose/thinned.h"
 #include "src/diagnose/time_limit.h"
 #include "src/interrupt.h"
 #include "src/recording/durable_file.h"
-#include "src/recording/reader.h"
 
 #include <chrono>
 #include <memory>
@@ -33,7 +32,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
-#include <malloc.h>
 
 namespace fidservo {
 namespace {
@@ -54,24 +52,6 @@ void demand_effects(const char* option, const std::vector<std::string>& names,
                 "{}: {}: there is no such effect; fidservo simulate --help lists them", option, name));
 }
 
-/// With what their frames show, and what of that is missing.
-struct Read {
-    std::vector<Recording> recordings;
-    std::vector<std::string> notes;
-};
-
-Read read_recordings(const std::vector<std::filesystem::path>& paths) {
-    Read read;
-    std::vector<std::filesystem::path> folders;
-    for (const std::filesystem::path& path : paths)
-        for (const std::filesystem::path& folder : find_recordings(path)) {
-            read.recordings.push_back(read_recording(folder));
-            folders.push_back(folder);
-        }
-    read.notes = diagnose::measure_frames(read.recordings, folders);
-    return read;
-}
-
 int check_itself(const DiagnoseOptions& options) {
     if (!options.recordings.empty()) throw InputError("--self-check: it makes its own recordings; give none");
     if (!options.without.empty()) throw InputError("--self-check: it withholds effects itself; no --without");
@@ -90,15 +70,6 @@ void demand_experiment_file(const std::filesystem::path& file) {
             fmt::format("--write-experiment: {}: the name must end in .yaml or .yml, as record and "
                         "simulate know an experiment file by that",
                         file.string()));
-}
-
-/// Predictions take and give back the same few megabytes thousands of times: the heap is to keep them.
-void keep_memory() {
-#ifdef __GLIBC__
-    constexpr int top_pad = 64 << 20, never = 1 << 30;
-    ::mallopt(M_TOP_PAD, top_pad);
-    ::mallopt(M_TRIM_THRESHOLD, never);
-#endif
 }
 
 /// Designs the experiment that --write-experiment asks for, writes it and proposes it. Without one the
@@ -129,7 +100,7 @@ std::shared_ptr<const diagnose::DesignedNext> write_experiment(const DiagnoseOpt
 int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const gap::SignalLimits& matters,
                         const std::vector<const plant::Effect*>& formulas) {
     const auto start = std::chrono::steady_clock::now();
-    Read read = read_recordings(options.recordings);
+    diagnose::ReadRecordings read = diagnose::read_recordings(options.recordings);
     const double gone_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const diagnose::TimeLimit limit = diagnose::time_limit(read.recordings);
     const auto budget = std::make_shared<const gap::Budget>(limit.search_s - gone_s, limit.whole_s - gone_s,
@@ -174,7 +145,7 @@ int run_diagnose(const DiagnoseOptions& options) {
     demand_effects("--effects", options.only, formulas);
     demand_effects("--without", options.without, formulas);
     demand_new_file("--json", options.json);
-    keep_memory();
+    diagnose::keep_memory();
     if (options.self_check.wanted) return check_itself(options);
     if (options.recordings.empty()) throw InputError("RECORDING: give one recording folder at least");
     demand_new_file("--report", options.report);

@@ -50,13 +50,9 @@ int report_fleet(const FleetReportOptions& options) {
 
 }  // namespace
 
-void add_fleet_report(CLI::App& app, int& exit_code) {
-    const auto known = app.get_subcommands([](const CLI::App* one) { return one->get_name() == "fleet"; });
-    CLI::App* group = known.empty()
-                          ? app.add_subcommand("fleet", "Many campaigns of many units")->require_subcommand(1)
-                          : known.front();
+void add_fleet_report(CLI::App& group, int& exit_code) {
     auto options = std::make_shared<FleetReportOptions>();
-    CLI::App* command = group->add_subcommand(
+    CLI::App* command = group.add_subcommand(
         "report", "Which unit is off, since when and by what; is it the unit, its batch, or the model");
     command->add_option("FLEET", options->fleet, "Folder that fleet diagnose --out made")->required();
     command->add_option("--html", options->html, "New file for the report")->type_name("FILE.html");

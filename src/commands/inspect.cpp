@@ -38,6 +38,8 @@ void add_inspect(CLI::App& app, int& exit_code) {
         ->type_name("RECIPE.yaml");
     add_session_options(*command, options->session);
     add_sim_rig_option(*command, options->session);
+    add_origin_options(*command, options->session.origin);
+    options->session.recordings_state_time = true;
     command->get_option("--camera")
         ->description(
             "Camera: sim, v4l2:/dev/video0 (fidservo cameras lists them), or images:DIR to measure "

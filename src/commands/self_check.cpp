@@ -1,6 +1,7 @@
 #include "src/commands/self_check.h"
 
 #include "core/rig.h"
+#include "gap/evidence/parallel.h"
 #include "src/commands/commands.h"
 #include "src/config/rig_file.h"
 #include "src/interrupt.h"
@@ -68,20 +69,27 @@ void add_self_check_options(CLI::App& diagnose, SelfCheckRequest& request) {
             "Where effects are tied, record the designed experiment and the best of the list, and diagnose "
             "again with each")
         ->needs(self_check);
+    diagnose
+        .add_flag("--by-effort", request.by_effort,
+                  "Each on one core, its seconds counted by what it predicts: the same on any machine, "
+                  "however busy")
+        ->needs(self_check);
 }
 
 int run_self_check(const SelfCheckRequest& request, const std::filesystem::path& rig_file,
                    const std::vector<std::string>& only, const std::filesystem::path& json) {
-    selfcheck::SelfCheckOptions options{.cases = request.cases,
-                                        .first = request.first,
-                                        .kinds = {},
-                                        .seed = request.seed,
-                                        .only = only,
-                                        .is_limited = true,
-                                        .recordings = request.recordings,
-                                        .settles_ties = request.settles_ties};
+    selfcheck::SelfCheckOptions options{
+        .cases = request.cases,
+        .first = request.first,
+        .kinds = {},
+        .seed = request.seed,
+        .only = only,
+        .limited = request.by_effort ? gap::Seconds::by_effort : gap::Seconds::by_clock,
+        .recordings = request.recordings,
+        .settles_ties = request.settles_ties};
     const auto kinds = kinds_by_name();
     for (const std::string& name : request.kinds) options.kinds.push_back(kinds.at(name));
+    if (request.by_effort) gap::use_cores(1);
     watch_for_interrupts();
     const auto after_case = [&](const selfcheck::SelfCheck& so_far) {
         print_last_case(so_far);

@@ -16,7 +16,7 @@ struct SelfCheckRequest {
     std::size_t first = 0;
     std::vector<std::string> kinds;
     std::vector<std::string> recordings;
-    bool settles_ties = false;
+    bool settles_ties = false, by_effort = false;
 };
 
 void add_self_check_options(CLI::App& diagnose, SelfCheckRequest& request);

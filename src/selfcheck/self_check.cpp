@@ -57,17 +57,17 @@ void demand_recordings(const Rig& rig, const std::vector<std::string>& names) {
 gap::Evidence evidence_of(const Rig& nominal, std::vector<Recording> recordings,
                           const SelfCheckOptions& options) {
     const diagnose::TimeLimit limit = diagnose::time_limit(recordings);
-    const auto budget = options.is_limited ? std::make_shared<const gap::Budget>(
-                                                 limit.search_s, limit.whole_s, std::function<bool()>())
-                                           : std::make_shared<const gap::Budget>();
+    const auto budget = options.limited
+                            ? std::make_shared<const gap::Budget>(limit.search_s, limit.whole_s,
+                                                                  std::function<bool()>(), *options.limited)
+                            : std::make_shared<const gap::Budget>();
     return {nominal, std::move(recordings), budget};
 }
 
 /// Sees recordings, the nominal rig, and what the diagnosis is not to try; no label.
 gap::Diagnosis diagnose_blindly(const gap::Evidence& evidence, const SelfCheckOptions& options,
                                 const std::vector<std::string>& without) {
-    const double equation_s =
-        options.is_limited ? diagnose::time_limit(evidence.recordings()).equation_s : 0.0;
+    const double equation_s = options.limited ? diagnose::time_limit(evidence.recordings()).equation_s : 0.0;
     return gap::diagnose(
         evidence, {.only = options.only, .without = without, .equation_s = equation_s, .selection = {}});
 }

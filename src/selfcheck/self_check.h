@@ -2,11 +2,13 @@
 // The diagnosis judged on rigs whose effects are known: drawn, recorded on the independent model, diagnosed
 // without their labels, scored.
 #include "core/result.h"
+#include "gap/budget.h"
 #include "gap/search/selection.h"
 #include "src/selfcheck/tally/outcome.h"
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +24,9 @@ struct SelfCheckOptions {
     std::vector<CaseKind> kinds;  ///< others are passed over; empty: all those without frames
     std::uint64_t seed = 1;
     std::vector<std::string> only;  ///< effects that the diagnosis tries; empty: all
-    /// Whether a diagnosis ends when the command's would (src/diagnose/time_limit.h); otherwise it takes what
-    /// it takes, and is the same on any machine.
-    bool is_limited = false;
+    /// What the limits of a diagnosis (src/diagnose/time_limit.h) are counted by, on one core where by
+    /// effort; without, it takes what it takes.
+    std::optional<gap::Seconds> limited = {};
     std::vector<std::string> recordings;  ///< of a campaign's, those that are made; empty: all
     bool settles_ties = false;            ///< src/selfcheck/ties.h
 };

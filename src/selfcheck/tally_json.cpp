@@ -139,7 +139,8 @@ Json options_of(const SelfCheckOptions& options) {
             {"kinds", kinds},
             {"only", options.only},
             {"recordings", options.recordings},
-            {"settles_ties", options.settles_ties}};
+            {"settles_ties", options.settles_ties},
+            {"by_effort", options.limited == gap::Seconds::by_effort}};
 }
 
 }  // namespace

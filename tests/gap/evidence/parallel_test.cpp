@@ -24,6 +24,13 @@ TEST(ParallelFor, Nothing_CallsNothing) {
     parallel_for(0, [](std::size_t) { FAIL(); });
 }
 
+TEST(ParallelFor, OneCore_WorksOnTheCallersThread) {
+    use_cores(1);
+    const std::thread::id caller = std::this_thread::get_id();
+    parallel_for(20, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), caller); });
+    use_cores(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 TEST(ParallelFor, Nested_WorksOnNoMoreThreadsThanThereAreCores) {
     std::atomic<int> working = 0, most = 0;
     parallel_for(8, [&](std::size_t) {
