@@ -6,6 +6,7 @@
 #include "plant/effects/catalogue.h"
 #include "src/commands/commands.h"
 #include "src/commands/self_check.h"
+#include "src/compare/comparison.h"
 #include "src/config/effects_file.h"
 #include "src/config/rig_file.h"
 #include "src/config/stage_keys.h"
@@ -41,6 +42,7 @@ struct DiagnoseOptions {
     std::filesystem::path rig_file;
     std::vector<std::string> only, without, matters;
     std::filesystem::path effects_file, json, report, write_rig, write_experiment;
+    std::vector<std::filesystem::path> compare;
     SelfCheckRequest self_check;
 };
 
@@ -139,6 +141,24 @@ int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const ga
     return exit_done;
 }
 
+int compare_sets(const DiagnoseOptions& options, const Rig& rig) {
+    if (!options.recordings.empty())
+        throw InputError("--compare: A and B are all that is compared; no RECORDING");
+    if (!options.only.empty() || !options.without.empty() || !options.effects_file.empty() ||
+        !options.matters.empty() || !options.report.empty() || !options.write_rig.empty() ||
+        !options.write_experiment.empty())
+        throw InputError("--compare: takes --rig and --json only");
+    diagnose::ReadRecordings a = diagnose::read_recordings({options.compare[0]});
+    diagnose::ReadRecordings b = diagnose::read_recordings({options.compare[1]});
+    diagnose::SearchProgress progress(2.0 * diagnose::half_a_minute.whole_s);
+    const compare::Comparison comparison =
+        compare::compare(rig, std::move(a.recordings), std::move(b.recordings), interrupt_requested,
+                         [&](std::string_view what) { progress.tell(what); });
+    fmt::print("{}", compare::describe(comparison));
+    if (!options.json.empty()) write_or_throw(options.json, compare::comparison_json(comparison));
+    return exit_done;
+}
+
 int run_diagnose(const DiagnoseOptions& options) {
     std::vector<const plant::Effect*> formulas;
     if (!options.effects_file.empty()) formulas = load_effects_file(options.effects_file);
@@ -147,7 +167,8 @@ int run_diagnose(const DiagnoseOptions& options) {
     demand_new_file("--json", options.json);
     diagnose::keep_memory();
     if (options.self_check.wanted) return check_itself(options);
-    if (options.recordings.empty()) throw InputError("RECORDING: give one recording folder at least");
+    if (options.recordings.empty() && options.compare.empty())
+        throw InputError("RECORDING: give one recording folder at least");
     demand_new_file("--report", options.report);
     demand_new_file("--write-rig", options.write_rig);
     demand_new_file("--write-experiment", options.write_experiment);
@@ -155,6 +176,7 @@ int run_diagnose(const DiagnoseOptions& options) {
     const Rig rig = load_rig(options.rig_file);
     const gap::SignalLimits matters = diagnose::what_matters(options.matters, rig);
     try {
+        if (!options.compare.empty()) return compare_sets(options, rig);
         return diagnose_recordings(options, rig, matters, formulas);
     } catch (const gap::BudgetEnded& end) {
         const bool by_user = end.how() == gap::Ended::interrupted;
@@ -205,6 +227,11 @@ void add_diagnose(CLI::App& app, int& exit_code) {
                      "New experiment file for record: the 30 s that tell best what these recordings leave "
                      "open; a minute more")
         ->type_name("FILE.yaml");
+    command
+        ->add_option("--compare", options->compare,
+                     "Two sets of recordings of one rig: what has changed from the first to the second")
+        ->expected(2)
+        ->type_name("A B");
     add_self_check_options(*command, options->self_check);
     add_example(*command, "fidservo diagnose --rig assets/rig.yaml recordings/ --json diagnosis.json");
     command->callback([options, &exit_code] { exit_code = run_diagnose(*options); });
