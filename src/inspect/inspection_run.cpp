@@ -20,6 +20,7 @@
 #include "src/session/camera_choice.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -253,7 +254,8 @@ Counts run_inspection(const InspectionOptions& options) {
         fmt::print("{}\n", findings.line);
         if (!options.history.empty()) {
             const HistoryFindings history =
-                append_to_history(options.history, rig, identity.rig_sha256, findings);
+                append_to_history(options.history, rig, identity.rig_sha256, findings,
+                                  std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()));
             for (const std::string& line : history.lines) fmt::print("{}\n", line);
             findings.html += history.html;
         }

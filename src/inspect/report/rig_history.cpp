@@ -9,7 +9,6 @@
 #include "src/inspect/sha256.h"
 #include "src/report/html.h"
 
-#include <chrono>
 #include <ctime>
 #include <fstream>
 
@@ -20,9 +19,10 @@
 namespace fidservo::inspect {
 namespace {
 
-std::string line_of(const Rig& rig, const std::string& rig_sha256, const std::string& diagnosis) {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    const std::string recorded_at = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+std::string line_of(const Rig& rig, const std::string& rig_sha256, const std::string& diagnosis,
+                    std::int64_t now_s) {
+    const std::string recorded_at =
+        fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(now_s)));
     const nlohmann::ordered_json line{{"format", "fidservo-fleet-result/1"},
                                       {"task",
                                        {{"kind", "diagnose"},
@@ -65,7 +65,8 @@ History read_history(const std::filesystem::path& file) {
 }  // namespace
 
 HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& rig,
-                                  const std::string& rig_sha256, const RigFindings& findings) {
+                                  const std::string& rig_sha256, const RigFindings& findings,
+                                  std::int64_t now_s) {
     HistoryFindings said;
     if (findings.diagnosis.empty()) {
         said.lines.emplace_back("history: this run is not in it, as nothing was diagnosed");
@@ -73,7 +74,7 @@ HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& 
     }
     // A line that a killed run has left unfinished is ended first.
     const bool is_whole = read_history(file).ends_with_a_line;
-    append_durably(file, (is_whole ? "" : "\n") + line_of(rig, rig_sha256, findings.diagnosis));
+    append_durably(file, (is_whole ? "" : "\n") + line_of(rig, rig_sha256, findings.diagnosis, now_s));
     const History history = read_history(file);
     for (const std::string& line : history.passed_over) said.lines.push_back("history: passed over: " + line);
     const fleet::FleetFindings changes = fleet::findings_of(history.runs);

@@ -6,6 +6,7 @@
 // (src/fleet/report/statistics/change_points.h).
 #include "src/inspect/report/rig_findings.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -24,7 +25,9 @@ struct HistoryFindings {
 
 /// Appends a run's findings, on the disk before it returns, and judges the whole history. Lines that are no
 /// results (a run was killed while it wrote) are passed over, which is said. Where nothing was diagnosed
-/// nothing is appended. Throws RunFault if the disk does not take the line.
+/// nothing is appended.
+/// @param now_s  since 1970-01-01 UTC
+/// Throws RunFault if the disk does not take the line.
 HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& rig,
                                   const std::string& rig_sha256, const RigFindings& findings);
 
