@@ -29,6 +29,7 @@ struct HistoryFindings {
 /// @param now_s  since 1970-01-01 UTC
 /// Throws RunFault if the disk does not take the line.
 HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& rig,
-                                  const std::string& rig_sha256, const RigFindings& findings);
+                                  const std::string& rig_sha256, const RigFindings& findings,
+                                  std::int64_t now_s);
 
 }  // namespace fidservo::inspect
