@@ -14,12 +14,12 @@ function fleetReport() {
   let chosen = -1;
   const plots = [];
 
-  function plot(figure, height, xs, low, high, axes, drawing, say, time) {
+  function plot(figure, height, xs, low, high, axes, drawing, say, down) {
     const tell = figure.querySelector(".tell");
     const options = {
       width: figure.clientWidth, height, legend: { show: false },
       cursor: { drag: { x: true, y: true, uni: 20 }, points: { show: false } },
-      scales: { x: { time: false }, y: { range: (u, min, max) => (u.zoomed ? [min, max] : [low, high]) } },
+      scales: { x: { time: false }, y: { dir: down ? -1 : 1, range: (u, min, max) => (u.zoomed ? [min, max] : [low, high]) } },
       axes, series: [{}, { paths: () => null, points: { show: false } }],
       hooks: {
         draw: [(u) => { const c = u.ctx; c.save(); c.beginPath(); c.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height); c.clip(); drawing(u, c); c.restore(); }],
@@ -42,7 +42,7 @@ function fleetReport() {
     if (!time.length) return;
     const ends = [Math.min(...time) - data.step / 2, Math.max(...time) + data.step / 2];
     const count = data.units.length;
-    const u = plot(figure, Math.min(620, Math.max(160, 60 + count * 14)), ends, count - 0.5, -0.5,
+    const u = plot(figure, Math.min(620, Math.max(160, 60 + count * 14)), ends, -0.5, count - 0.5,
       [axis({ values: dates, space: 90 }), axis({ size: 110, values: (p, v) => v.map((k) => (Number.isInteger(k) && data.units[k]) || "") , incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500] })],
       (p, c) => {
         const w = Math.max(1, Math.abs(p.valToPos(ends[0] + data.step, "x", true) - p.valToPos(ends[0], "x", true)) * 0.92);
@@ -61,7 +61,7 @@ function fleetReport() {
           if (row[i] === k && Math.abs(time[i] - x) < data.step / 2 + 1 && (best < 0 || Math.abs(time[i] - x) < Math.abs(time[best] - x))) best = i;
         if (best < 0) return data.units[k];
         return `${data.units[k]}, ${new Date(time[best] * 1000).toISOString().slice(0, 10)}: ${gap[best] === null ? "failed" : "gap " + gap[best].toFixed(2) + " floors"}`;
-      });
+      }, true);
     u.over.addEventListener("click", (event) => { if (u.select.width < 4) choose(Math.round(u.posToVal(event.offsetY, "y"))); });
   }
 
@@ -75,7 +75,7 @@ function fleetReport() {
     const own = floats(spec.own), error = floats(spec.error), pooled = floats(spec.pooled), unit = numbers(spec.units), odd = numbers(spec.odd);
     const [low, high] = range(own, error);
     const over = document.getElementById(`effect-units-${index}`);
-    const u = plot(over, 260, [-0.5, own.length - 0.5], low, high, [axis({ values: (p, v) => v.map((k) => (Number.isInteger(k) && unit[k] !== undefined ? data.units[unit[k]] : "")), space: 80, incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500] }), axis({ size: 76 })],
+    const u = plot(over, 260, [-0.5, own.length - 0.5], low, high, [axis({ values: (p, v) => v.map((k) => (Number.isInteger(k) && unit[k] !== undefined ? data.units[unit[k]] : "")), space: 80, incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500] }), axis({ size: 76, values: (p, v) => v.map((x) => (Math.abs(x) < 1e-12 ? "0" : String(Number(x.toPrecision(4))))) })],
       (p, c) => {
         c.fillStyle = accent; c.globalAlpha = 0.12;
         const a = p.valToPos(spec.mean + 1.96 * spec.spread, "y", true), b = p.valToPos(spec.mean - 1.96 * spec.spread, "y", true);
@@ -99,7 +99,7 @@ function fleetReport() {
     if (!when.length) { through.hidden = true; return; }
     const [bottom, top] = range(value, std);
     const marks = spec.marks;
-    plot(through, 260, [Math.min(...when) - data.step / 2, Math.max(...when) + data.step / 2], bottom, top, [axis({ values: dates, space: 90 }), axis({ size: 76 })],
+    plot(through, 260, [Math.min(...when) - data.step / 2, Math.max(...when) + data.step / 2], bottom, top, [axis({ values: dates, space: 90 }), axis({ size: 76, values: (p, v) => v.map((x) => (Math.abs(x) < 1e-12 ? "0" : String(Number(x.toPrecision(4))))) })],
       (p, c) => {
         level(p, c, spec.rig, ink);
         for (const [from, to] of marks) {
@@ -127,10 +127,9 @@ function fleetReport() {
   }
 
   heat();
-  const waiting = new IntersectionObserver((entries) => {
-    for (const entry of entries) if (entry.isIntersecting) { waiting.unobserve(entry.target); const k = Number(entry.target.dataset.effect); effect(data.effects[k], k); }
-  }, { rootMargin: "300px" });
-  for (const block of document.querySelectorAll("[data-effect]")) waiting.observe(block);
+  // One after the other, so that the page answers meanwhile.
+  const later = (k) => { if (k < data.effects.length) setTimeout(() => { effect(data.effects[k], k); later(k + 1); }, 0); };
+  later(0);
 }
 
 addEventListener("DOMContentLoaded", fleetReport);
