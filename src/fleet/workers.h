@@ -25,16 +25,16 @@ struct TaskEnd {
 };
 
 struct WorkerOptions {
-    std::size_t at_once = 1;            ///< processes
-    std::uint64_t memory_bytes = 0;     ///< of data that a process may have; 0: no limit
-    std::function<bool()> interrupted;  ///< whether the user wants an end now
+    std::size_t at_once = 1;                 ///< processes
+    std::uint64_t memory_bytes = 0;          ///< of data that a process may have; 0: no limit
+    std::function<bool()> interrupted = {};  ///< whether the user wants an end now
 };
 
 /// What is done for a task, in its process.
 struct TaskWork {
     std::function<TaskEnd(std::size_t task)> work;
     /// Makes the result of a task whose process crashed, three times, by the signal of that name.
-    std::function<TaskEnd(std::size_t task, std::string_view signal)> say_crash;
+    std::function<TaskEnd(std::size_t task, std::string_view signal)> say_crash = {};
 };
 
 struct WorkerCount {
