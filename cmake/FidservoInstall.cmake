@@ -4,7 +4,7 @@
 set(FIDSERVO_HEADER_DIR ${CMAKE_INSTALL_INCLUDEDIR}/fidservo)
 # Debian's packages of what fidservoConfig.cmake looks for.
 set(FIDSERVO_DEVELOPMENT_PACKAGES cmake g++ libapriltag-dev libceres-dev libcli11-dev libcomedi-dev libcpp-httplib-dev libeigen3-dev
-  libexpected-dev libfmt-dev libmuparser-dev libnlopt-dev libopencv-dev libpng-dev libspdlog-dev libssl-dev libturbojpeg0-dev libvisp-core-dev
+  libexpected-dev libfmt-dev libmuparser-dev libnlopt-dev libopencv-dev libpng-dev libspdlog-dev libsqlite3-dev libssl-dev libturbojpeg0-dev libvisp-core-dev
   libvisp-vs-dev libyaml-cpp-dev nlohmann-json3-dev pkgconf)
 set(FIDSERVO_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/fidservo)
 

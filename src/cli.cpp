@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::array add_commands{add_inspect,  add_goto,     add_home,      add_replay,   add_record,
                                   add_simulate, add_identify, add_calibrate, add_diagnose, add_reproduce,
-                                  add_cameras,  add_rig,      add_import,    add_export};
+                                  add_cameras,  add_rig,      add_import,    add_export,   add_fleet};
 
 int complain(int exit_code, std::string message) {
     std::replace(message.begin(), message.end(), '\n', ' ');

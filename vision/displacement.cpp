@@ -4,6 +4,7 @@
 #include "core/units.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace fidservo::vision {
 namespace {
@@ -34,29 +35,37 @@ DisplacementTracker::DisplacementTracker(double tag_side_mm) : tag_side_mm_(tag_
     FIDSERVO_DEMAND(tag_side_mm > 0);
 }
 
+TagPlace tag_place(const RefinedTag& tag) {
+    const MeanSide side = mean_side_of(tag);
+    return {tag.detection.time_ns, tag.detection.tag_id, tag.centre_px, tag.centre_covariance_px2.diagonal(),
+            side.mean_px,          side.std_px};
+}
+
 std::vector<Displacement> DisplacementTracker::add(const std::vector<RefinedTag>& frame) {
+    std::vector<TagPlace> places;
+    std::transform(frame.begin(), frame.end(), std::back_inserter(places), tag_place);
+    return add(places);
+}
+
+std::vector<Displacement> DisplacementTracker::add(const std::vector<TagPlace>& frame) {
     std::vector<Displacement> moved;
-    for (const RefinedTag& tag : frame) {
-        const int id = tag.detection.tag_id;
-        const auto same_id = [id](const RefinedTag& other) { return other.detection.tag_id == id; };
+    for (const TagPlace& tag : frame) {
+        const auto same_id = [&tag](const TagPlace& other) { return other.tag_id == tag.tag_id; };
         if (std::count_if(frame.begin(), frame.end(), same_id) > 1) continue;
 
-        const Eigen::Vector2d& now_px = tag.centre_px;
-        const Eigen::Matrix2d& covariance_px2 = tag.centre_covariance_px2;
         const auto origin = std::find_if(origins_.begin(), origins_.end(),
-                                         [id](const Origin& of) { return of.tag_id == id; });
+                                         [&tag](const Origin& of) { return of.tag_id == tag.tag_id; });
         if (origin == origins_.end()) {
-            const MeanSide side = mean_side_of(tag);
-            origins_.push_back({id, now_px, covariance_px2, um_from_mm(tag_side_mm_) / side.mean_px,
-                                side.std_px / side.mean_px});
-            moved.push_back({tag.detection.time_ns, id, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()});
+            origins_.push_back({tag.tag_id, tag.centre_px, tag.variance_px2,
+                                um_from_mm(tag_side_mm_) / tag.side_px, tag.side_std_px / tag.side_px});
+            moved.push_back({tag.time_ns, tag.tag_id, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()});
             continue;
         }
-        const Eigen::Vector2d moved_um = (now_px - origin->centre_px) * origin->um_per_px;
+        const Eigen::Vector2d moved_um = (tag.centre_px - origin->centre_px) * origin->um_per_px;
         const Eigen::Vector2d centres_um2 =
-            (covariance_px2 + origin->covariance_px2).diagonal() * (origin->um_per_px * origin->um_per_px);
+            (tag.variance_px2 + origin->variance_px2) * (origin->um_per_px * origin->um_per_px);
         const Eigen::Vector2d scale_um2 = (moved_um * origin->relative_scale_std).cwiseAbs2();
-        moved.push_back({tag.detection.time_ns, id, moved_um, (centres_um2 + scale_um2).cwiseSqrt()});
+        moved.push_back({tag.time_ns, tag.tag_id, moved_um, (centres_um2 + scale_um2).cwiseSqrt()});
     }
     return moved;
 }

@@ -35,6 +35,8 @@ void add_diagnose(CLI::App& app, int& exit_code);
 void add_rig(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
 void add_export(CLI::App& app, int& exit_code);
+void add_fleet(CLI::App& app, int& exit_code);
+void add_fleet_report(CLI::App& fleet, int& exit_code);
 
 /// --rig RIG.yaml; the reference rig where it is not given.
 void add_rig_option(CLI::App& command, std::filesystem::path& rig_file);

@@ -6,21 +6,21 @@
 #include "plant/effects/catalogue.h"
 #include "src/commands/commands.h"
 #include "src/commands/self_check.h"
+#include "src/compare/comparison.h"
 #include "src/config/effects_file.h"
 #include "src/config/rig_file.h"
 #include "src/config/stage_keys.h"
 #include "src/diagnose/designed_experiment.h"
 #include "src/diagnose/diagnosis_json.h"
-#include "src/diagnose/frame_looks.h"
 #include "src/diagnose/matters.h"
 #include "src/diagnose/next_experiment.h"
+#include "src/diagnose/read_recordings.h"
 #include "src/diagnose/report.h"
 #include "src/diagnose/search_progress.h"
 #include "src/diagnose/thinned.h"
 #include "src/diagnose/time_limit.h"
 #include "src/interrupt.h"
 #include "src/recording/durable_file.h"
-#include "src/recording/reader.h"
 
 #include <chrono>
 #include <memory>
@@ -33,7 +33,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
-#include <malloc.h>
 
 namespace fidservo {
 namespace {
@@ -43,6 +42,7 @@ struct DiagnoseOptions {
     std::filesystem::path rig_file;
     std::vector<std::string> only, without, matters;
     std::filesystem::path effects_file, json, report, write_rig, write_experiment;
+    std::vector<std::filesystem::path> compare;
     SelfCheckRequest self_check;
 };
 
@@ -52,24 +52,6 @@ void demand_effects(const char* option, const std::vector<std::string>& names,
         if (plant::find_effect(name, formulas) == nullptr)
             throw InputError(fmt::format(
                 "{}: {}: there is no such effect; fidservo simulate --help lists them", option, name));
-}
-
-/// With what their frames show, and what of that is missing.
-struct Read {
-    std::vector<Recording> recordings;
-    std::vector<std::string> notes;
-};
-
-Read read_recordings(const std::vector<std::filesystem::path>& paths) {
-    Read read;
-    std::vector<std::filesystem::path> folders;
-    for (const std::filesystem::path& path : paths)
-        for (const std::filesystem::path& folder : find_recordings(path)) {
-            read.recordings.push_back(read_recording(folder));
-            folders.push_back(folder);
-        }
-    read.notes = diagnose::measure_frames(read.recordings, folders);
-    return read;
 }
 
 int check_itself(const DiagnoseOptions& options) {
@@ -90,15 +72,6 @@ void demand_experiment_file(const std::filesystem::path& file) {
             fmt::format("--write-experiment: {}: the name must end in .yaml or .yml, as record and "
                         "simulate know an experiment file by that",
                         file.string()));
-}
-
-/// Predictions take and give back the same few megabytes thousands of times: the heap is to keep them.
-void keep_memory() {
-#ifdef __GLIBC__
-    constexpr int top_pad = 64 << 20, never = 1 << 30;
-    ::mallopt(M_TOP_PAD, top_pad);
-    ::mallopt(M_TRIM_THRESHOLD, never);
-#endif
 }
 
 /// Designs the experiment that --write-experiment asks for, writes it and proposes it. Without one the
@@ -129,7 +102,7 @@ std::shared_ptr<const diagnose::DesignedNext> write_experiment(const DiagnoseOpt
 int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const gap::SignalLimits& matters,
                         const std::vector<const plant::Effect*>& formulas) {
     const auto start = std::chrono::steady_clock::now();
-    Read read = read_recordings(options.recordings);
+    diagnose::ReadRecordings read = diagnose::read_recordings(options.recordings);
     const double gone_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const diagnose::TimeLimit limit = diagnose::time_limit(read.recordings);
     const auto budget = std::make_shared<const gap::Budget>(limit.search_s - gone_s, limit.whole_s - gone_s,
@@ -168,15 +141,34 @@ int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const ga
     return exit_done;
 }
 
+int compare_sets(const DiagnoseOptions& options, const Rig& rig) {
+    if (!options.recordings.empty())
+        throw InputError("--compare: A and B are all that is compared; no RECORDING");
+    if (!options.only.empty() || !options.without.empty() || !options.effects_file.empty() ||
+        !options.matters.empty() || !options.report.empty() || !options.write_rig.empty() ||
+        !options.write_experiment.empty())
+        throw InputError("--compare: takes --rig and --json only");
+    diagnose::ReadRecordings a = diagnose::read_recordings({options.compare[0]});
+    diagnose::ReadRecordings b = diagnose::read_recordings({options.compare[1]});
+    diagnose::SearchProgress progress(2.0 * diagnose::half_a_minute.whole_s);
+    const compare::Comparison comparison =
+        compare::compare(rig, std::move(a.recordings), std::move(b.recordings), interrupt_requested,
+                         [&](std::string_view what) { progress.tell(what); });
+    fmt::print("{}", compare::describe(comparison));
+    if (!options.json.empty()) write_or_throw(options.json, compare::comparison_json(comparison));
+    return exit_done;
+}
+
 int run_diagnose(const DiagnoseOptions& options) {
     std::vector<const plant::Effect*> formulas;
     if (!options.effects_file.empty()) formulas = load_effects_file(options.effects_file);
     demand_effects("--effects", options.only, formulas);
     demand_effects("--without", options.without, formulas);
     demand_new_file("--json", options.json);
-    keep_memory();
+    diagnose::keep_memory();
     if (options.self_check.wanted) return check_itself(options);
-    if (options.recordings.empty()) throw InputError("RECORDING: give one recording folder at least");
+    if (options.recordings.empty() && options.compare.empty())
+        throw InputError("RECORDING: give one recording folder at least");
     demand_new_file("--report", options.report);
     demand_new_file("--write-rig", options.write_rig);
     demand_new_file("--write-experiment", options.write_experiment);
@@ -184,6 +176,7 @@ int run_diagnose(const DiagnoseOptions& options) {
     const Rig rig = load_rig(options.rig_file);
     const gap::SignalLimits matters = diagnose::what_matters(options.matters, rig);
     try {
+        if (!options.compare.empty()) return compare_sets(options, rig);
         return diagnose_recordings(options, rig, matters, formulas);
     } catch (const gap::BudgetEnded& end) {
         const bool by_user = end.how() == gap::Ended::interrupted;
@@ -234,6 +227,11 @@ void add_diagnose(CLI::App& app, int& exit_code) {
                      "New experiment file for record: the 30 s that tell best what these recordings leave "
                      "open; a minute more")
         ->type_name("FILE.yaml");
+    command
+        ->add_option("--compare", options->compare,
+                     "Two sets of recordings of one rig: what has changed from the first to the second")
+        ->expected(2)
+        ->type_name("A B");
     add_self_check_options(*command, options->self_check);
     add_example(*command, "fidservo diagnose --rig assets/rig.yaml recordings/ --json diagnosis.json");
     command->callback([options, &exit_code] { exit_code = run_diagnose(*options); });

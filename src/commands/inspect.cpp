@@ -1,4 +1,5 @@
 // fidservo inspect: a whole inspection, from a recipe to a report.
+#include "core/input_error.h"
 #include "src/commands/commands.h"
 #include "src/commands/session_options.h"
 #include "src/inspect/inspection_run.h"
@@ -37,6 +38,8 @@ void add_inspect(CLI::App& app, int& exit_code) {
         ->type_name("RECIPE.yaml");
     add_session_options(*command, options->session);
     add_sim_rig_option(*command, options->session);
+    add_origin_options(*command, options->session.origin);
+    options->session.recordings_state_time = true;
     command->get_option("--camera")
         ->description(
             "Camera: sim, v4l2:/dev/video0 (fidservo cameras lists them), or images:DIR to measure "
@@ -46,6 +49,12 @@ void add_inspect(CLI::App& app, int& exit_code) {
     options->diagnosis = true;
     command->add_flag("!--no-diagnosis", options->diagnosis,
                       "Leave out what the run's own recordings say of the rig");
+    command
+        ->add_option(
+            "--history", options->history,
+            "File of the rig's history: what the run's own recordings say is appended, and a rig that "
+            "has changed is warned of")
+        ->type_name("FILE");
     command->add_flag("--resume", options->resume,
                       "Go on with a run that was interrupted, in the same folder");
     command
@@ -72,6 +81,8 @@ void add_inspect(CLI::App& app, int& exit_code) {
     add_example(*command, "fidservo inspect assets/demo/recipe.yaml --out out/demo");
     command->callback([options, command, &exit_code] {
         if (command->count("--seed") > 0) options->seed = options->session.seed;
+        if (!options->history.empty() && !options->diagnosis)
+            throw InputError("--history: is made of the run's diagnosis; leave --no-diagnosis out");
         exit_code = run_inspect(*options);
     });
 }

@@ -85,6 +85,8 @@ void add_record(CLI::App& app, int& exit_code) {
     command->get_option("--seed")->description(
         "Determines the excitation, as in simulate, and the simulated rig's noise");
     add_sim_rig_option(*command, what.session);
+    add_origin_options(*command, what.session.origin);
+    what.session.recordings_state_time = true;
     add_example(
         *command,
         "fidservo record campaign --stage comedi:/dev/comedi0 --camera v4l2:/dev/video0 --out monday");

@@ -14,6 +14,19 @@
 
 namespace fidservo {
 
+namespace {
+
+void add_label(const std::string& text, RecordingOrigin& origin) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+        throw InputError(fmt::format("--label: {}: must be KEY=VALUE", text));
+    if (!origin.labels.emplace(text.substr(0, equals), text.substr(equals + 1)).second)
+        throw InputError(
+            fmt::format("--label: {}: the label {} was given already", text, text.substr(0, equals)));
+}
+
+}  // namespace
+
 void add_session_options(CLI::App& command, SessionOptions& options) {
     add_rig_option(command, options.rig_file);
     command.add_option("--stage", options.stage, "Stage: sim or comedi:/dev/comedi0")
@@ -33,6 +46,22 @@ void add_sim_rig_option(CLI::App& command, SessionOptions& options) {
             "--sim-rig", options.sim_rig_file,
             "The rig that is simulated, where it is not what --rig says; the program does not look at it")
         ->type_name("RIG.yaml");
+}
+
+void add_origin_options(CLI::App& command, RecordingOrigin& origin) {
+    command.add_option("--unit", origin.unit, "Which of several rigs of a kind it is; recordings say so")
+        ->type_name("NAME")
+        ->check([](const std::string& name) { return name.empty() ? "a name is needed" : ""; });
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--label",
+            [&origin](const std::vector<std::string>& labels) {
+                for (const std::string& label : labels) add_label(label, origin);
+            },
+            "Whatever else recordings are told apart by, e.g. batch=7; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
 }
 
 void add_recording_option(CLI::App& command, std::filesystem::path& out) {

@@ -19,6 +19,9 @@ void add_session_options(CLI::App& command, SessionOptions& options);
 /// --sim-rig.
 void add_sim_rig_option(CLI::App& command, SessionOptions& options);
 
+/// --unit, --label: what recordings say of themselves.
+void add_origin_options(CLI::App& command, RecordingOrigin& origin);
+
 /// --out, for a command whose work may be recorded.
 void add_recording_option(CLI::App& command, std::filesystem::path& out);
 

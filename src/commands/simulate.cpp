@@ -5,9 +5,11 @@
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/commands/commands.h"
+#include "src/commands/session_options.h"
 #include "src/config/effects_file.h"
 #include "src/config/rig_file.h"
 #include "src/progress.h"
+#include "src/recording/utc_time.h"
 #include "src/recording/writer.h"
 #include "src/simulation/experiment_file.h"
 #include "src/simulation/filmed_recording.h"
@@ -35,6 +37,7 @@ struct SimulateOptions {
     std::vector<std::string> effects;
     std::filesystem::path effects_file;
     std::uint64_t seed = 1;
+    RecordingOrigin origin;
     bool frames = false;
     std::filesystem::path out;
 };
@@ -79,6 +82,11 @@ std::vector<plant::EffectSetting> effects_of(const SimulateOptions& options) {
     return effects;
 }
 
+std::string utc_time_of(const std::string& text) {
+    if (is_utc_time(text)) return text;
+    throw InputError(fmt::format("--recorded-at: {}: must be a time in UTC like 2026-11-02T08:15:00Z", text));
+}
+
 int run_simulate(const SimulateOptions& options) {
     const Rig rig = load_rig(options.rig_file);
     if (options.frames && (!rig.camera || !rig.fiducials))
@@ -91,11 +99,13 @@ int run_simulate(const SimulateOptions& options) {
 
     if (options.experiment == whole_campaign) make_output_folder(options.out);
     Progress progress("recordings", tasks.size());
-    for (const auto& [experiment, name, folder] : tasks) {
+    for (const Task& task : tasks) {
         if (options.frames)
-            write_filmed_recording(folder, rig, effects, experiment, name, options.seed);
+            write_filmed_recording(task.folder, rig, effects, task.experiment, task.name, options.seed,
+                                   options.origin);
         else
-            write_recording(folder, simulate(rig, effects, experiment, name, options.seed), rig.camera);
+            write_recording(task.folder, simulate(rig, effects, task.experiment, task.name, options.seed),
+                            rig.camera, options.origin);
         progress.advance();
     }
     progress.finish();
@@ -133,6 +143,14 @@ void add_simulate(CLI::App& app, int& exit_code) {
                       "Render and keep the camera's frames; detections are what is found in them");
     command->add_option("--seed", options->seed, "Determines excitation and noise; same seed, same bytes")
         ->capture_default_str();
+    add_origin_options(*command, options->origin);
+    command
+        ->add_option_function<std::string>(
+            "--recorded-at",
+            [options](const std::string& time) { options->origin.recorded_at = utc_time_of(time); },
+            "When the recordings are said to be made, in UTC: 2026-11-02T08:15:00Z; else they say nothing of "
+            "it")
+        ->type_name("TIME");
     command->add_option("--out", options->out, "New folder for the recordings")->type_name("DIR")->required();
     add_example(
         *command,

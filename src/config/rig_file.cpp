@@ -217,6 +217,15 @@ Rig load_rig(const std::filesystem::path& file) {
             .effects = read_if_given(root, "effects", read_effects).value_or(std::vector<StatedEffect>{})};
 }
 
+std::vector<std::filesystem::path> files_of_rig(const std::filesystem::path& file) {
+    const YamlValue root = YamlValue::load(file);
+    std::vector<std::filesystem::path> files{file};
+    for (const auto& [part, key] : {std::pair{"micro", "preisach_fod"}, std::pair{"camera", "camera_info"}})
+        if (const auto map = root.find(part))
+            if (const auto named = map->find(key)) files.push_back(named->file());
+    return files;
+}
+
 std::filesystem::path reference_rig_file() {
     constexpr const char* name = "rig.yaml";
     std::error_code error;

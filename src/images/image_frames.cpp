@@ -7,6 +7,7 @@
 #include "vision/images/media.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,10 @@ namespace fidservo {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string name_in_video(const fs::path& video, std::size_t frame) {
+    return fmt::format("{}#{}", video.string(), frame);
+}
 
 std::unique_ptr<vision::Video> opened(const fs::path& file) {
     auto video = vision::open_video(file);
@@ -36,7 +41,7 @@ class ImageFrames::OpenVideo {
         const auto picture = decoder_->next();
         if (!picture) return std::nullopt;
         ImageFrame frame;
-        frame.name = fmt::format("{}#{}", file_.string(), next_index_++);
+        frame.name = name_in_video(file_, next_index_++);
         frame.series = series_;
         frame.time_ns = picture->time_ns;
         frame.file = file_;
@@ -68,11 +73,11 @@ class ImageFrames::OpenVideo {
 ImageFrames::ImageFrames(const std::vector<fs::path>& inputs, const ImageOptions& options) {
     for (const fs::path& input : inputs) list_images(input, options.name_times, list_);
     open_videos();
-    for (const ImageSeries& series : list_.series) {
-        size_ += series.frames.size();
+    size_ = std::accumulate(sizes_.begin(), sizes_.end(), std::size_t{0});
+    for (const ImageSeries& series : list_.series)
         missing_.insert(missing_.end(), series.missing.begin(), series.missing.end());
-    }
     decide_ranges(options.one_range);
+    is_one_timed_series_ = list_.series.size() == 1 && has_times(0);
 }
 
 ImageFrames::~ImageFrames() = default;
@@ -81,8 +86,9 @@ void ImageFrames::open_videos() {
     for (std::size_t k = 0; k < list_.series.size(); ++k) {
         const fs::path& file = list_.series[k].video;
         videos_.push_back(file.empty() ? nullptr : std::make_unique<OpenVideo>(file, k));
+        sizes_.push_back(file.empty() ? list_.series[k].frames.size() : videos_.back()->decoder().packets());
+        video_bits_.push_back(0);
         if (file.empty()) continue;
-        size_ += videos_.back()->decoder().packets();
         for (const std::string& note : videos_.back()->decoder().notes())
             list_.notes.push_back(fmt::format("{}: {}", file.string(), note));
     }
@@ -101,17 +107,47 @@ void ImageFrames::decide_ranges(bool one_range) {
         if (levels[k].is_empty()) continue;
         const GreyLevels& decided = one_range ? all : levels[k];
         for (ImageFrame& frame : list_.series[k].frames) frame.bits = decided.bits();
-        if (videos_[k]) videos_[k]->set_bits(decided.bits());
+        if (videos_[k]) {
+            video_bits_[k] = decided.bits();
+            videos_[k]->set_bits(decided.bits());
+        }
         if (!one_range) list_.notes.push_back(fmt::format("{}: {}", list_.series[k].name, decided.text()));
     }
     if (!all.is_empty()) list_.notes.push_back("all images: " + all.text());
 }
 
-bool ImageFrames::is_one_timed_series() const {
-    if (list_.series.size() != 1) return false;
-    if (videos_.front()) return videos_.front()->decoder().has_times();
-    return std::ranges::all_of(list_.series.front().frames,
+bool ImageFrames::has_times(std::size_t series) const {
+    if (videos_[series]) return videos_[series]->decoder().has_times();
+    return std::ranges::all_of(list_.series[series].frames,
                                [](const ImageFrame& frame) { return frame.time_ns.has_value(); });
+}
+
+std::vector<ImageFrames::Series> ImageFrames::series() const {
+    std::vector<Series> all;
+    for (std::size_t k = 0; k < list_.series.size(); ++k)
+        all.push_back({list_.series[k].name, sizes_[k], !list_.series[k].video.empty()});
+    return all;
+}
+
+std::string ImageFrames::frame_name(std::size_t series, std::size_t frame) const {
+    const ImageSeries& of = list_.series[series];
+    return of.video.empty() ? of.frames[frame].name : name_in_video(of.video, frame);
+}
+
+void ImageFrames::pause() {
+    for (auto& video : videos_) video.reset();
+}
+
+void ImageFrames::seek(std::size_t series, std::size_t frame) {
+    pause();
+    for (std::size_t k = series; k < list_.series.size(); ++k) {
+        if (list_.series[k].video.empty()) continue;
+        videos_[k] = std::make_unique<OpenVideo>(list_.series[k].video, k);
+        videos_[k]->set_bits(video_bits_[k]);
+    }
+    current_series_ = series;
+    current_frame_ = frame;
+    for (std::size_t k = 0; videos_[series] && k < frame; ++k) videos_[series]->next();
 }
 
 std::optional<ImageFrame> ImageFrames::next() {

@@ -31,7 +31,21 @@ class ImageFrames {
     /// Frames that an index lists and that are not there.
     const std::vector<std::string>& missing() const { return missing_; }
     /// All frames belong to one series and have times.
-    bool is_one_timed_series() const;
+    bool is_one_timed_series() const { return is_one_timed_series_; }
+    /// Frames that belong together, by the file or folder that they are of.
+    struct Series {
+        std::string name;
+        std::size_t frames;  ///< as size() counts them
+        bool is_video;
+    };
+    std::vector<Series> series() const;
+    /// The name of a series' frame, as the frame has it.
+    std::string frame_name(std::size_t series, std::size_t frame) const;
+
+    /// Closes the files that are open; seek() opens them again.
+    void pause();
+    /// The next frame is this one of this series. A video is opened anew and decoded up to there.
+    void seek(std::size_t series, std::size_t frame);
     /// The next frame; empty after the last. Videos are decoded here; images by load().
     std::optional<ImageFrame> next();
     /// What a user would want to know: what was passed over, where times come from and why there are none,
@@ -43,9 +57,13 @@ class ImageFrames {
 
     void open_videos();
     void decide_ranges(bool one_range);
+    bool has_times(std::size_t series) const;
 
     ImageList list_;
-    std::vector<std::unique_ptr<OpenVideo>> videos_;  ///< by series; null where images are
+    std::vector<std::unique_ptr<OpenVideo>> videos_;  ///< by series; null where images are, and after pause()
+    std::vector<std::size_t> sizes_;                  ///< by series
+    std::vector<int> video_bits_;                     ///< by series; 0: each frame's own statement
+    bool is_one_timed_series_ = false;
     std::vector<std::string> missing_;
     std::size_t size_ = 0;
     std::size_t current_series_ = 0;

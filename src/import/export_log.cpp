@@ -99,10 +99,8 @@ void add_exported_detections(const Recording& recording, ExportFormat format, Lo
 
 /// `recording:` of the map: recording.yaml, indented, without what a map does not have.
 std::string recording_part(const fs::path& folder, const Recording& recording) {
-    RecordingOrigin origin;
-    const YamlValue yaml = YamlValue::load(folder / "recording.yaml");
-    if (const auto stage = yaml.find("stage")) origin.stage = stage->text();
-    if (const auto camera = yaml.find("camera")) origin.camera = camera->text();
+    RecordingOrigin origin = read_origin(folder / "recording.yaml");
+    origin.program.clear();
     std::string part = "recording:\n", description = description_yaml(recording, origin);
     for (std::string_view rest = description; !rest.empty();) {
         const std::string_view line = rest.substr(0, rest.find('\n'));

@@ -167,12 +167,10 @@ ImportMap read_import_map(const YamlValue& root) {
     map.file = root.source();
     map.table.are_offered = false;
     const YamlValue recording = root.at("recording");
-    recording.allow_only(
-        {"name", "rig", "tick_s", "experiment", "stage", "camera", "encoder_zero", "controllers", "events"});
+    recording.allow_only({"name", "rig", "tick_s", "experiment", "stage", "camera", "encoder_zero",
+                          "controllers", "events", "unit", "recorded_at", "labels"});
     read_statements(recording, map.stated);
-    for (const auto& [key, text] :
-         {std::pair{"stage", &map.origin.stage}, std::pair{"camera", &map.origin.camera}})
-        if (const auto value = recording.find(key)) *text = value->text();
+    map.origin = read_origin(recording);
     if (const auto tick = recording.find("tick_s")) map.stated.tick_s = tick->number({0.0, 1.0, true});
     if (const auto table = root.find("table")) map.table = read_table_options(*table);
     map.clocks = read_clocks(root);

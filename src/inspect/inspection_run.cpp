@@ -13,12 +13,14 @@
 #include "src/inspect/measure/reference_check.h"
 #include "src/inspect/measure/site_visit.h"
 #include "src/inspect/report/inspection_report.h"
+#include "src/inspect/report/rig_history.h"
 #include "src/inspect/run_json.h"
 #include "src/inspect/saved_images.h"
 #include "src/live/live_server.h"
 #include "src/session/camera_choice.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -248,9 +250,16 @@ Counts run_inspection(const InspectionOptions& options) {
     if (options.diagnosis) {
         fmt::print("diagnosing what was recorded\n");
         std::fflush(stdout);
-        const RigFindings findings = find_in_recordings(output, rig, options.session.rig_file);
-        write_inspection_report(output, with_findings(std::move(ran.report), findings));
+        RigFindings findings = find_in_recordings(output, rig, options.session.rig_file);
         fmt::print("{}\n", findings.line);
+        if (!options.history.empty()) {
+            const HistoryFindings history =
+                append_to_history(options.history, rig, identity.rig_sha256, findings,
+                                  std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()));
+            for (const std::string& line : history.lines) fmt::print("{}\n", line);
+            findings.html += history.html;
+        }
+        write_inspection_report(output, with_findings(std::move(ran.report), findings));
     }
     return ran.counts;
 }

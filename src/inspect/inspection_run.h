@@ -16,7 +16,8 @@ struct InspectionOptions {
     bool resume = false;
     bool diagnosis =
         false;  ///< of the rig, by what the run has recorded; after it, with the stage switched off
-    std::optional<int> live_port;  ///< of the live page (src/live/live_server.h); 0: any; empty: no page
+    std::filesystem::path history;  ///< of the rig, to which the diagnosis is appended; empty: none
+    std::optional<int> live_port;   ///< of the live page (src/live/live_server.h); 0: any; empty: no page
 };
 
 /// Runs it, and leaves results.csv, run.json, report.html, images and recordings in the output folder, with a

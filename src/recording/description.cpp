@@ -3,9 +3,11 @@
 #include "src/commit.h"
 #include "src/config/yaml_reader.h"
 #include "src/recording/layout.h"
+#include "src/recording/utc_time.h"
 
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -49,6 +51,18 @@ void emit(YAML::Emitter& yaml, const std::vector<RecordingEvent>& events) {
         yaml << YAML::EndMap;
     }
     yaml << YAML::EndSeq;
+}
+
+/// Text in quotes: a reader of YAML is not to take a unit "7" for a number.
+void emit_subject(YAML::Emitter& yaml, const RecordingOrigin& subject) {
+    if (!subject.unit.empty())
+        yaml << YAML::Key << "unit" << YAML::Value << YAML::DoubleQuoted << subject.unit;
+    emit_if_stated(yaml, "recorded_at", subject.recorded_at);
+    if (subject.labels.empty()) return;
+    yaml << YAML::Key << "labels" << YAML::Value << YAML::Flow << YAML::BeginMap;
+    for (const auto& [key, value] : subject.labels)
+        yaml << YAML::Key << YAML::DoubleQuoted << key << YAML::Value << YAML::DoubleQuoted << value;
+    yaml << YAML::EndMap;
 }
 
 EncoderZero encoder_zero_of(const YamlValue& yaml) {
@@ -110,6 +124,7 @@ std::string description_yaml(const Recording& recording, const RecordingOrigin& 
     yaml << YAML::Key << "rig" << YAML::Value << recording.rig;
     yaml << YAML::Key << "tick_s" << YAML::Value << number_text(recording.tick_s);
     yaml << YAML::Key << "experiment" << YAML::Value << recording.experiment;
+    emit_subject(yaml, origin);
     emit_if_stated(yaml, "stage", origin.stage);
     emit_if_stated(yaml, "camera", origin.camera);
     emit_if_stated(yaml, "program", origin.program);
@@ -121,13 +136,30 @@ std::string description_yaml(const Recording& recording, const RecordingOrigin& 
     return std::string(yaml.c_str()) + '\n';
 }
 
+RecordingOrigin read_origin(const YamlValue& map) {
+    RecordingOrigin origin;
+    for (const auto& [key, text] : {std::pair{"stage", &origin.stage}, std::pair{"camera", &origin.camera},
+                                    std::pair{"program", &origin.program}, std::pair{"unit", &origin.unit}})
+        if (const auto value = map.find(key)) *text = value->text();
+    if (const auto time = map.find("recorded_at")) {
+        origin.recorded_at = time->text();
+        if (!is_utc_time(origin.recorded_at)) time->fail("must be a time in UTC like 2026-11-02T08:15:00Z");
+    }
+    if (const auto labels = map.find("labels"))
+        for (const std::string& key : labels->keys()) origin.labels[key] = labels->at(key).text();
+    return origin;
+}
+
+RecordingOrigin read_origin(const std::filesystem::path& file) {
+    return read_origin(YamlValue::load(file));
+}
+
 void read_statements(const YamlValue& map, Recording& recording) {
     recording.name = map.at("name").text();
     recording.rig = map.at("rig").text();
     recording.experiment = map.at("experiment").text();
     recording.is_seen = map.find("camera").has_value();
-    for (const char* for_people : {"stage", "camera", "program"})
-        if (const auto text = map.find(for_people)) (void)text->text();
+    (void)read_origin(map);
     if (const auto zero = map.find("encoder_zero")) recording.encoder_zero = encoder_zero_of(*zero);
     if (const auto names = map.find("controllers")) recording.controllers = controllers_of(*names);
     if (const auto events = map.find("events")) recording.events = events_of(*events);
@@ -136,7 +168,7 @@ void read_statements(const YamlValue& map, Recording& recording) {
 void read_description(const std::filesystem::path& file, Recording& recording) {
     const YamlValue root = YamlValue::load(file);
     root.allow_only({"format", "name", "rig", "tick_s", "experiment", "stage", "camera", "program",
-                     "encoder_zero", "controllers", "finished", "events"});
+                     "encoder_zero", "controllers", "finished", "events", "unit", "recorded_at", "labels"});
     root.at("format").one_of({recording_format});
     read_statements(root, recording);
     recording.tick_s = root.at("tick_s").number({0.0, 1.0, true});

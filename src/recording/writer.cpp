@@ -275,7 +275,7 @@ Status RecordingWriter::close() {
 }
 
 void write_recording(const fs::path& folder, const Recording& recording,
-                     const std::optional<CameraParameters>& camera) {
+                     const std::optional<CameraParameters>& camera, const RecordingOrigin& origin) {
     const bool has_covariances = std::ranges::any_of(
         recording.detections, [](const TagDetection& tag) { return tag.is_refined || tag.covariances_px2; });
     RecordingWriter writer(
@@ -285,6 +285,7 @@ void write_recording(const fs::path& folder, const Recording& recording,
                  .tick_s = recording.tick_s,
                  .encoder_zero = recording.encoder_zero,
                  .controllers = recording.controllers,
+                 .origin = origin,
                  .plate = recording.plate,
                  .columns = recording.columns,
                  .camera = camera,

@@ -84,6 +84,6 @@ class RecordingWriter {
 /// Writes a recording that is complete in memory (its frames are names only and are not written). Throws
 /// InputError if the folder exists, RunFault if the disk fails.
 void write_recording(const std::filesystem::path& folder, const Recording& recording,
-                     const std::optional<CameraParameters>& camera);
+                     const std::optional<CameraParameters>& camera, const RecordingOrigin& origin = {});
 
 }  // namespace fidservo

@@ -8,6 +8,7 @@
 #include "src/config/plate_file.h"
 #include "src/interrupt.h"
 #include "src/recording/layout.h"
+#include "src/recording/utc_time.h"
 #include "src/session/camera_choice.h"
 #include "src/session/devices.h"
 #include "src/session/home.h"
@@ -47,13 +48,22 @@ double calibration_std_mm(const CameraParameters& camera, double dx_mm) {
                                            seen_from(dx_mm), 0.0)(0, 0));
 }
 
+RecordingOrigin origin_of(const SessionOptions& options) {
+    RecordingOrigin origin = options.origin;
+    origin.stage = options.stage;
+    origin.camera = options.camera;
+    origin.program = this_program();
+    return origin;
+}
+
 }  // namespace
 
 struct Session::Impl {
     Impl(const SessionOptions& options, const Rig& rig, const Plate& nominal,
          const control::PositionerParams& params, Devices devices)
         : pilot(rig, nominal, params, std::move(devices), options.camera_reconnect_s),
-          origin{options.stage, options.camera, this_program()} {}
+          origin(origin_of(options)),
+          states_time(options.recordings_state_time) {}
 
     Status drive_or_search(double target_s_mm, int tag_id);
     void take_up(const nlohmann::json& checkpoint);
@@ -62,6 +72,7 @@ struct Session::Impl {
     std::shared_ptr<SimulatedRig> simulated;
     std::shared_ptr<control::Guardian> guardian;
     const RecordingOrigin origin;
+    const bool states_time;
     KeepFrames keep_frames = KeepFrames::no;
 };
 
@@ -129,6 +140,7 @@ void Session::record_to(const std::filesystem::path& folder, RecordingOptions re
     recording.tick_s = rig.tick_s;
     recording.encoder_zero = impl_->pilot.encoder_zero();
     recording.origin = impl_->origin;
+    if (impl_->states_time) recording.origin.recorded_at = utc_now();
     recording.columns = columns_of(rig);
     recording.camera = rig.camera;
     recording.corners = CornerColumns::places_and_covariances;

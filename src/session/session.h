@@ -3,6 +3,7 @@
 // In simulation one thread runs everything in virtual time; same seed, same bytes.
 #include "core/plate.h"
 #include "core/result.h"
+#include "src/recording/description.h"
 #include "src/session/faults.h"
 #include "src/session/machine.h"
 #include "vision/camera.h"
@@ -47,6 +48,10 @@ struct SessionOptions {
     double tolerance_um = 1.0;        ///< of a motion's arrival
     double camera_reconnect_s = 0.0;  ///< a camera that is lost is waited for so long
     std::vector<Fault> faults;        ///< put into stage and camera: a drill
+    /// What recordings say of themselves beside stage, camera and program: unit and labels.
+    RecordingOrigin origin = {};
+    /// Whether they say when they began, by the clock; otherwise the same seed gives the same bytes.
+    bool recordings_state_time = false;
     /// What the guardian's board file and log are called: FOLDER/stage-outputs, FOLDER/guardian.log. Empty: a
     /// temporary folder.
     std::filesystem::path guardian_folder;

@@ -20,13 +20,14 @@ void check(const Status& status) {
 
 void write_filmed_recording(const std::filesystem::path& folder, const Rig& rig,
                             std::span<const plant::EffectSetting> effects, const Experiment& experiment,
-                            const std::string& name, std::uint64_t seed) {
+                            const std::string& name, std::uint64_t seed, const RecordingOrigin& origin) {
     RecordingWriter writer(folder, {.name = name,
                                     .rig = rig.name,
                                     .experiment = experiment.kind,
                                     .tick_s = rig.tick_s,
                                     .encoder_zero = simulated_zero(),
                                     .controllers = controllers_of(experiment),
+                                    .origin = origin,
                                     .columns = columns_of(rig),
                                     .camera = rig.camera,
                                     .corners = CornerColumns::places_and_covariances,

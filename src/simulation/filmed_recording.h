@@ -1,5 +1,6 @@
 #pragma once
 #include "plant/effects/effect.h"
+#include "src/recording/description.h"
 #include "src/simulation/experiments.h"
 
 #include <cstdint>
@@ -16,6 +17,6 @@ struct Rig;
 /// rig has nothing to take frames with or of, RunFault if the disk fails.
 void write_filmed_recording(const std::filesystem::path& folder, const Rig& rig,
                             std::span<const plant::EffectSetting> effects, const Experiment& experiment,
-                            const std::string& name, std::uint64_t seed);
+                            const std::string& name, std::uint64_t seed, const RecordingOrigin& origin = {});
 
 }  // namespace fidservo

@@ -35,7 +35,8 @@ Findings unguarded_header(const SourceFile& file);
 Findings too_long(const SourceFile& file);
 /// Paths that only exist on somebody's machine.
 Findings machine_paths(const SourceFile& file);
-/// Rooms that look at the wall clock, which may be set at any moment; a log line's date excepted.
+/// Rooms that look at the wall clock, which may be set at any moment; a log line's date and a
+/// recording's excepted.
 Findings wall_clocks(const SourceFile& file);
 /// Tests that a document names, `Suite.Thing_Condition_Expectation`, and that no test file has.
 Findings tests_that_are_not_there(const SourceFile& document, const std::vector<SourceFile>& house);

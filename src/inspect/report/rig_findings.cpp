@@ -70,7 +70,9 @@ RigFindings find_in_recordings(const OutputFolder& output, const Rig& rig,
                                                                                  .only = {},
                                                                                  .without = {},
                                                                                  .written_rig = {}}));
-        return found(diagnosis);
+        RigFindings findings = found(diagnosis);
+        findings.diagnosis = diagnosis_json(diagnosis);
+        return findings;
     } catch (const gap::BudgetEnded&) {
         return nothing_found("interrupted, or out of time, before anything was predicted");
     } catch (const InputError& error) {

@@ -12,8 +12,9 @@ struct Rig;
 namespace fidservo::inspect {
 
 struct RigFindings {
-    std::string line;  ///< for a terminal: verdict and where the report is
-    std::string html;  ///< of the report's section
+    std::string line;            ///< for a terminal: verdict and where the report is
+    std::string html;            ///< of the report's section
+    std::string diagnosis = {};  ///< the text of diagnosis.json; empty where there is none
 };
 
 /// Diagnoses what homing and visits have recorded, for at most half a minute, and writes OUT/diagnosis.html

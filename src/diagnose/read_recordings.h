@@ -1,0 +1,24 @@
+#pragma once
+// What a diagnosis begins with, whoever asks for it.
+#include "core/recording.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fidservo::diagnose {
+
+/// With what their frames show, and what of that is missing.
+struct ReadRecordings {
+    std::vector<Recording> recordings;
+    std::vector<std::string> notes;
+};
+
+/// The recordings that paths stand for (find_recordings), with their frames measured. Throws InputError.
+ReadRecordings read_recordings(const std::vector<std::filesystem::path>& paths);
+
+/// Has the process keep the memory that it was given: predictions take and give back the same few megabytes
+/// thousands of times.
+void keep_memory();
+
+}  // namespace fidservo::diagnose

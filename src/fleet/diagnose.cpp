@@ -1,0 +1,230 @@
+#include "src/fleet/diagnose.h"
+
+#include "core/input_error.h"
+#include "core/rig.h"
+#include "gap/diagnose.h"
+#include "plant/effects/catalogue.h"
+#include "src/config/effects_file.h"
+#include "src/config/rig_file.h"
+#include "src/diagnose/diagnosis_json.h"
+#include "src/diagnose/matters.h"
+#include "src/diagnose/next_experiment.h"
+#include "src/diagnose/read_recordings.h"
+#include "src/diagnose/thinned.h"
+#include "src/diagnose/time_limit.h"
+#include "src/fleet/campaign.h"
+#include "src/fleet/content.h"
+#include "src/fleet/task_name.h"
+#include "src/inspect/sha256.h"
+#include "src/recording/description.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <new>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+namespace fidservo::fleet {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// What all tasks share.
+struct Common {
+    const DiagnoseRequest& request;
+    Rig rig;
+    std::vector<const plant::Effect*> formulas;
+    gap::SignalLimits matters;
+    std::string rig_content, effects_content;
+};
+
+Common common_of(const DiagnoseRequest& request) {
+    const Rig rig = load_rig(request.rig_file);
+    const bool has_effects = !request.effects_file.empty();
+    return {.request = request,
+            .rig = rig,
+            .formulas =
+                has_effects ? load_effects_file(request.effects_file) : std::vector<const plant::Effect*>(),
+            .matters = diagnose::what_matters(request.matters, rig),
+            .rig_content = content_of_files(files_of_rig(request.rig_file)),
+            .effects_content = has_effects ? inspect::sha256_of_file(request.effects_file) : ""};
+}
+
+/// All that a result is made from.
+std::string key_of(const Common& common, const std::string& content) {
+    const DiagnoseRequest& request = common.request;
+    const Json inputs{{"kind", "diagnose"},         {"content", content},
+                      {"rig", common.rig_content},  {"effects_file", common.effects_content},
+                      {"only", request.only},       {"without", request.without},
+                      {"matters", request.matters}, {"effort_s", request.effort_s},
+                      {"program", this_program()}};
+    return inspect::sha256(inputs.dump());
+}
+
+diagnose::TimeLimit effort_of(const Common& common, const std::vector<Recording>& recordings) {
+    diagnose::TimeLimit limit = diagnose::time_limit(recordings);
+    const double times = common.request.effort_s / usual_effort_s();
+    return {times * limit.search_s, times * limit.whole_s, times * limit.equation_s};
+}
+
+/// The diagnosis of a campaign as `diagnose --json` writes it, and how many rows might be predicted for it.
+struct Diagnosed {
+    Json diagnosis;
+    double rows;
+};
+
+Diagnosed diagnose_campaign(const Common& common, const fs::path& path) {
+    diagnose::ReadRecordings read = diagnose::read_recordings({path});
+    const diagnose::TimeLimit limit = effort_of(common, read.recordings);
+    const auto budget = std::make_shared<const gap::Budget>(limit.search_s, limit.whole_s,
+                                                            std::function<bool()>(), gap::Seconds::by_effort);
+    const gap::Evidence evidence(common.rig, diagnose::thinned(std::move(read.recordings), read.notes),
+                                 budget);
+    gap::Diagnosis diagnosis = gap::diagnose(evidence, {.only = common.request.only,
+                                                        .without = common.request.without,
+                                                        .formulas = common.formulas,
+                                                        .matters = common.matters,
+                                                        .equation_s = limit.equation_s,
+                                                        .selection = {}});
+    diagnosis.notes.insert(diagnosis.notes.end(), read.notes.begin(), read.notes.end());
+    diagnosis.next_experiment = diagnose::next_experiment(evidence.rig(), diagnosis);
+    return {Json::parse(diagnosis_json(diagnosis)), (limit.whole_s + limit.equation_s) * gap::rows_a_second};
+}
+
+class CampaignTasks {
+  public:
+    CampaignTasks(const Common& common, const ResultStore& store) : common_(common), store_(store) {}
+
+    TaskEnd work(const fs::path& path) const {
+        const Campaign campaign = campaign_of(path);
+        const ResultName name = name_of(campaign);
+        if (auto end = end_if_there(store_, name)) return *std::move(end);
+        Json result = head_of(campaign, name);
+        std::string why = campaign.fault;
+        if (why.empty()) why = fill(result, path);
+        if (campaign_of(path).content != campaign.content)
+            return {.outcome = Outcome::undone, .text = "its recordings changed while they were diagnosed"};
+        return publish(name, std::move(result), as_noted(std::move(why), path, campaign.noted));
+    }
+
+    TaskEnd say_crash(const fs::path& path, std::string_view signal) const {
+        const Campaign campaign = campaign_of(path);
+        const ResultName name = name_of(campaign);
+        return publish(name, head_of(campaign, name),
+                       fmt::format("the program crashed on it, by {}, each time it was tried", signal));
+    }
+
+  private:
+    ResultName name_of(const Campaign& campaign) const {
+        return {file_stem(campaign.noted), key_of(common_, campaign.content)};
+    }
+
+    Json head_of(const Campaign& campaign, const ResultName& name) const {
+        const auto or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
+        const RecordingOrigin& origin = campaign.origin;
+        return {{"format", result_format},
+                {"task",
+                 {{"kind", "diagnose"},
+                  {"campaign", campaign.noted},
+                  {"content", campaign.content},
+                  {"unit", or_null(origin.unit)},
+                  {"recorded_at", or_null(origin.recorded_at)},
+                  {"labels", Json(origin.labels)}}},
+                {"rig", {{"name", common_.rig.name}, {"content", common_.rig_content}}},
+                {"program", this_program()},
+                {"effort", std::llround(common_.request.effort_s * gap::rows_a_second)},
+                {"key", name.key},
+                {"status", "done"}};
+    }
+
+    /// @return why there is no diagnosis; empty: there is one
+    std::string fill(Json& result, const fs::path& path) const {
+        try {
+            Diagnosed diagnosed = diagnose_campaign(common_, path);
+            for (Json& note : diagnosed.diagnosis["notes"])
+                note = as_noted(note.get<std::string>(), path, result["task"]["campaign"].get<std::string>());
+            result["effort"] = std::llround(diagnosed.rows);
+            result["diagnosis"] = std::move(diagnosed.diagnosis);
+            return {};
+        } catch (const gap::BudgetEnded&) {
+            return "the effort that was allowed was over before anything was predicted";
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (const cv::Exception& error) {
+            if (error.code == cv::Error::StsNoMem) throw;
+            return error.what();
+        } catch (const std::exception& error) {
+            return error.what();
+        }
+    }
+
+    TaskEnd publish(const ResultName& name, Json result, std::string why) const {
+        std::ranges::replace(why, '\n', ' ');
+        if (!why.empty()) {
+            result["status"] = "failed";
+            result["reason"] = why;
+        }
+        store_.publish(name, result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+        const Outcome outcome = why.empty() ? Outcome::made : Outcome::failed;
+        return {outcome, std::move(why), name.file()};
+    }
+
+    const Common& common_;
+    const ResultStore& store_;
+};
+
+/// Sorted, each once, so that shards agree on their numbers however they were given.
+std::vector<fs::path> campaigns_of(const DiagnoseRequest& request) {
+    std::vector<std::pair<std::string, fs::path>> by_name;
+    std::error_code error;
+    for (const fs::path& path : request.campaigns) {
+        if (!fs::is_directory(path, error))
+            throw InputError(fmt::format("{}: there is no such folder", path.string()));
+        by_name.emplace_back(noted_path(path), path);
+    }
+    std::ranges::sort(by_name);
+    std::vector<fs::path> campaigns;
+    for (const auto& [noted, path] : by_name)
+        if (campaigns.empty() || path.lexically_normal() / "" != campaigns.back().lexically_normal() / "")
+            campaigns.push_back(path);
+    return campaigns;
+}
+
+void demand_effects(const char* option, const std::vector<std::string>& names, const Common& common) {
+    for (const std::string& name : names)
+        if (plant::find_effect(name, common.formulas) == nullptr)
+            throw InputError(fmt::format(
+                "{}: {}: there is no such effect; fidservo simulate --help lists them", option, name));
+}
+
+}  // namespace
+
+double usual_effort_s() {
+    return diagnose::half_a_minute.whole_s + diagnose::half_a_minute.equation_s;
+}
+
+int diagnose_fleet(const DiagnoseRequest& request) {
+    const Common common = common_of(request);
+    demand_effects("--effects", request.only, common);
+    demand_effects("--without", request.without, common);
+    const std::vector<fs::path> campaigns = campaigns_of(request);
+    const ResultStore store = open_store(request.run);
+    const CampaignTasks tasks(common, store);
+    diagnose::keep_memory();
+    const TaskWork work{
+        .work = [&](std::size_t k) { return tasks.work(campaigns[k]); },
+        .say_crash = [&](std::size_t k,
+                         std::string_view signal) { return tasks.say_crash(campaigns[k], signal); }};
+    return run_fleet(store, request.run, "campaigns", campaigns.size(), work,
+                     [&](std::size_t k) { return campaigns[k].string(); })
+        .exit_code;
+}
+
+}  // namespace fidservo::fleet

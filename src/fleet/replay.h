@@ -1,0 +1,28 @@
+#pragma once
+// fidservo fleet replay: a stretch of images a task.
+#include "src/fleet/fleet_run.h"
+#include "src/images/image_names.h"
+#include "vision/tag_book.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace fidservo::fleet {
+
+struct ReplayRequest {
+    std::vector<std::filesystem::path> inputs;
+    std::filesystem::path rig_file;
+    bool rig_is_given = false;  ///< its camera took the images of that camera's size
+    NameTimes name_times = NameTimes::automatic;
+    vision::TagReading reading;  ///< as which tags are looked for
+    RunOptions run;
+};
+
+/// Finds the tags in each stretch that has no result yet, in one thread each. Once all stretches have one,
+/// whichever share made them, writes FLEET/detections.csv and FLEET/displacements.csv, to the byte those of
+/// one `replay` of all inputs: displacements count from where a tag was first seen, which may be in an
+/// earlier stretch, so a result holds the tags' places, and they are counted here. Throws InputError.
+/// @return the exit code, of run_fleet()
+int replay_fleet(const ReplayRequest& request);
+
+}  // namespace fidservo::fleet

@@ -1,0 +1,15 @@
+#pragma once
+#include "src/fleet/report/findings.h"
+
+#include <filesystem>
+
+namespace fidservo::fleet {
+
+/// Writes a copy of a rig file that states what all units share, with the fleet's values. One that was
+/// written before is replaced.
+/// @return whether there is such a thing
+/// Throws InputError if the source is no rig file.
+bool write_cured_rig(const std::filesystem::path& file, const std::filesystem::path& source,
+                     const FleetFindings& findings);
+
+}  // namespace fidservo::fleet

@@ -1,0 +1,26 @@
+#pragma once
+// The results of a fleet in SQLite: FLEET/fleet.sqlite, for the report and for whoever wants to ask more. Its
+// tables are described in docs/fleet-report.md.
+#include "src/fleet/report/result.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fidservo::fleet {
+
+/// What came of bringing the database up to date.
+struct Collected {
+    std::vector<FleetResult> results;    ///< all that it now holds, by unit and time
+    std::vector<std::string> damaged;    ///< a line for each file that is no result
+    std::size_t added = 0, removed = 0;  ///< files that are new or were changed; that are no longer there
+};
+
+/// Brings FLEET/fleet.sqlite up to date with FLEET/results: files that are new or whose bytes have changed
+/// are read, what belongs to files that are gone or damaged is removed, all in one transaction. To do it
+/// again changes nothing. Throws InputError if there is no FLEET/results or the database is none of this
+/// program; RunFault if the disk fails.
+Collected collect(const std::filesystem::path& fleet);
+
+}  // namespace fidservo::fleet

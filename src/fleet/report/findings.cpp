@@ -1,0 +1,225 @@
+#include "src/fleet/report/findings.h"
+
+#include "src/fleet/report/groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace fidservo::fleet {
+namespace {
+
+constexpr double much_the_same = 0.8;
+
+std::span<const Point> timed(const UnitFindings& unit) {
+    return std::span(unit.series.points).subspan(unit.series.untimed);
+}
+
+WithinScatter scatter_of(const QuantityFindings& found) {
+    std::vector<std::vector<Point>> points;
+    for (const UnitFindings& unit : found.units) points.emplace_back(timed(unit).begin(), timed(unit).end());
+    return WithinScatter(points);
+}
+
+/// Of all quantities, for each unit of the fleet by the others.
+std::vector<Scatter> scatter_by_others(const FleetFindings& findings,
+                                       std::span<const WithinScatter> scatters) {
+    std::vector<std::vector<std::optional<std::size_t>>> places(
+        findings.units.size(), std::vector<std::optional<std::size_t>>(scatters.size()));
+    for (std::size_t q = 0; q < scatters.size(); ++q)
+        for (std::size_t place = 0; place < findings.quantities[q].units.size(); ++place)
+            places[findings.quantities[q].units[place].series.unit][q] = place;
+    std::vector<Scatter> by_others;
+    for (const auto& unit : places) by_others.push_back(common_scatter(scatters, unit));
+    return by_others;
+}
+
+/// What has changed, with the scatter of the units that have not.
+void look_for_changes(QuantityFindings& found, WithinScatter scatter, std::span<const Scatter> common,
+                      double bound) {
+    const auto of_others = [&](std::size_t u) {
+        return scatter.without(u, common[found.units[u].series.unit]);
+    };
+    for (std::size_t u = 0; u < found.units.size(); ++u)
+        found.units[u].changes = find_changes(timed(found.units[u]), of_others(u), bound);
+    // Units that changed passed for scatter of the others.
+    for (std::size_t u = 0; u < found.units.size(); ++u)
+        if (!found.units[u].changes.empty()) scatter.leave_out(u);
+    for (std::size_t u = 0; u < found.units.size(); ++u) {
+        UnitFindings& unit = found.units[u];
+        unit.changes = find_changes(timed(unit), of_others(u), bound);
+        const std::span<const Point> all = unit.series.points;
+        unit.level = level_now(unit.changes.empty() ? all : timed(unit), of_others(u), unit.changes);
+    }
+    found.scatter = scatter.of_all(common.front());
+}
+
+/// Which units have a share that is not everybody's.
+std::vector<bool> odd_units(const QuantityFindings& found) {
+    std::vector<bool> odd(found.units.size(), false);
+    for (const Share& share : found.attribution.shares) {
+        if (share.whose == Whose::unit) odd[share.which] = true;
+        if (share.whose == Whose::group)
+            for (const std::size_t u : found.groups[share.which].units) odd[u] = true;
+    }
+    return odd;
+}
+
+void pool(QuantityFindings& found) {
+    const std::vector<bool> odd = odd_units(found);
+    std::vector<Level> alike;
+    for (std::size_t u = 0; u < found.units.size(); ++u)
+        if (!odd[u]) alike.push_back(found.units[u].level);
+    if (alike.empty())
+        for (const UnitFindings& unit : found.units) alike.push_back(unit.level);
+    found.population = population_of(alike);
+    for (std::size_t u = 0; u < found.units.size(); ++u)
+        found.units[u].pooled =
+            odd[u] ? found.units[u].level : pooled(found.units[u].level, found.population);
+}
+
+QuantityFindings unjudged(QuantityOverFleet fleet) {
+    QuantityFindings found;
+    found.quantity = std::move(fleet.quantity);
+    for (QuantitySeries& series : fleet.units)
+        found.units.push_back({.series = std::move(series), .changes = {}, .level = {}, .pooled = {}});
+    return found;
+}
+
+/// Whose the deviations are, and units' values given the fleet.
+void attribute_and_pool(const std::vector<FleetResult>& results, const std::vector<UnitHistory>& histories,
+                        QuantityFindings& found) {
+    found.groups = groups_of(results, histories, found.units);
+    std::vector<Level> levels;
+    for (const UnitFindings& unit : found.units) levels.push_back(unit.level);
+    std::vector<std::vector<std::size_t>> sets;
+    for (const UnitGroup& group : found.groups) sets.push_back(group.units);
+    found.attribution = attribute(levels, sets, static_cast<double>(quantities_looked_at()));
+    pool(found);
+}
+
+std::vector<std::size_t> fleet_units(const QuantityFindings& found, const std::vector<std::size_t>& places) {
+    std::vector<std::size_t> units;
+    for (const std::size_t place : places) units.push_back(found.units[place].series.unit);
+    return units;
+}
+
+std::vector<std::size_t> places_of(const QuantityFindings& found, const Share& share) {
+    if (share.whose == Whose::unit) return {share.which};
+    if (share.whose == Whose::group) return found.groups[share.which].units;
+    std::vector<std::size_t> all(found.units.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+}
+
+double mean_level(const QuantityFindings& found, const std::vector<std::size_t>& places) {
+    double sum = 0.0;
+    for (const std::size_t place : places) sum += found.units[place].level.value;
+    return sum / static_cast<double>(places.size());
+}
+
+Judgement judgement_of(const std::vector<FleetResult>& results, const QuantityFindings& found,
+                       std::size_t quantity, const ChangeCluster& cluster) {
+    Judgement judgement;
+    judgement.matter = cluster.kind == ChangeKind::step ? Matter::step : Matter::trend;
+    judgement.quantity = quantity;
+    judgement.units = fleet_units(found, cluster.units);
+    judgement.now = mean_level(found, cluster.units);
+    judgement.since = cluster.since;
+    const double count = static_cast<double>(cluster.units.size());
+    double variance = 0.0;
+    for (std::size_t k = 0; k < cluster.units.size(); ++k) {
+        const UnitFindings& unit = found.units[cluster.units[k]];
+        const Change& change = unit.changes[cluster.changes[k]];
+        judgement.size.value += change.size / count;
+        variance += change.std * change.std / (count * count);
+        judgement.log_odds = std::max(judgement.log_odds, change.log_evidence);
+        const std::int64_t found_s =
+            *results[unit.series.results[unit.series.untimed + change.found]].recorded_at_s;
+        judgement.found_s = std::min(judgement.found_s.value_or(found_s), found_s);
+    }
+    judgement.size.std = std::sqrt(variance);
+    if (cluster.units.size() > 1) judgement.whose = Whose::group;
+    if (count >= much_the_same * static_cast<double>(found.units.size()) && found.units.size() > 2)
+        judgement.whose = Whose::all;
+    for (const UnitGroup& group : found.groups)
+        if (judgement.whose == Whose::group && overlap(group.units, cluster.units) >= much_the_same) {
+            judgement.group = group.name;
+            break;
+        }
+    return judgement;
+}
+
+/// Whether a unit's deviation is what a change of it comes to.
+bool is_told_by(const Judgement& change, const Judgement& deviation) {
+    if (change.quantity != deviation.quantity || deviation.whose != Whose::unit) return false;
+    if (std::ranges::find(change.units, deviation.units.front()) == change.units.end()) return false;
+    return change.matter == Matter::trend ||
+           std::abs(deviation.now - change.size.value) < 0.5 * std::abs(deviation.now);
+}
+
+void add_judgements(const std::vector<FleetResult>& results, const QuantityFindings& found,
+                    std::size_t quantity, std::vector<Judgement>& judgements) {
+    std::vector<Judgement> changes;
+    for (const ChangeCluster& cluster : clusters_of(results, found.units))
+        changes.push_back(judgement_of(results, found, quantity, cluster));
+    for (const Share& share : found.attribution.shares) {
+        const std::vector<std::size_t> places = places_of(found, share);
+        Judgement judgement;
+        judgement.whose = share.whose;
+        judgement.quantity = quantity;
+        judgement.units = fleet_units(found, places);
+        if (share.whose == Whose::group) judgement.group = found.groups[share.which].name;
+        judgement.size = share.size;
+        judgement.now = mean_level(found, places);
+        judgement.probability = share.probability;
+        judgement.log_odds = share.log_odds;
+        judgement.log_all = share.log_all;
+        judgement.log_group = share.log_group;
+        judgement.log_unit = share.log_unit;
+        if (std::ranges::any_of(changes,
+                                [&](const Judgement& change) { return is_told_by(change, judgement); }))
+            continue;
+        const auto together = std::ranges::find_if(changes, [&](const Judgement& change) {
+            return share.whose != Whose::unit && overlap(change.units, judgement.units) >= much_the_same;
+        });
+        if (together != changes.end()) {
+            judgement.matter = together->matter;
+            judgement.since = together->since;
+            judgement.found_s = together->found_s;
+            judgement.size = together->size;
+            changes.erase(together);
+        }
+        judgements.push_back(std::move(judgement));
+    }
+    for (Judgement& change : changes) judgements.push_back(std::move(change));
+}
+
+}  // namespace
+
+FleetFindings findings_of(const std::vector<FleetResult>& results) {
+    FleetFindings findings;
+    findings.units = histories(results);
+    findings.looks_a_year = looks_a_year(results, findings.units);
+    findings.bound = alarm_bound(static_cast<double>(quantities_looked_at()), findings.looks_a_year,
+                                 false_alarms_a_unit_year);
+    std::vector<WithinScatter> scatters;
+    for (QuantityOverFleet& fleet : quantities_over_fleet(results, findings.units)) {
+        findings.quantities.push_back(unjudged(std::move(fleet)));
+        scatters.push_back(scatter_of(findings.quantities.back()));
+    }
+    const std::vector<Scatter> common = scatter_by_others(findings, scatters);
+    for (std::size_t q = 0; q < findings.quantities.size(); ++q) {
+        look_for_changes(findings.quantities[q], std::move(scatters[q]), common, findings.bound);
+        attribute_and_pool(results, findings.units, findings.quantities[q]);
+    }
+    for (std::size_t q = 0; q < findings.quantities.size(); ++q)
+        add_judgements(results, findings.quantities[q], q, findings.judgements);
+    std::ranges::stable_sort(findings.judgements, {}, [](const Judgement& judgement) {
+        return std::tuple(judgement.whose, -std::abs(judgement.now));
+    });
+    return findings;
+}
+
+}  // namespace fidservo::fleet

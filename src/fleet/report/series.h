@@ -1,0 +1,76 @@
+#pragma once
+// What results say of each quantity of each unit, over time, in floors.
+//
+// A quantity is a size of an effect of the catalogue: what a unit has of it beyond its rig file. Its size in
+// floors is by how much it alone would lift the gap, f = sqrt(g^2 - 1), which each diagnosis states for each
+// name (gap_alone, g). Where an effect has several sizes they count by their usual ones:
+//
+//     floors a unit of size j = median over all names of f / |z|,  divided by usual_j,   z_j = (value_j -
+//     vanishing_j) / usual_j
+//
+// A diagnosis that names the effect with a probability of one half or more gives value and standard error.
+// One that does not name it, though it tried it, has passed over what was too small: below 1.1 floors, or
+// below what it has left unexplained, nothing is named. All sizes up to L = sqrt(max(1.1, gap after)^2 - 1)
+// are as likely: 0 with the standard deviation L / sqrt(3) of the uniform law. It says nothing of an effect
+// that it could not tell from one that it names, names with less than one half, or did not come to as its
+// time was over.
+#include "src/fleet/report/result.h"
+#include "src/fleet/report/statistics/point.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fidservo::fleet {
+
+/// A size of an effect.
+struct Quantity {
+    std::string effect, parameter, unit, block;  ///< by the catalogue
+    double vanishing = 0.0;                      ///< what the rig file stands for
+    double floors_per_unit = 0.0;                ///< beyond it
+
+    double in_floors(double value) const { return (value - vanishing) * floors_per_unit; }
+    double in_units(double floors) const { return vanishing + floors / floors_per_unit; }
+};
+
+/// A unit's results.
+struct UnitHistory {
+    std::string name;
+    std::vector<std::size_t> results;  ///< by time; those without a time come first
+    /// Of these, the first that is part of what is judged: of the same rig file as the last one.
+    std::size_t first_judged = 0;
+};
+
+/// One quantity of one unit.
+struct QuantitySeries {
+    std::size_t unit = 0;
+    std::vector<Point> points;         ///< by time
+    std::vector<std::size_t> results;  ///< of each point
+    std::size_t untimed = 0;           ///< points at the beginning of which no time is known
+};
+
+/// One quantity of all units of which something is known.
+struct QuantityOverFleet {
+    Quantity quantity;
+    std::vector<QuantitySeries> units;
+};
+
+/// Units by name, and their results by time. A result that names no unit is of a unit called like its
+/// campaign.
+std::vector<UnitHistory> histories(const std::vector<FleetResult>& results);
+
+/// All sizes of effects that some diagnosis names, in the order of the catalogue.
+std::vector<QuantityOverFleet> quantities_over_fleet(const std::vector<FleetResult>& results,
+                                                     const std::vector<UnitHistory>& units);
+
+/// How many sizes the catalogue has: as many are looked at in each unit.
+std::size_t quantities_looked_at();
+
+/// Weeks since 1970-01-01.
+double weeks_of(std::int64_t time_s);
+
+/// How often a unit is diagnosed, by the median of the times between two diagnoses; 52 where none is known.
+double looks_a_year(const std::vector<FleetResult>& results, const std::vector<UnitHistory>& units);
+
+}  // namespace fidservo::fleet

@@ -1,0 +1,53 @@
+#pragma once
+// Whether a deviation from the rig file is one unit's, a batch's, or everybody's.
+//
+// The levels of all units are explained by a sum of shares, each of which belongs to all units, to a group of
+// them, or to one, and by what units differ by anyway:
+//
+//     y_u = sum_j m_j [u in set j] + d_u + e_u,   d_u ~ N(0, tau^2),   e_u ~ N(0, s_u^2),   m_j ~ N(0, g_j^2)
+//
+// tau is averaged over (flat in its logarithm from 0.05 to 200 floors, and half of the weight on 0), g over
+// 1, 4, 16 and 64 floors. So each explanation has a marginal likelihood, in which a share that many units
+// have at the same value is dear once, and many shares of single units are dear each time. Beginning with
+// none, the share with the largest marginal likelihood is added while the odds for it are 19 to 1 or more,
+// prior odds included. These pay for having looked elsewhere: of Q quantities one is off, and with it all
+// units, some group or some unit are equally likely, each group and each unit alike:
+//
+//     log odds = log likelihood ratio + log(1 / (3 Q)) - log(number of sets of its kind)
+//
+// Sources: Kass, Raftery, JASA 90, 1995; Scott, Berger, Ann. Stat. 38, 2010 (multiplicity by prior odds).
+#include "src/fleet/report/statistics/point.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace fidservo::fleet {
+
+/// Whose a deviation is.
+enum class Whose { all, group, unit };
+
+/// A share of a deviation.
+struct Share {
+    Whose whose = Whose::all;
+    std::size_t which = 0;     ///< the group's or the unit's number
+    Level size;                ///< m, beside the other shares, floors
+    double log_odds = 0.0;     ///< natural, against there being none of it
+    double probability = 0.0;  ///< among this one, none, and all other sets in its place
+    /// Natural logarithms of the likelihood ratios of the best set of each kind in its place, against none.
+    double log_all = 0.0, log_group = 0.0, log_unit = 0.0;
+};
+
+/// What an explanation comes to.
+struct Attribution {
+    std::vector<Share> shares;  ///< in the order in which they were found
+    double spread = 0.0;        ///< tau, the likeliest, floors: what units differ by beside the shares
+};
+
+/// @param levels  of all units, three at least; fewer cannot be told apart, and have no shares
+/// @param groups  sets of units that may share a cause, each of two units at least, none of all
+/// @param quantities  that are looked at, Q
+Attribution attribute(std::span<const Level> levels, std::span<const std::vector<std::size_t>> groups,
+                      double quantities);
+
+}  // namespace fidservo::fleet

@@ -1,0 +1,120 @@
+#include "src/fleet/report/statistics/change_points.h"
+
+#include "src/fleet/report/statistics/change_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace fidservo::fleet {
+namespace {
+
+constexpr std::size_t most_changes = 4;
+
+/// The points that count where many that were not named are one: `index` of each among all.
+struct CountedPoints {
+    std::vector<Point> points;
+    std::vector<std::size_t> index;
+};
+
+CountedPoints counted(std::span<const Point> all) {
+    CountedPoints kept;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!all[i].named && i > 0 && !all[i - 1].named) continue;
+        kept.points.push_back(all[i]);
+        kept.index.push_back(i);
+    }
+    return kept;
+}
+
+std::vector<ChangeColumn> columns_of(std::span<const Point> all, std::span<const Change> changes) {
+    std::vector<ChangeColumn> columns;
+    for (const Change& change : changes) columns.push_back(column_of(change.kind, all, change.first));
+    return columns;
+}
+
+/// Whether M passes the bound without any one of the diagnoses, too. A point that stands for several is none.
+bool stands_without_any(const CountedPoints& kept, std::size_t count, const Scatter& scatter,
+                        std::span<const ChangeColumn> known, double log_bound) {
+    for (std::size_t left_out = 0; left_out < count; ++left_out) {
+        if (left_out + 1 < count && kept.index[left_out + 1] > kept.index[left_out] + 1) continue;
+        std::vector<Point> fewer(kept.points.begin(),
+                                 kept.points.begin() + static_cast<std::ptrdiff_t>(count));
+        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(left_out));
+        if (scan(fewer, scatter, known).log_sum() < log_bound) return false;
+    }
+    return true;
+}
+
+/// The place among the counted points at which a further change is found first.
+std::optional<std::size_t> first_alarm(const CountedPoints& kept, const Scatter& scatter,
+                                       std::span<const ChangeColumn> known, double log_bound) {
+    for (std::size_t count = 2; count <= kept.points.size(); ++count) {
+        const std::span<const Point> until(kept.points.data(), count);
+        if (scan(until, scatter, known).log_sum() >= log_bound &&
+            stands_without_any(kept, count, scatter, known, log_bound))
+            return count - 1;
+    }
+    return {};
+}
+
+/// Dates a change, the others being as they are, and says of which kind it is.
+void date(std::span<const Point> all, const Scatter& scatter, std::span<const ChangeColumn> others,
+          Change& change) {
+    const ChangeScan dates = scan(all, scatter, others);
+    change.kind = dates.log_weight(ChangeKind::step) >= dates.log_weight(ChangeKind::trend)
+                      ? ChangeKind::step
+                      : ChangeKind::trend;
+    const ChangeDates found = dates.dates(change.kind);
+    change.first = found.likeliest;
+    change.earliest = found.earliest;
+    change.latest = found.latest;
+}
+
+std::vector<ChangeColumn> all_but(std::span<const Point> all, std::span<const Change> changes,
+                                  std::size_t one) {
+    std::vector<ChangeColumn> columns;
+    for (std::size_t c = 0; c < changes.size(); ++c)
+        if (c != one) columns.push_back(column_of(changes[c].kind, all, changes[c].first));
+    return columns;
+}
+
+}  // namespace
+
+double alarm_bound(double quantities, double looks_a_year, double rate) {
+    return quantities * looks_a_year / rate;
+}
+
+std::vector<Change> find_changes(std::span<const Point> points, const Scatter& scatter, double bound) {
+    const CountedPoints kept = counted(points);
+    const double log_bound = std::log(bound);
+    std::vector<Change> changes;
+    while (changes.size() < most_changes) {
+        const std::vector<ChangeColumn> known = columns_of(points, changes);
+        const auto alarm = first_alarm(kept, scatter, known, log_bound);
+        if (!alarm) break;
+        Change change;
+        change.found = kept.index[*alarm];
+        date(points, scatter, known, change);
+        changes.push_back(change);
+        for (std::size_t c = 0; changes.size() > 1 && c < changes.size(); ++c)
+            date(points, scatter, all_but(points, changes, c), changes[c]);
+    }
+    for (std::size_t c = 0; c < changes.size(); ++c) {
+        const std::vector<ChangeColumn> others = all_but(points, changes, c);
+        const Level size =
+            size_of(points, scatter, others, column_of(changes[c].kind, points, changes[c].first));
+        changes[c].size = size.value;
+        changes[c].std = size.std;
+        changes[c].log_evidence = std::max(0.0, scan(kept.points, scatter, others).log_sum() - log_bound);
+    }
+    std::ranges::sort(changes, {}, &Change::first);
+    return changes;
+}
+
+Level level_now(std::span<const Point> points, const Scatter& scatter, std::span<const Change> changes) {
+    const CountedPoints kept = counted(points);
+    return value_at(kept.points, scatter, columns_of(points, changes), points.back().time_weeks);
+}
+
+}  // namespace fidservo::fleet

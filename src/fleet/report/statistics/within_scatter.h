@@ -1,0 +1,73 @@
+#pragma once
+// By how much a unit that does not change scatters from one diagnosis to the next beyond what each
+// diagnosis says that it is uncertain by.
+//
+//     y_ut = level_u + e_ut,   e_ut ~ N(0, phi_u (s_ut^2 + sigma^2)),   nu / phi_u ~ chi^2(nu)
+//
+// s is the diagnosis's own standard error; sigma what comes to it in every unit (rooms are warmer and colder,
+// fits end in neighbouring valleys); phi how much more or less a unit scatters than others, of mean about 1.
+// The level is removed by using its contrasts alone (restricted likelihood), of which there are m = n - 1:
+//
+//     log L_u = log G((nu + m)/2) - log G(nu/2) - m/2 log(pi nu) - 1/2 sum log v_t - 1/2 log sum 1/v_t
+//               - (nu + m)/2 log(1 + S_u/nu),     v = s^2 + sigma^2,   S_u = sum (y - mean)^2 / v
+//
+// sigma maximises the sum over units; nu that over all quantities, too. A unit is judged by what the others
+// say: were it to drift, its own drift would pass for scatter. Sources: restricted likelihood: Patterson,
+// Thompson, Biometrika 58, 1971; scales that are drawn from an inverse chi^2: Smyth, Stat. Appl. Genet. Mol.
+// Biol. 3, 2004.
+#include "src/fleet/report/statistics/point.h"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace fidservo::fleet {
+
+/// How a unit that does not change scatters.
+struct Scatter {
+    double std = 0.0;      ///< sigma, floors
+    double degrees = 0.0;  ///< nu; 0: nothing is known of the scale beforehand
+};
+
+/// The scatter of one quantity in all units.
+class WithinScatter {
+  public:
+    /// @param units  their points, by time. Scatter is learnt from units that every diagnosis names: of
+    /// others the
+    ///               names are a selection
+    explicit WithinScatter(std::span<const std::vector<Point>> units);
+
+    /// By all units. @param common  common_scatter()
+    Scatter of_all(const Scatter& common) const;
+    /// By all but one, and but those whose history is left out.
+    Scatter without(std::size_t unit, const Scatter& common) const;
+    /// Leaves a unit out for all: it was found to change.
+    void leave_out(std::size_t unit);
+
+  private:
+    friend Scatter common_scatter(std::span<const WithinScatter> quantities,
+                                  std::span<const std::optional<std::size_t>> unit);
+    static Scatter best(const std::vector<double>& sum, double contrasts, const Scatter& common);
+
+    std::vector<std::vector<double>> of_unit_;  ///< log L_u over the grid of sigma and nu
+    std::vector<double> contrasts_of_unit_;
+    std::vector<double> unnamed_of_unit_,
+        unnamed_variance_of_unit_;  ///< how many, and the sum of their variances
+    std::vector<double> sum_;
+    double contrasts_ = 0.0;
+};
+
+/// What all quantities together say. nu is that of every quantity: how far units' scales differ is a matter
+/// of units and rooms rather than of effects. It maximises the sum over quantities, each with its own
+/// likeliest sigma, and is at most the number of all contrasts. sigma is that of quantities that others than
+/// the unit hardly have, of fewer than ten contrasts. Where there are no ten of all quantities, but ten
+/// diagnoses of others that name nothing, units scatter by no more than what those pass over: sigma is their
+/// std.
+/// @param unit  of each quantity the number of the unit that is to be judged and does not count; none where
+/// it
+///              has no such unit
+Scatter common_scatter(std::span<const WithinScatter> quantities,
+                       std::span<const std::optional<std::size_t>> unit);
+
+}  // namespace fidservo::fleet

@@ -1,0 +1,56 @@
+#pragma once
+// The results of a fleet: a folder in which a result appears whole, once, whoever else writes there.
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fidservo::fleet {
+
+/// Where a result is put.
+struct ResultName {
+    std::string stem;  ///< file_stem() of what the task is about
+    std::string key;   ///< SHA-256 of all that the result is made from
+
+    /// STEM-KEY.json, with the key's first 16 digits.
+    std::string file() const;
+};
+
+/// The stem of such a file's name; empty: it is no result's.
+std::string stem_of_result(const std::string& file);
+
+/// FLEET/results. Several processes, on several machines that share the folder, may use it at a time: a
+/// result is written under a name of its own, brought to the disk, and linked to its final name, which is
+/// made by the first writer only.
+class ResultStore {
+  public:
+    /// Makes the folder if it is not there, and looks at what is in it. Throws InputError if it cannot be
+    /// made.
+    explicit ResultStore(const std::filesystem::path& fleet);
+
+    const std::filesystem::path& folder() const { return folder_; }
+
+    /// The text of a result; empty: there is none. One that was superseded is taken back.
+    std::optional<std::string> find(const ResultName& name) const;
+
+    /// Writes a result. One that is there with the same bytes is left as it is. What the same task has left
+    /// from other inputs goes to FLEET/superseded, so that results has one for each task. Throws RunFault if
+    /// the disk does not take it, or if it is there with other bytes.
+    void publish(const ResultName& name, std::string_view text) const;
+
+    /// Removes drafts that a process of this program left when it was killed: its own, and of others those
+    /// whose result is there. Those of a writer at work stay.
+    void sweep() const;
+
+  private:
+    std::filesystem::path draft_of(const ResultName& name) const;
+    void supersede_others(const ResultName& name) const;
+
+    std::filesystem::path folder_, superseded_;
+    std::string token_;                                      ///< of this run's drafts
+    std::map<std::string, std::vector<std::string>> files_;  ///< by stem, as they were at the start
+};
+
+}  // namespace fidservo::fleet

@@ -1,0 +1,97 @@
+#include "src/inspect/report/rig_history.h"
+
+#include "core/input_error.h"
+#include "core/rig.h"
+#include "src/commit.h"
+#include "src/fleet/report/findings.h"
+#include "src/fleet/report/judgement_words.h"
+#include "src/inspect/durable.h"
+#include "src/inspect/sha256.h"
+#include "src/report/html.h"
+
+#include <ctime>
+#include <fstream>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace fidservo::inspect {
+namespace {
+
+std::string line_of(const Rig& rig, const std::string& rig_sha256, const std::string& diagnosis,
+                    std::int64_t now_s) {
+    const std::string recorded_at =
+        fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(now_s)));
+    const nlohmann::ordered_json line{{"format", "fidservo-fleet-result/1"},
+                                      {"task",
+                                       {{"kind", "diagnose"},
+                                        {"campaign", "inspection of " + recorded_at},
+                                        {"content", sha256(diagnosis)},
+                                        {"unit", rig.name},
+                                        {"recorded_at", recorded_at},
+                                        {"labels", nlohmann::ordered_json::object()}}},
+                                      {"rig", {{"name", rig.name}, {"content", rig_sha256}}},
+                                      {"program", program_version()},
+                                      {"effort", 0.0},
+                                      {"status", "done"},
+                                      {"diagnosis", nlohmann::ordered_json::parse(diagnosis)}};
+    return line.dump() + "\n";
+}
+
+/// The runs of a history file, and what had to be passed over.
+struct History {
+    std::vector<fleet::FleetResult> runs;
+    std::vector<std::string> passed_over;
+    bool ends_with_a_line = true;
+};
+
+History read_history(const std::filesystem::path& file) {
+    History history;
+    std::ifstream stream(file, std::ios::binary);
+    std::string line;
+    for (int number = 1; std::getline(stream, line); ++number) {
+        history.ends_with_a_line = !stream.eof();
+        if (line.empty()) continue;
+        try {
+            history.runs.push_back(fleet::result_of(fmt::format("{}: line {}", file.string(), number), line));
+        } catch (const InputError& error) {
+            history.passed_over.emplace_back(error.what());
+        }
+    }
+    return history;
+}
+
+}  // namespace
+
+HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& rig,
+                                  const std::string& rig_sha256, const RigFindings& findings,
+                                  std::int64_t now_s) {
+    HistoryFindings said;
+    if (findings.diagnosis.empty()) {
+        said.lines.emplace_back("history: this run is not in it, as nothing was diagnosed");
+        return said;
+    }
+    // A line that a killed run has left unfinished is ended first.
+    const bool is_whole = read_history(file).ends_with_a_line;
+    append_durably(file, (is_whole ? "" : "\n") + line_of(rig, rig_sha256, findings.diagnosis, now_s));
+    const History history = read_history(file);
+    for (const std::string& line : history.passed_over) said.lines.push_back("history: passed over: " + line);
+    const fleet::FleetFindings changes = fleet::findings_of(history.runs);
+    for (const fleet::Judgement& judgement : changes.judgements) {
+        if (judgement.matter == fleet::Matter::deviation) continue;
+        const std::string text = fleet::matter_sentence(changes, judgement);
+        said.lines.push_back("warning: the rig has changed. " + text);
+        said.html +=
+            fmt::format("<p class=\"bad\"><strong class=\"badge\">The rig has changed.</strong> {}</p>\n",
+                        report::escaped(text));
+    }
+    if (said.html.empty())
+        said.html =
+            fmt::format("<p>Over the {} runs of its history the rig has not changed significantly.</p>\n",
+                        history.runs.size());
+    said.lines.push_back(fmt::format("history: {} ({} runs)", file.string(), history.runs.size()));
+    return said;
+}
+
+}  // namespace fidservo::inspect
