@@ -1,5 +1,4 @@
 // fidservo fleet as its users run it.
-#include "src/recording/reader.h"
 #include "tests/control_guardian/child_process.h"
 #include "tests/src/run_program.h"
 #include "tests/src/temporary_folder.h"
@@ -34,16 +33,17 @@ std::map<std::string, std::string> texts_in(const fs::path& folder) {
     return texts;
 }
 
-/// Two campaigns of a recording each, and a folder without any.
+/// Two campaigns of two recordings each, and a folder without any.
 void simulate_fleet(const fs::path& folder) {
-    for (const char* unit : {"unit-a", "unit-b"}) {
-        const ProgramRun run =
-            run_program({"simulate", "macro-pulses", "--effect", "stribeck_friction", "--unit", unit,
-                         "--label", "batch=7", "--recorded-at", "2026-11-02T08:15:00Z", "--out",
-                         std::string("recordings/") + unit + "/pulses"},
-                        folder);
-        ASSERT_EQ(run.exit_code, 0) << run.err;
-    }
+    for (const std::string unit : {"unit-a", "unit-b"})
+        for (const std::string experiment : {"rest", "macro-pulses"}) {
+            const ProgramRun run =
+                run_program({"simulate", experiment, "--effect", "stribeck_friction", "--seed", "3", "--unit",
+                             unit, "--label", "batch=7", "--recorded-at", "2026-11-02T08:15:00Z", "--out",
+                             "recordings/" + unit + "/" + experiment},
+                            folder);
+            ASSERT_EQ(run.exit_code, 0) << run.err;
+        }
     fs::create_directories(folder / "recordings/unit-c");
 }
 
@@ -71,7 +71,7 @@ TEST(SlowFleet, Campaigns_HaveAResultEachThatSaysWhatItIsOf) {
     EXPECT_THAT(run.out, HasSubstr("3 campaigns: 2 done, 1 failed\n"));
     const auto results = texts_in(folder / "fleet/results");
     ASSERT_EQ(results.size(), 3U);
-    const auto result = nlohmann::json::parse(results.begin()->second);
+    auto result = nlohmann::json::parse(results.begin()->second);
     EXPECT_EQ(result["format"], "fidservo-fleet-result/1");
     EXPECT_EQ(result["status"], "done");
     EXPECT_EQ(result["task"]["campaign"], "recordings/unit-a");
@@ -99,10 +99,10 @@ TEST(SlowFleet, RecordingThatChanged_IsDiagnosedAgain) {
     simulate_fleet(folder.path());
     diagnose(folder.path(), "fleet");
     const auto before = texts_in(folder / "fleet/results");
-    const auto yaml = folder / "recordings/unit-a/pulses/recording.yaml";
+    const auto yaml = folder / "recordings/unit-a/rest/recording.yaml";
     std::string text = text_of(yaml);
     text.replace(text.find("\"7\""), 3, "\"8\"");
-    folder.write("recordings/unit-a/pulses/recording.yaml", text);
+    folder.write("recordings/unit-a/rest/recording.yaml", text);
     EXPECT_THAT(diagnose(folder.path(), "fleet").out, HasSubstr("2 done (1 were)"));
     const auto after = texts_in(folder / "fleet/results");
     EXPECT_EQ(after.size(), 3U);
