@@ -125,7 +125,8 @@ void add_fleet(CLI::App& app, int& exit_code) {
     add_fleet_replay(*group, exit_code);
     add_fleet_report(*group, exit_code);
     group->callback([group] {
-        if (group->get_subcommands().empty()) throw InputError("fleet: what? One of: diagnose, replay, report");
+        if (group->get_subcommands().empty())
+            throw InputError("fleet: what? One of: diagnose, replay, report");
     });
 }
 

@@ -8,7 +8,7 @@ std::string_view uplot_js();  ///< uPlot, a plotting library (MIT licence)
 std::string_view uplot_css();
 std::string_view report_css();  ///< src/web/report.css
 std::string_view report_js();   ///< src/web/report.js
-std::string_view fleet_js();   ///< src/web/fleet.js
+std::string_view fleet_js();    ///< src/web/fleet.js
 std::string_view live_html();   ///< src/web/live.html
 std::string_view live_css();    ///< src/web/live.css
 std::string_view live_js();     ///< src/web/live.js
