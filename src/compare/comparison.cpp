@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <numeric>
@@ -40,10 +41,28 @@ gap::Fit fitted(const gap::Evidence& evidence, const gap::Hypothesis& start) {
     return gap::fit(predict, evidence.windows(), wanted, start, {.with_covariance = true});
 }
 
-double gap_of(const gap::Evidence& evidence, const gap::Hypothesis& hypothesis) {
+std::vector<gap::SignalGap> gaps_of(const gap::Evidence& evidence, const gap::Hypothesis& hypothesis) {
     const std::vector<double> squares =
         gap::mean_squares(evidence.windows(), evidence.errors(hypothesis, gap::everything(evidence)));
-    return gap::total_gap(gap::signal_gaps(evidence, squares, squares)).before;
+    return gap::signal_gaps(evidence, squares, squares);
+}
+
+double gap_of(const gap::Evidence& evidence, const gap::Hypothesis& hypothesis) {
+    return gap::total_gap(gaps_of(evidence, hypothesis)).before;
+}
+
+/// Whether some signal is predicted worse, by what is worth a finding, with another setting at a place of a
+/// hypothesis.
+bool predicts_worse(const gap::Evidence& evidence, const gap::Hypothesis& own,
+                    const plant::EffectSetting& other, std::size_t place) {
+    gap::Hypothesis exchanged = own;
+    exchanged[place] = other;
+    const std::vector<gap::SignalGap> with_own = gaps_of(evidence, own),
+                                      with_other = gaps_of(evidence, exchanged);
+    for (std::size_t s = 0; s < with_own.size(); ++s)
+        if (with_other[s].before >= gap::least_floors * std::max(with_own[s].before, with_own[s].floor))
+            return true;
+    return false;
 }
 
 Rig with_stated(Rig rig, const gap::Hypothesis& hypothesis) {
@@ -124,6 +143,7 @@ Comparison compare(const Rig& rig, std::vector<Recording> before, std::vector<Re
     budget = budget_for(after, interrupted);
     std::vector<Recording> second_set = diagnose::thinned(std::move(after), notes);
     gap::Hypothesis own;
+    std::map<std::string, bool> worse;  ///< whether B is predicted worse with A's values of an effect
     {
         const gap::Evidence second(rig, second_set, budget);
         if (second.windows().empty()) throw InputError("B: nothing in these recordings can be judged");
@@ -135,10 +155,11 @@ Comparison compare(const Rig& rig, std::vector<Recording> before, std::vector<Re
         }
         comparison.gap_by_before = gap_of(second, names);
         comparison.gap_by_own = gap_of(second, own);
+        for (std::size_t e = 0; e < own.size(); ++e)
+            worse[std::string(own[e].effect->name)] = predicts_worse(second, own, names[e], e);
     }
     pay_for_all(comparison.shared);
-    const bool is_worse = comparison.gap_by_before >= gap::least_floors * comparison.gap_by_own;
-    for (ParameterPair& pair : comparison.shared) pair.has_changed = is_worse && pair.p < level;
+    for (ParameterPair& pair : comparison.shared) pair.has_changed = worse[pair.effect] && pair.p < level;
     const gap::Evidence beside(with_stated(rig, own), std::move(second_set), budget);
     comparison.beyond = diagnosed(beside, tell);
     comparison.beyond.notes.insert(comparison.beyond.notes.end(), notes.begin(), notes.end());

@@ -17,10 +17,10 @@
 #include "src/inspect/run_json.h"
 #include "src/inspect/saved_images.h"
 #include "src/live/live_server.h"
+#include "src/recording/utc_time.h"
 #include "src/session/camera_choice.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -254,8 +254,7 @@ Counts run_inspection(const InspectionOptions& options) {
         fmt::print("{}\n", findings.line);
         if (!options.history.empty()) {
             const HistoryFindings history =
-                append_to_history(options.history, rig, identity.rig_sha256, findings,
-                                  std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()));
+                append_to_history(options.history, rig, identity.rig_sha256, findings, utc_now());
             for (const std::string& line : history.lines) fmt::print("{}\n", line);
             findings.html += history.html;
         }

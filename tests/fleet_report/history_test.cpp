@@ -24,8 +24,8 @@ RigFindings run_with(double floors, std::uint64_t seed) {
 }
 
 /// A run a day.
-std::int64_t day(std::uint64_t run) {
-    return 1'772'409'600 + 86'400 * static_cast<std::int64_t>(run);
+std::string day(std::uint64_t run) {
+    return fleet::date_of(1'772'409'600 + 86'400 * static_cast<std::int64_t>(run)) + "T08:00:00Z";
 }
 
 bool warns(const HistoryFindings& said) {

@@ -9,10 +9,8 @@
 #include "src/inspect/sha256.h"
 #include "src/report/html.h"
 
-#include <ctime>
 #include <fstream>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -20,9 +18,7 @@ namespace fidservo::inspect {
 namespace {
 
 std::string line_of(const Rig& rig, const std::string& rig_sha256, const std::string& diagnosis,
-                    std::int64_t now_s) {
-    const std::string recorded_at =
-        fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(now_s)));
+                    const std::string& recorded_at) {
     const nlohmann::ordered_json line{{"format", "fidservo-fleet-result/1"},
                                       {"task",
                                        {{"kind", "diagnose"},
@@ -66,7 +62,7 @@ History read_history(const std::filesystem::path& file) {
 
 HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& rig,
                                   const std::string& rig_sha256, const RigFindings& findings,
-                                  std::int64_t now_s) {
+                                  const std::string& recorded_at) {
     HistoryFindings said;
     if (findings.diagnosis.empty()) {
         said.lines.emplace_back("history: this run is not in it, as nothing was diagnosed");
@@ -74,7 +70,7 @@ HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& 
     }
     // A line that a killed run has left unfinished is ended first.
     const bool is_whole = read_history(file).ends_with_a_line;
-    append_durably(file, (is_whole ? "" : "\n") + line_of(rig, rig_sha256, findings.diagnosis, now_s));
+    append_durably(file, (is_whole ? "" : "\n") + line_of(rig, rig_sha256, findings.diagnosis, recorded_at));
     const History history = read_history(file);
     for (const std::string& line : history.passed_over) said.lines.push_back("history: passed over: " + line);
     const fleet::FleetFindings changes = fleet::findings_of(history.runs);

@@ -6,7 +6,6 @@
 // (src/fleet/report/statistics/change_points.h).
 #include "src/inspect/report/rig_findings.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -26,10 +25,10 @@ struct HistoryFindings {
 /// Appends a run's findings, on the disk before it returns, and judges the whole history. Lines that are no
 /// results (a run was killed while it wrote) are passed over, which is said. Where nothing was diagnosed
 /// nothing is appended.
-/// @param now_s  since 1970-01-01 UTC
+/// @param recorded_at  UTC, 2026-11-02T08:15:00Z
 /// Throws RunFault if the disk does not take the line.
 HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& rig,
                                   const std::string& rig_sha256, const RigFindings& findings,
-                                  std::int64_t now_s);
+                                  const std::string& recorded_at);
 
 }  // namespace fidservo::inspect

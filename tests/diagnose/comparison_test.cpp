@@ -1,0 +1,79 @@
+#include "src/compare/comparison.h"
+
+#include "core/rig.h"
+#include "plant/effects/catalogue.h"
+#include "src/config/rig_file.h"
+#include "src/simulation/experiments.h"
+#include "src/simulation/simulate.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace fidservo::compare {
+namespace {
+
+std::vector<Recording> campaign_of(const Rig& rig, const std::vector<std::string>& effects,
+                                   std::uint64_t seed) {
+    std::vector<plant::EffectSetting> settings;
+    for (const std::string& effect : effects) settings.push_back(plant::parse_effect(effect));
+    std::vector<Recording> recordings;
+    for (const CampaignRun& run : campaign_runs(rig))
+        recordings.push_back(
+            simulate(rig, settings, make_experiment(run.kind, rig, seed, run.name), run.name, seed));
+    return recordings;
+}
+
+Comparison compared(const std::vector<std::string>& before, const std::vector<std::string>& after,
+                    std::uint64_t seed) {
+    const Rig rig = load_rig(reference_rig_file());
+    return compare(
+        rig, campaign_of(rig, before, seed), campaign_of(rig, after, seed + 1), [] { return false; },
+        [](std::string_view) {});
+}
+
+const ParameterPair* find_pair(const Comparison& comparison, std::string_view effect) {
+    const auto found = std::ranges::find(comparison.shared, effect, &ParameterPair::effect);
+    return found == comparison.shared.end() ? nullptr : &*found;
+}
+
+TEST(SlowComparison, SameRig_HasNotChanged) {
+    for (const std::uint64_t seed : {610U, 620U, 630U})
+        for (const char* effect :
+             {"drive_gain:factor=1.08", "hall_gain:factor=1.02", "backlash:width_um=150"})
+            EXPECT_FALSE(compared({effect}, {effect}, seed).has_changed()) << effect << ", seed " << seed;
+}
+
+TEST(SlowComparison, EffectOfAnotherSize_HasChanged) {
+    const Comparison comparison = compared({"backlash:width_um=150"}, {"backlash:width_um=350"}, 640);
+    const ParameterPair* width = find_pair(comparison, "backlash");
+    ASSERT_NE(width, nullptr);
+    EXPECT_TRUE(width->has_changed);
+    EXPECT_NEAR(width->after - width->before, 200.0, 25.0);
+    EXPECT_TRUE(comparison.beyond.effects.empty());
+}
+
+TEST(SlowComparison, OneChangesAndOneComes_BothAreSaid) {
+    const Comparison comparison =
+        compared({"backlash:width_um=150"}, {"backlash:width_um=350", "hall_gain:factor=1.03"}, 650);
+    const ParameterPair* width = find_pair(comparison, "backlash");
+    ASSERT_NE(width, nullptr);
+    EXPECT_TRUE(width->has_changed);
+    ASSERT_EQ(comparison.beyond.effects.size(), 1U);
+    EXPECT_EQ(comparison.beyond.effects[0].effect, "hall_gain");
+    const auto json = nlohmann::json::parse(comparison_json(comparison));
+    EXPECT_EQ(json["format"], "fidservo-comparison/1");
+    EXPECT_EQ(json["changed"], true);
+}
+
+TEST(SlowComparison, EffectThatWent_IsSaid) {
+    const Comparison comparison = compared({"hall_gain:factor=1.03"}, {}, 660);
+    const ParameterPair* factor = find_pair(comparison, "hall_gain");
+    ASSERT_NE(factor, nullptr);
+    EXPECT_TRUE(factor->has_changed);
+    EXPECT_NEAR(factor->after, 1.0, 0.002);
+}
+
+}  // namespace
+}  // namespace fidservo::compare
