@@ -31,6 +31,7 @@ std::vector<Scatter> scatter_by_others(const FleetFindings& findings,
         for (std::size_t place = 0; place < findings.quantities[q].units.size(); ++place)
             places[findings.quantities[q].units[place].series.unit][q] = place;
     std::vector<Scatter> by_others;
+    by_others.reserve(places.size());
     for (const auto& unit : places) by_others.push_back(common_scatter(scatters, unit));
     return by_others;
 }
@@ -101,6 +102,7 @@ void attribute_and_pool(const std::vector<FleetResult>& results, const std::vect
 
 std::vector<std::size_t> fleet_units(const QuantityFindings& found, const std::vector<std::size_t>& places) {
     std::vector<std::size_t> units;
+    units.reserve(places.size());
     for (const std::size_t place : places) units.push_back(found.units[place].series.unit);
     return units;
 }
