@@ -30,7 +30,7 @@ struct ChangeDates {
 /// E_k for every k, and the likelihoods of their best sizes.
 class ChangeScan {
   public:
-    ChangeScan(std::size_t points)
+    explicit ChangeScan(std::size_t points)
         : step_(points, none), trend_(points, none), step_best_(points, none), trend_best_(points, none) {}
 
     /// log M: the sum over all k, each the mean of step and trend.
