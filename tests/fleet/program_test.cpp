@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -40,7 +41,7 @@ void simulate_fleet(const fs::path& folder) {
             const ProgramRun run =
                 run_program({"simulate", experiment, "--effect", "stribeck_friction", "--seed", "3", "--unit",
                              unit, "--label", "batch=7", "--recorded-at", "2026-11-02T08:15:00Z", "--out",
-                             "recordings/" + unit + "/" + experiment},
+                             fmt::format("recordings/{}/{}", unit, experiment)},
                             folder);
             ASSERT_EQ(run.exit_code, 0) << run.err;
         }

@@ -33,7 +33,7 @@ TEST(SlowFleetFigures, DriftOfAFloorAWeek_IsFoundWithinFourWeeks) {
     constexpr int histories = 200;
     int found = 0, false_alarms = 0;
     for (int history = 0; history < histories; ++history) {
-        const auto seed = static_cast<std::uint64_t>(91'000 + history);
+        const auto seed = 91'000ULL + static_cast<std::uint64_t>(history);
         const std::size_t onset = 2 + seed % 3, unit = seed % 50, effect = seed % drawn_effects().size();
         DrawnFleet fleet = fleet_of(seed, onset + 4);
         fleet.truth = [&](std::size_t e, std::size_t u, std::size_t week) {
@@ -57,7 +57,7 @@ TEST(SlowFleetFigures, NothingDrifts_FewFalseAlarmsAUnitYear) {
     std::size_t alarms = 0;
     for (int k = 0; k < fleets; ++k)
         for (const auto& [where, changes] :
-             changes_of(findings_of(draw(fleet_of(static_cast<std::uint64_t>(92'000 + k), 52)))))
+             changes_of(findings_of(draw(fleet_of(92'000ULL + static_cast<std::uint64_t>(k), 52)))))
             alarms += changes.size();
     const double unit_years = fleets * 50.0;
     std::printf("false alarms: %zu in %.0f unit-years\n", alarms, unit_years);
@@ -68,7 +68,7 @@ TEST(SlowFleetFigures, Step_IsDatedToItsWeek) {
     constexpr int histories = 100;
     int dated = 0, covered = 0;
     for (int history = 0; history < histories; ++history) {
-        const auto seed = static_cast<std::uint64_t>(93'000 + history);
+        const auto seed = 93'000ULL + static_cast<std::uint64_t>(history);
         const std::size_t at = 4 + seed % 5, unit = seed % 50, effect = seed % drawn_effects().size();
         DrawnFleet fleet = fleet_of(seed, 12);
         fleet.truth = [&](std::size_t e, std::size_t u, std::size_t week) {
@@ -94,7 +94,8 @@ TEST(SlowFleetFigures, ModelBatchAndUnit_AreToldApart) {
     std::map<Whose, int> right;
     for (const Whose whose : {Whose::all, Whose::group, Whose::unit})
         for (int k = 0; k < fleets; ++k) {
-            const auto seed = static_cast<std::uint64_t>(94'000 + 100 * static_cast<int>(whose) + k);
+            const auto seed =
+                94'000ULL + 100ULL * static_cast<std::uint64_t>(whose) + static_cast<std::uint64_t>(k);
             const std::size_t effect = seed % drawn_effects().size(), unit = seed % 50, batch = seed % 5;
             DrawnFleet fleet = fleet_of(seed, 8);
             fleet.truth = [&](std::size_t e, std::size_t u, std::size_t) {
