@@ -17,6 +17,7 @@ namespace {
 std::vector<Recording> campaign_of(const Rig& rig, const std::vector<std::string>& effects,
                                    std::uint64_t seed) {
     std::vector<plant::EffectSetting> settings;
+    settings.reserve(effects.size());
     for (const std::string& effect : effects) settings.push_back(plant::parse_effect(effect));
     std::vector<Recording> recordings;
     for (const CampaignRun& run : campaign_runs(rig))
