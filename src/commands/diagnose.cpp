@@ -3,7 +3,6 @@
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "plant/effects/catalogue.h"
 #include "src/commands/commands.h"
 #include "src/commands/self_check.h"
 #include "src/compare/comparison.h"
@@ -24,7 +23,6 @@
 
 #include <chrono>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -45,14 +43,6 @@ struct DiagnoseOptions {
     std::vector<std::filesystem::path> compare;
     SelfCheckRequest self_check;
 };
-
-void demand_effects(const char* option, const std::vector<std::string>& names,
-                    std::span<const plant::Effect* const> formulas) {
-    for (const std::string& name : names)
-        if (plant::find_effect(name, formulas) == nullptr)
-            throw InputError(fmt::format(
-                "{}: {}: there is no such effect; fidservo simulate --help lists them", option, name));
-}
 
 int check_itself(const DiagnoseOptions& options) {
     if (!options.recordings.empty()) throw InputError("--self-check: it makes its own recordings; give none");

@@ -87,8 +87,9 @@ int run_fleet_replay(FleetReplayOptions& options) {
     fleet::ReplayRequest& request = options.request;
     const Rig rig = load_rig(request.rig_file);
     request.name_times = name_times_of(options.tags);
-    if (rig.fiducials) request.reading = reading_of(options.tags, *rig.fiducials, request.rig_is_given);
-    return fleet::replay_fleet(request);
+    demand_fiducials(rig, request.rig_file);
+    request.reading = reading_of(options.tags, *rig.fiducials, request.rig_is_given);
+    return fleet::replay_fleet(request, rig);
 }
 
 void add_fleet_replay(CLI::App& parent, int& exit_code) {

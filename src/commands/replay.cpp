@@ -38,9 +38,7 @@ void print_notes(const std::vector<std::string>& notes) {
 
 int run_replay(const ReplayOptions& options) {
     const Rig rig = load_rig(options.rig_file);
-    if (!rig.fiducials)
-        throw InputError(fmt::format("{}: fiducials: missing: their side_mm is the scale of displacements",
-                                     options.rig_file.string()));
+    demand_fiducials(rig, options.rig_file);
     const vision::TagReading reading = reading_of(options.tags, *rig.fiducials, options.rig_is_given);
     ImageFrames frames(options.inputs, {.name_times = name_times_of(options.tags)});
     print_notes(frames.notes());

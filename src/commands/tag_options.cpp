@@ -33,6 +33,12 @@ void add_tag_options(CLI::App& command, TagOptions& options) {
                      "The images are mirrored, e.g. taken through the glass that the tags are printed on");
 }
 
+void demand_fiducials(const Rig& rig, const std::filesystem::path& rig_file) {
+    if (!rig.fiducials)
+        throw InputError(fmt::format("{}: fiducials: missing: their side_mm is the scale of displacements",
+                                     rig_file.string()));
+}
+
 NameTimes name_times_of(const TagOptions& options) {
     if (const auto known = name_times_of(options.name_times)) return *known;
     throw InputError(fmt::format("--name-times: {}: must be none, s, ms, us or ns", options.name_times));

@@ -5,6 +5,7 @@
 #include "src/images/image_names.h"
 #include "vision/tag_book.h"
 
+#include <filesystem>
 #include <string>
 
 #include <CLI/App.hpp>
@@ -20,6 +21,9 @@ struct TagOptions {
 
 /// --name-times, --family, --border-cells, --inverted, --mirrored.
 void add_tag_options(CLI::App& command, TagOptions& options);
+
+/// Throws InputError with the file where a rig has no fiducials: their size is the scale of displacements.
+void demand_fiducials(const Rig& rig, const std::filesystem::path& rig_file);
 
 /// Throws InputError where --name-times is none of its words.
 NameTimes name_times_of(const TagOptions& options);

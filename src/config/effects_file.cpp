@@ -1,6 +1,7 @@
 #include "src/config/effects_file.h"
 
 #include "core/input_error.h"
+#include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
 #include "src/config/yaml_reader.h"
 
@@ -140,6 +141,14 @@ std::vector<const plant::Effect*> read_effects_file(const YamlValue& root) {
     }
     if (effects.empty()) root.at("effects").fail("has none; allowed: one effect or more");
     return effects;
+}
+
+void demand_effects(const char* option, const std::vector<std::string>& names,
+                    std::span<const plant::Effect* const> formulas) {
+    for (const std::string& name : names)
+        if (plant::find_effect(name, formulas) == nullptr)
+            throw InputError(fmt::format(
+                "{}: {}: there is no such effect; fidservo simulate --help lists them", option, name));
 }
 
 StatedEffect read_stated_formula(const YamlValue& map) {

@@ -5,6 +5,7 @@
 #include "plant/effects/effect.h"
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ class YamlValue;
 std::vector<const plant::Effect*> load_effects_file(const std::filesystem::path& file);
 /// The same of a file that was read.
 std::vector<const plant::Effect*> read_effects_file(const YamlValue& root);
+
+/// Throws InputError with the option where a name that it gives is of no effect.
+/// @param formulas  that are known beside the catalogue
+void demand_effects(const char* option, const std::vector<std::string>& names,
+                    std::span<const plant::Effect* const> formulas);
 
 /// A formula with the values of its parameters, as a rig file states it: like an entry of an effects file,
 /// with `value` beside a parameter's bounds where it is not the typical one.

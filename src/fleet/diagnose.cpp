@@ -3,7 +3,6 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "gap/diagnose.h"
-#include "plant/effects/catalogue.h"
 #include "src/config/effects_file.h"
 #include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
@@ -23,7 +22,6 @@
 #include <memory>
 #include <new>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -117,8 +115,7 @@ class CampaignTasks {
     TaskEnd say_crash(const fs::path& path, std::string_view signal) const {
         const Campaign campaign = campaign_of(path);
         const ResultName name = name_of(campaign);
-        return publish(name, head_of(campaign, name),
-                       fmt::format("the program crashed on it, by {}, each time it was tried", signal));
+        return publish(name, head_of(campaign, name), why_crashed(signal));
     }
 
   private:
@@ -171,9 +168,8 @@ class CampaignTasks {
             result["status"] = "failed";
             result["reason"] = why;
         }
-        store_.publish(name, result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-        const Outcome outcome = why.empty() ? Outcome::made : Outcome::failed;
-        return {outcome, std::move(why), name.file()};
+        return publish_result(store_, name, result.dump(2, ' ', false, Json::error_handler_t::replace),
+                              std::move(why));
     }
 
     const Common& common_;
@@ -197,13 +193,6 @@ std::vector<fs::path> campaigns_of(const DiagnoseRequest& request) {
     return campaigns;
 }
 
-void demand_effects(const char* option, const std::vector<std::string>& names, const Common& common) {
-    for (const std::string& name : names)
-        if (plant::find_effect(name, common.formulas) == nullptr)
-            throw InputError(fmt::format(
-                "{}: {}: there is no such effect; fidservo simulate --help lists them", option, name));
-}
-
 }  // namespace
 
 double usual_effort_s() {
@@ -212,8 +201,8 @@ double usual_effort_s() {
 
 int diagnose_fleet(const DiagnoseRequest& request) {
     const Common common = common_of(request);
-    demand_effects("--effects", request.only, common);
-    demand_effects("--without", request.without, common);
+    demand_effects("--effects", request.only, common.formulas);
+    demand_effects("--without", request.without, common.formulas);
     const std::vector<fs::path> campaigns = campaigns_of(request);
     const ResultStore store = open_store(request.run);
     const CampaignTasks tasks(common, store);

@@ -94,6 +94,16 @@ std::optional<TaskEnd> end_if_there(const ResultStore& store, const ResultName& 
     return TaskEnd{outcome, std::move(why), name.file()};
 }
 
+TaskEnd publish_result(const ResultStore& store, const ResultName& name, std::string text, std::string why) {
+    store.publish(name, text += '\n');
+    const Outcome outcome = why.empty() ? Outcome::made : Outcome::failed;
+    return {outcome, std::move(why), name.file()};
+}
+
+std::string why_crashed(std::string_view signal) {
+    return fmt::format("the program crashed on it, by {}, each time it was tried", signal);
+}
+
 std::string as_noted(std::string text, const std::filesystem::path& given, const std::string& noted) {
     std::string path = given.string();
     while (path.size() > 1 && path.ends_with('/')) path.pop_back();

@@ -11,8 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
-
-#include <nlohmann/json_fwd.hpp>
+#include <string_view>
 
 namespace fidservo::fleet {
 
@@ -28,15 +27,18 @@ struct RunOptions {
 /// Throws InputError where FLEET is not what it has to be.
 ResultStore open_store(const RunOptions& options);
 
-/// The beginning of a result: "format", "task", "rig", "program", "effort", "key", "status".
-inline constexpr const char* result_format = "fidservo-fleet-result/1";
-
 /// Whether a result's text says that its task failed, and why; empty: it was done. Throws RunFault where the
 /// text is no result of this key.
 std::string why_failed(const std::string& text, const ResultName& name, const std::filesystem::path& folder);
 
 /// A result that is there, as the end of its task; empty: there is none.
 std::optional<TaskEnd> end_if_there(const ResultStore& store, const ResultName& name);
+
+/// Publishes a result that was made now. @param why  it is one that failed; empty: it is done
+TaskEnd publish_result(const ResultStore& store, const ResultName& name, std::string text, std::string why);
+
+/// Why there is no result where each process of a task was ended by a signal of its own.
+std::string why_crashed(std::string_view signal);
 
 /// A text in which a path stands as results note it, in place of how it was given.
 std::string as_noted(std::string text, const std::filesystem::path& given, const std::string& noted);

@@ -1,6 +1,5 @@
 #include "src/fleet/replay.h"
 
-#include "core/input_error.h"
 #include "core/rig.h"
 #include "src/config/rig_file.h"
 #include "src/fleet/collect.h"
@@ -49,7 +48,7 @@ class StretchTasks {
         result["images"] = search(stretch);
         if (content_of_stretch(stretch) != content)
             return {.outcome = Outcome::undone, .text = "its images changed while they were searched"};
-        return publish(name, result);
+        return publish(name, result, "");
     }
 
     /// Whether a stretch has its result, made from the images as they are now.
@@ -66,8 +65,8 @@ class StretchTasks {
         const ResultName name = name_of(stretch, content);
         Json result = head_of(stretch, content, name);
         result["status"] = "failed";
-        result["reason"] = fmt::format("the program crashed on it, by {}, each time it was tried", signal);
-        return publish(name, result);
+        result["reason"] = why_crashed(signal);
+        return publish(name, result, why_crashed(signal));
     }
 
   private:
@@ -145,11 +144,9 @@ class StretchTasks {
         return images;
     }
 
-    TaskEnd publish(const ResultName& name, const Json& result) const {
-        store_.publish(name, result.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
-        return result["status"] == "done"
-                   ? TaskEnd{Outcome::made, "", name.file()}
-                   : TaskEnd{Outcome::failed, result["reason"].get<std::string>(), name.file()};
+    TaskEnd publish(const ResultName& name, const Json& result, std::string why) const {
+        return publish_result(store_, name, result.dump(-1, ' ', false, Json::error_handler_t::replace),
+                              std::move(why));
     }
 
     const ReplayRequest& request_;
@@ -188,11 +185,7 @@ bool may_be_all_there(const fs::path& folder, const std::vector<Stretch>& stretc
 
 }  // namespace
 
-int replay_fleet(const ReplayRequest& request) {
-    const Rig rig = load_rig(request.rig_file);
-    if (!rig.fiducials)
-        throw InputError(fmt::format("{}: fiducials: missing: their side_mm is the scale of displacements",
-                                     request.rig_file.string()));
+int replay_fleet(const ReplayRequest& request, const Rig& rig) {
     ImageFrames frames(request.inputs, {.name_times = request.name_times});
     for (const std::string& note : frames.notes()) spdlog::info("{}", note);
     frames.pause();

@@ -7,6 +7,10 @@
 #include <filesystem>
 #include <vector>
 
+namespace fidservo {
+struct Rig;
+}
+
 namespace fidservo::fleet {
 
 struct ReplayRequest {
@@ -22,7 +26,8 @@ struct ReplayRequest {
 /// whichever share made them, writes FLEET/detections.csv and FLEET/displacements.csv, to the byte those of
 /// one `replay` of all inputs: displacements count from where a tag was first seen, which may be in an
 /// earlier stretch, so a result holds the tags' places, and they are counted here. Throws InputError.
+/// @param rig  of the request's rig file; it has fiducials
 /// @return the exit code, of run_fleet()
-int replay_fleet(const ReplayRequest& request);
+int replay_fleet(const ReplayRequest& request, const Rig& rig);
 
 }  // namespace fidservo::fleet

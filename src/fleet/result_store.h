@@ -9,6 +9,9 @@
 
 namespace fidservo::fleet {
 
+/// The beginning of a result: "format", "task", "rig", "program", "effort", "key", "status".
+inline constexpr const char* result_format = "fidservo-fleet-result/1";
+
 /// Where a result is put.
 struct ResultName {
     std::string stem;  ///< file_stem() of what the task is about

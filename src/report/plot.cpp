@@ -4,22 +4,13 @@
 #include "src/report/html.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
-#include <span>
 
 #include <fmt/format.h>
 
 namespace fidservo::report {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "float32 travels in little-endian order");
-
-template <class T>
-std::string packed(const std::vector<T>& values) {
-    return base64({reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(T)});
-}
 
 /// JSON text inside a script element: "</" would end the element.
 std::string quoted(const std::string& text) {

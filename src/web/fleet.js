@@ -10,7 +10,9 @@ function fleetReport() {
   const colourOf = (gap) => (gap === null ? "#5b6770" : sizes[bounds.filter((b) => gap > b).length]);
   const floats = (text) => unpack(text, Float32Array), numbers = (text) => unpack(text, Float64Array);
   const axis = (extra) => Object.assign({ stroke: ink, grid: { stroke: rule }, ticks: { stroke: rule } }, extra);
-  const dates = (u, v) => v.map((s) => (s === null ? "" : new Date(s * 1000).toISOString().slice(0, 10)));
+  const day = (s) => new Date(s * 1000).toISOString().slice(0, 10);
+  const dates = (u, v) => v.map((s) => (s === null ? "" : day(s)));
+  const numerals = (u, v) => v.map((x) => (Math.abs(x) < 1e-12 ? "0" : String(Number(x.toPrecision(4)))));
   let chosen = -1;
   const plots = [];
 
@@ -60,7 +62,7 @@ function fleetReport() {
         for (let i = 0; i < row.length; i += 1)
           if (row[i] === k && Math.abs(time[i] - x) < data.step / 2 + 1 && (best < 0 || Math.abs(time[i] - x) < Math.abs(time[best] - x))) best = i;
         if (best < 0) return data.units[k];
-        return `${data.units[k]}, ${new Date(time[best] * 1000).toISOString().slice(0, 10)}: ${gap[best] === null ? "failed" : "gap " + gap[best].toFixed(2) + " floors"}`;
+        return `${data.units[k]}, ${day(time[best])}: ${gap[best] === null ? "failed" : "gap " + gap[best].toFixed(2) + " floors"}`;
       }, true);
     u.over.addEventListener("click", (event) => { if (u.select.width < 4) choose(Math.round(u.posToVal(event.offsetY, "y"))); });
   }
@@ -75,7 +77,7 @@ function fleetReport() {
     const own = floats(spec.own), error = floats(spec.error), pooled = floats(spec.pooled), unit = numbers(spec.units), odd = numbers(spec.odd);
     const [low, high] = range(own, error);
     const over = document.getElementById(`effect-units-${index}`);
-    const u = plot(over, 260, [-0.5, own.length - 0.5], low, high, [axis({ values: (p, v) => v.map((k) => (Number.isInteger(k) && unit[k] !== undefined ? data.units[unit[k]] : "")), space: 80, incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500] }), axis({ size: 76, values: (p, v) => v.map((x) => (Math.abs(x) < 1e-12 ? "0" : String(Number(x.toPrecision(4))))) })],
+    const u = plot(over, 260, [-0.5, own.length - 0.5], low, high, [axis({ values: (p, v) => v.map((k) => (Number.isInteger(k) && unit[k] !== undefined ? data.units[unit[k]] : "")), space: 80, incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500] }), axis({ size: 76, values: numerals })],
       (p, c) => {
         c.fillStyle = accent; c.globalAlpha = 0.12;
         const a = p.valToPos(spec.mean + 1.96 * spec.spread, "y", true), b = p.valToPos(spec.mean - 1.96 * spec.spread, "y", true);
@@ -99,7 +101,7 @@ function fleetReport() {
     if (!when.length) { through.hidden = true; return; }
     const [bottom, top] = range(value, std);
     const marks = spec.marks;
-    plot(through, 260, [Math.min(...when) - data.step / 2, Math.max(...when) + data.step / 2], bottom, top, [axis({ values: dates, space: 90 }), axis({ size: 76, values: (p, v) => v.map((x) => (Math.abs(x) < 1e-12 ? "0" : String(Number(x.toPrecision(4))))) })],
+    plot(through, 260, [Math.min(...when) - data.step / 2, Math.max(...when) + data.step / 2], bottom, top, [axis({ values: dates, space: 90 }), axis({ size: 76, values: numerals })],
       (p, c) => {
         level(p, c, spec.rig, ink);
         for (const [from, to] of marks) {
@@ -122,7 +124,7 @@ function fleetReport() {
       (x, y) => {
         let best = -1, near = Infinity;
         for (let i = 0; i < when.length; i += 1) { const d = ((when[i] - x) / data.step) ** 2 + ((value[i] - y) / (top - bottom) * 30) ** 2; if (d < near) { near = d; best = i; } }
-        return near > 4 ? "" : `${data.units[whose[best]]}, ${new Date(when[best] * 1000).toISOString().slice(0, 10)}: ${value[best].toPrecision(4)} \u00b1 ${std[best].toPrecision(2)} ${spec.unit}`;
+        return near > 4 ? "" : `${data.units[whose[best]]}, ${day(when[best])}: ${value[best].toPrecision(4)} \u00b1 ${std[best].toPrecision(2)} ${spec.unit}`;
       });
   }
 

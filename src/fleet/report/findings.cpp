@@ -56,17 +56,6 @@ void look_for_changes(QuantityFindings& found, WithinScatter scatter, std::span<
     found.scatter = scatter.of_all(common.front());
 }
 
-/// Which units have a share that is not everybody's.
-std::vector<bool> odd_units(const QuantityFindings& found) {
-    std::vector<bool> odd(found.units.size(), false);
-    for (const Share& share : found.attribution.shares) {
-        if (share.whose == Whose::unit) odd[share.which] = true;
-        if (share.whose == Whose::group)
-            for (const std::size_t u : found.groups[share.which].units) odd[u] = true;
-    }
-    return odd;
-}
-
 void pool(QuantityFindings& found) {
     const std::vector<bool> odd = odd_units(found);
     std::vector<Level> alike;
@@ -137,8 +126,7 @@ Judgement judgement_of(const std::vector<FleetResult>& results, const QuantityFi
         judgement.size.value += change.size / count;
         variance += change.std * change.std / (count * count);
         judgement.log_odds = std::max(judgement.log_odds, change.log_evidence);
-        const std::int64_t found_s =
-            *results[unit.series.results[unit.series.untimed + change.found]].recorded_at_s;
+        const std::int64_t found_s = time_s_of(results, unit.series, change.found);
         judgement.found_s = std::min(judgement.found_s.value_or(found_s), found_s);
     }
     judgement.size.std = std::sqrt(variance);
@@ -199,6 +187,16 @@ void add_judgements(const std::vector<FleetResult>& results, const QuantityFindi
 }
 
 }  // namespace
+
+std::vector<bool> odd_units(const QuantityFindings& found) {
+    std::vector<bool> odd(found.units.size(), false);
+    for (const Share& share : found.attribution.shares) {
+        if (share.whose == Whose::unit) odd[share.which] = true;
+        if (share.whose == Whose::group)
+            for (const std::size_t u : found.groups[share.which].units) odd[u] = true;
+    }
+    return odd;
+}
 
 FleetFindings findings_of(const std::vector<FleetResult>& results) {
     FleetFindings findings;

@@ -80,6 +80,9 @@ struct FleetFindings {
     double bound = 1.0;  ///< of an alarm (change_points.h)
 };
 
+/// Of a quantity's units, those that have a share of their own or of their batch.
+std::vector<bool> odd_units(const QuantityFindings& found);
+
 FleetFindings findings_of(const std::vector<FleetResult>& results);
 
 }  // namespace fidservo::fleet

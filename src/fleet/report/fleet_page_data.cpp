@@ -1,5 +1,6 @@
 #include "src/fleet/report/fleet_page_data.h"
 
+#include "src/fleet/report/groups.h"
 #include "src/report/html.h"
 
 #include <algorithm>
@@ -12,10 +13,7 @@
 namespace fidservo::fleet {
 namespace {
 
-template <class T>
-std::string base64_of(const std::vector<T>& values) {
-    return report::base64({reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(T)});
-}
+using report::packed;
 
 /// Units with something to say first, then by their last gap.
 std::vector<std::size_t> order_of_units(const std::vector<FleetResult>& results,
@@ -45,7 +43,7 @@ nlohmann::json heat_json(const std::vector<FleetResult>& results, const FleetFin
             times.push_back(static_cast<double>(*results[r].recorded_at_s));
             gaps.push_back(results[r].done ? static_cast<float>(results[r].gap_before) : std::nanf(""));
         }
-    return {{"unit", base64_of(rows)}, {"time", base64_of(times)}, {"gap", base64_of(gaps)}};
+    return {{"unit", packed(rows)}, {"time", packed(times)}, {"gap", packed(gaps)}};
 }
 
 nlohmann::json effect_plot(const std::vector<FleetResult>& results, const QuantityFindings& found,
@@ -58,12 +56,7 @@ nlohmann::json effect_plot(const std::vector<FleetResult>& results, const Quanti
     std::vector<std::size_t> by_value(found.units.size());
     std::iota(by_value.begin(), by_value.end(), std::size_t{0});
     std::ranges::stable_sort(by_value, {}, [&](std::size_t k) { return found.units[k].pooled.value; });
-    std::vector<bool> is_odd(found.units.size(), false);
-    for (const Share& share : found.attribution.shares) {
-        if (share.whose == Whose::unit) is_odd[share.which] = true;
-        if (share.whose == Whose::group)
-            for (const std::size_t u : found.groups[share.which].units) is_odd[u] = true;
-    }
+    const std::vector<bool> is_odd = odd_units(found);
     std::vector<float> own, error, pooled, value, std;
     std::vector<double> units, odd, when, whose;
     nlohmann::json changed = nlohmann::json::array(), marks = nlohmann::json::array();
@@ -76,10 +69,8 @@ nlohmann::json effect_plot(const std::vector<FleetResult>& results, const Quanti
         odd.push_back(is_odd[k] ? 1.0 : 0.0);
         if (!unit.changes.empty()) changed.push_back(row_of[unit.series.unit]);
         for (const Change& change : unit.changes) {
-            const auto at = [&](std::size_t p) {
-                return *results[unit.series.results[unit.series.untimed + p]].recorded_at_s;
-            };
-            marks.push_back({at(change.earliest - 1), at(change.latest)});
+            const Dates dates = dates_of(results, unit, change);
+            marks.push_back({dates.earliest_s, dates.latest_s});
         }
         for (std::size_t p = unit.series.untimed; p < unit.series.points.size(); ++p) {
             const Point& point = unit.series.points[p];
@@ -90,15 +81,15 @@ nlohmann::json effect_plot(const std::vector<FleetResult>& results, const Quanti
             std.push_back(width(point.std));
         }
     }
-    return {{"own", base64_of(own)},
-            {"error", base64_of(error)},
-            {"pooled", base64_of(pooled)},
-            {"units", base64_of(units)},
-            {"odd", base64_of(odd)},
-            {"time", base64_of(when)},
-            {"whose", base64_of(whose)},
-            {"value", base64_of(value)},
-            {"std", base64_of(std)},
+    return {{"own", packed(own)},
+            {"error", packed(error)},
+            {"pooled", packed(pooled)},
+            {"units", packed(units)},
+            {"odd", packed(odd)},
+            {"time", packed(when)},
+            {"whose", packed(whose)},
+            {"value", packed(value)},
+            {"std", packed(std)},
             {"changed", changed},
             {"marks", marks},
             {"unit", quantity.unit},

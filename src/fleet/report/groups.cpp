@@ -30,11 +30,6 @@ std::int64_t monday_of(std::int64_t time_s) {
     return first_monday_s + weeks * week_s;
 }
 
-std::int64_t time_of_point(const std::vector<FleetResult>& results, const UnitFindings& unit,
-                           std::size_t timed) {
-    return *results[unit.series.results[unit.series.untimed + timed]].recorded_at_s;
-}
-
 /// One change of one unit.
 struct OneChange {
     std::size_t unit, change;
@@ -118,8 +113,8 @@ std::vector<ChangeCluster> clusters_of(const std::vector<FleetResult>& results,
 }
 
 Dates dates_of(const std::vector<FleetResult>& results, const UnitFindings& unit, const Change& change) {
-    return {time_of_point(results, unit, change.earliest - 1), time_of_point(results, unit, change.first),
-            time_of_point(results, unit, change.latest)};
+    return {time_s_of(results, unit.series, change.earliest - 1),
+            time_s_of(results, unit.series, change.first), time_s_of(results, unit.series, change.latest)};
 }
 
 double overlap(std::vector<std::size_t> a, std::vector<std::size_t> b) {

@@ -1,6 +1,7 @@
 #include "src/fleet/report/result.h"
 
 #include "core/input_error.h"
+#include "src/fleet/result_store.h"
 #include "src/table/clock_time.h"
 
 #include <cmath>
@@ -128,8 +129,8 @@ FleetResult result_of(const std::string& file, std::string_view text) {
     const ResultPlace root(file, "", json);
     const std::string format =
         root.has("format") && json["format"].is_string() ? root.at("format").text() : "";
-    if (format != "fidservo-fleet-result/1")
-        throw InputError(fmt::format("{}: format: is '{}'; allowed: fidservo-fleet-result/1", file, format));
+    if (format != result_format)
+        throw InputError(fmt::format("{}: format: is '{}'; allowed: {}", file, format, result_format));
     FleetResult result;
     result.file = file;
     const std::string kind = root.at("task").at("kind").text();

@@ -1,5 +1,6 @@
 #include "src/fleet/report/series.h"
 
+#include "core/median.h"
 #include "gap/fit/gap_size.h"
 #include "plant/effects/catalogue.h"
 
@@ -12,13 +13,6 @@ namespace fidservo::fleet {
 namespace {
 
 constexpr double seconds_a_week = 7.0 * 86'400.0, credible = 0.5;
-
-double median_of(std::vector<double> values) {
-    if (values.empty()) return std::nan("");
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 double usual_size(const plant::EffectParameter& parameter) {
     return std::abs(parameter.usual() - parameter.vanishing);
@@ -162,6 +156,11 @@ std::size_t quantities_looked_at() {
         count += static_cast<std::size_t>(
             std::ranges::count_if(effect->parameters, &plant::EffectParameter::is_size));
     return count;
+}
+
+std::int64_t time_s_of(const std::vector<FleetResult>& results, const QuantitySeries& series,
+                       std::size_t timed) {
+    return *results[series.results[series.untimed + timed]].recorded_at_s;
 }
 
 double weeks_of(std::int64_t time_s) {

@@ -67,6 +67,11 @@ std::vector<QuantityOverFleet> quantities_over_fleet(const std::vector<FleetResu
 /// How many sizes the catalogue has: as many are looked at in each unit.
 std::size_t quantities_looked_at();
 
+/// When a point of a series was recorded, in seconds since 1970-01-01.
+/// @param timed  its place among those of which a time is known, as find_changes() counts them
+std::int64_t time_s_of(const std::vector<FleetResult>& results, const QuantitySeries& series,
+                       std::size_t timed);
+
 /// Weeks since 1970-01-01.
 double weeks_of(std::int64_t time_s);
 

@@ -5,6 +5,7 @@
 #include "src/commit.h"
 #include "src/fleet/report/findings.h"
 #include "src/fleet/report/judgement_words.h"
+#include "src/fleet/result_store.h"
 #include "src/inspect/durable.h"
 #include "src/inspect/sha256.h"
 #include "src/report/html.h"
@@ -19,7 +20,7 @@ namespace {
 
 std::string line_of(const Rig& rig, const std::string& rig_sha256, const std::string& diagnosis,
                     const std::string& recorded_at) {
-    const nlohmann::ordered_json line{{"format", "fidservo-fleet-result/1"},
+    const nlohmann::ordered_json line{{"format", fleet::result_format},
                                       {"task",
                                        {{"kind", "diagnose"},
                                         {"campaign", "inspection of " + recorded_at},
@@ -32,28 +33,33 @@ std::string line_of(const Rig& rig, const std::string& rig_sha256, const std::st
                                       {"effort", 0.0},
                                       {"status", "done"},
                                       {"diagnosis", nlohmann::ordered_json::parse(diagnosis)}};
-    return line.dump() + "\n";
+    return line.dump();
 }
 
 /// The runs of a history file, and what had to be passed over.
 struct History {
     std::vector<fleet::FleetResult> runs;
     std::vector<std::string> passed_over;
+    int lines = 0;
     bool ends_with_a_line = true;
+
+    void add(const std::filesystem::path& file, const std::string& line) {
+        ++lines;
+        if (line.empty()) return;
+        try {
+            runs.push_back(fleet::result_of(fmt::format("{}: line {}", file.string(), lines), line));
+        } catch (const InputError& error) {
+            passed_over.emplace_back(error.what());
+        }
+    }
 };
 
 History read_history(const std::filesystem::path& file) {
     History history;
     std::ifstream stream(file, std::ios::binary);
-    std::string line;
-    for (int number = 1; std::getline(stream, line); ++number) {
+    for (std::string line; std::getline(stream, line);) {
         history.ends_with_a_line = !stream.eof();
-        if (line.empty()) continue;
-        try {
-            history.runs.push_back(fleet::result_of(fmt::format("{}: line {}", file.string(), number), line));
-        } catch (const InputError& error) {
-            history.passed_over.emplace_back(error.what());
-        }
+        history.add(file, line);
     }
     return history;
 }
@@ -68,11 +74,12 @@ HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& 
         said.lines.emplace_back("history: this run is not in it, as nothing was diagnosed");
         return said;
     }
+    History history = read_history(file);
+    const std::string line = line_of(rig, rig_sha256, findings.diagnosis, recorded_at);
     // A line that a killed run has left unfinished is ended first.
-    const bool is_whole = read_history(file).ends_with_a_line;
-    append_durably(file, (is_whole ? "" : "\n") + line_of(rig, rig_sha256, findings.diagnosis, recorded_at));
-    const History history = read_history(file);
-    for (const std::string& line : history.passed_over) said.lines.push_back("history: passed over: " + line);
+    append_durably(file, (history.ends_with_a_line ? "" : "\n") + line + "\n");
+    history.add(file, line);
+    for (const std::string& why : history.passed_over) said.lines.push_back("history: passed over: " + why);
     const fleet::FleetFindings changes = fleet::findings_of(history.runs);
     for (const fleet::Judgement& judgement : changes.judgements) {
         if (judgement.matter == fleet::Matter::deviation) continue;

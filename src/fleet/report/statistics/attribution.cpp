@@ -1,5 +1,7 @@
 #include "src/fleet/report/statistics/attribution.h"
 
+#include "src/fleet/report/statistics/log_of_sum.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,13 +24,6 @@ double spread_at(std::size_t k) {
 
 double log_prior_of_spread(std::size_t k) {
     return k == 0 ? std::log(0.5) : std::log(0.5 / static_cast<double>(spread_count - 1));
-}
-
-double log_of_sum(std::span<const double> terms) {
-    const double largest = *std::ranges::max_element(terms);
-    double sum = 0.0;
-    for (const double term : terms) sum += std::exp(term - largest);
-    return largest + std::log(sum);
 }
 
 /// A set of units that may have a share.

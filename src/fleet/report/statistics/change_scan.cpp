@@ -1,6 +1,7 @@
 #include "src/fleet/report/statistics/change_scan.h"
 
 #include "core/demand.h"
+#include "src/fleet/report/statistics/log_of_sum.h"
 
 #include <algorithm>
 #include <array>
@@ -15,13 +16,6 @@ namespace {
 /// The laws that sizes are drawn from: standard deviations, floors; of trends, floors a week.
 constexpr std::array step_laws{1.0, 4.0, 16.0};
 constexpr std::array trend_laws{0.25, 1.0, 4.0};
-
-double log_sum_exp(std::span<const double> terms) {
-    const double largest = terms.empty() ? -1e300 : *std::ranges::max_element(terms);
-    double sum = 0.0;
-    for (const double term : terms) sum += std::exp(term - largest);
-    return largest + std::log(sum);
-}
 
 double weight_of(const Point& point, const Scatter& scatter) {
     return 1.0 / (point.std * point.std + scatter.std * scatter.std);
@@ -58,7 +52,7 @@ LogRatio log_ratio(const ColumnFit& column, const Unchanged& unchanged, double d
         const double explained = column.product * column.product / column.square * gain / (1.0 + gain);
         terms[k] = -0.5 * std::log1p(gain) + log_of(explained);
     }
-    return {log_sum_exp(terms) - std::log(static_cast<double>(count)),
+    return {log_of_sum(terms) - std::log(static_cast<double>(count)),
             log_of(column.product * column.product / column.square)};
 }
 
@@ -143,11 +137,11 @@ ChangeColumn column_of(ChangeKind kind, std::span<const Point> points, std::size
 
 double ChangeScan::log_sum() const {
     const std::array<double, 2> kinds{log_weight(ChangeKind::step), log_weight(ChangeKind::trend)};
-    return log_sum_exp(kinds) - std::log(2.0);
+    return log_of_sum(kinds) - std::log(2.0);
 }
 
 double ChangeScan::log_weight(ChangeKind kind) const {
-    return log_sum_exp(kind == ChangeKind::step ? step_ : trend_);
+    return log_of_sum(kind == ChangeKind::step ? step_ : trend_);
 }
 
 ChangeDates ChangeScan::dates(ChangeKind kind) const {
@@ -158,7 +152,7 @@ ChangeDates ChangeScan::dates(ChangeKind kind) const {
     std::vector<std::size_t> order(weights.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return weights[k]; });
-    const double all = log_sum_exp(weights);
+    const double all = log_of_sum(weights);
     ChangeDates dates{likeliest, likeliest, likeliest};
     double sum = 0.0;
     for (const std::size_t k : order) {
