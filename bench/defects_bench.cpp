@@ -7,11 +7,11 @@
 #include "core/rig.h"
 #include "core/units.h"
 #include "plant/view/plate_view.h"
-#include "src/config/rig_file.h"
+#include "src/files/disk/durable_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/inspect/measure/checks.h"
 #include "src/inspect/measure/nominal_drawing.h"
 #include "src/inspect/recipe/pattern.h"
-#include "src/recording/durable_file.h"
 #include "src/report/chart.h"
 #include "src/report/page.h"
 

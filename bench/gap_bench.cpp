@@ -2,8 +2,8 @@
 #include "core/rig.h"
 #include "gap/evidence.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/rig_file.h"
 
 #include <algorithm>
 #include <filesystem>

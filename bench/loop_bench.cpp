@@ -4,8 +4,8 @@
 #include "control/stage_loop.h"
 #include "core/rig.h"
 #include "plant/view/plate_view.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/session/sight.h"
 #include "src/session/simulated_rig.h"
 

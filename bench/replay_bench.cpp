@@ -7,7 +7,7 @@
 // Medians over the rounds, the worst round beside them.
 #include "core/input_error.h"
 #include "plant/view/plate_view.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/writer.h"
 #include "src/replay/replay.h"
 #include "tests/core_time.h"
 #include "tests/reference_camera.h"

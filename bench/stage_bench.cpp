@@ -5,7 +5,7 @@
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
 #include "plant/stage_plant.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/core_time.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-# Writes FILE, the source of src/commit.h, with what git calls the commit in SOURCE; "unknown" without git.
+# Writes FILE, the source of src/process/commit.h, with what git calls the commit in SOURCE; "unknown" without git.
 set(commit "unknown")
 if(GIT)
   execute_process(COMMAND ${GIT} -C ${SOURCE} describe --always --dirty --abbrev=12
@@ -7,7 +7,7 @@ if(GIT)
     set(commit ${described})
   endif()
 endif()
-file(CONFIGURE OUTPUT ${FILE} @ONLY CONTENT [[#include "src/commit.h"
+file(CONFIGURE OUTPUT ${FILE} @ONLY CONTENT [[#include "src/process/commit.h"
 
 namespace fidservo {
 

@@ -3,7 +3,7 @@
 //     02_macro_step RIG.yaml
 #include "core/rig.h"
 #include "plant/macro_axis.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <cmath>
 #include <cstdio>

@@ -4,9 +4,9 @@
 #include "core/recording.h"
 #include "core/rig.h"
 #include "plant/stage_plant.h"
-#include "src/config/rig_file.h"
-#include "src/recording/reader.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/reader.h"
+#include "src/files/recording/writer.h"
+#include "src/files/rig/rig_file.h"
 
 #include <cmath>
 #include <cstdio>

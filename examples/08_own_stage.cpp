@@ -4,8 +4,8 @@
 //     08_own_stage RIG.yaml
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/session/session.h"
 #include "src/session/simulated_rig.h"
 #include "wired_stage.h"

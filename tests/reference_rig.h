@@ -1,6 +1,6 @@
 #pragma once
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 namespace fidservo {
 

@@ -1,7 +1,7 @@
 #include "src/calibrate/camera_images.h"
 
 #include "core/input_error.h"
-#include "src/config/tag_print_keys.h"
+#include "src/files/rig/tag_print_keys.h"
 #include "src/images/image_frames.h"
 #include "src/images/image_tally.h"
 #include "src/images/ordered_work.h"

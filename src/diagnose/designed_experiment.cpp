@@ -2,7 +2,7 @@
 
 #include "core/rig.h"
 #include "src/diagnose/words.h"
-#include "src/interrupt.h"
+#include "src/process/interrupt.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,7 +1,7 @@
 #include "src/diagnose/read_recordings.h"
 
 #include "src/diagnose/frame_looks.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 
 #include <malloc.h>
 

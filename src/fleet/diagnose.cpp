@@ -3,19 +3,19 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "gap/diagnose.h"
-#include "src/config/effects_file.h"
-#include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
 #include "src/diagnose/matters.h"
 #include "src/diagnose/next_experiment.h"
 #include "src/diagnose/read_recordings.h"
 #include "src/diagnose/thinned.h"
 #include "src/diagnose/time_limit.h"
+#include "src/files/disk/sha256.h"
+#include "src/files/recording/description.h"
+#include "src/files/rig/effects_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/fleet/campaign.h"
 #include "src/fleet/content.h"
 #include "src/fleet/task_name.h"
-#include "src/inspect/sha256.h"
-#include "src/recording/description.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,7 @@ Common common_of(const DiagnoseRequest& request) {
                 has_effects ? load_effects_file(request.effects_file) : std::vector<const plant::Effect*>(),
             .matters = diagnose::what_matters(request.matters, rig),
             .rig_content = content_of_files(files_of_rig(request.rig_file)),
-            .effects_content = has_effects ? inspect::sha256_of_file(request.effects_file) : ""};
+            .effects_content = has_effects ? sha256_of_file(request.effects_file) : ""};
 }
 
 /// All that a result is made from.
@@ -63,7 +63,7 @@ std::string key_of(const Common& common, const std::string& content) {
                       {"only", request.only},       {"without", request.without},
                       {"matters", request.matters}, {"effort_s", request.effort_s},
                       {"program", this_program()}};
-    return inspect::sha256(inputs.dump());
+    return sha256(inputs.dump());
 }
 
 diagnose::TimeLimit effort_of(const Common& common, const std::vector<Recording>& recordings) {

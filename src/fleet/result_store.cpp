@@ -3,7 +3,7 @@
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/result.h"
-#include "src/recording/durable_file.h"
+#include "src/files/disk/durable_file.h"
 
 #include <cerrno>
 #include <cstring>

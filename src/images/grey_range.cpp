@@ -1,7 +1,7 @@
 #include "src/images/grey_range.h"
 
 #include "src/images/ordered_work.h"
-#include "src/progress.h"
+#include "src/process/progress.h"
 
 #include <algorithm>
 #include <optional>

@@ -2,8 +2,8 @@
 
 #include "core/input_error.h"
 #include "core/result.h"
+#include "src/files/recording/reader.h"
 #include "src/images/image_times.h"
-#include "src/recording/reader.h"
 #include "vision/images/image_file.h"
 
 #include <algorithm>

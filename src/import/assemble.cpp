@@ -1,7 +1,7 @@
 #include "src/import/assemble.h"
 
 #include "core/input_error.h"
-#include "src/config/plate_file.h"
+#include "src/files/rig/plate_file.h"
 #include "src/import/resample.h"
 #include "src/import/signal_times.h"
 

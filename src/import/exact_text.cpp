@@ -1,5 +1,5 @@
+#include "src/files/recording/row_format.h"
 #include "src/import/recording_folder.h"
-#include "src/recording/row_format.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,8 +1,8 @@
 #include "src/import/import_map.h"
 
+#include "src/files/recording/description.h"
+#include "src/files/recording/layout.h"
 #include "src/identify/column_units.h"
-#include "src/recording/description.h"
-#include "src/recording/layout.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,8 +1,8 @@
 #include "src/inspect/identity.h"
 
 #include "core/rig.h"
-#include "src/commit.h"
-#include "src/inspect/sha256.h"
+#include "src/files/disk/sha256.h"
+#include "src/process/commit.h"
 
 #include <set>
 

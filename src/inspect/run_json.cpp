@@ -1,6 +1,6 @@
 #include "src/inspect/run_json.h"
 
-#include "src/recording/durable_file.h"
+#include "src/files/disk/durable_file.h"
 
 #include <nlohmann/json.hpp>
 

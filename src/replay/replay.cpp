@@ -2,7 +2,7 @@
 
 #include "core/camera_parameters.h"
 #include "src/images/ordered_work.h"
-#include "src/progress.h"
+#include "src/process/progress.h"
 #include "src/replay/replay_tables.h"
 #include "src/replay/tag_finder.h"
 #include "vision/displacement.h"

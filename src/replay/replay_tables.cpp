@@ -2,8 +2,8 @@
 
 #include "core/input_error.h"
 #include "core/result.h"
-#include "src/recording/layout.h"
-#include "src/recording/row_format.h"
+#include "src/files/recording/layout.h"
+#include "src/files/recording/row_format.h"
 
 #include <utility>
 

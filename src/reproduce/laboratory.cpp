@@ -2,7 +2,7 @@
 
 #include "core/hall.h"
 #include "core/rig.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/writer.h"
 #include "src/simulation/simulate_reference.h"
 
 #include <algorithm>

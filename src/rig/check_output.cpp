@@ -1,6 +1,6 @@
 #include "src/rig/check_output.h"
 
-#include "src/recording/durable_file.h"
+#include "src/files/disk/durable_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 
 #include "core/camera_parameters.h"
 #include "core/input_error.h"
-#include "src/config/capture_keys.h"
+#include "src/files/rig/capture_keys.h"
 #include "vision/v4l2/camera_list.h"
 #include "vision/v4l2/v4l2_camera.h"
 

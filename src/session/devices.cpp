@@ -2,8 +2,8 @@
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
-#include "src/interrupt.h"
+#include "src/files/rig/rig_file.h"
+#include "src/process/interrupt.h"
 #include "src/session/camera_choice.h"
 #include "src/session/faulty_devices.h"
 #include "src/session/stage_choice.h"

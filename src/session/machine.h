@@ -9,7 +9,7 @@
 #include "control/stage_loop.h"
 #include "core/recording.h"
 #include "core/result.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/writer.h"
 #include "src/session/camera_watch.h"
 #include "vision/camera.h"
 

@@ -3,7 +3,7 @@
 // In simulation one thread runs everything in virtual time; same seed, same bytes.
 #include "core/plate.h"
 #include "core/result.h"
-#include "src/recording/description.h"
+#include "src/files/recording/description.h"
 #include "src/session/faults.h"
 #include "src/session/machine.h"
 #include "vision/camera.h"

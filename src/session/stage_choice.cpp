@@ -4,7 +4,7 @@
 #include "control/comedi/libcomedi_link.h"
 #include "control/watchdog.h"
 #include "core/input_error.h"
-#include "src/config/stage_keys.h"
+#include "src/files/rig/stage_keys.h"
 
 #include <cmath>
 #include <filesystem>

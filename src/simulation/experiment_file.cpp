@@ -1,7 +1,7 @@
 #include "src/simulation/experiment_file.h"
 
 #include "core/rig.h"
-#include "src/config/yaml_reader.h"
+#include "src/files/text/yaml_reader.h"
 #include "src/simulation/pieces.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "src/simulation/experiment_law.h"
 
 #include "core/rig.h"
-#include "src/recording/layout.h"
+#include "src/files/recording/layout.h"
 
 #include <algorithm>
 #include <cmath>

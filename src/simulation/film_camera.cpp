@@ -1,7 +1,7 @@
 #include "src/simulation/film_camera.h"
 
 #include "core/rig.h"
-#include "src/config/plate_file.h"
+#include "src/files/rig/plate_file.h"
 #include "vision/tag_refinement.h"
 
 #include <utility>

@@ -3,7 +3,7 @@
 #include "core/input_error.h"
 #include "core/result.h"
 #include "core/rig.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/writer.h"
 #include "src/simulation/experiment_law.h"
 #include "src/simulation/run_experiment.h"
 #include "src/simulation/simulate.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include "plant/effects/effect.h"
-#include "src/recording/description.h"
+#include "src/files/recording/description.h"
 #include "src/simulation/experiments.h"
 
 #include <cstdint>

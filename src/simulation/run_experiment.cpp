@@ -2,7 +2,7 @@
 
 #include "core/random.h"
 #include "core/rig.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/writer.h"
 #include "src/simulation/experiment_law.h"
 
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "calib/axis/macro_identification.h"
 #include "core/random.h"
 #include "reference/reference_rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #include "calib/axis/macro_force.h"
 #include "calib/axis/macro_identification.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/rig_file.h"
 
 #include <cstdlib>
 #include <filesystem>

@@ -2,7 +2,7 @@
 
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/simulation/experiments.h"
 #include "src/simulation/simulate.h"
 

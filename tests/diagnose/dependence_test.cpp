@@ -1,4 +1,4 @@
-#include "src/diagnose/dependence.h"
+#include "src/diagnose/report/dependence.h"
 
 #include <cmath>
 #include <vector>

@@ -2,7 +2,7 @@
 #include "core/rig.h"
 #include "gap/balance/carriage_forces.h"
 #include "gap/diagnose.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/campaign.h"
 
 #include <cmath>

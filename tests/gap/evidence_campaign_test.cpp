@@ -3,7 +3,7 @@
 #include "core/rig.h"
 #include "gap/diagnose.h"
 #include "gap/evidence.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/campaign.h"
 #include "tests/gap/effect_names.h"
 #include "tests/gap/effects.h"

@@ -45,6 +45,14 @@ std::string room_of(const std::string& path) {
     return path.substr(0, path.find('/'));
 }
 
+/// The part of the program that a file of src belongs to.
+std::string part_of_src(const std::string& path) {
+    static const std::regex pattern("src/files/[^/]+/|src/[^/]+/");
+    std::smatch found;
+    return std::regex_search(path, found, pattern, std::regex_constants::match_continuous) ? found.str()
+                                                                                           : "src/";
+}
+
 std::string finding(const SourceFile& file, const std::string& what, const std::string& why) {
     return file.path + ": " + what + ": " + why;
 }
@@ -146,6 +154,30 @@ Findings steps_up_in_gap(const SourceFile& file) {
     return findings;
 }
 
+Findings circles_in_src(const std::vector<SourceFile>& house) {
+    Findings findings;
+    std::map<std::string, std::set<std::string>> seen_by;
+    for (const SourceFile& file : house) {
+        if (room_of(file.path) != "src") continue;
+        const std::string part = part_of_src(file.path);
+        seen_by[part];
+        for (const std::string& include : quoted_includes(file.text)) {
+            const std::string other = part_of_src(include);
+            if (room_of(include) != "src" || other == part) continue;
+            seen_by[part].insert(other);
+            if (other == "src/cli/") findings.push_back(finding(file, include, "is above it"));
+        }
+    }
+    const auto sees_none_left = [&](const auto& part) {
+        return std::none_of(part.second.begin(), part.second.end(),
+                            [&](const std::string& other) { return seen_by.count(other) > 0; });
+    };
+    while (std::erase_if(seen_by, sees_none_left) > 0) {
+    }
+    for (const auto& [part, others] : seen_by) findings.push_back(part + ": in a circle of folders");
+    return findings;
+}
+
 Findings includes_not_from_the_top(const SourceFile& file, const std::vector<SourceFile>& house) {
     Findings findings;
     for (const auto& include : quoted_includes(file.text)) {
@@ -174,7 +206,7 @@ Findings leaking_third_party(const SourceFile& file, const std::vector<SourceFil
 
 Findings wrong_namespace(const SourceFile& file) {
     const std::string room = room_of(file.path);
-    if (!arrows().contains(room) || file.path == "src/main.cpp") return {};
+    if (!arrows().contains(room) || file.path == "src/cli/main.cpp") return {};
     const bool plain = room == "core" || room == "src";
     const std::string expected = plain ? "namespace fidservo" : "namespace fidservo::" + room;
     if (file.text.find(expected) != std::string::npos) return {};
@@ -204,7 +236,7 @@ Findings machine_paths(const SourceFile& file) {
 Findings wall_clocks(const SourceFile& file) {
     static const std::regex pattern(R"re((system_clock|CLOCK_REALTIME|gettimeofday|\btime\())re");
     if (!arrows().contains(room_of(file.path)) || file.path == "control/guardian_process.cpp" ||
-        file.path == "src/recording/utc_time.cpp")
+        file.path == "src/files/recording/utc_time.cpp")
         return {};
     Findings findings;
     for (const auto& clock : matches(file.text, pattern))

@@ -57,6 +57,15 @@ TEST(House, RoomsOfTheDiagnosis_SeeThoseBeforeThem) {
     EXPECT_THAT(in_the_house(steps_up_in_gap), IsEmpty());
 }
 
+TEST(House, FoldersOfTheProgram_SeeEachOtherOneWay) {
+    EXPECT_THAT(circles_in_src({{"src/session/a.h", "#include \"src/cli/b.h\"\n"}}), SizeIs(1));
+    EXPECT_THAT(circles_in_src({{"src/files/rig/a.h", "#include \"src/files/text/b.h\"\n"},
+                                {"src/files/text/b.h", "#include \"src/files/rig/a.h\"\n"},
+                                {"src/cli/c.cpp", "#include \"src/files/rig/a.h\"\n"}}),
+                SizeIs(3));
+    EXPECT_THAT(circles_in_src(house()), IsEmpty());
+}
+
 TEST(House, Includes_AreWrittenFromTheTop) {
     const std::vector<SourceFile> two{{"vision/a.h", ""}, {"vision/b.cpp", "#include \"a.h\"\n"}};
     EXPECT_THAT(includes_not_from_the_top(two[1], two), SizeIs(1));

@@ -1,7 +1,7 @@
 #pragma once
 // Logs as other programs write them, made by these formats' own libraries.
 #include "core/recording.h"
-#include "src/recording/layout.h"
+#include "src/files/recording/layout.h"
 
 #include <cstdint>
 #include <filesystem>

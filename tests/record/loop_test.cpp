@@ -2,11 +2,11 @@
 // writes the next recordings have no gap.
 #include "core/rig.h"
 #include "gap/diagnose.h"
-#include "src/config/rig_edit.h"
-#include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/rig_edit.h"
+#include "src/files/rig/rig_file.h"
 #include "src/record/record_experiments.h"
-#include "src/recording/reader.h"
 #include "tests/src/temporary_folder.h"
 
 #include <cstdint>

@@ -3,9 +3,9 @@
 #include "src/record/on_rig.h"
 
 #include "core/rig.h"
+#include "src/files/recording/reader.h"
+#include "src/files/recording/writer.h"
 #include "src/record/start.h"
-#include "src/recording/reader.h"
-#include "src/recording/writer.h"
 #include "src/session/pilot.h"
 #include "src/simulation/experiment_law.h"
 #include "src/simulation/simulate.h"

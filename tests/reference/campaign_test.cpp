@@ -3,8 +3,8 @@
 #include "tests/campaign.h"
 
 #include "core/rig.h"
-#include "src/config/rig_file.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/reference/campaign_residual.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // the error falls to a 16th, also across end stops and a carriage that sticks, as their times are located.
 #include "core/rig.h"
 #include "reference/reference_rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // The reference rig with departures, as it moves from rest.
 #include "core/rig.h"
 #include "reference/reference_rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 namespace fidservo::reference::testing {
 

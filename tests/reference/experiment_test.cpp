@@ -1,6 +1,6 @@
 // The program's experiments on the reference model: the loop and the controllers are those of the simulator.
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/simulation/simulate.h"
 #include "src/simulation/simulate_reference.h"
 

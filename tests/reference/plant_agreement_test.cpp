@@ -5,7 +5,7 @@
 #include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 #include "reference/reference_rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <algorithm>
 #include <cmath>

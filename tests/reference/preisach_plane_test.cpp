@@ -5,7 +5,7 @@
 #include "core/preisach.h"
 #include "core/random.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <cmath>
 #include <memory>

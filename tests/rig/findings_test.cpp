@@ -2,7 +2,7 @@
 #include "core/input_error.h"
 #include "core/preisach.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/rig/abilities.h"
 #include "src/rig/finding.h"
 #include "src/session/motion_params.h"

@@ -5,7 +5,7 @@
 #include "core/rig.h"
 #include "gap/candidates/candidate.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/selfcheck/draw/campaign.h"
 #include "src/selfcheck/draw/listed_effects.h"
 #include "src/selfcheck/draw/unlisted_effects.h"

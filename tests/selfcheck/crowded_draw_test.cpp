@@ -6,7 +6,7 @@
 #include "gap/fit/gap_size.h"
 #include "gap/fit/score.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/selfcheck/draw/campaign.h"
 #include "src/selfcheck/draw/discrepancy_draw.h"
 #include "src/selfcheck/draw/gap_alone.h"

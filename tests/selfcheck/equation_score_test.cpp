@@ -4,7 +4,7 @@
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/selfcheck/draw/campaign.h"
 #include "src/selfcheck/tally/equation_figures.h"
 

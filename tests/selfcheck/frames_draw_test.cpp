@@ -4,7 +4,7 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "reference/tag_picture.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/selfcheck/self_check.h"
 #include "vision/tag_appearance.h"
 

@@ -2,7 +2,7 @@
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/src/run_program.h"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include "gap/fit/score.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/selfcheck/draw/campaign.h"
 #include "src/selfcheck/draw/listed_effects.h"
 #include "src/selfcheck/draw/put_effect.h"

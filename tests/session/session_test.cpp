@@ -3,7 +3,7 @@
 #include "core/result.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "src/session/faulty_devices.h"
 #include "src/session/pilot.h"
 #include "tests/session/watched_rig.h"

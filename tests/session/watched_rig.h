@@ -3,8 +3,8 @@
 // devices.
 #include "core/plate.h"
 #include "core/result.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/session/session.h"
 #include "src/session/simulated_rig.h"
 

@@ -2,7 +2,7 @@
 
 #include "core/rig.h"
 #include "src/calibrate/camera_images.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 

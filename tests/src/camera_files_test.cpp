@@ -2,7 +2,7 @@
 #include "core/input_error.h"
 #include "core/lens.h"
 #include "src/calibrate/camera_target.h"
-#include "src/config/camera_info.h"
+#include "src/files/rig/camera_info.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 #include "tests/variations.h"

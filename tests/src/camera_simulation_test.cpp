@@ -2,7 +2,7 @@
 // detector must tell the same story, whatever the camera is like.
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "src/simulation/filmed_recording.h"
 #include "src/simulation/simulate.h"
 #include "tests/reference_rig.h"

@@ -1,6 +1,6 @@
 // What a file of detections says of how well corners are known.
-#include "src/recording/reader.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/reader.h"
+#include "src/files/recording/writer.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "src/config/plate_file.h"
+#include "src/files/rig/plate_file.h"
 
 #include "tests/src/message_of.h"
 

@@ -1,7 +1,7 @@
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include "core/rig.h"
-#include "src/config/fod_file.h"
+#include "src/files/rig/fod_file.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 

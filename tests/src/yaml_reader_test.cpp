@@ -1,4 +1,4 @@
-#include "src/config/yaml_reader.h"
+#include "src/files/text/yaml_reader.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"

@@ -8,7 +8,7 @@
 #include "core/result.h"
 #include "core/rig.h"
 #include "plant/stage_plant.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/session/motion_params.h"
 #include "tests/plant/allocation_count.h"
 

@@ -1,6 +1,6 @@
-#include "src/table/number_notation.h"
+#include "src/files/table/number_notation.h"
 
-#include "src/table/clock_time.h"
+#include "src/files/table/clock_time.h"
 
 #include <gtest/gtest.h>
 

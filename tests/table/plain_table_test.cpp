@@ -1,4 +1,4 @@
-#include "src/table/plain_table.h"
+#include "src/files/table/plain_table.h"
 
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"

@@ -15,8 +15,8 @@
 #include "core/monotonic_clock.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/live_rig.h"
 #include "tests/vm/loopback_feed.h"
 

@@ -1,7 +1,7 @@
 #include "src/fleet/report/cured_rig.h"
 
 #include "core/rig.h"
-#include "src/config/rig_edit.h"
+#include "src/files/rig/rig_edit.h"
 
 #include <algorithm>
 #include <vector>

@@ -22,8 +22,4 @@ std::string image_name(int tag_id, bool again, const std::string& view);
 /// "recordings/site-012", relative to the output folder.
 std::string recording_name(int tag_id, bool again);
 
-/// Gives what an interrupted run left under this name another one ("NAME.interrupted-1"): nothing that was
-/// measured is lost. Does nothing if there is nothing.
-void set_aside(const std::filesystem::path& path);
-
 }  // namespace fidservo::inspect

@@ -1,6 +1,6 @@
 #include "src/inspect/measure/results.h"
 
-#include "src/recording/durable_file.h"
+#include "src/files/disk/durable_file.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "src/inspect/recipe/pattern.h"
 
-#include "src/config/plate_file.h"
+#include "src/files/rig/plate_file.h"
 
 #include <fmt/format.h>
 

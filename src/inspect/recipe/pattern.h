@@ -1,6 +1,6 @@
 #pragma once
 // What is printed beside every site's fiducial, written once in the recipe.
-#include "src/config/yaml_reader.h"
+#include "src/files/text/yaml_reader.h"
 #include "src/inspect/recipe/recipe.h"
 
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 // What this rig can reach and see: everything that is refused when the recipe is read.
 #include "core/camera_geometry.h"
-#include "src/config/yaml_reader.h"
+#include "src/files/text/yaml_reader.h"
 #include "src/inspect/recipe/recipe.h"
 
 namespace fidservo::inspect {

@@ -3,8 +3,8 @@
 #include "core/hall.h"
 #include "core/rig.h"
 #include "core/time.h"
+#include "src/files/recording/reader.h"
 #include "src/inspect/report/report_sections.h"
-#include "src/recording/reader.h"
 #include "src/report/plot.h"
 
 #include <algorithm>

@@ -4,14 +4,14 @@
 #include "core/rig.h"
 #include "gap/diagnose.h"
 #include "src/diagnose/diagnosis_json.h"
-#include "src/diagnose/report.h"
+#include "src/diagnose/report/report.h"
 #include "src/diagnose/thinned.h"
 #include "src/diagnose/time_limit.h"
 #include "src/diagnose/verdict_words.h"
 #include "src/diagnose/words.h"
-#include "src/interrupt.h"
-#include "src/recording/durable_file.h"
-#include "src/recording/reader.h"
+#include "src/files/disk/durable_file.h"
+#include "src/files/recording/reader.h"
+#include "src/process/interrupt.h"
 #include "src/report/html.h"
 
 #include <memory>

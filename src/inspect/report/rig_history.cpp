@@ -2,12 +2,12 @@
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/commit.h"
+#include "src/files/disk/durable.h"
+#include "src/files/disk/sha256.h"
 #include "src/fleet/report/findings.h"
 #include "src/fleet/report/judgement_words.h"
 #include "src/fleet/result_store.h"
-#include "src/inspect/durable.h"
-#include "src/inspect/sha256.h"
+#include "src/process/commit.h"
 #include "src/report/html.h"
 
 #include <fstream>

@@ -5,7 +5,7 @@
 #include "core/result.h"
 #include "core/rig.h"
 #include "reference/reference_rig.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "tests/calib/sweep.h"
 #include "tests/shared_table.h"
 

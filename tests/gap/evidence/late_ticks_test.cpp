@@ -3,7 +3,7 @@
 
 #include "core/random.h"
 #include "gap/diagnose.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/writer.h"
 #include "src/simulation/experiment_law.h"
 #include "tests/gap/effects.h"
 #include "tests/gap/simulated_campaign.h"

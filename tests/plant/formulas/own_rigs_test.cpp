@@ -3,7 +3,7 @@
 // turn the motion round.
 #include "core/rig.h"
 #include "plant/stage_plant.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <array>
 #include <cmath>
