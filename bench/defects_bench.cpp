@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How small a defect is found, and how often a good plate is called bad: random defects (kind, size, place)
 // on 50 plates, rendered with the camera's noise and seen by the checks of the demo recipe.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How long measuring takes, and how small a defect the comparison finds.
 #include "core/camera_parameters.h"
 #include "core/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How long a hypothesis takes on a whole practice campaign: what a search does some hundred times.
 #include "core/rig.h"
 #include "gap/evidence.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How punctual the control loop is while vision runs: lateness of its ticks at 1 kHz (median, 99 %, worst)
 // beside that of cyclictest, which does nothing else, at the same priority on the same machine. Both run for
 // FIDSERVO_LOOP_BENCH_S seconds (20).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Replay on all cores, from the files to the tables, against the work itself on one: decode and detect, image
 // by image. The demand is 85 % of  cores / (s per image to decode and detect on one core).
 //

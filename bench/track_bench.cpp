@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A tag followed from frame to frame on the machine's camera (1280 x 960, one tag of 300 px wholly in view,
 // the stage 10 um further in every frame, the prediction 3 um off), beside libapriltag on the same frames in
 // the same run. Core time of single frames, ms: median, p99, worst.

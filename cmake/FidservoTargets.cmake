@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # How every room of the house is compiled. Warnings are errors.
 
 # -O3 is for what a diagnosis follows by the million (FAST) and for loops over pixels, by source; elsewhere it only takes

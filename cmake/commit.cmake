@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Writes FILE, the source of src/process/commit.h, with what git calls the commit in SOURCE; "unknown" without git.
 set(commit "unknown")
 if(GIT)

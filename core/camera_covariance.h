@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How far a calibrated camera may be from what its calibration says, and what that makes of a length that it
 // measures.

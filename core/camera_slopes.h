@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How places in the image and on the plate change with each other: derivatives of core/camera_geometry.h's
 // projection, in its symbols, and the directions that enter it.

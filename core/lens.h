@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A camera's lens: from the direction of a ray in the camera's frame, x to the right, y down, z ahead, to its
 // picture (x', y') in focal lengths from the principal point, and back. Two models.

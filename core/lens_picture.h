@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The models of core/lens.h for any kind of number, those of solvers that differentiate included.
 #include "core/lens.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a rig is: the numbers of a rig file (assets/rig.yaml), checked, in memory. Parts that a rig does not
 // have are empty. docs/notation.md states the equations that the numbers enter.

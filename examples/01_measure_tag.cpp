@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where the fiducials of an image are, and how well that is known.
 //
 //     01_measure_tag IMAGE

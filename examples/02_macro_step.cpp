@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A step of the macro stage, simulated: a voltage into the carriage, its speed and place out.
 //
 //     02_macro_step RIG.yaml

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The hysteresis loop of the shape-memory-alloy wire by its Preisach model, with a minor loop inside, and the
 // inverse of the model.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A fiducial-relative move on the simulated rig: the camera beside a tag, as it measures itself.
 //
 //     04_go_to_tag RIG.yaml TAG DX_UM

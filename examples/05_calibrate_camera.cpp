@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A camera's focal length and distortion from images of a grid of tags, seen from several sides. Here the
 // images are rendered by the simulator, so that the answer is known; of files they are read by
 // vision::read_grey(), as in the first example.

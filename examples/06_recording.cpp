@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A recording, written and read again: a second of the simulated rig, in the layout that all commands read.
 //
 //     06_recording RIG.yaml FOLDER        FOLDER must not exist

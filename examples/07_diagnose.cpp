@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where recordings of a rig and its simulator disagree, and by which effect.
 //
 //     07_diagnose RIG.yaml FOLDER [EFFECT...]     the effects to try; all, if none is named

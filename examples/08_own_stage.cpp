@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A stage of one's own behind the Stage boundary: a microcontroller at the end of a wire, in place of a
 // Comedi board. The session homes it and moves it to a tag as any other.
 //

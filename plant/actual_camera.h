@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The camera as it is, as one geometry: the rig file's with the deviation on top.
 #include "core/camera_geometry.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "reference/tag_picture.h"
 
 #include "core/camera_parameters.h"

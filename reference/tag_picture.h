@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Frames of the fiducial nearest to the image centre, seen by a camera that looks straight down.
 //

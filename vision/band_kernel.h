@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The inner loop of the refinement: what a band of pixels along a tag's edges should look like
 // (band_model.h), its derivatives, and their products, summed. Plain data in and out, so that it can be

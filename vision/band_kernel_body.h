@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // band_kernel.h's functions, for the processor that the including file is compiled for.
 #include "vision/band_kernel.h"

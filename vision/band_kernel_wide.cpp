@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Compiled for 256-bit vectors: nothing from other libraries may be instantiated here.
 #include "vision/band_kernel_body.h"
 

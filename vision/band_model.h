@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the band of pixels along a tag's edges should look like, and how far the pixels are from it.
 #include "vision/edge_band.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which parts of a band do not look like the tag: covered, scratched, glaring.
 #include "vision/edge_band.h"

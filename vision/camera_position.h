@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From a frame to where the camera is.
 #include "core/camera_geometry.h"

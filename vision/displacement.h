@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How far tags moved in the image since they were first seen, in um. Needs no rig: the tag's own side is the
 // scale.

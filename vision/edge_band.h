@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The pixels along the edges of a tag's code: all that tells where the tag is.
 #include "vision/band_kernel.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The profile of a blurred edge and its derivatives, eight places at a time.
 //

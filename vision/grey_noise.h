@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How much the grey level of one pixel scatters, from the camera's data sheet or its calibration.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Eight numbers at a time: arithmetic that every processor has, in vectors where it has them.
 #include <cstddef>

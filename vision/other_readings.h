@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Images in which no tags, or few, were found: what else could be read in them, and what they show.
 #include "vision/tag_book.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The outline of a tag as a projective map of a square.
 #include "core/detection.h"

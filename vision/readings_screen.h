@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Many readings of tags at a time.
 #include "vision/tag_book.h"

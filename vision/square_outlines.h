@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Squares that could be tags, whatever is in them: for what to say where no tag was read.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A tag whose place is roughly known, found again without a search of the image.
 #include "core/detection.h"

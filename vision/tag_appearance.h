@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How blurred, how bright and how noisy a tag is in its frame.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The code book of a family as libapriltag takes it.
 #include "core/tag_families.h"

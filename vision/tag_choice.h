@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which tags the camera sees from where, and which of them to measure by. Pure geometry.
 #include "core/camera_geometry.h"

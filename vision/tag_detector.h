@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Fiducials of any family (core/tag_families.h) in a grey image, found with libapriltag.
 #include "core/detection.h"

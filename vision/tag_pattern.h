@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a tag of a known code should look like, held against the image.
 #include "core/tag_families.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vision/tag_picture.h"
 
 #include "vision/quad.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How the plane of a tag and its picture map onto each other, with parameters to be fitted.
 //

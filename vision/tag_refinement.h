@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where a tag is, as precisely as its pixels allow, from all edges of its code.
 #include "core/camera_geometry.h"

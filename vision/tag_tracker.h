@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Tags followed from frame to frame: the image is searched only where a tag is expected, and as a whole only
 // when one is lost.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fits the coefficients of a name's probability (gap/verdict/standing.h) to self-checks, and judges them on
 // families of effects that were left out of the fit: calibrate SELF-CHECK.json... > gap/verdict/calibration.h
 //

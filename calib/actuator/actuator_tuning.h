@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The actuator as it is today: room temperature, stroke and heater, from one sweep of the platform over its
 // travel under known commands, seen by the calibrated Hall sensor.

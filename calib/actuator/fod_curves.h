@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // First-order descending (FOD) curves from slow temperature cycles of different peaks, and the table that
 // they give: the way the published stage was identified, in a kiln with a 14 um encoder.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The Hall sensor's curve (core/hall.h) from readings at known displacements.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The Hall sensor against the camera: while the platform moves over its travel, both see the same
 // displacement.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Recordings of a heated wire, and what is done to them before a model is fitted
 // (calib/actuator/heater_fit.h).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How well the heater's numbers are known, and what is where they are not.
 #include "calib/actuator/heater_residuals.h"

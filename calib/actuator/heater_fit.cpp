@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/actuator/heater_fit.h"
 
 #include "calib/actuator/heater_errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The pieces of the heater's fit: its numbers in units in which they can be compared, the residuals of runs,
 // their least squares, and what each reading adds to it.

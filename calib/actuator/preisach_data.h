@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What identifications of hysteresis are made from, and what can be said of it before any fit.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A Preisach model from any excitation: the density that explains the output best, nowhere negative.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A Preisach density on the grid of a FodTable (core/preisach.h), and which part of it an input has switched
 // on.

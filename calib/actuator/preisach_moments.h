@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The sums that a penalised, non-negative Preisach fit needs, and the fit from them.
 #include "calib/actuator/preisach_grid.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How far load moves a wire's transformation temperatures: the loop of one stress, moved along the
 // temperature, against the loop of another (the effect stress_shift).

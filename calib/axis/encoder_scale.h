@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How long an encoder's count is, from stands of the carriage whose places the camera knows far better than
 // the encoder.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Maximum likelihood of the macro stage's parameters by simulation: the model runs through each window under
 // the recorded commands from a state of its own, and is judged by the counts it should have shown.

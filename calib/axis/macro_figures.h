@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What people call the fitted speeds of a macro stage: K, tau, a0, delta, F, b, and what each is known to.
 #include "calib/axis/macro_fit.h"

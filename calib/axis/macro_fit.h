@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One model of the macro stage for all windows of one length: which parameters the windows can tell apart,
 // their values, the thresholds between command levels.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How far a model of the macro stage is from the force that a recording shows: inverse dynamics, as the
 // literature on drives judges models (Gautier, Janot, Vandanjon, A new closed-loop output error method for

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Identification of the macro stage from recordings: gain, time constant, dead zone, friction, offset, each
 // with its standard error, or the reason why these data do not determine it.

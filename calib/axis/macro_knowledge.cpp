@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/axis/macro_knowledge.h"
 
 #include "calib/axis/macro_profile.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How well each figure of the macro stage is known: errors correlated in time, recordings that differ, what
 // the model lacks, what was taken as zero.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the model of the macro stage lacks: tests of the residual against forces that it does not have.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The macro stage as identification sees it: terminal speeds, a time constant, and two thresholds.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Intervals of a macro stage's parameters where the loss is not a parabola.
 #include "calib/axis/macro_fit.h"

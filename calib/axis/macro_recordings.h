@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What each recording alone says of the macro stage, and whether they agree.
 #include "calib/axis/macro_figures.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Whether the likelihood of a macro stage's parameters has more than one minimum.
 #include "calib/axis/macro_fit.h"

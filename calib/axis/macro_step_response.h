@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The identification procedure of the published stage, step by step, as its paper describes it: the threshold
 // from rising DC steps, the discrete transfer function of eq. (6) from one compensated step, the modified

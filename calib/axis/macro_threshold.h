@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where the dead zone ends, per direction. The recorded commands take discrete values, so the data tell
 // between which two of them the threshold lies and cannot tell more.

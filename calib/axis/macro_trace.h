@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What identification of the macro stage takes from a recording: stretches of commands and positions without
 // a gap, away from the ends of travel.

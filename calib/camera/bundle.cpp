@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/camera/bundle.h"
 
 #include "vision/tag_choice.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/camera/calibration_start.h"
 
 #include "calib/camera/plane_pose.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where a camera's calibration begins: a lens and a pose of every view from nothing but corners.
 #include "calib/camera/bundle.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A camera's lens from views of a flat target.
 #include "calib/camera/lens_projection.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How a calibrated camera is mounted over the plate.
 #include "calib/camera/target_view.h"

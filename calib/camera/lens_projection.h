@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The projection of core/camera_geometry.h for solvers that differentiate it.
 #include "core/camera_geometry.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a refinement without a calibrated camera reports of a tag that a distorting lens shows.
 //

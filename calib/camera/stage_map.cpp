@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/camera/stage_map.h"
 
 #include "calib/camera/pictured_corners.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The camera-to-stage map: how a camera that rides along one axis sees a plate of known tags.
 //

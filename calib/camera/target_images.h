@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A camera's lens from images of a flat target.
 #include "calib/camera/camera_calibration.h"

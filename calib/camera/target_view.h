@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Views of a target: printed tags at known places, and where they were seen.
 #include "core/plate.h"

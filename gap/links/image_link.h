@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How a tag looks in its frame: blur, light and noise, from what the camera is claimed to be.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/view/plate_view.h"
 
 #include "core/camera_parameters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The plate as the camera sees it.
 #include "core/camera_parameters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/calibrate/calibrate_camera.h"
 
 #include "calib/camera/other_explanations.h"

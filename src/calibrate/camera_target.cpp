@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/calibrate/camera_target.h"
 
 #include "core/fiducial_parameters.h"

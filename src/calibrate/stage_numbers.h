@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a survey's stands say: the camera-to-stage map, the Hall sensor's curve against the camera, the length
 // of an encoder count.

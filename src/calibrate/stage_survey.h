@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The moves of a stage calibration, and what camera and sensors say at rest after each.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo calibrate camera: a lens and a sensor's noise from images of a target.
 #include "src/calibrate/calibrate_camera.h"
 

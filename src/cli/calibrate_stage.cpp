@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo calibrate stage: the camera-to-stage map, Hall sensor and encoder against the plate; a check of
 // them.
 #include "src/calibrate/calibrate_stage.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo cameras: the V4L2 devices of this machine.
 #include "src/cli/commands.h"
 #include "vision/v4l2/camera_list.h"

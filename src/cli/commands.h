@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The pattern of a command: a file of its own with an options struct, `int run_NAME(const NameOptions&)` that
 // returns an exit code, and `add_NAME`, which adds the subcommand to the program and, when it was chosen,

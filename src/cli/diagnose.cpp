@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo diagnose: where recordings of a rig and its simulator disagree, and by which effect.
 #include "gap/diagnose.h"
 

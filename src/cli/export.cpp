@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo export: a recording as a file of MATLAB, HDF5 or CSV.
 #include "src/cli/commands.h"
 #include "src/import/export_log.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo fleet: many campaigns, or very many images, by tasks that do not know of each other.
 #include "core/input_error.h"
 #include "core/rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo fleet report: what the results of a fleet come to.
 #include "core/input_error.h"
 #include "src/cli/commands.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo goto: one fiducial-relative motion.
 #include "core/failure.h"
 #include "core/input_error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo home: end stop, registration against a tag, tuning sweep.
 #include "core/rig.h"
 #include "src/cli/commands.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo identify and fidservo calibrate: models' numbers from recordings, into a rig file.
 #include "src/identify/identify.h"
 

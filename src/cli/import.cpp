@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo import: recordings out of other programs' logs.
 #include "core/input_error.h"
 #include "src/cli/commands.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo inspect: a whole inspection, from a recipe to a report.
 #include "core/input_error.h"
 #include "src/cli/commands.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo record: what the rig does when nobody moves it, or the experiments of `simulate` on it.
 #include "core/failure.h"
 #include "core/input_error.h"

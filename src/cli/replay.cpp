@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo replay: the analysis of a run on images that exist already.
 #include "src/replay/replay.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo reproduce: the published experiments, their claims as a table, their figures.
 #include "src/reproduce/reproduce.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo rig: a rig file to start from, and what is to be said of one.
 #include "core/rig.h"
 

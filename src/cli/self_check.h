@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // diagnose --self-check: the options that it adds to the command, and what it then does.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo simulate: recordings of the simulated rig, with or without effects.
 #include "src/simulation/simulate.h"
 

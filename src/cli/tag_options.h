@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How the commands that look for tags in images that exist are told what to look for.
 #include "core/plate.h"

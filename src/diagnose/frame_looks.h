@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the frames of recordings show of their tags' looks.
 #include "core/recording.h"

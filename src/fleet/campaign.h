@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A campaign as a fleet sees it: recordings of one rig, made at about one time.
 #include "src/files/recording/description.h"

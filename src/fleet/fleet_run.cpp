@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/fleet_run.h"
 
 #include "core/input_error.h"

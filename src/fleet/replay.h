@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // fidservo fleet replay: a stretch of images a task.
 #include "src/fleet/fleet_run.h"

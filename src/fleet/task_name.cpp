@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/task_name.h"
 
 #include "src/files/disk/sha256.h"

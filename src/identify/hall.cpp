@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/actuator/hall_curve.h"
 #include "core/input_error.h"
 #include "core/rig.h"

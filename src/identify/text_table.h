@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Columns of numbers from a text table that somebody else made.
 #include "src/files/table/table_structure.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/images/grey_range.h"
 
 #include "src/images/ordered_work.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/files/recording/row_format.h"
 #include "src/import/recording_folder.h"
 

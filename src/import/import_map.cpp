@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/import_map.h"
 
 #include "src/files/recording/description.h"

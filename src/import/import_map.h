@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The map that binds a log's signals to a recording: format fidservo-map/1 (docs/import.md).
 #include "core/recording.h"

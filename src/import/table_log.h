@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A text table (src/files/table/plain_table.h) as signals.
 #include "src/files/table/table_structure.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Ctrl-C and its relatives: a request that the run ends in order at its next tick, what was measured on disk
 // and both stage commands zero.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How far a run is, on stderr: a bar on a terminal, otherwise a plain line every few seconds.
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An experiment on the rig at hand: its law at every tick, and the camera's frames beside it.
 #include "core/result.h"

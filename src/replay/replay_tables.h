@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // detections.csv and displacements.csv as `replay` writes them.
 #include "core/detection.h"

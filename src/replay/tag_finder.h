@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From a frame to its fiducials, as precise as they can be had.
 #include "core/camera_parameters.h"

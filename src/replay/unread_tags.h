@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What to say where images were searched for tags, and none or few were found.
 #include "vision/other_readings.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the publication leaves for later: friction beside the dead zone, the carriage shaking the platform, a
 // second thermal mass. Here as effects of the simulator (plant/effects), against the same run without them.
 #include "core/rig.h"

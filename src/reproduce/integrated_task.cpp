@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The integrated task (fig. 22): the macro stage moves and settles, then the camera leads the micro stage.
 // This runs the program's own session, through rendered images, on the simulated rig.
 #include "core/input_error.h"

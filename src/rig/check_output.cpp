@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/rig/check_output.h"
 
 #include "src/files/disk/durable_file.h"

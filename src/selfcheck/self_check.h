@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The diagnosis judged on rigs whose effects are known: drawn, recorded on the independent model, diagnosed
 // without their labels, scored.

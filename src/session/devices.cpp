@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/devices.h"
 
 #include "core/input_error.h"

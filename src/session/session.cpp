@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/session.h"
 
 #include "core/camera_covariance.h"

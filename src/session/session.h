@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A rig in use: stage, camera, controllers and vision put together, and the recording of all that happens.
 // In simulation one thread runs everything in virtual time; same seed, same bytes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the camera sees of the plate: frame -> tag -> where the camera is.
 #include "core/camera_parameters.h"

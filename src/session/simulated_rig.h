@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The simulated rig: one truth behind a stage and a camera, in virtual time. Time passes when a command is
 // written, a tick at a time; frames are rendered only when somebody asks for them.

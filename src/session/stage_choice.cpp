@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/stage_choice.h"
 
 #include "control/comedi/comedi_board.h"

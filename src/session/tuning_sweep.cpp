@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/tuning_sweep.h"
 
 #include "calib/actuator/actuator_tuning.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Detections that were not made from images: the fiducial nearest to the image centre, its corners with
 // noise.

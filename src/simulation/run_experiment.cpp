@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/simulation/run_experiment.h"
 
 #include "core/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Recordings of a macro stage for tests, made by the independent model of rigs, so that no fit is compared
 // with its own model.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A real drive, recorded by others (Janot, Gautier, Brunot, Data Set and Reference Models of EMPS, 2019).
 #include "calib/axis/macro_force.h"
 #include "calib/axis/macro_identification.h"

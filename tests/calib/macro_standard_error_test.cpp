@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether the standard errors that identification claims are those that its estimates show.
 #include "core/result.h"
 #include "core/rig.h"

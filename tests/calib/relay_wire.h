@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A wire as many thousand relays with drawn switching temperatures: Preisach's model by its definition,
 // without tables or grids, for checking what is fitted with tables.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A lens and a mount from rendered images, and what they are good for: displacements in micrometres.
 #include "calib/camera/calibration_verdict.h"
 #include "calib/camera/camera_calibration.h"

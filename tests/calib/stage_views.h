@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Synthetic views of a row of tags by a camera of known mount, with noise of known covariance.
 #include "calib/camera/pictured_corners.h"

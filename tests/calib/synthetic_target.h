@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Tags where core's projection puts them, with noise of known covariance: calibration's answers beforehand.
 #include "calib/camera/target_view.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Hand-held views of a flat target before a camera of either lens, as corners
 // with noise.

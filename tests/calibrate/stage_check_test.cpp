@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
 #include "src/calibrate/stage_verdict.h"
 #include "src/files/rig/rig_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo calibrate stage as a user meets it, on the real executable.
 #include "core/camera_covariance.h"
 #include "core/rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a rig file may say about its stage.
 #include "src/files/rig/stage_keys.h"
 

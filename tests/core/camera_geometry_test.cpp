@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Projection and its inverse, for cameras with every parameter off its neutral value.
 #include "core/camera_geometry.h"
 

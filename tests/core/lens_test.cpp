@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Both lens models: against OpenCV, back and forth, their derivatives, the end of their domain.
 #include "core/lens.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
 #include "src/diagnose/report/chain_drawing.h"
 #include "src/diagnose/report/waterfall.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which frames of a recording are measured, and what is said of those that cannot be.
 #include "src/diagnose/frame_looks.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The report of a diagnosis made by hand, over recordings of the simulated rig.
 #include "src/diagnose/report/report.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // write_fleet OUT RIG.yaml UNITS WEEKS SEED RECORDING...: campaigns OUT/unit-UU/week-WW of rigs that the
 // independent model (reference/) stands for, one effect drawn for each unit, of each campaign the recordings
 // named.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A real machine, by other people: the linear motor of Janot, Gautier and Brunot's EMPS data set.
 #include "core/rig.h"
 #include "gap/balance/carriage_forces.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What recordings of an independent model of the reference rig, and of a real drive, say about hypotheses
 // whose truth is known.
 #include "core/rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The house's rules that can be read off the text of its files (CONTRIBUTING.md).
 #include <string>
@@ -34,6 +35,8 @@ Findings leaking_third_party(const SourceFile& file, const std::vector<SourceFil
 Findings wrong_namespace(const SourceFile& file);
 /// Headers without #pragma once.
 Findings unguarded_header(const SourceFile& file);
+/// Files that do not begin with their licence's SPDX line.
+Findings unlicensed(const SourceFile& file);
 /// Files that nobody reads in one sitting.
 Findings too_long(const SourceFile& file);
 /// Paths that only exist on somebody's machine.

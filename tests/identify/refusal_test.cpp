@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
 #include "src/files/rig/rig_file.h"
 #include "src/identify/identify.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The pages for users of other programs: their commands and maps, run on files as those programs write them.
 #include "src/files/recording/reader.h"
 #include "tests/import/made_files.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the readers make of each format's own ways.
 #include "src/files/recording/reader.h"
 #include "src/import/read_log.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Logs as other programs write them, made by these formats' own libraries.
 #include "core/recording.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A recording, given to other programs' formats by their own libraries, comes back number for number, and its
 // diagnosis byte for byte.
 #include "core/input_error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fed with the commands of recordings that an independent model of the reference rig made, the plant must
 // follow the recorded encoder and Hall readings to their noise floor.
 #include "src/files/recording/reader.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A camera that is not as its file says: what is in the pictures is where plant/camera.h says, and looks as
 // the effects' texts say.
 #include "core/camera_parameters.h"

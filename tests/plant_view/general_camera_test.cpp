@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A rig file's camera may itself be turned, tilted and distorting: what it sees is where
 // core/camera_geometry.h says, to a few thousandths of a pixel.
 #include "core/camera_parameters.h"

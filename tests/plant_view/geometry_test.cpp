@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Places in rendered images: what moves by 0.01 px moves by 0.01 px, and the detector finds tags where they
 // are.
 #include "core/camera_geometry.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The reference rig's camera, and numbers from rendered images.
 #include "core/camera_parameters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/simulation/experiment_law.h"
 
 #include "core/rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The whole loop: a rig whose file is wrong is recorded and diagnosed; with the file that the diagnosis
 // writes the next recordings have no gap.
 #include "core/rig.h"

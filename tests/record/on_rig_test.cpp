@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Experiments on a rig that is homed, brought to their start and driven by the program's own loop; frames are
 // rendered and the detector finds what is in them.
 #include "src/record/on_rig.h"

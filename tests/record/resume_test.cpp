@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The real program, ended in the middle of a recording and taken up again.
 #include "src/files/recording/reader.h"
 #include "tests/control_guardian/child_process.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The shared campaigns were recorded on another model of the same machine. Fed with their commands, this one
 // must follow their readings to the noise floor.
 #include "tests/campaign.h"

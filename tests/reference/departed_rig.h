@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The reference rig with departures, as it moves from rest.
 #include "core/rig.h"

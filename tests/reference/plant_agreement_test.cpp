@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Two models of one machine, written apart: in closed form (plant/) and integrated (reference/). Under the
 // same commands they must go the same way. Each checks the other.
 #include "core/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The staircase of relays: what Preisach's law promises, and the published sum (eq. 8) as another way to the
 // same contraction.
 #include "reference/preisach_plane.h"

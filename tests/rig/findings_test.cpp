@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What rig check finds: nothing in a sound rig, and each mistake by its key.
 #include "core/input_error.h"
 #include "core/preisach.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The rig file to start from: it loads, and commands take it.
 #include "core/rig.h"
 #include "src/files/rig/rig_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the cases are made with: the same for the same seed, even over classes, and nowhere to be read in what
 // the diagnosis is given.
 #include "src/selfcheck/draw/case_draw.h"

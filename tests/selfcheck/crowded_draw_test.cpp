@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigs with many causes at once: what is drawn keeps to what was promised of it.
 #include "src/selfcheck/draw/crowded_draw.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A proposed equation against the one that is right.
 #include "src/selfcheck/tally/equation_score.h"
 

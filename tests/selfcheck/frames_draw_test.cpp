@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cases with frames: the same for the same seed, even over the image's effects, and filmed as they are drawn.
 #include "src/selfcheck/draw/frames_draw.h"
 

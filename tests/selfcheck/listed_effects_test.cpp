@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A label means what the catalogue means by it: a rig with a departure of the independent model is predicted
 // to the floor by the plant with the effect of that name.
 #include "src/selfcheck/draw/listed_effects.h"

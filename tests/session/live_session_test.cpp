@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The whole session in real time, as on hardware: loop in a thread of its own, a camera that delivers by the
 // wall clock, vision in between. The truth is a simulated rig that goes on whatever the program does.
 #include "control/stage_check.h"

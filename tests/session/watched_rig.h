@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A simulated rig whose truth a test writes down, tick by tick, while a session drives it through its
 // devices.

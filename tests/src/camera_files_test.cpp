@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files of intrinsics and of calibration targets that other programs write.
 #include "core/input_error.h"
 #include "core/lens.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The camera of a rig file, and ROS's files of intrinsics.
 #include "src/files/rig/camera_info.h"
 

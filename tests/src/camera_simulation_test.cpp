@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The simulated camera in recordings: detections that are not made from images and frames with the real
 // detector must tell the same story, whatever the camera is like.
 #include "core/rig.h"

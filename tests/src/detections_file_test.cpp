@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a file of detections says of how well corners are known.
 #include "src/files/recording/reader.h"
 #include "src/files/recording/writer.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effects as formulas in files: what is read is what is written, and mistakes are named where they stand.
 #include "src/files/rig/effects_file.h"
 

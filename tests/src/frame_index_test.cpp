@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lists of images and times as other programs write them.
 #include "src/files/recording/frame_index.h"
 

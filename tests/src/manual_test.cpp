@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/cli/manual/manual.h"
 
 #include "src/cli/cli.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/files/rig/plate_file.h"
 
 #include "tests/src/message_of.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What recording.yaml states, and recordings whose writer was ended in the middle.
 #include "core/input_error.h"
 #include "src/files/recording/description.h"

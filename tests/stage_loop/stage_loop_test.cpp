@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The loop's thread on a stage in memory: what it hands over, what it does alone, how it ends. Nothing here
 // depends on how fast this machine is.
 #include "control/stage_loop.h"

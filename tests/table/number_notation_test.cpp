@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/files/table/number_notation.h"
 
 #include "src/files/table/clock_time.h"

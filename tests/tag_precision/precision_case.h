@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a refinement is judged on: pictures, what it is told of them, and how good it must be.
 #include "tests/tag_precision/sensor.h"

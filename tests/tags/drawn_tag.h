@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Pictures of tags of any family. Their cells are drawn by the libraries that define them, not by the
 // program.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures without the tags that are looked for.
 #include "tests/tags/drawn_tag.h"
 #include "vision/tag_detector.h"

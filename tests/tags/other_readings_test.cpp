@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tags that were not looked for as what they are: the hint names how they would be found.
 #include "vision/other_readings.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every family, with borders of one and two cells, inverted and mirrored: read as what it is, and measured.
 #include "tests/tags/drawn_tag.h"
 #include "tests/variations.h"

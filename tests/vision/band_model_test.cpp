@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Equations of a band whose blocks' weights change, against equations added up anew.
 #include "vision/band_model.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which blocks are left out, on residuals made by hand.
 #include "vision/band_outliers.h"
 

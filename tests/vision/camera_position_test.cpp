@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The machine's own frames, rendered by the simulated plate, through the real detector.
 #include "vision/camera_position.h"
 

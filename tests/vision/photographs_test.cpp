@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Photographs made by others, with the tags that are in them. All tags of the three .jpg have the id 0.
 #include "vision/tag_detector.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Blur, brightness and noise of tags in rendered frames, against what they were rendered with. Limits are
 // what gap/links/image_link.h allows for.
 #include "vision/tag_appearance.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tags followed through motion, jumps, covers, exchanges and empty frames. Truth: what was drawn.
 #include "vision/tag_tracker.h"
 

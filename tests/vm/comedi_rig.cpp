@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A stage and a camera for a program on the other side of the kernel:
 //
 //     comedi_rig RIG.yaml PLATE.yaml COMEDI-NODE VIDEO-NODE SECONDS [NAME:PARAMETER=VALUE,...]...

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `fidservo record` and `fidservo cameras` on a camera behind the kernel (v4l2loopback): what the recording
 // holds is what was shown.
 #include "core/rig.h"

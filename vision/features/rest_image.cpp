@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vision/features/rest_image.h"
 
 #include "core/camera_slopes.h"

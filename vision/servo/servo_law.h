@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The visual servo law: from a tag's corners in the image to a move of the stage.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The manual of the program, made from the description of its commands that --help shows.
 #include <string>

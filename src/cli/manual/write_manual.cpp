@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // write_manual FOLDER: the man pages, in FOLDER/man1, and the completion for bash, as FOLDER/fidservo.
 #include "src/cli/cli.h"
 #include "src/cli/manual/manual.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The signal chain as a drawing: blocks, the measured boundaries between them with the gap at each, and
 // which blocks are accused.

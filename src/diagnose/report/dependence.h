@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How errors depend on what moved the rig: their mean in bins of velocity, position, temperature and so on.
 #include "src/diagnose/report/predictions.h"

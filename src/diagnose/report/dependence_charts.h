@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Charts of the errors against what they depend on.
 #include "src/diagnose/report/dependence.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The designed experiment in the report: what it commands, and what each explanation predicts of it.
 #include "src/diagnose/designed_experiment.h"

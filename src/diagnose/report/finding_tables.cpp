@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/report/finding_tables.h"
 
 #include "plant/effects/catalogue.h"

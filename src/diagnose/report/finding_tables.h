@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What was found and what was tried, as tables.
 #include "gap/diagnosis.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What to do after a diagnosis, with the commands to run.
 #include "gap/diagnosis.h"

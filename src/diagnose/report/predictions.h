@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the rig file alone and the explanation predict of the recordings, for the report's pictures.
 #include "gap/diagnosis.h"

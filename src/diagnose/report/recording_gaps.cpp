@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/report/recording_gaps.h"
 
 #include "src/diagnose/words.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The gap of every recording and signal, before and after.
 #include "src/diagnose/report/predictions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The report of `fidservo diagnose`: one self-contained HTML file.
 #include "gap/diagnosis.h"

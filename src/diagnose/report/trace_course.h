@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A signal along a recording as its traces need it: recorded values and both errors, at the times of rows or
 // frames.

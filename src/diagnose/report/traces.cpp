@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/report/traces.h"
 
 #include "core/time.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What was recorded and what was predicted, over time.
 #include "src/diagnose/report/predictions.h"

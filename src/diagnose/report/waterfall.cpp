@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/report/waterfall.h"
 
 #include "core/rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How the gap shrinks as effects enter the explanation.
 #include "gap/diagnosis.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Files that survive a crash and a power cut: on the disk before the caller goes on.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Names that a command writes to: nothing is ever overwritten, nothing that was measured is lost.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Fingerprints of the files that a run depends on.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The header of a recording's CSV file: which column is what.
 #include "src/files/text/csv_text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/files/recording/description.h"
 
 #include "src/files/recording/layout.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // recording.yaml: what a recording states about itself (docs/formats.md).
 #include "core/recording.h"

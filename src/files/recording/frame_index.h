@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The list of a camera folder's images and their times, as other programs write it: EuRoC's data.csv, TUM's
 // rgb.txt, and what becomes of them in editors and spreadsheets.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The names and columns of a recording folder, for reader and writer alike (docs/formats.md).
 #include "core/recording.h"

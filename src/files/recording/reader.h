@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Recording folders in the ASL/EuRoC layout (docs/formats.md).
 #include "core/recording.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Writes a recording folder while it is being made: the control loop hands over rows without waiting, a
 // thread formats and writes them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A camera's intrinsics as other programs keep them, in YAML: ROS (camera_calibration, camera_info_manager,
 // camera_calibration_parsers), OpenCV, kalibr, EuRoC. Pixel centres lie at integer coordinates in all of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a rig file says about how its camera is to be set: `camera.capture`. Only who opens a camera asks.
 #include "src/files/text/yaml_reader.h"

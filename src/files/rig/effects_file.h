@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Effects as formulas, in a file of their own or stated in a rig file: format fidservo-effects/1
 // (docs/effects.md).

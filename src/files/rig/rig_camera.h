@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The camera of a rig file: its keys and what they may hold.
 #include "core/camera_parameters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/files/rig/stage_keys.h"
 
 #include <fmt/format.h>

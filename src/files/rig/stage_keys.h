@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a rig file says about the board that drives its stage, and about the limits that are watched: `stage`.
 // Only who opens a stage asks.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How the tags of a plate are printed: keys that plate files and rig files have in common.
 #include "core/tag_families.h"

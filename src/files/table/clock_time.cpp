@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/files/table/clock_time.h"
 
 #include "src/files/table/text_file.h"

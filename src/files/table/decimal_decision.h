@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which of point and comma is the decimal sign of a table, by all its numbers together.
 #include "src/files/table/plain_table.h"

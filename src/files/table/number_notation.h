@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Numbers as different countries and instruments write them: which of point and comma is the decimal sign.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A table of numbers that another program wrote: with titles or without, above it what its instrument says of
 // itself, numbers with points or commas.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/files/table/table_rows.h"
 
 #include "src/files/table/split_line.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where the rows of a table begin, and what stands above them.
 #include "src/files/table/table_structure.h"

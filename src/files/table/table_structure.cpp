@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/files/table/table_structure.h"
 
 #include "core/input_error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where in a text file a table stands: what separates its fields, where its rows begin and end, which lines
 // above them hold titles.

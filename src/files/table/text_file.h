@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A text file of whatever program, line by line: what it is encoded in, how its lines end, how large it may
 // be.

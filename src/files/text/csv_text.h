@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A CSV file as this program writes them, in memory, read line by line and field by field without copies:
 // fields between commas, lines that end in LF or CR LF; UTF-8's byte order mark may stand in front. Errors

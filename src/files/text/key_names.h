@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the name of a key says: its unit, and which key was meant by one that does not exist.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Strict reading of YAML: every mistake is an InputError that names file, line, key, value and what is
 // allowed. Keys that nobody asked for are mistakes too.

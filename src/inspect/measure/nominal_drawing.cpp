@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/measure/nominal_drawing.h"
 
 #include "core/camera_parameters.h"

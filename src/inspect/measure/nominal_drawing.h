@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The nominal plate as an ideal camera would see it.
 #include "core/camera_parameters.h"

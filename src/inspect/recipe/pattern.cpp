@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/recipe/pattern.h"
 
 #include "src/files/rig/plate_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What is printed beside every site's fiducial, written once in the recipe.
 #include "src/files/text/yaml_reader.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What this rig can reach and see: everything that is refused when the recipe is read.
 #include "core/camera_geometry.h"

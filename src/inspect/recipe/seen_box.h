@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which rectangles of the plate a camera sees.
 #include "core/camera_geometry.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An image taken at rest, and what its fiducials say about where it was taken.
 #include "core/plate.h"

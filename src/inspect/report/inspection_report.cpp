@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/report/inspection_report.h"
 
 #include "core/rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What identify heater says when recordings contradict each other, fix a combination only, or are missed.
 #include "calib/actuator/heater_fit.h"
 #include "calib/significance.h"

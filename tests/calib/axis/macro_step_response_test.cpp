@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/axis/macro_step_response.h"
 
 #include "core/rig.h"

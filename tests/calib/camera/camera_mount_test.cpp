@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/camera/camera_mount.h"
 
 #include "calib/camera/lens_projection.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings whose loop left ticks out: the commands of the tick before went on, and nothing was read.
 #include "gap/evidence/late_ticks.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The effects' equations against an independent model's: one value, estimated on one recording of a rig with
 // the effect, must explain the readings of all others.
 #include "plant/effects/catalogue.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigs whose forces are formulas of their files, beside the same machines integrated by a program of their
 // own: Newton's law in SI units, classical Runge-Kutta steps of 10 us, dry friction by whether a step would
 // turn the motion round.
