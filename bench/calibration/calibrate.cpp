@@ -215,7 +215,8 @@ void calibrate(const std::vector<std::string>& files) {
     weigh(names);
     tell(names, judged_by_others(names));
     const Coefficients all = fitted(names);
-    fmt::print(R"(#pragma once
+    fmt::print(R"(// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
 // Coefficients of the probability of a name (gap/verdict/standing.h), written by `./run calibrate` from
 // self-checks:
 //
