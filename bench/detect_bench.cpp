@@ -6,9 +6,9 @@
 #include "tests/reference_camera.h"
 #include "tests/row_of_tags.h"
 #include "vision/camera_position.h"
-#include "vision/tag_choice.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_choice.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <algorithm>
 #include <chrono>

@@ -9,8 +9,8 @@
 #include "bench/precision/precision_report.h"
 #include "tests/core_time.h"
 #include "tests/tag_precision/precision_trials.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <algorithm>
 #include <cmath>

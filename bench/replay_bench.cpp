@@ -13,7 +13,7 @@
 #include "tests/core_time.h"
 #include "tests/reference_camera.h"
 #include "tests/src/temporary_folder.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <algorithm>
 #include <array>

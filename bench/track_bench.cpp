@@ -7,9 +7,9 @@
 #include "tests/core_time.h"
 #include "tests/reference_camera.h"
 #include "tests/row_of_tags.h"
-#include "vision/tag_choice.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_tracker.h"
+#include "vision/tags/tag_choice.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_tracker.h"
 
 #include <algorithm>
 #include <array>

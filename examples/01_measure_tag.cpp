@@ -4,8 +4,8 @@
 //     01_measure_tag IMAGE
 #include "core/input_error.h"
 #include "vision/images/image_file.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <cmath>
 #include <cstdio>

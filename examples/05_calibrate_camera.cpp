@@ -3,7 +3,7 @@
 // are the simulator's, so that the answer is known; vision::read_grey() reads those in files.
 #include "calib/camera/target_images.h"
 #include "plant/view/plate_view.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <cstdio>
 #include <vector>

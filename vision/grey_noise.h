@@ -2,7 +2,7 @@
 #pragma once
 // How much the grey level of one pixel scatters, from the camera's data sheet or its calibration.
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 #include "calib/dense.h"
 #include "core/failure.h"
 #include "core/median.h"
-#include "vision/tag_choice.h"
+#include "vision/tags/tag_choice.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "calib/camera/bundle.h"
 #include "calib/camera/camera_calibration.h"
 #include "calib/camera/target_view.h"
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "core/result.h"
 
 #include <vector>

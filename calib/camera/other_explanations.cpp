@@ -5,7 +5,7 @@
 #include "calib/camera/plane_pose.h"
 #include "calib/significance.h"
 #include "core/median.h"
-#include "vision/tag_choice.h"
+#include "vision/tags/tag_choice.h"
 
 #include <algorithm>
 #include <cmath>

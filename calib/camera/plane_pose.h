@@ -2,7 +2,7 @@
 #pragma once
 // Where a camera is to a flat target.
 #include "calib/camera/target_view.h"
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 
 #include <optional>
 

@@ -2,7 +2,7 @@
 #include "calib/camera/predicted_errors.h"
 
 #include "calib/camera/bundle.h"
-#include "vision/tag_choice.h"
+#include "vision/tags/tag_choice.h"
 
 #include <algorithm>
 #include <array>

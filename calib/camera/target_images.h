@@ -6,7 +6,7 @@
 #include "core/detection.h"
 #include "core/result.h"
 #include "vision/grey_noise.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 #pragma once
 // Views of a target: printed tags at known places, and where they were seen.
 #include "core/plate.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <array>
 #include <string>

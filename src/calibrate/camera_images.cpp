@@ -7,7 +7,7 @@
 #include "src/images/image_tally.h"
 #include "src/images/ordered_work.h"
 #include "src/replay/unread_tags.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "core/failure.h"
 #include "core/rig.h"
 #include "vision/grey_noise.h"
-#include "vision/tag_choice.h"
+#include "vision/tags/tag_choice.h"
 
 #include <algorithm>
 #include <cmath>

@@ -13,7 +13,7 @@
 #include "src/session/motion_params.h"
 #include "src/session/rig_check.h"
 #include "src/session/session.h"
-#include "vision/tag_choice.h"
+#include "vision/tags/tag_choice.h"
 
 #include <chrono>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "core/plate.h"
 #include "core/rig.h"
 #include "src/images/image_names.h"
-#include "vision/tag_book.h"
+#include "vision/tags/tag_book.h"
 
 #include <filesystem>
 #include <string>

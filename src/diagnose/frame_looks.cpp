@@ -5,7 +5,7 @@
 #include "src/images/grey_range.h"
 #include "src/images/image_frame.h"
 #include "vision/images/image_file.h"
-#include "vision/tag_appearance.h"
+#include "vision/tags/tag_appearance.h"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/actuator/hall_curve.h"
+#include "calib/hall/hall_curve.h"
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "src/files/rig/plate_file.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/replay/replay.h"
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "src/images/ordered_work.h"
 #include "src/process/progress.h"
 #include "src/replay/replay_tables.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From a frame to its fiducials, as precise as they can be had.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/detection.h"
 #include "src/images/image_frame.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <optional>
 #include <vector>
@@ -20,9 +20,9 @@ struct FrameResult {
 };
 
 /// Decodes a frame and finds its tags; one a thread. Recordings are searched as the rig's own camera's, where
-/// there is contrast (vision/contrast_regions.h); everything else as photographs, everywhere. Frames of the
-/// camera's size are taken to be the camera's, if there is one: its geometry and noise then help to measure
-/// the tags. What is found in a frame depends on that frame alone.
+/// there is contrast (vision/tags/contrast_regions.h); everything else as photographs, everywhere. Frames of
+/// the camera's size are taken to be the camera's, if there is one: its geometry and noise then help to
+/// measure the tags. What is found in a frame depends on that frame alone.
 class TagFinder {
   public:
     explicit TagFinder(const std::optional<CameraParameters>& camera = {},

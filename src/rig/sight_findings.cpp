@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "core/plate.h"
 #include "core/rig.h"
 #include "src/files/rig/plate_file.h"

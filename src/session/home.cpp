@@ -6,7 +6,7 @@
 #include "src/session/motion_params.h"
 #include "src/session/rig_check.h"
 #include "src/session/tuning_sweep.h"
-#include "vision/tag_choice.h"
+#include "vision/tags/tag_choice.h"
 
 #include <algorithm>
 #include <cmath>

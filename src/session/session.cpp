@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/session.h"
 
-#include "core/camera_covariance.h"
+#include "core/camera/camera_covariance.h"
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/rig.h"
@@ -19,8 +19,8 @@
 #include "src/session/stage_choice.h"
 #include "src/session/stage_start.h"
 #include "src/session/state_json.h"
-#include "vision/tag_choice.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_choice.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <array>
 #include <chrono>

@@ -102,7 +102,7 @@ class Session {
     /// The same, and keeps what every frame shows in the recording; the frames too, if they are to be kept.
     Status observe(double duration_s);
     /// Keeps the tags of a frame that has just arrived in the recording, as far as their corners can be
-    /// measured (vision/tag_refinement.h); the frame too, if frames are kept.
+    /// measured (vision/tags/tag_refinement.h); the frame too, if frames are kept.
     Status look();
 
     /// All that happens from now on is shown there too.

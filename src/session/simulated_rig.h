@@ -4,7 +4,7 @@
 // written, a tick at a time; frames are rendered only when somebody asks for them.
 #include "control/guardian.h"
 #include "control/stage.h"
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/plate.h"
 #include "core/result.h"
 #include "plant/stage_plant.h"

@@ -3,7 +3,7 @@
 
 #include "core/rig.h"
 #include "src/files/rig/plate_file.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <utility>
 

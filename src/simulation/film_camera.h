@@ -4,7 +4,7 @@
 #include "core/plate.h"
 #include "plant/view/plate_view.h"
 #include "src/simulation/camera_track.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <deque>
 #include <functional>

@@ -2,7 +2,7 @@
 #pragma once
 // Recordings of a macro stage for tests, made by the independent model of rigs, so that no fit is compared
 // with its own model.
-#include "calib/axis/macro_identification.h"
+#include "calib/macro/macro_identification.h"
 #include "core/random.h"
 #include "reference/reference_rig.h"
 #include "src/files/rig/rig_file.h"

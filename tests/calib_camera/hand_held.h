@@ -4,7 +4,7 @@
 // with noise.
 #include "calib/camera/camera_calibration.h"
 #include "calib/camera/target_view.h"
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "core/random.h"
 #include "tests/calib/synthetic_target.h"
 

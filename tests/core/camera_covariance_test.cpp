@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/camera_covariance.h"
+#include "core/camera/camera_covariance.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "reference/tag_picture.h"
 #include "src/files/rig/rig_file.h"
 #include "src/selfcheck/self_check.h"
-#include "vision/tag_appearance.h"
+#include "vision/tags/tag_appearance.h"
 
 #include <cmath>
 #include <map>

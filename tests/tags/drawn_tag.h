@@ -3,7 +3,7 @@
 // Pictures of tags of any family. Their cells are drawn by the libraries that define them, not by the
 // program.
 #include "core/detection.h"
-#include "vision/tag_book.h"
+#include "vision/tags/tag_book.h"
 
 #include <array>
 #include <random>

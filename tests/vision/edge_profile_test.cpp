@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vision/edge_profile.h"
+#include "vision/tags/edge_profile.h"
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vision/tag_choice.h"
+#include "vision/tags/tag_choice.h"
 
 #include <numbers>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include "core/random.h"
 #include "tests/effort.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/files/recording/row_format.h"
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "src/files/recording/layout.h"
 
 #include <algorithm>

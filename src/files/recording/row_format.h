@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Recordings as text, byte for byte.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/recording.h"
 
 #include <string>

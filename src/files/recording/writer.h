@@ -2,7 +2,7 @@
 #pragma once
 // Writes a recording folder while it is being made: the control loop hands over rows without waiting, a
 // thread formats and writes them.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/recording.h"
 #include "core/result.h"
 #include "src/files/recording/description.h"

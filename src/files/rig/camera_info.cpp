@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/files/rig/camera_info.h"
 
+#include "core/camera/lens.h"
 #include "core/input_error.h"
-#include "core/lens.h"
 #include "src/files/rig/rig_camera.h"
 #include "src/files/text/yaml_reader.h"
 

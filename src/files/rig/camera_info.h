@@ -3,7 +3,7 @@
 // A camera's intrinsics as other programs keep them, in YAML: ROS (camera_calibration, camera_info_manager,
 // camera_calibration_parsers), OpenCV, kalibr, EuRoC. Pixel centres lie at integer coordinates in all of
 // them.
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 
 #include <filesystem>
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/files/rig/rig_camera.h"
 
-#include "core/camera_parameters.h"
-#include "core/camera_slopes.h"
+#include "core/camera/camera_parameters.h"
+#include "core/camera/camera_slopes.h"
 #include "src/files/rig/camera_info.h"
 #include "src/files/rig/capture_keys.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The camera of a rig file: its keys and what they may hold.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "src/files/text/yaml_reader.h"
 
 #include <array>

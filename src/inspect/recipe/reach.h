@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What this rig can reach and see: everything that is refused when the recipe is read.
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "src/files/text/yaml_reader.h"
 #include "src/inspect/recipe/recipe.h"
 

@@ -5,8 +5,8 @@
 #include "core/result.h"
 #include "vision/camera.h"
 #include "vision/features/rest_image.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <vector>
 

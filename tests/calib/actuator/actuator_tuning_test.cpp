@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/actuator/actuator_tuning.h"
+#include "calib/wire/actuator_tuning.h"
 
 #include "core/failure.h"
 #include "core/result.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/actuator/fod_curves.h"
+#include "calib/wire/fod_curves.h"
 
 #include "core/failure.h"
 #include "core/result.h"

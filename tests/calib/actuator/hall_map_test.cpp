@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/actuator/hall_map.h"
+#include "calib/hall/hall_map.h"
 
 #include "core/failure.h"
 #include "core/result.h"

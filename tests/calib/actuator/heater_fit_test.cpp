@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/actuator/heater_fit.h"
+#include "calib/wire/heater_fit.h"
 
 #include "core/failure.h"
 #include "core/random.h"

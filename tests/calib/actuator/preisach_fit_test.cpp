@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/actuator/preisach_fit.h"
+#include "calib/wire/preisach_fit.h"
 
-#include "calib/actuator/preisach_shift.h"
+#include "calib/wire/preisach_shift.h"
 #include "core/failure.h"
 #include "core/random.h"
 #include "core/result.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/axis/encoder_scale.h"
+#include "calib/macro/encoder_scale.h"
 
 #include "calib/significance.h"
 #include "core/failure.h"

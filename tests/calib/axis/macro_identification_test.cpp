@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/axis/macro_identification.h"
+#include "calib/macro/macro_identification.h"
 
 #include "core/failure.h"
 #include "core/result.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/axis/macro_step_response.h"
+#include "calib/macro/macro_step_response.h"
 
 #include "core/rig.h"
 #include "tests/calib/macro_drive.h"

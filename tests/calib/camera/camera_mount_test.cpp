@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/camera/camera_mount.h"
+#include "calib/stage/camera_mount.h"
 
 #include "calib/camera/lens_projection.h"
 #include "calib/camera/plane_pose.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/camera/stage_map.h"
+#include "calib/stage/stage_map.h"
 
 #include "calib/significance.h"
 #include "core/failure.h"
