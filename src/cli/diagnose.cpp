@@ -1,28 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo diagnose: where recordings of a rig and its simulator disagree, and by which effect.
-#include "gap/diagnose.h"
-
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "src/cli/commands.h"
 #include "src/cli/self_check.h"
 #include "src/compare/comparison.h"
 #include "src/diagnose/designed_experiment.h"
+#include "src/diagnose/diagnose_recordings.h"
 #include "src/diagnose/diagnosis_json.h"
-#include "src/diagnose/matters.h"
-#include "src/diagnose/next_experiment.h"
-#include "src/diagnose/read_recordings.h"
 #include "src/diagnose/report/report.h"
 #include "src/diagnose/search_progress.h"
-#include "src/diagnose/thinned.h"
-#include "src/diagnose/time_limit.h"
 #include "src/files/disk/durable_file.h"
-#include "src/files/rig/effects_file.h"
-#include "src/files/rig/rig_file.h"
-#include "src/files/rig/stage_keys.h"
 #include "src/process/interrupt.h"
 
-#include <chrono>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -39,21 +29,24 @@ namespace {
 struct DiagnoseOptions {
     std::vector<std::filesystem::path> recordings;
     std::filesystem::path rig_file;
-    std::vector<std::string> only, without, matters;
-    std::filesystem::path effects_file, json, report, write_rig, write_experiment;
+    diagnose::Asked asked;
+    std::filesystem::path json, report, write_rig, write_experiment;
     std::vector<std::filesystem::path> compare;
     SelfCheckRequest self_check;
 };
 
 int check_itself(const DiagnoseOptions& options) {
     if (!options.recordings.empty()) throw InputError("--self-check: it makes its own recordings; give none");
-    if (!options.without.empty()) throw InputError("--self-check: it withholds effects itself; no --without");
-    if (!options.effects_file.empty())
+    if (!options.asked.without.empty())
+        throw InputError("--self-check: it withholds effects itself; no --without");
+    if (!options.asked.effects_file.empty())
         throw InputError("--self-check: it draws effects itself; no --effects-file");
-    if (!options.matters.empty()) throw InputError("--self-check: it judges by the floor; no --matters");
+    if (!options.asked.matters.empty())
+        throw InputError("--self-check: it judges by the floor; no --matters");
     if (!options.report.empty() || !options.write_rig.empty() || !options.write_experiment.empty())
         throw InputError("--self-check: writes --json only, no --report, --write-rig and --write-experiment");
-    return run_self_check(options.self_check, options.rig_file, options.only, options.json);
+    demand_effects("--effects", options.asked.only, {});
+    return run_self_check(options.self_check, options.rig_file, options.asked.only, options.json);
 }
 
 /// `record` and `simulate` know a file that describes an experiment by its ending.
@@ -90,28 +83,14 @@ std::shared_ptr<const diagnose::DesignedNext> write_experiment(const DiagnoseOpt
     return answer.next;
 }
 
-int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const gap::SignalLimits& matters,
-                        const std::vector<const plant::Effect*>& formulas) {
-    const auto start = std::chrono::steady_clock::now();
+int diagnose_rig(const DiagnoseOptions& options, const Rig& rig, const gap::DiagnosisOptions& what) {
+    diagnose::Conduct conduct{.interrupted = interrupt_requested};
     diagnose::ReadRecordings read = diagnose::read_recordings(options.recordings);
-    const double gone_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const diagnose::TimeLimit limit = diagnose::time_limit(read.recordings);
-    const auto budget = std::make_shared<const gap::Budget>(limit.search_s - gone_s, limit.whole_s - gone_s,
-                                                            interrupt_requested);
-    const gap::Evidence evidence(rig, diagnose::thinned(std::move(read.recordings), read.notes), budget);
-    gap::DiagnosisOptions how{.only = options.only,
-                              .without = options.without,
-                              .formulas = formulas,
-                              .matters = matters,
-                              .equation_s = limit.equation_s,
-                              .selection = {}};
-    diagnose::SearchProgress progress(limit.whole_s);
-    how.selection.search.tell = [&](std::string_view what) { progress.tell(what); };
-    gap::Diagnosis diagnosis = gap::diagnose(evidence, how);
-    diagnosis.notes.insert(diagnosis.notes.end(), read.notes.begin(), read.notes.end());
-    diagnosis.next_experiment = diagnose::next_experiment(evidence.rig(), diagnosis);
+    diagnose::SearchProgress progress(diagnose::time_limit(read.recordings).whole_s);
+    conduct.tell = [&](std::string_view tried, double) { progress.tell(tried); };
+    auto [evidence, diagnosis, limit] = diagnose::diagnose_recordings(rig, std::move(read), what, conduct);
     const auto designed = write_experiment(options, evidence, diagnosis);
-    budget->end();
+    evidence.budget()->end();
     fmt::print("{}", describe(diagnosis));
     if (!options.json.empty()) write_or_throw(options.json, diagnosis_json(diagnosis));
     if (!options.write_rig.empty()) {
@@ -123,8 +102,8 @@ int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const ga
         write_or_throw(options.report, diagnose::diagnosis_report(evidence, diagnosis,
                                                                   {.rig_file = options.rig_file,
                                                                    .recordings = options.recordings,
-                                                                   .only = options.only,
-                                                                   .without = options.without,
+                                                                   .only = options.asked.only,
+                                                                   .without = options.asked.without,
                                                                    .written_rig = options.write_rig,
                                                                    .designed = designed}));
         fmt::print("report: {}\n", options.report.string());
@@ -135,9 +114,9 @@ int diagnose_recordings(const DiagnoseOptions& options, const Rig& rig, const ga
 int compare_sets(const DiagnoseOptions& options, const Rig& rig) {
     if (!options.recordings.empty())
         throw InputError("--compare: A and B are all that is compared; no RECORDING");
-    if (!options.only.empty() || !options.without.empty() || !options.effects_file.empty() ||
-        !options.matters.empty() || !options.report.empty() || !options.write_rig.empty() ||
-        !options.write_experiment.empty())
+    if (!options.asked.only.empty() || !options.asked.without.empty() ||
+        !options.asked.effects_file.empty() || !options.asked.matters.empty() || !options.report.empty() ||
+        !options.write_rig.empty() || !options.write_experiment.empty())
         throw InputError("--compare: takes --rig and --json only");
     diagnose::ReadRecordings a = diagnose::read_recordings({options.compare[0]});
     diagnose::ReadRecordings b = diagnose::read_recordings({options.compare[1]});
@@ -151,10 +130,6 @@ int compare_sets(const DiagnoseOptions& options, const Rig& rig) {
 }
 
 int run_diagnose(const DiagnoseOptions& options) {
-    std::vector<const plant::Effect*> formulas;
-    if (!options.effects_file.empty()) formulas = load_effects_file(options.effects_file);
-    demand_effects("--effects", options.only, formulas);
-    demand_effects("--without", options.without, formulas);
     demand_new_file("--json", options.json);
     diagnose::keep_memory();
     if (options.self_check.wanted) return check_itself(options);
@@ -165,10 +140,10 @@ int run_diagnose(const DiagnoseOptions& options) {
     demand_new_file("--write-experiment", options.write_experiment);
     demand_experiment_file(options.write_experiment);
     const Rig rig = load_rig(options.rig_file);
-    const gap::SignalLimits matters = diagnose::what_matters(options.matters, rig);
+    const gap::DiagnosisOptions what = diagnose::options_of(options.asked, rig);
     try {
         if (!options.compare.empty()) return compare_sets(options, rig);
-        return diagnose_recordings(options, rig, matters, formulas);
+        return diagnose_rig(options, rig, what);
     } catch (const gap::BudgetEnded& end) {
         const bool by_user = end.how() == gap::Ended::interrupted;
         fmt::print("{}: nothing was predicted by then, nothing was written\n",
@@ -188,23 +163,23 @@ void add_diagnose(CLI::App& app, int& exit_code) {
                      "Recording folders, or folders that hold some; frames are judged where they have them")
         ->option_text("...");
     add_rig_option(*command, options->rig_file);
-    command->add_option("--effects", options->only, "Try these effects only")
+    command->add_option("--effects", options->asked.only, "Try these effects only")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("A,B,..");
     command
-        ->add_option("--without", options->without,
+        ->add_option("--without", options->asked.without,
                      "Leave these effects out, and those no data tell from them")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("A,B,..");
     command
-        ->add_option("--effects-file", options->effects_file,
+        ->add_option("--effects-file", options->asked.effects_file,
                      "Effects as formulas (docs/effects.md) that are tried beside the listed ones")
         ->type_name("FILE");
     command
         ->add_option(
-            "--matters", options->matters,
+            "--matters", options->asked.matters,
             "What may stay unexplained of a signal without being called a gap: encoder=20um,tag=0.1px")
         ->delimiter(',')
         ->allow_extra_args(false)

@@ -43,7 +43,6 @@ void add_run_options(CLI::App& command, fleet::RunOptions& run) {
 
 void add_fleet_diagnose(CLI::App& parent, int& exit_code) {
     auto request = std::make_shared<fleet::DiagnoseRequest>();
-    request->effort_s = fleet::usual_effort_s();
     CLI::App* command = parent.add_subcommand("diagnose",
                                               "Diagnose many campaigns, each by itself; exit code 1 if some "
                                               "could not be, 3 if some have no result");
@@ -55,14 +54,14 @@ void add_fleet_diagnose(CLI::App& parent, int& exit_code) {
     const auto add_list = [&](const char* name, std::vector<std::string>& list, const char* text) {
         return command->add_option(name, list, text)->delimiter(',')->allow_extra_args(false);
     };
-    add_list("--effects", request->only, "Try these effects only")->type_name("A,B,..");
-    add_list("--without", request->without, "Leave these effects out, and those no data tell from them")
+    add_list("--effects", request->asked.only, "Try these effects only")->type_name("A,B,..");
+    add_list("--without", request->asked.without, "Leave these effects out, and those no data tell from them")
         ->type_name("A,B,..");
     command
-        ->add_option("--effects-file", request->effects_file,
+        ->add_option("--effects-file", request->asked.effects_file,
                      "Effects as formulas (docs/effects.md) that are tried beside the listed ones")
         ->type_name("FILE");
-    add_list("--matters", request->matters,
+    add_list("--matters", request->asked.matters,
              "What may stay unexplained of a signal without being called a gap: encoder=20um,tag=0.1px")
         ->type_name("SIGNAL=VALUE,..");
     command
@@ -89,7 +88,7 @@ int run_fleet_replay(FleetReplayOptions& options) {
     const Rig rig = load_rig(request.rig_file);
     request.name_times = name_times_of(options.tags);
     demand_fiducials(rig, request.rig_file);
-    request.reading = reading_of(options.tags, *rig.fiducials, request.rig_is_given);
+    request.reading = reading_of(options.tags, request.rig_is_given ? rig.fiducials->print : TagPrint{});
     return fleet::replay_fleet(request, rig);
 }
 

@@ -40,7 +40,8 @@ void print_notes(const std::vector<std::string>& notes) {
 int run_replay(const ReplayOptions& options) {
     const Rig rig = load_rig(options.rig_file);
     demand_fiducials(rig, options.rig_file);
-    const vision::TagReading reading = reading_of(options.tags, *rig.fiducials, options.rig_is_given);
+    const vision::TagReading reading =
+        reading_of(options.tags, options.rig_is_given ? rig.fiducials->print : TagPrint{});
     ImageFrames frames(options.inputs, {.name_times = name_times_of(options.tags)});
     print_notes(frames.notes());
     make_output_folder(options.out);

@@ -9,15 +9,12 @@
 #include "src/cli/session_options.h"
 #include "src/files/recording/utc_time.h"
 #include "src/files/recording/writer.h"
-#include "src/files/rig/effects_file.h"
 #include "src/files/rig/rig_file.h"
 #include "src/process/progress.h"
-#include "src/simulation/experiment_file.h"
 #include "src/simulation/filmed_recording.h"
+#include "src/simulation/planned_experiments.h"
 
-#include <algorithm>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +27,6 @@ namespace fidservo {
 
 namespace {
 
-constexpr const char* whole_campaign = "campaign";
-
 struct SimulateOptions {
     std::string experiment;
     std::filesystem::path rig_file;
@@ -43,46 +38,6 @@ struct SimulateOptions {
     std::filesystem::path out;
 };
 
-/// One recording of a run.
-struct Task {
-    Experiment experiment;
-    std::string name;
-    std::filesystem::path folder;
-};
-
-Task task_of(const SimulateOptions& options, const Rig& rig) {
-    if (is_experiment_file(options.experiment)) {
-        Experiment experiment = load_experiment(options.experiment, rig);
-        std::string name = experiment.kind + "-1";
-        return {std::move(experiment), std::move(name), options.out};
-    }
-    const std::string name = options.experiment + "-1";
-    return {make_experiment(options.experiment, rig, options.seed, name), name, options.out};
-}
-
-std::vector<Task> tasks_of(const SimulateOptions& options, const Rig& rig) {
-    if (options.experiment != whole_campaign) return {task_of(options, rig)};
-    std::vector<Task> tasks;
-    for (const CampaignRun& run : campaign_runs(rig))
-        tasks.push_back(
-            {make_experiment(run.kind, rig, options.seed, run.name), run.name, options.out / run.name});
-    return tasks;
-}
-
-/// Where no effect of the effects file is named, all of them act, at their typical values.
-std::vector<plant::EffectSetting> effects_of(const SimulateOptions& options) {
-    std::vector<const plant::Effect*> formulas;
-    if (!options.effects_file.empty()) formulas = load_effects_file(options.effects_file);
-    std::vector<plant::EffectSetting> effects;
-    for (const std::string& text : options.effects) effects.push_back(plant::parse_effect(text, formulas));
-    const auto is_named = [&](const plant::Effect* formula) {
-        return std::ranges::find(effects, formula, &plant::EffectSetting::effect) != effects.end();
-    };
-    if (std::ranges::none_of(formulas, is_named))
-        for (const plant::Effect* formula : formulas) effects.push_back(plant::typical_setting(*formula));
-    return effects;
-}
-
 std::string utc_time_of(const std::string& text) {
     if (is_utc_time(text)) return text;
     throw InputError(fmt::format("--recorded-at: {}: must be a time in UTC like 2026-11-02T08:15:00Z", text));
@@ -93,24 +48,27 @@ int run_simulate(const SimulateOptions& options) {
     if (options.frames && (!rig.camera || !rig.fiducials))
         throw InputError(
             fmt::format("--frames: the rig {} lacks a camera, or fiducials for it to see", rig.name));
-    const std::vector<plant::EffectSetting> effects = effects_of(options);
-    const std::vector<Task> tasks = tasks_of(options, rig);
+    const std::vector<plant::EffectSetting> effects = effects_of(options.effects, options.effects_file);
+    const bool is_campaign = options.experiment == whole_campaign;
+    const std::vector<PlannedExperiment> plan =
+        is_campaign ? planned_campaign(rig, options.seed)
+                    : std::vector{planned_experiment(options.experiment, rig, options.seed)};
     plant::PlantParameters parameters = plant::plant_parameters(rig);
     plant::apply_effects(parameters, effects);
 
-    if (options.experiment == whole_campaign) make_output_folder(options.out);
-    Progress progress("recordings", tasks.size());
-    for (const Task& task : tasks) {
+    if (is_campaign) make_output_folder(options.out);
+    Progress progress("recordings", plan.size());
+    for (const auto& [name, experiment] : plan) {
+        const std::filesystem::path folder = is_campaign ? options.out / name : options.out;
         if (options.frames)
-            write_filmed_recording(task.folder, rig, effects, task.experiment, task.name, options.seed,
-                                   options.origin);
+            write_filmed_recording(folder, rig, effects, experiment, name, options.seed, options.origin);
         else
-            write_recording(task.folder, simulate(rig, effects, task.experiment, task.name, options.seed),
-                            rig.camera, options.origin);
+            write_recording(folder, simulate(rig, effects, experiment, name, options.seed), rig.camera,
+                            options.origin);
         progress.advance();
     }
     progress.finish();
-    fmt::print("{} recording{} in {}\n", tasks.size(), tasks.size() == 1 ? "" : "s", options.out.string());
+    fmt::print("{} recording{} in {}\n", plan.size(), plan.size() == 1 ? "" : "s", options.out.string());
     return exit_done;
 }
 

@@ -44,9 +44,7 @@ ReplayCount replay(ImageFrames& frames, double tag_side_mm, const std::filesyste
     ReplayCount count{.images = ImageTally(frames.missing()), .tags = 0, .sample = {}};
     const auto make_worker = [&] {
         return [finder = TagFinder(camera, reading)](ImageFrame frame) mutable {
-            return load(frame)
-                       ? finder(std::move(frame))
-                       : FrameResult{.frame = std::move(frame), .grey = {}, .tags = {}, .refined = {}};
+            return load(frame) ? finder(std::move(frame)) : FrameResult{{}, std::move(frame), {}};
         };
     };
     const auto take = [&](const FrameResult& result) {
