@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Likelihoods of what is not named, against closed forms.
 #include "src/fleet/report/statistics/censored.h"
 

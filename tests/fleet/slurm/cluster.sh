@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash
 # A Slurm cluster of one node, to be sourced: everything that it writes is in $cluster, and it is heard on loopback only.
 #

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # run.sh BUILD FOLDER [SEED]: deploy/slurm/fleet.sbatch on a Slurm cluster of one node, disturbed. As root.
 #
 # A fleet of quick campaigns is diagnosed as an array of 16 shards, two at a time. Meanwhile 20 of its processes, drawn by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Likelihoods of values of which some are known only to be too small to be seen (Tobit).
 //

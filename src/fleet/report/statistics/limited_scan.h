@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The likelihood of a change at each time where some diagnoses do not name the quantity (censored.h).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Integrals of log-concave functions of one variable.
 #include "src/fleet/report/statistics/log_of_sum.h"
