@@ -3,6 +3,7 @@
 #include "calib/actuator/heater_fit.h"
 #include "calib/tails.h"
 #include "core/result.h"
+#include "tests/effort.h"
 #include "tests/variations.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 namespace fidservo::calib {
 namespace {
 
-constexpr int tried = 200;
+const int tried = testing::draws(200, 40);
 constexpr double far = 4.0;  ///< standard errors, scaled up where Student's law is wider than a normal one
 constexpr double tick_s = 0.5;
 
