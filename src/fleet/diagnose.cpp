@@ -1,21 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/diagnose.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "gap/diagnose.h"
-#include "src/config/effects_file.h"
-#include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
-#include "src/diagnose/matters.h"
-#include "src/diagnose/next_experiment.h"
-#include "src/diagnose/read_recordings.h"
-#include "src/diagnose/thinned.h"
-#include "src/diagnose/time_limit.h"
+#include "src/files/rig/rig_file.h"
 #include "src/fleet/campaign.h"
 #include "src/fleet/content.h"
 #include "src/fleet/task_name.h"
-#include "src/inspect/sha256.h"
-#include "src/recording/description.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,38 +30,33 @@ using Json = nlohmann::ordered_json;
 struct Common {
     const DiagnoseRequest& request;
     Rig rig;
-    std::vector<const plant::Effect*> formulas;
-    gap::SignalLimits matters;
+    gap::DiagnosisOptions options;
     std::string rig_content, effects_content;
 };
 
 Common common_of(const DiagnoseRequest& request) {
     const Rig rig = load_rig(request.rig_file);
-    const bool has_effects = !request.effects_file.empty();
+    const diagnose::Asked& asked = request.asked;
     return {.request = request,
             .rig = rig,
-            .formulas =
-                has_effects ? load_effects_file(request.effects_file) : std::vector<const plant::Effect*>(),
-            .matters = diagnose::what_matters(request.matters, rig),
+            .options = diagnose::options_of(asked, rig),
             .rig_content = content_of_files(files_of_rig(request.rig_file)),
-            .effects_content = has_effects ? inspect::sha256_of_file(request.effects_file) : ""};
+            .effects_content = asked.effects_file.empty() ? "" : sha256_of_file(asked.effects_file)};
 }
 
 /// All that a result is made from.
 std::string key_of(const Common& common, const std::string& content) {
     const DiagnoseRequest& request = common.request;
-    const Json inputs{{"kind", "diagnose"},         {"content", content},
-                      {"rig", common.rig_content},  {"effects_file", common.effects_content},
-                      {"only", request.only},       {"without", request.without},
-                      {"matters", request.matters}, {"effort_s", request.effort_s},
+    const Json inputs{{"kind", "diagnose"},
+                      {"content", content},
+                      {"rig", common.rig_content},
+                      {"effects_file", common.effects_content},
+                      {"only", request.asked.only},
+                      {"without", request.asked.without},
+                      {"matters", request.asked.matters},
+                      {"effort_s", request.effort_s},
                       {"program", this_program()}};
-    return inspect::sha256(inputs.dump());
-}
-
-diagnose::TimeLimit effort_of(const Common& common, const std::vector<Recording>& recordings) {
-    diagnose::TimeLimit limit = diagnose::time_limit(recordings);
-    const double times = common.request.effort_s / usual_effort_s();
-    return {times * limit.search_s, times * limit.whole_s, times * limit.equation_s};
+    return sha256(inputs.dump());
 }
 
 /// The diagnosis of a campaign as `diagnose --json` writes it, and how many rows might be predicted for it.
@@ -79,21 +66,10 @@ struct Diagnosed {
 };
 
 Diagnosed diagnose_campaign(const Common& common, const fs::path& path) {
-    diagnose::ReadRecordings read = diagnose::read_recordings({path});
-    const diagnose::TimeLimit limit = effort_of(common, read.recordings);
-    const auto budget = std::make_shared<const gap::Budget>(limit.search_s, limit.whole_s,
-                                                            std::function<bool()>(), gap::Seconds::by_effort);
-    const gap::Evidence evidence(common.rig, diagnose::thinned(std::move(read.recordings), read.notes),
-                                 budget);
-    gap::Diagnosis diagnosis = gap::diagnose(evidence, {.only = common.request.only,
-                                                        .without = common.request.without,
-                                                        .formulas = common.formulas,
-                                                        .matters = common.matters,
-                                                        .equation_s = limit.equation_s,
-                                                        .selection = {}});
-    diagnosis.notes.insert(diagnosis.notes.end(), read.notes.begin(), read.notes.end());
-    diagnosis.next_experiment = diagnose::next_experiment(evidence.rig(), diagnosis);
-    return {Json::parse(diagnosis_json(diagnosis)), (limit.whole_s + limit.equation_s) * gap::rows_a_second};
+    const diagnose::Answer answer = diagnose::diagnose_recordings(
+        common.rig, diagnose::read_recordings({path}), common.options, {.effort_s = common.request.effort_s});
+    return {Json::parse(diagnosis_json(answer.diagnosis)),
+            (answer.limit.whole_s + answer.limit.equation_s) * gap::rows_a_second};
 }
 
 class CampaignTasks {
@@ -195,14 +171,8 @@ std::vector<fs::path> campaigns_of(const DiagnoseRequest& request) {
 
 }  // namespace
 
-double usual_effort_s() {
-    return diagnose::half_a_minute.whole_s + diagnose::half_a_minute.equation_s;
-}
-
 int diagnose_fleet(const DiagnoseRequest& request) {
     const Common common = common_of(request);
-    demand_effects("--effects", request.only, common.formulas);
-    demand_effects("--without", request.without, common.formulas);
     const std::vector<fs::path> campaigns = campaigns_of(request);
     const ResultStore store = open_store(request.run);
     const CampaignTasks tasks(common, store);

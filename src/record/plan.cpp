@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/record/plan.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/stage_keys.h"
+#include "src/files/recording/description.h"
+#include "src/files/rig/stage_keys.h"
 #include "src/record/foresight.h"
 #include "src/record/start.h"
-#include "src/recording/description.h"
 #include "src/session/home.h"
 #include "src/session/motion_params.h"
 #include "src/session/stage_choice.h"
-#include "src/simulation/experiment_file.h"
+#include "src/simulation/planned_experiments.h"
 
 #include <optional>
 #include <utility>
@@ -29,21 +30,14 @@ std::optional<double> wire_limit_degC(const SessionOptions& options, const Rig& 
     return watchdog_params(rig, load_stage_keys(options.rig_file).watchdog).wire_limit_degC;
 }
 
-Experiment single_experiment(const ExperimentOptions& options, const Rig& rig) {
-    if (is_experiment_file(options.experiment)) return load_experiment(options.experiment, rig);
-    return make_experiment(options.experiment, rig, options.session.seed, options.experiment + "-1");
-}
-
 /// What each of a campaign's experiments commands, but for those that the rig cannot do.
 RecordPlan campaign(const ExperimentOptions& options, const Rig& rig, std::optional<double> limit_degC) {
     RecordPlan plan;
-    for (const CampaignRun& run : campaign_runs(rig)) {
-        Experiment experiment = make_experiment(run.kind, rig, options.session.seed, run.name);
+    for (auto& [name, experiment] : planned_campaign(rig, options.session.seed))
         if (const auto why = why_not(rig, experiment, limit_degC))
-            plan.left_out.push_back(fmt::format("{}: {}", run.name, *why));
+            plan.left_out.push_back(fmt::format("{}: {}", name, *why));
         else
-            plan.runs.push_back({run.name, options.out / run.name, std::move(experiment)});
-    }
+            plan.runs.push_back({name, options.out / name, std::move(experiment)});
     if (plan.runs.empty())
         throw InputError(fmt::format("campaign: the rig {} can do none of it: {}", rig.name,
                                      fmt::join(plan.left_out, "; ")));
@@ -53,7 +47,7 @@ RecordPlan campaign(const ExperimentOptions& options, const Rig& rig, std::optio
 }  // namespace
 
 bool is_campaign(const ExperimentOptions& options) {
-    return options.experiment == "campaign";
+    return options.experiment == whole_campaign;
 }
 
 bool heats(const Experiment& experiment) {
@@ -69,10 +63,10 @@ RecordPlan plan_recordings(const ExperimentOptions& options, const Rig& rig, con
                         options.session.rig_file.string(), rig.macro.low_mm, rig.macro.high_mm));
     const auto limit_degC = wire_limit_degC(options.session, rig);
     if (is_campaign(options)) return campaign(options, rig, limit_degC);
-    Experiment experiment = single_experiment(options, rig);
+    auto [name, experiment] = planned_experiment(options.experiment, rig, options.session.seed);
     if (const auto why = why_not(rig, experiment, limit_degC))
         throw InputError(fmt::format("{}: the rig {} cannot do it: {}", options.experiment, rig.name, *why));
-    return {{{experiment.kind + "-1", options.out, std::move(experiment)}}, {}};
+    return {{{std::move(name), options.out, std::move(experiment)}}, {}};
 }
 
 std::vector<PlannedRun> missing_runs(const RecordPlan& plan) {

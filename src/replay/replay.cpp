@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/replay/replay.h"
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "src/images/ordered_work.h"
-#include "src/progress.h"
+#include "src/process/progress.h"
 #include "src/replay/replay_tables.h"
 #include "src/replay/tag_finder.h"
 #include "vision/displacement.h"
@@ -43,9 +44,7 @@ ReplayCount replay(ImageFrames& frames, double tag_side_mm, const std::filesyste
     ReplayCount count{.images = ImageTally(frames.missing()), .tags = 0, .sample = {}};
     const auto make_worker = [&] {
         return [finder = TagFinder(camera, reading)](ImageFrame frame) mutable {
-            return load(frame)
-                       ? finder(std::move(frame))
-                       : FrameResult{.frame = std::move(frame), .grey = {}, .tags = {}, .refined = {}};
+            return load(frame) ? finder(std::move(frame)) : FrameResult{{}, std::move(frame), {}};
         };
     };
     const auto take = [&](const FrameResult& result) {

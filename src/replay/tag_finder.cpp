@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/replay/tag_finder.h"
 
-#include "core/camera_parameters.h"
-#include "vision/contrast_regions.h"
+#include "core/camera/camera_parameters.h"
+#include "vision/tags/contrast_regions.h"
 
 #include <algorithm>
 
@@ -26,9 +27,8 @@ TagFinder::TagFinder(const std::optional<CameraParameters>& camera, const vision
       machine_(vision::machine_camera_options(reading)),
       thorough_(vision::thorough_options(reading)) {}
 
-std::vector<TagDetection> TagFinder::find(const cv::Mat& image, const ImageFrame& frame) {
-    const TimeNs time_ns = frame.time_ns.value_or(0);
-    if (!frame.from_recording) return thorough_.detect(image, time_ns);
+std::vector<TagDetection> TagFinder::detect(const cv::Mat& image, TimeNs time_ns, bool is_of_machine) {
+    if (!is_of_machine) return thorough_.detect(image, time_ns);
     std::vector<TagDetection> tags;
     for (const cv::Rect& region :
          vision::contrast_regions(image, vision::machine_camera_options().min_contrast)) {
@@ -39,15 +39,20 @@ std::vector<TagDetection> TagFinder::find(const cv::Mat& image, const ImageFrame
     return tags;
 }
 
-FrameResult TagFinder::operator()(ImageFrame frame) {
-    const cv::Mat image = decode(frame);
-    FrameResult result{.frame = {}, .grey = image, .tags = find(image, frame), .refined = {}};
+FoundTags TagFinder::measure(const cv::Mat& image, TimeNs time_ns, bool is_of_machine) {
+    FoundTags found{.tags = detect(image, time_ns, is_of_machine), .refined = {}};
     const vision::RefinementOptions options = refinement_for(camera_, image);
-    for (TagDetection& tag : result.tags) {
+    for (TagDetection& tag : found.tags) {
         const auto refined = vision::refine_tag(image, tag, options);
         tag = refined ? refined->detection : vision::unrefined(tag).detection;
-        if (refined) result.refined.push_back(*refined);
+        if (refined) found.refined.push_back(*refined);
     }
+    return found;
+}
+
+FrameResult TagFinder::operator()(ImageFrame frame) {
+    const cv::Mat image = decode(frame);
+    FrameResult result{measure(image, frame.time_ns.value_or(0), frame.from_recording), {}, image};
     frame.decoded.release();
     result.frame = std::move(frame);
     return result;

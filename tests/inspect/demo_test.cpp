@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The demo, whole, on the simulated rig: what it finds, and that a killed run ends like one that was not.
 #include "src/inspect/inspection_run.h"
 #include "tests/control_guardian/child_process.h"

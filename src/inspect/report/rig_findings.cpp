@@ -1,20 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/report/rig_findings.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "gap/diagnose.h"
+#include "src/diagnose/diagnose_recordings.h"
 #include "src/diagnose/diagnosis_json.h"
-#include "src/diagnose/report.h"
-#include "src/diagnose/thinned.h"
-#include "src/diagnose/time_limit.h"
+#include "src/diagnose/report/report.h"
 #include "src/diagnose/verdict_words.h"
 #include "src/diagnose/words.h"
-#include "src/interrupt.h"
-#include "src/recording/durable_file.h"
-#include "src/recording/reader.h"
+#include "src/files/disk/durable_file.h"
+#include "src/files/recording/reader.h"
+#include "src/process/interrupt.h"
 #include "src/report/html.h"
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -55,14 +53,11 @@ RigFindings nothing_found(const std::string& why) {
 
 RigFindings find_in_recordings(const OutputFolder& output, const Rig& rig,
                                const std::filesystem::path& rig_file) {
-    const auto budget = std::make_shared<const gap::Budget>(
-        diagnose::half_a_minute.search_s, diagnose::half_a_minute.whole_s, interrupt_requested);
     try {
-        std::vector<std::string> notes;
-        const gap::Evidence evidence(rig, diagnose::thinned(recordings_in(output), notes), budget);
-        gap::Diagnosis diagnosis = gap::diagnose(evidence);
-        budget->end();
-        diagnosis.notes.insert(diagnosis.notes.end(), notes.begin(), notes.end());
+        const diagnose::Conduct conduct{.is_brief = true, .interrupted = interrupt_requested};
+        const auto [evidence, diagnosis, limit] =
+            diagnose::diagnose_recordings(rig, {recordings_in(output), {}}, {}, conduct);
+        evidence.budget()->end();
         replace_file(output.root / "diagnosis.json", diagnosis_json(diagnosis));
         replace_file(output.root / "diagnosis.html", diagnose::diagnosis_report(evidence, diagnosis,
                                                                                 {.rig_file = rig_file,

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/diagnose/diagnose_recordings.h"
+
+#include "core/rig.h"
+#include "src/diagnose/matters.h"
+#include "src/diagnose/next_experiment.h"
+#include "src/diagnose/thinned.h"
+#include "src/files/rig/effects_file.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace fidservo::diagnose {
+namespace {
+
+TimeLimit limit_of(const Conduct& conduct, const std::vector<Recording>& recordings) {
+    if (conduct.is_brief) return {half_a_minute.search_s, half_a_minute.whole_s};
+    TimeLimit limit = time_limit(recordings);
+    if (!conduct.effort_s) return limit;
+    const double times = *conduct.effort_s / usual_effort_s();
+    return {times * limit.search_s, times * limit.whole_s, times * limit.equation_s};
+}
+
+double gone_since(std::chrono::steady_clock::time_point then) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
+}  // namespace
+
+double usual_effort_s() {
+    return half_a_minute.whole_s + half_a_minute.equation_s;
+}
+
+gap::DiagnosisOptions options_of(const Asked& asked, const Rig& rig) {
+    gap::DiagnosisOptions options{.only = asked.only, .without = asked.without, .selection = {}};
+    if (!asked.effects_file.empty()) options.formulas = load_effects_file(asked.effects_file);
+    demand_effects("--effects", asked.only, options.formulas);
+    demand_effects("--without", asked.without, options.formulas);
+    options.matters = what_matters(asked.matters, rig);
+    return options;
+}
+
+Answer diagnose_recordings(const Rig& rig, ReadRecordings read, gap::DiagnosisOptions options,
+                           const Conduct& conduct) {
+    const bool by_effort = conduct.effort_s.has_value();
+    const TimeLimit limit = limit_of(conduct, read.recordings);
+    const double gone_s = by_effort ? 0.0 : gone_since(conduct.since);
+    const auto budget = std::make_shared<const gap::Budget>(
+        limit.search_s - gone_s, limit.whole_s - gone_s, conduct.interrupted,
+        by_effort ? gap::Seconds::by_effort : gap::Seconds::by_clock);
+    if (conduct.tell)
+        options.selection.search.tell = [&, budget](std::string_view what) {
+            const double spent_s = by_effort ? static_cast<double>(budget->rows()) / gap::rows_a_second
+                                             : gone_since(conduct.since);
+            conduct.tell(what, std::min(1.0, spent_s / limit.whole_s));
+        };
+    options.equation_s = limit.equation_s;
+    gap::Evidence evidence(rig, thinned(std::move(read.recordings), read.notes), budget);
+    gap::Diagnosis diagnosis = gap::diagnose(evidence, options);
+    diagnosis.notes.insert(diagnosis.notes.end(), read.notes.begin(), read.notes.end());
+    if (!conduct.is_brief) diagnosis.next_experiment = next_experiment(evidence.rig(), diagnosis);
+    return {std::move(evidence), std::move(diagnosis), limit};
+}
+
+}  // namespace fidservo::diagnose
