@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How small a defect is found, and how often a good plate is called bad: random defects (kind, size, place)
 // on 50 plates, rendered with the camera's noise and seen by the checks of the demo recipe.
 //
@@ -7,11 +8,11 @@
 #include "core/rig.h"
 #include "core/units.h"
 #include "plant/view/plate_view.h"
-#include "src/config/rig_file.h"
+#include "src/files/disk/durable_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/inspect/measure/checks.h"
 #include "src/inspect/measure/nominal_drawing.h"
 #include "src/inspect/recipe/pattern.h"
-#include "src/recording/durable_file.h"
 #include "src/report/chart.h"
 #include "src/report/page.h"
 

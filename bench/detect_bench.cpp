@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Detection and refinement of one frame of the machine's camera (1280 x 960, one tag of 300 px in view), with
 // libapriltag as it comes beside it. Median, p99 and worst of single frames, ms.
 #include "bench/frame_times.h"
@@ -5,9 +6,9 @@
 #include "tests/reference_camera.h"
 #include "tests/row_of_tags.h"
 #include "vision/camera_position.h"
-#include "vision/tag_choice.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_choice.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How long measuring takes, and how small a defect the comparison finds.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/random.h"
 #include "plant/view/plate_view.h"
 #include "tests/reference_camera.h"

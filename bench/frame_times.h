@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How the times of single frames are told: median, 99th percentile, worst.
 #include <algorithm>

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How long a hypothesis takes on a whole practice campaign: what a search does some hundred times.
 #include "core/rig.h"
 #include "gap/evidence.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/rig_file.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The live page against the run it shows.
 //
 //   stop    from the moment at which a browser sends "stop" until the stage's outputs are zero at the board,

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How punctual the control loop is while vision runs: lateness of its ticks at 1 kHz (median, 99 %, worst)
 // beside that of cyclictest, which does nothing else, at the same priority on the same machine. Both run for
 // FIDSERVO_LOOP_BENCH_S seconds (20).
 #include "control/stage_loop.h"
 #include "core/rig.h"
 #include "plant/view/plate_view.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/session/sight.h"
 #include "src/session/simulated_rig.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where the last micrometre of a fiducial-relative motion goes: random targets on the simulated rig, the
 // truth known here only. For every target, at the tick of arrival and along the stage axis,
 //

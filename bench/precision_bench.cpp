@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How precisely and how fast a tag is placed, against the Cramer-Rao bound and against other people's methods
 // on the same frames: precision_bench [REPORT.html] [SHARE]; the report
 // lies beside the program if not told otherwise. Takes some ten minutes; SHARE of the frames
@@ -8,8 +9,8 @@
 #include "bench/precision/precision_report.h"
 #include "tests/core_time.h"
 #include "tests/tag_precision/precision_trials.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Frames a second of the simulated camera, on one core, beside what a run in real time and more asks for.
 #include "bench/frame_times.h"
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "plant/view/plate_view.h"
 #include "tests/core_time.h"
 #include "tests/reference_camera.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Replay on all cores, from the files to the tables, against the work itself on one: decode and detect, image
 // by image. The demand is 85 % of  cores / (s per image to decode and detect on one core).
 //
@@ -7,12 +8,12 @@
 // Medians over the rounds, the worst round beside them.
 #include "core/input_error.h"
 #include "plant/view/plate_view.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/writer.h"
 #include "src/replay/replay.h"
 #include "tests/core_time.h"
 #include "tests/reference_camera.h"
 #include "tests/src/temporary_folder.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <algorithm>
 #include <array>

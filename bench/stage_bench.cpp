@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Speed of the stage's physics, without images: how many times faster than the rig one core simulates it,
 // beside the limit of 3,000; and the cost of the wire's hysteresis per sample, beside a direct evaluation of
 // the double integral over relays on the same grid.
@@ -5,7 +6,7 @@
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
 #include "plant/stage_plant.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/core_time.h"
 
 #include <algorithm>

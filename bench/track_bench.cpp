@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A tag followed from frame to frame on the machine's camera (1280 x 960, one tag of 300 px wholly in view,
 // the stage 10 um further in every frame, the prediction 3 um off), beside libapriltag on the same frames in
 // the same run. Core time of single frames, ms: median, p99, worst.
@@ -6,9 +7,9 @@
 #include "tests/core_time.h"
 #include "tests/reference_camera.h"
 #include "tests/row_of_tags.h"
-#include "vision/tag_choice.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_tracker.h"
+#include "vision/tags/tag_choice.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_tracker.h"
 
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/batch_variance.h"
 
 #include "calib/significance.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The variance of an estimate whose errors are correlated over an unknown time.
 //

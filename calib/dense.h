@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Algebra on dense matrices of any size. Every shape of factor makes the compiler write the general product
 // and the eigenvalue iteration anew, at seconds each; here they are written once.

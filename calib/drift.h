@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Whether measured numbers differ from what they should be: by more than chance, and by enough to matter.
 #include <span>

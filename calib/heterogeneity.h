@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Whether recordings agree on a number, and how much further off it can be where they do not.
 #include <cstddef>

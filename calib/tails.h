@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Tails of the laws by which estimates of unknown variance are judged, from the incomplete beta function.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What is installed for those who build on the libraries: find_package(fidservo CONFIG) gives them a target a room,
 # fidservo::core and its like. Two components: `program` is what a user needs, `development` what a programmer needs besides.
 

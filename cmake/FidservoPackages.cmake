@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Debian packages, by `./run package`: fidservo, what a user needs; libfidservo-dev, what a programmer needs besides;
 # python3-fidservo, the Python module.
 

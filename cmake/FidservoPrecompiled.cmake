@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What most files include, compiled once. A set of headers a kind of target: what is precompiled is read by every source,
 # and what only some need would cost the others more than it saves them.
 #

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # How every room of the house is compiled. Warnings are errors.
 
 # -O3 is for what a diagnosis follows by the million (FAST) and for loops over pixels, by source; elsewhere it only takes
@@ -66,7 +67,7 @@ function(fidservo_library name)
   fidservo_compiled_with(fidservo_${name} rooms ${ARG_GROUP})
 endfunction()
 
-# The allocator keeps what a diagnosis gives back, as in the program: the same bounds as in src/main.cpp.
+# The allocator keeps what a diagnosis gives back, as in the program: the same bounds as in src/cli/main.cpp.
 set(fidservo_test_environment "GLIBC_TUNABLES=glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=268435456")
 
 # fidservo_shards(NAME LABEL COUNT FILTER SERIAL): the cases of a test program that FILTER names, in COUNT processes.

@@ -1,4 +1,5 @@
-# Writes FILE, the source of src/commit.h, with what git calls the commit in SOURCE; "unknown" without git.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Writes FILE, the source of src/process/commit.h, with what git calls the commit in SOURCE; "unknown" without git.
 set(commit "unknown")
 if(GIT)
   execute_process(COMMAND ${GIT} -C ${SOURCE} describe --always --dirty --abbrev=12
@@ -7,7 +8,7 @@ if(GIT)
     set(commit ${described})
   endif()
 endif()
-file(CONFIGURE OUTPUT ${FILE} @ONLY CONTENT [[#include "src/commit.h"
+file(CONFIGURE OUTPUT ${FILE} @ONLY CONTENT [[#include "src/process/commit.h"
 
 namespace fidservo {
 

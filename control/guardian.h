@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The guardian: a small process of its own that owns the stage's output board and sets both outputs to zero
 // (motor and heater off) when the program is no longer in control of them: it ended in whatever way (signal,

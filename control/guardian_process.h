@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The guardian's own side: what runs in its process.
 #include "control/guardian.h"

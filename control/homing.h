@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Finding the end stop. The encoder is incremental: nothing is known of the position before. The carriage
 // follows a slow ramp towards the low end of travel; where it stands although the ramp goes on is the stop.

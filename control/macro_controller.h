@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The macro stage as its sensors allow: the nonlinear PD to a setpoint in counts, and whether it stands
 // still.

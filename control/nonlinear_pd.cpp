@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "control/nonlinear_pd.h"
 
 #include "core/macro_parameters.h"

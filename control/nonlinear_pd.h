@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The macro stage's controllers: e in counts, command in V, saturated to the board's range.
 #include "core/macro_parameters.h"

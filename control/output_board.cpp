@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "control/output_board.h"
 
 #include "core/input_error.h"

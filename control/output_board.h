@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The boundary to the board that drives the stage: two D/A outputs that hold their last value, whatever
 // happens to the program that wrote them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The supervisor of a motion to a fiducial-relative target, ticked at 1 kHz.
 //

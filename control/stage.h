@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The boundary to a stage: real board, simulated rig or anything else that takes two voltages and gives two
 // readings.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Whether a stage is there, before anything is entrusted to it: a driver answers without a board, and a board
 // without a stage. The motor is pushed shortly, first one way and, where that moves nothing, the other way

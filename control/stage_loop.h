@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The 1 kHz loop of a rig in real time: a thread of its own samples the stage at absolute deadlines, lets the
 // program that was handed to it control, and writes. It shares no lock with anybody and allocates nothing.

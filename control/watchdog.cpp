@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "control/watchdog.h"
 
 #include "core/dead_zone.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the 1 kHz loop itself watches, whoever controls: signs that the stage is not what the program takes it
 // for. Each of them ends the run with both commands at zero.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How a fiducial looks in a frame, beside where it is.
 #include "core/detection.h"

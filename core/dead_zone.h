@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Friction as a dead zone on the drive's voltage w (core/rig.h):
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A fiducial found in a frame, and what it says about where the camera is.
 #include "core/tag_families.h"

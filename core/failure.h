@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Why something that can go wrong on a healthy program did not yield a value (core/result.h).
 #include <string_view>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The plate of a rig file (assets/rig.yaml), checked, in memory.
 #include "core/tag_families.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An effect that somebody has written down as a formula at a port of the machine: the text of an effects file
 // (docs/effects.md), not yet looked at. What its names mean and whether it can be evaluated is for

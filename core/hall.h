@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The linear Hall sensor that sees the micro platform: published S-shaped curve of voltage against position.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What ends the program is an exception, with one line for the user.
 #include <stdexcept>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Libraries that are loaded when they are asked for: what brings many others is not in the program itself.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the program believes of its micro stage: the rig file's numbers, corrected by what it measured itself.
 #include "core/hall.h"

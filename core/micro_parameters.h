@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The micro stage of a rig file (assets/rig.yaml), checked, in memory. docs/notation.md states the equations.
 #include "core/hall.h"

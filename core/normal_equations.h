@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The normal equations of a fit with a few parameters, A x = b with A symmetric and positive.
 #include <Eigen/Cholesky>

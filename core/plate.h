@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The plate: fiducials and printed features at known places. Lengths in mm, plate frame (x along the stage
 // axis, y down in the image). Angles in rad, from x towards y.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The classical Preisach model of the shape-memory-alloy wire: temperature -> contraction.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One generator a noise source. Counter-based: draw k of a stream is a pure function of (seed, stream, k), so
 // a snapshot is one number, and adding a source does not disturb the others.

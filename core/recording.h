@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A recording in memory: one row per control tick, and the fiducials seen. Row k holds what was sampled at
 // tick k and the commands applied from tick k on (the voltages sent, after saturation).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What can go wrong at run time is a value: a result, or the reason why there is none.
 #include <string>

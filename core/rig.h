@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a rig is: the numbers of a rig file (assets/rig.yaml), checked, in memory. Parts that a rig does not
 // have are empty. docs/notation.md states the equations that the numbers enter.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/fiducial_parameters.h"
 #include "core/formula_effect.h"
 #include "core/macro_parameters.h"

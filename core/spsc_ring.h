@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A ring between exactly one producing and one consuming thread. All memory is taken at construction; neither
 // side ever waits for the other.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The code books of fiducials: what is printed for every id.
 #include <bitset>

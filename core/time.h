@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Time is a count of nanoseconds on one monotonic clock. A frame's time is the middle of its exposure.
 #include <cstdint>

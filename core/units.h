@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Stage positions are mm inside files and code, um where people read errors. Names carry the unit.
 

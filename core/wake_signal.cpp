@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/wake_signal.h"
 
 #include "core/input_error.h"

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where the fiducials of an image are, and how well that is known.
 //
 //     01_measure_tag IMAGE
 #include "core/input_error.h"
 #include "vision/images/image_file.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A step of the macro stage, simulated: a voltage into the carriage, its speed and place out.
 //
 //     02_macro_step RIG.yaml
 #include "core/rig.h"
 #include "plant/macro_axis.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <cmath>
 #include <cstdio>

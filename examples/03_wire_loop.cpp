@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The hysteresis loop of the shape-memory-alloy wire by its Preisach model, with a minor loop inside, and the
 // inverse of the model.
 //
@@ -5,7 +6,7 @@
 #include "core/input_error.h"
 #include "core/preisach.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <cstdio>
 

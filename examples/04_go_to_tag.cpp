@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A fiducial-relative move on the simulated rig: the camera beside a tag, as it measures itself.
 //
 //     04_go_to_tag RIG.yaml TAG DX_UM
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/session/session.h"
 
 #include <cstdio>

@@ -1,9 +1,9 @@
-// A camera's focal length and distortion from images of a grid of tags, seen from several sides. Here the
-// images are rendered by the simulator, so that the answer is known; of files they are read by
-// vision::read_grey(), as in the first example.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A camera's focal length and distortion from images of a grid of tags, seen from several sides. The images
+// are the simulator's, so that the answer is known; vision::read_grey() reads those in files.
 #include "calib/camera/target_images.h"
 #include "plant/view/plate_view.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <cstdio>
 #include <vector>

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A recording, written and read again: a second of the simulated rig, in the layout that all commands read.
 //
 //     06_recording RIG.yaml FOLDER        FOLDER must not exist
 #include "core/recording.h"
 #include "core/rig.h"
 #include "plant/stage_plant.h"
-#include "src/config/rig_file.h"
-#include "src/recording/reader.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/reader.h"
+#include "src/files/recording/writer.h"
+#include "src/files/rig/rig_file.h"
 
 #include <cmath>
 #include <cstdio>

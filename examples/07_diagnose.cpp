@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where recordings of a rig and its simulator disagree, and by which effect.
 //
 //     07_diagnose RIG.yaml FOLDER [EFFECT...]     the effects to try; all, if none is named
 #include "core/rig.h"
 #include "gap/diagnose.h"
-#include "src/config/rig_file.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/rig_file.h"
 
 #include <cstdio>
 #include <string>

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A stage of one's own behind the Stage boundary: a microcontroller at the end of a wire, in place of a
 // Comedi board. The session homes it and moves it to a tag as any other.
 //
 //     08_own_stage RIG.yaml
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/session/session.h"
 #include "src/session/simulated_rig.h"
 #include "wired_stage.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A stage behind a microcontroller at the end of a wire. This is the file to write for hardware of one's own.
 #include "control/stage.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From recordings to a diagnosis.
 #include "gap/diagnosis.h"

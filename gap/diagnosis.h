@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a diagnosis says: the fields of the file that `diagnose --json` writes, and what its report draws.
 #include "gap/evidence.h"

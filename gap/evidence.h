@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What recordings of a rig say about a hypothesis: how far its predictions are from what was measured.
 //

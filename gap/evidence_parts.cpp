@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/evidence_parts.h"
 
 #include "core/input_error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What Evidence holds: every recording prepared for every stretch of the signal chain.
 #include "core/rig.h"

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The camera as it is, as one geometry: the rig file's with the deviation on top.
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "plant/camera.h"
 
 namespace fidservo::plant {
@@ -10,7 +11,7 @@ struct ActualCamera {
     CameraGeometry geometry;
     Eigen::Vector2d foot_mm = Eigen::Vector2d::Zero();  ///< on the plate, beneath its centre at s = 0
 
-    /// core/camera_geometry.h's project() and back_project() about the foot.
+    /// core/camera/camera_geometry.h's project() and back_project() about the foot.
     Eigen::Vector2d image_px(const Eigen::Vector2d& plate_mm, double s_mm) const {
         return project(geometry, plate_mm - foot_mm, s_mm);
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/affine_step.h"
 
 #include <Eigen/Dense>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The exact step of a motion whose forces are straight lines between events, x' = A x + b:
 //

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The camera as it is: how it differs from what the rig file says of it.
 //
-// Geometry. The camera of the rig file (core/camera_geometry.h) sees a plate point at P in its own frame: u
-// to the right, v down, z towards the plate. The real one sees it at
+// Geometry. The camera of the rig file (core/camera/camera_geometry.h) sees a plate point at P in its own
+// frame: u to the right, v down, z towards the plate. The real one sees it at
 //
 //     P' = e + R_tilt (R_z P - e - d),   e = (0, 0, Z),     x = P'_x / P'_z,  y = P'_y / P'_z
 //
@@ -22,7 +23,7 @@
 // at the frame's time (Liang, Chang, Chen, IEEE Trans. Image Processing 17(8), 2008).
 //
 // What the program believes of the camera is the rig file; it never sees this.
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "plant/formulas/formulas.h"
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A command that acts late by any time, not only by whole ticks: what was given at t acts from t + delay on,
 // which may be within a tick. Before the first one 0 is in force.

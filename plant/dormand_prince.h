@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One step of the explicit Runge-Kutta pair of order 5 and 4 of Dormand and Prince, J. Comput. Appl. Math. 6
 // (1980), Table 2.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The macro stage's incremental encoder:  count = floor(y / resolution + 1/2) - origin.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Friction that acts on the carriage's motion, in volts, positive to the left when the carriage moves to the
 // right:

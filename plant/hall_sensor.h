@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The Hall sensor with its ADC: the published curve (core/hall.h), Gaussian noise, rounding, clamped to the
 // converter's range.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The macro stage: a printer carriage behind a saturated drive and a dead zone that stands for its friction.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The carriage's motion where it has no closed form: forces by position, friction on the motion, a belt,
 // play.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The micro stage: heater -> wire with hysteresis -> flexure platform -> Hall sensor. The platform moves with
 // the wire, and swings about it when the carriage accelerates:

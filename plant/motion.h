@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The carriage's motion between events, and the events that end it: what plant/mechanism.h moves it by.
 #include "core/dead_zone.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How exactly a carriage's motion is integrated.
 #include "plant/dormand_prince.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The carriage under a force by position, as a power series of time: all else that acts on it is a straight
 // line of its velocity,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The flexure platform as a mass on a spring, shaken by the carriage that carries it. Its deflection z,
 // beside where the wire holds it:

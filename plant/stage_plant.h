@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The rig as physics, without images: two voltages in, two readings out, tick by tick.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Forces by position that a carriage at rest feels too, in volts to the right. They add to the drive's
 // voltage before the dead zone, so that friction holds them while the carriage stands.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A wire and a second thermal mass (clamps, plates, mount) that takes heat from it and gives it back later:
 //

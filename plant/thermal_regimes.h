@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A wire that heats with one time constant and cools with another one, and what it shares its heat with:
 // linear within a regime, which may change within a tick.

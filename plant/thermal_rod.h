@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A wire whose second thermal mass (plant/thermal_pair.h) conducts heat within it, as a rod that the wire
 // ends in: n equal parts, each as warm as its middle,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Between motor and carriage: a belt that stretches, and play where it holds the carriage.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the parts of the module share. There is no logic here: each function calls the one that the program's
 // command calls, too.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // diagnose: in a thread of its own, while Python's own looks after signals and tells how it goes.
 #include "gap/evidence/parallel.h"
 #include "python/bindings.h"

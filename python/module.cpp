@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The compiled part of the Python package fidservo.
 #include "core/input_error.h"
 #include "gap/budget.h"
 #include "python/bindings.h"
-#include "src/recording/description.h"
+#include "src/files/recording/description.h"
 
 #include <glog/logging.h>
 

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rig: what a rig file says.
 #include "python/bindings.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/simulation/experiments.h"
 
 #include <map>

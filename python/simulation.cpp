@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // simulate: recordings of the simulated rig.
 #include "python/bindings.h"
 #include "src/simulation/planned_experiments.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // TagFinder: fiducials in an image, with the covariance of their places.
 #include "core/input_error.h"
 #include "python/bindings.h"

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The fiducial that the camera sees, without images: a pinhole that may look askew, its corners with noise.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/detection.h"
 #include "core/fiducial_parameters.h"
 #include "core/random.h"

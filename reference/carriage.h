@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The macro stage as a balance of forces, with the platform's flexure on top of it.
 //

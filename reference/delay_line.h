@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A command that acts late: within a tick, first what was commanded before, then what is commanded since.
 #include <array>

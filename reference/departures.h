@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a rig may have and its file does not state. Every field's default is neutral: the rig as its file
 // describes it. Forces on the carriage are in volts at the motor, as the rig file's gain is.

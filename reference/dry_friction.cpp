@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "reference/dry_friction.h"
 
 #include "core/macro_parameters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Another law for the wire's hysteresis on the same major loop: of Duhem's kind, with the present contraction
 // as its only memory. With the major loop's heating branch U(T) and cooling branch D(T), full stroke S and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From the wire's temperature to its contraction, by the law chosen.
 #include "reference/departures.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "reference/reference_rig.h"
 
 #include "core/demand.h"

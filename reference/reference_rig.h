@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An independent model of a rig, for checking what identifies and diagnoses rigs. It shares no formula with
 // plant/: forces in balance, time continuous and integrated by Runge-Kutta in sub-steps, events located in

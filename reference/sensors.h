@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the board reads: the carriage's encoder and the platform's Hall sensor.
 #include "core/hall.h"

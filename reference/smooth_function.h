@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A smooth function of one quantity that nobody has a formula for: a draw from a Gaussian process, as a sum
 // of cosines whose wave numbers are drawn from the spectrum of its kernel.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Frames of the fiducial nearest to the image centre, seen by a camera that looks straight down.
 //
@@ -14,7 +15,7 @@
 //
 // and a column the difference of its two edges. Out of focus, s grows, or a disc of light follows. Then come
 // the lamp's light, and what the sensor adds: shot noise, read noise, unequal gains, rounding to 8 bit.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/fiducial_parameters.h"
 #include "core/random.h"
 #include "reference/departures.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "reference/wire_temperature.h"
 
 #include "core/micro_parameters.h"

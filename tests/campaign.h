@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The shared practice campaigns, and how far their readings scatter by noise and rounding alone.
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 
 #include <cmath>
 #include <cstdlib>

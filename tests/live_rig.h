@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A rig in real time: the simulated stage goes on by the wall clock, whoever asks and however late, and a
 // camera's frame can be had of any moment of the last second.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Waiting for a camera in a test. The limit, which a test program's CMake file states, is for the case that
 // what is waited for never comes.

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 
 namespace fidservo {
 

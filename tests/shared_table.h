@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Columns of the shared text tables. Tests skip where the data are absent, unless FIDSERVO_REQUIRE_DATA is
 // set.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Many inputs of one kind, drawn at random: each has to be measured right or refused, none silently wrong.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The boundary to a camera: V4L2 or simulated.
 #include "core/result.h"

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vision/camera_position.h"
 
-#include "core/camera_slopes.h"
+#include "core/camera/camera_slopes.h"
 #include "core/failure.h"
-#include "vision/quad.h"
-#include "vision/tag_choice.h"
-#include "vision/tag_pattern.h"
+#include "vision/tags/quad.h"
+#include "vision/tags/tag_choice.h"
+#include "vision/tags/tag_pattern.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From a frame to where the camera is.
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "core/detection.h"
 #include "core/plate.h"
 #include "core/result.h"
 #include "vision/camera.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <optional>
 #include <vector>

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How far tags moved in the image since they were first seen, in um. Needs no rig: the tag's own side is the
 // scale.
 #include "core/detection.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <vector>
 

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How much the grey level of one pixel scatters, from the camera's data sheet or its calibration.
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fits the coefficients of a name's probability (gap/verdict/standing.h) to self-checks, and judges them on
 // families of effects that were left out of the fit: calibrate SELF-CHECK.json... > gap/verdict/calibration.h
 //
@@ -214,7 +215,8 @@ void calibrate(const std::vector<std::string>& files) {
     weigh(names);
     tell(names, judged_by_others(names));
     const Coefficients all = fitted(names);
-    fmt::print(R"(#pragma once
+    fmt::print(R"(// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
 // Coefficients of the probability of a name (gap/verdict/standing.h), written by `./run calibrate` from
 // self-checks:
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "bench/precision/child_detector.h"
 
 #include "core/input_error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A detector that must live in a process of its own: ViSP's libraries export C symbols of libapriltag's
 // names.

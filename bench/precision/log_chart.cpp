@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "bench/precision/log_chart.h"
 
 #include "src/report/html.h"

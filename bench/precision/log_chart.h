@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Points on two logarithmic axes as plain SVG, for src/report's style sheet.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What other people's methods make of the same frames.
 #include "tests/tag_precision/precision_trials.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The benchmark's outcome as one self-contained page.
 #include "tests/tag_precision/precision_trials.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The least-squares problem behind camera_calibration.h.
 #include "calib/camera/lens_projection.h"

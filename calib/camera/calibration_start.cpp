@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/camera/calibration_start.h"
 
 #include "calib/camera/plane_pose.h"
 #include "calib/dense.h"
 #include "core/failure.h"
 #include "core/median.h"
-#include "vision/tag_choice.h"
+#include "vision/tags/tag_choice.h"
 
 #include <algorithm>
 #include <cmath>

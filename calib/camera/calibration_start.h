@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where a camera's calibration begins: a lens and a pose of every view from nothing but corners.
 #include "calib/camera/bundle.h"
 #include "calib/camera/camera_calibration.h"
 #include "calib/camera/target_view.h"
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "core/result.h"
 
 #include <vector>

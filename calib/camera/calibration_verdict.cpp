@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/camera/calibration_verdict.h"
 
 #include "calib/camera/other_explanations.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Whether a camera's calibration is good enough, and if not, why.
 #include "calib/camera/camera_calibration.h"

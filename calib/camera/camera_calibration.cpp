@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/camera/camera_calibration.h"
 
 #include "calib/camera/bundle.h"

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A camera's lens from views of a flat target.
 #include "calib/camera/lens_projection.h"
 #include "calib/camera/plane_pose.h"
 #include "calib/camera/target_view.h"
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "core/result.h"
 
 #include <array>
@@ -74,10 +75,10 @@ struct CameraCalibration {
 };
 
 /// Bundle adjustment: weighted least squares of all measured directions of all tags' corners over the lens
-/// and a pose a view, Q = R P + t, image of Q by core/camera_geometry.h. Tags whose mean square exceeds 16
-/// times the median one are left out and the rest fitted again. Covariances are from the Jacobian, times the
-/// misfit where that is above 1. Source: Zhang, A flexible new technique for camera calibration, IEEE PAMI
-/// 22(11), 2000; Triggs et al., Bundle adjustment, a modern synthesis, 1999. Fails with
+/// and a pose a view, Q = R P + t, image of Q by core/camera/camera_geometry.h. Tags whose mean square
+/// exceeds 16 times the median one are left out and the rest fitted again. Covariances are from the Jacobian,
+/// times the misfit where that is above 1. Source: Zhang, A flexible new technique for camera calibration,
+/// IEEE PAMI 22(11), 2000; Triggs et al., Bundle adjustment, a modern synthesis, 1999. Fails with
 /// Reason::not_identifiable if no view has a tag or the views do not determine the lens at all (poorly
 /// determined numbers are returned, with their standard errors), Reason::no_convergence.
 Result<CameraCalibration> calibrate_camera(const std::vector<TargetView>& views,

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The projection of core/camera_geometry.h for solvers that differentiate it.
-#include "core/camera_geometry.h"
-#include "core/lens_picture.h"
+// The projection of core/camera/camera_geometry.h for solvers that differentiate it.
+#include "core/camera/camera_geometry.h"
+#include "core/camera/lens_picture.h"
 
 #include <array>
 #include <string_view>
@@ -79,7 +80,7 @@ inline void set_lens(CameraGeometry& camera, const Lens& lens) {
     camera.distortion = {lens[k1], lens[k2], lens[p1], lens[p2], lens[k3], lens[k4], camera.distortion.model};
 }
 
-/// Image point in px of a point in the camera's frame; the equations of core/camera_geometry.h, of an
+/// Image point in px of a point in the camera's frame; the equations of core/camera/camera_geometry.h, of an
 /// equidistant lens beyond its domain too. Such a lens has no p1 and p2 there; here they act on its picture,
 /// so that what their absence leaves open of the others can be told.
 template <class T>

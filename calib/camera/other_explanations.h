@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What else would explain the views of a calibration: another lens model, tags of another size beside their
 // distances, a grid of another number of columns, all views but one. Each is tried, by a calibration of its

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/camera/photon_transfer.h"
 
 #include "core/failure.h"

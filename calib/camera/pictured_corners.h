@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a refinement without a calibrated camera reports of a tag that a distorting lens shows.
 //
@@ -11,7 +12,7 @@
 // c_k: where the pinhole camera sees corner k; B: the eight directions in which a perspective picture can
 // change: 1, x, y for each coordinate, (x x, x y), (x y, y y). Source of the latter: Hartley, Zisserman,
 // Multiple View Geometry, 2nd ed., 2004, ch. 2.4.
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "core/plate.h"
 
 #include <array>

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/camera/plane_pose.h"
 
 #include "calib/dense.h"
-#include "core/camera_slopes.h"
-#include "vision/tag_choice.h"
+#include "core/camera/camera_slopes.h"
+#include "vision/tags/tag_choice.h"
 
 #include <cmath>
 

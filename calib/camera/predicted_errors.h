@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What other views of the same target would tell of a camera's focal length.
 #include "calib/camera/camera_calibration.h"

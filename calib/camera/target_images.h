@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A camera's lens from images of a flat target.
 #include "calib/camera/camera_calibration.h"
@@ -5,7 +6,7 @@
 #include "core/detection.h"
 #include "core/result.h"
 #include "vision/grey_noise.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <string>
 #include <vector>

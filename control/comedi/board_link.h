@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The boundary to a data acquisition board: what Comedi says and does, one channel at a time. The real one is
 // libcomedi (libcomedi_link.h); tests put a board of their own in its place.

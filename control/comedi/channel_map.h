@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which of a board's channels the stage is wired to.
 #include "control/comedi/board_link.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The stage on a Comedi board. The guardian process has the outputs, the program's loop the inputs: each
 // opens the board for itself.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A channel map checked against the board that is there: what is needed to turn volts into its numbers.
 #include "control/comedi/channel_map.h"

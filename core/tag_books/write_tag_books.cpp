@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes the table of tag families, as C++: write_tag_books FILE.cpp. Run at build time, so that the program
 // itself need not load OpenCV's ArUco module.
 #include "core/tag_families.h"

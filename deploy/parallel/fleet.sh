@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # fidservo fleet as shards by GNU parallel, on this machine or, with SSHLOGINFILE, on several that share the disk:
 #
 #   SHARDS=16 deploy/parallel/fleet.sh diagnose --rig rig.yaml recordings/*/* --out fleet

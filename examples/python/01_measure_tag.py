@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Fiducials in an image, each with the covariance of its place, and how well it is kept: the camera looks at a plate
 at rest, and the scatter of a tag's centre from frame to frame stands beside what is claimed for each frame."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A recording's columns as arrays: how well the carriage follows a square wave, from the recording alone."""
 
 import sys

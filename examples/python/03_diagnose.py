@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Why does a rig not do what its simulator does? Here the rig is simulated, with a motor that is weaker by a tenth:
 the diagnosis is given its recordings and the rig file, and finds what the file does not state."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A log of one's own, as arrays, made a recording by a map that says what each array is and in which unit; then the
 diagnosis is asked what kind of friction the axis has that its rig file does not state."""
 

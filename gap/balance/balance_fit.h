@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Effects of a carriage fitted to the balance of its forces.
 #include "gap/balance/force_balance.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/balance/balanced_springs.h"
 
 #include "gap/balance/balance_fit.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A spring along the rail that balances a carriage's forces best.
 #include "gap/balance/force_balance.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Waves of a force along the rail: as periods in the readings show them, and as they balance a carriage's
 // forces best.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The force that a carriage's prediction lacks, from its errors, without following the carriage.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/balance/force_balance.h"
 
 #include "core/dead_zone.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Whether the forces of a hypothesis balance along the way that a carriage was recorded to go, without
 // following it.

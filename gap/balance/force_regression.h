@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which effects of a carriage balance its forces together, without following it: orthogonal forward
 // regression (Chen, Billings, Luo, Int. J. Control 50, 1989).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Piecewise linear functions over knots, one for each knot: 1 there, 0 at all others.
 #include <algorithm>

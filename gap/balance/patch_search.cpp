@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/balance/patch_search.h"
 
 #include "gap/balance/carriage_forces.h"

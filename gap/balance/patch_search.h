@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The places on the rail where errors of the encoder show raised friction, if any.
 #include "gap/evidence.h"

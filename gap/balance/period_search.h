@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The periods in position that errors of the encoder show, if any.
 #include "gap/evidence.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where on its rail a carriage has slid most: where what depends on the place is looked for.
 //

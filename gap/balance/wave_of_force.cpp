@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/balance/wave_of_force.h"
 
 #include "gap/evidence/parallel.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A wave in any quantity that the forces lacking on a carriage show: of the command, as steps of a converter
 // make it, or of the place while the drive pushes, as a pulley makes it that runs out of true.

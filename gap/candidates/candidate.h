@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The effects that a diagnosis tries, and where their fits may begin.
 #include "gap/candidates/patch.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which effects meet in the same signals. What does not meet an effect is of no concern to its fit.
 #include "gap/evidence.h"

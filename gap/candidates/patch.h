@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Effects that are raised friction around a place on the rail.
 #include "plant/effects/effect.h"

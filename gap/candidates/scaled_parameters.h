@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Parameters of a hypothesis in lengths over which they matter, as fits change them.
 #include "gap/evidence.h"

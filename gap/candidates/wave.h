@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Effects that are waves along the rail, A sin(2 pi y / p + phase) of the place y.
 #include "plant/effects/effect.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/equation/equation.h"
 
 #include "gap/equation/equation_search.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An equation for what no named effect explains: a formula at a port of the machine, found in the recordings.
 //

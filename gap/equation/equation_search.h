@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The search for an equation: terms of the ports of a stage, fitted in the simulator and judged on the other
 // half of the windows.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/equation/kinds_left_out.h"
 
 #include "gap/candidates/coupling.h"

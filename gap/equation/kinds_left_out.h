@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Whether an equation holds for experiments of a kind that it was not fitted to.
 #include "gap/fit/cross_fit.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The recordings in which an explanation loses most: what is looked for shows there.
 #include "gap/evidence.h"

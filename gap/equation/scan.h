@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which terms of a port help most in a larger amount: what shifts a hysteresis is not linear in its amount,
 // and sparse regression (gap/equation/screening.h) may not see it.

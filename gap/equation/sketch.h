@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A formula on its way: terms of a port with values of their coefficients.
 #include "core/formula_effect.h"

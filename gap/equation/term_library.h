@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How terms are put together: powers, products, steps, bells, waves, lags of a variable that is known.
 #include "gap/equation/terms.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/equation/terms.h"
 
 #include "core/rig.h"

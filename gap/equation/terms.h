@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What an equation for a remainder may be made of: the terms that a port's formulas can have.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the formulas of a port saw along recordings, by the readings and the rig file's model.
 #include "gap/evidence.h"

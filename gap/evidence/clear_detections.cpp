@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/evidence/clear_detections.h"
 
 #include "core/rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Ticks that a loop left out because it was late.
 #include "core/recording.h"

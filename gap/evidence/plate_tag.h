@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which tag of the plate a detection is of.
 #include "core/plate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/fit/cross_fit.h"
 
 #include "gap/evidence/halves.h"

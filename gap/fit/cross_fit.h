@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A hypothesis fitted on each half of the windows and judged on the other.
 #include "gap/candidates/coupling.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/fit/fit.h"
 
 #include "gap/candidates/scaled_parameters.h"

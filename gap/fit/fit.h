@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The parameters of a hypothesis that predict recordings best.
 #include "gap/evidence.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Least squares where the data may not determine every unknown: of all solutions of A x = b, or of what comes
 // nearest to one, the shortest, by a complete orthogonal decomposition (Golub & Van Loan, Matrix

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Fits where derivatives mislead.
 #include "gap/candidates/coupling.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/fit/predictive_density.h"
 
 #include "gap/evidence/halves.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Linear models of what is left of a signal, many at a time: every window is condensed to the inner products
 // of its columns, from which any subset of the columns can be fitted on some windows and judged on others.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How well predictions do, window by window, and whether one hypothesis does better than another.
 //

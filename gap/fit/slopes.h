@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How errors change with parameters.
 #include "gap/candidates/scaled_parameters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/links/carriage_link.h"
 
 #include "gap/links/carriage_start.h"

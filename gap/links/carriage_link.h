@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From the macro command to the encoder: a hypothesis's carriage along a recording.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The carriage along a whole recording, put together from the runs of its windows.
 #include "gap/links/carriage_run.h"

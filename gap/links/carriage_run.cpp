@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/links/carriage_run.h"
 
-#include "calib/axis/macro_trace.h"
+#include "calib/macro/macro_trace.h"
 #include "core/macro_parameters.h"
 
 #include <algorithm>

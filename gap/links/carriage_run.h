@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a recording says of the carriage, and where it may be compared with a model of it.
 #include "core/macro_parameters.h"

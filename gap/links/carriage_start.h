@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The correction of a carried carriage state by the counts of the 100 ms after it (carriage_link.h).
 #include <span>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/links/controller_link.h"
 
 #include "control/nonlinear_pd.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From setpoints and readings to commands: the rig file's controllers, replayed on what was recorded.
 //

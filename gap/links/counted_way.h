@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The way that a carriage has covered by its counts, and what its mechanism remembers of it: how far its
 // bristles are bent (plant/friction.h), and on which side of its play it is (plant/transmission.h). Both

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The Hall readings without their noise, as far as the platform's motion allows.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How a tag looks in its frame: blur, light and noise, from what the camera is claimed to be.
 //
@@ -18,7 +19,7 @@
 //
 // Allowances bound what measurements are off by beyond their noise: under the truth, evenly spread within
 // them, a mean square is (floor^2 - 2/3 allowance^2) / floor^2.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/recording.h"
 #include "gap/evidence.h"
 #include "plant/camera.h"

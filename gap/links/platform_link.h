@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From the micro command to the Hall reading: a hypothesis's wire, platform and sensor along a recording.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/links/power_on.h"
 
 #include "core/hall.h"

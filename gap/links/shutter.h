@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How a camera exposes its frames, as far as the frames themselves show it before anything is fitted.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/links/wire_start.h"
 
 #include "core/median.h"

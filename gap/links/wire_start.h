@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // In which state a recording finds the wire.
 #include "gap/links/platform_link.h"

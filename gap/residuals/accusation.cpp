@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/residuals/accusation.h"
 
 #include "gap/residuals/tag_sight.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which block of the signal chain errors accuse, without a name for what is wrong there.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/dead_zone.h"
 #include "core/rig.h"
 #include "gap/balance/carriage_forces.h"

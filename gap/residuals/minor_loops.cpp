@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/residuals/minor_loops.h"
 
 #include "core/preisach.h"

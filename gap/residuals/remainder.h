@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What an explanation leaves, and what that depends on.
 #include "gap/diagnosis.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Whether tags are sheared by how they move: what frames look like whose rows are exposed one after the
 // other.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Flexible models of what may be wrong with a stretch of the signal chain, without a name for it: any
 // function of velocity, any function of position, any periodic function of position, and so on, each a group

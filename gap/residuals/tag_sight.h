@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A detection of a tag, with what the stages did while it was seen.
 #include "gap/evidence.h"

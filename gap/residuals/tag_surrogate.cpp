@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
 #include "gap/balance/hat_functions.h"
 #include "gap/residuals/surrogate.h"

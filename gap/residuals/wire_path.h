@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the wire of a rig file does at the temperatures of a recording, and what the platform makes of it.
 #include "gap/evidence.h"

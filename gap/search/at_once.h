@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What is found of many causes at once, before any is looked for one by one.
 #include "gap/search/chain.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How a search fits one effect closely: one way of going on after the other, as long as something is left.
 #include "gap/evidence/parallel.h"
 #include "gap/search/contender.h"

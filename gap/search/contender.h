@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a search knows of a candidate while it tries it beside a base.
 #include "gap/search/search.h"

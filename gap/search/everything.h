@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Beginning with everything: all candidates of signals whose predictions change smoothly with what is wrong,
 // fitted at once, and taken away what the data do not need.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How much a candidate promises, and from which values its fit should begin.
 #include "gap/candidates/candidate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How an explanation grows, effect by effect.
 #include "gap/search/chain.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Forces of a carriage among many small valleys.
 #include "gap/candidates/candidate.h"

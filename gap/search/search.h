@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One step of a search: which effect, added to what is known, predicts best what was not fitted.
 #include "gap/candidates/candidate.h"

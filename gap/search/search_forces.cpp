@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An explanation of the carriage from where its forces balance.
 #include "core/rig.h"
 #include "gap/balance/force_regression.h"

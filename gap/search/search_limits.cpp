@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An effect and what it comes to at a limit, each fitted from the other.
 #include "core/rig.h"
 #include "gap/evidence/parallel.h"

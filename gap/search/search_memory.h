@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a search has found out about a candidate, so that it need not find it out again beside another base
 // that differs only in what the candidate does not meet.

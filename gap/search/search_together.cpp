@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // All smooth candidates at once, of wire and view beside what is known of the carriage.
 #include "gap/balance/balanced_waves.h"
 #include "gap/search/everything.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Waves along the rail, whose losses have a valley for each way in which a carriage may go.
 #include "core/rig.h"
 #include "gap/evidence/parallel.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/selection.h"
 
 #include "gap/search/at_once.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which effects explain recordings: forward selection with exchange and deletion, judged on windows that were
 // not fitted.

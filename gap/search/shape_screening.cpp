@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/shape_screening.h"
 
 #include "gap/evidence/parallel.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which effect with a shape of its own explains most beside all smooth ones.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where fits of a candidate begin: at what its own grid promises, and at what errors show along the rail.
 #include "gap/balance/patch_search.h"

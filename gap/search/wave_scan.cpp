@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/wave_scan.h"
 
 #include "core/macro_parameters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A weak wave of force along the rail, looked for among all that there may be.
 #include "core/macro_parameters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/wave_starts.h"
 
 #include "gap/balance/balanced_waves.h"

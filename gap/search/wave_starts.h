@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From which waves along the rail a fit should begin.
 #include "gap/balance/period_search.h"

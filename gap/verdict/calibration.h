@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Coefficients of the probability of a name (gap/verdict/standing.h), written by `./run calibrate` from
 // self-checks:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Parameters of different effects that recordings determine only together.
 #include "gap/fit/fit.h"

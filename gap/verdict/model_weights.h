@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How probable each of several explanations is, by how well it predicts recordings that it was not fitted to.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What recordings cannot decide, and why, in words for people.
 #include "gap/candidates/candidate.h"

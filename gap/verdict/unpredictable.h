@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Windows in which nobody can say where the carriage goes.
 #include "gap/fit/cross_fit.h"

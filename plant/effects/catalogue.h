@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The effects that there are, by name, and how they are put into a plant.
 #include "plant/effects/effect.h"

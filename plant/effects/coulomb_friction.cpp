@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/macro_parameters.h"
 #include "plant/effects/creeping_friction.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Dry friction that lets the carriage creep at rest, a parameter that several effects share.
 #include "plant/effects/effect.h"

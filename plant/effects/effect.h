@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An unmodelled effect: something that a real rig has and its file does not state, as a change of the plant.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // "NAME:PARAMETER=VALUE,..." as the option --effect takes it.
 #include "core/input_error.h"
 #include "core/rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A formula effect that was looked at: its port, and its expressions ready to be evaluated.
 //

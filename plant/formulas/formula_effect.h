@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Formula effects as effects: known by name, tried, fitted and stated like those that are listed.
 #include "core/formula_effect.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The formulas that act at one site of a plant, with the values of their parameters, and what they remember.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The ports: where a formula may act on the machine, and what it may depend on there.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A rectangle of black and white cells, turned by any angle: fiducials, pads and lines.
 #include "plant/view/edge_profile.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How a straight edge looks after optical blur and integration over the area of a pixel.
 #include <vector>

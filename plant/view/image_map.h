@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where the plate's things are in the flat picture, for the painters.
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/view/light_field.h"
 
 #include "core/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How bright a perfect white would be at each pixel.
 #include "plant/view/view_options.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the camera's motion during the exposure does to the image: a convolution along u.
 #include <span>

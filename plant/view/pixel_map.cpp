@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/view/pixel_map.h"
 
-#include "core/camera_slopes.h"
+#include "core/camera/camera_slopes.h"
 
 #include <algorithm>
 

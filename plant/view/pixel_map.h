@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a camera that is not a similarity of the plate does to the flat picture (image_map.h).
 #include "plant/view/image_map.h"

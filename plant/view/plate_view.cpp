@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/view/plate_view.h"
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/random.h"
 #include "plant/actual_camera.h"
 #include "plant/view/light_field.h"

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The plate as the camera sees it.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/plate.h"
 #include "plant/camera.h"
 #include "plant/view/view_options.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What there is to see on a plate, ready to be painted: shapes in px, in the order in which they lie.
 #include "core/plate.h"

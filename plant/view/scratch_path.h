@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A scratch: a strip of constant width along a polyline, after blur and pixel integration.
 #include "plant/view/edge_profile.h"

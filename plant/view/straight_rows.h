@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Rows of reflectance of a camera whose image is a similarity of the plate: things are painted row by row
 // where they are, and the motion during the exposure, if there is any, is a convolution along u: it must be.

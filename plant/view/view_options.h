@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the plate's picture depends on beside the camera's data sheet.
 #include "core/plate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Rows of reflectance of any camera: every pixel is painted for itself, at the place in the flat picture
 // where it looks, and the motion during the exposure is a mean over places along the way. The same as

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Macro-micro positioning stages: their recordings, their simulator, their fiducials, and why rig and simulator disagree.
 
     rig = fidservo.Rig("rig.yaml")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a diagnosis says: the fields of the file that `fidservo diagnose --json` writes (docs/diagnosis.md)."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path

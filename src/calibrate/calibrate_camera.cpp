@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/calibrate/calibrate_camera.h"
 
 #include "calib/camera/other_explanations.h"
@@ -8,11 +9,12 @@
 #include "core/rig.h"
 #include "src/calibrate/camera_images.h"
 #include "src/calibrate/camera_report.h"
-#include "src/commands/commands.h"
-#include "src/config/camera_info.h"
-#include "src/config/rig_edit.h"
-#include "src/config/rig_file.h"
-#include "src/recording/durable_file.h"
+#include "src/files/disk/durable_file.h"
+#include "src/files/disk/output_paths.h"
+#include "src/files/rig/camera_info.h"
+#include "src/files/rig/rig_edit.h"
+#include "src/files/rig/rig_file.h"
+#include "src/process/exit_code.h"
 
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The command `calibrate camera`, behind its options.
 #include "calib/camera/calibration_verdict.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The camera-to-stage calibration as a command runs it: a homed rig, its moves, its numbers, its files.
 #include "core/plate.h"

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/calibrate/camera_images.h"
 
 #include "core/input_error.h"
-#include "src/config/tag_print_keys.h"
+#include "src/files/rig/tag_print_keys.h"
 #include "src/images/image_frames.h"
 #include "src/images/image_tally.h"
 #include "src/images/ordered_work.h"
 #include "src/replay/unread_tags.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <algorithm>
 #include <cmath>

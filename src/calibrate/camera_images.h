@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The images that a camera is calibrated from.
 #include "calib/camera/target_images.h"

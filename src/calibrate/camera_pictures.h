@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Pictures of a calibration in the image plane, as plain SVG.
 #include "calib/camera/calibration_verdict.h"

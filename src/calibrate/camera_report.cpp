@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/calibrate/camera_report.h"
 
 #include "src/calibrate/camera_pictures.h"
-#include "src/commit.h"
+#include "src/process/commit.h"
 #include "src/report/html.h"
 #include "src/report/page.h"
 #include "src/report/xy_chart.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a camera's calibration found, for people: a page and lines of text.
 #include "calib/camera/calibration_verdict.h"

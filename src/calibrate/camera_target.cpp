@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/calibrate/camera_target.h"
 
 #include "core/fiducial_parameters.h"
 #include "core/input_error.h"
-#include "src/config/key_names.h"
-#include "src/config/plate_file.h"
-#include "src/config/yaml_reader.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/text/key_names.h"
+#include "src/files/text/yaml_reader.h"
 
 #include <charconv>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What is printed on a camera's calibration target.
 #include "core/fiducial_parameters.h"

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a survey's stands say: the camera-to-stage map, the Hall sensor's curve against the camera, the length
 // of an encoder count.
-#include "calib/actuator/hall_curve.h"
-#include "calib/axis/encoder_scale.h"
-#include "calib/camera/stage_map.h"
+#include "calib/hall/hall_curve.h"
+#include "calib/macro/encoder_scale.h"
+#include "calib/stage/stage_map.h"
 #include "core/result.h"
 #include "src/calibrate/stage_survey.h"
 

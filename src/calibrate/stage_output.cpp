@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
 #include "src/calibrate/calibrate_stage.h"
 #include "src/calibrate/stage_values.h"
-#include "src/config/rig_edit.h"
-#include "src/recording/durable_file.h"
+#include "src/files/disk/durable_file.h"
+#include "src/files/rig/rig_edit.h"
 
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
 #include "core/units.h"
 #include "src/calibrate/calibrate_stage.h"

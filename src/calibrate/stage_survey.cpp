@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/calibrate/stage_survey.h"
 
 #include "core/failure.h"
 #include "core/rig.h"
 #include "vision/grey_noise.h"
-#include "vision/tag_choice.h"
+#include "vision/tags/tag_choice.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The moves of a stage calibration, and what camera and sensors say at rest after each.
 //
@@ -7,10 +8,10 @@
 //   extended  heater off until the platform has relaxed: zero of the platform's travel
 //   platform  from there the platform over its travel, up and down, the carriage at rest
 //   fresh     moves of both kinds at other places, for checking what was fitted to the others
-#include "calib/camera/stage_map.h"
+#include "calib/stage/stage_map.h"
 #include "core/result.h"
 #include "src/session/pilot.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <functional>
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/calibrate/stage_values.h"
 
 #include "core/rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A calibration's numbers as a list: for tables, JSON and the rig file's provenance.
 #include "src/calibrate/stage_numbers.h"

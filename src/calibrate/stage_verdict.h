@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Whether a calibration keeps on fresh moves what its standard errors promise, and whether a rig still is
 // what its file says.

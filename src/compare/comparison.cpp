@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/compare/comparison.h"
 
 #include "core/input_error.h"
@@ -24,7 +25,8 @@ constexpr double level = 0.01;
 std::shared_ptr<const gap::Budget> budget_for(const std::vector<Recording>& recordings,
                                               const std::function<bool()>& interrupted) {
     const diagnose::TimeLimit limit = diagnose::time_limit(recordings);
-    return std::make_shared<const gap::Budget>(limit.search_s, limit.whole_s, interrupted);
+    return std::make_shared<const gap::Budget>(limit.search_s, limit.whole_s, interrupted,
+                                               gap::Seconds::by_effort);
 }
 
 gap::Diagnosis diagnosed(const gap::Evidence& evidence, const std::function<void(std::string_view)>& tell) {

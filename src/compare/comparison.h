@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Before and after: what two sets of recordings of one rig say differently.
 //
@@ -10,6 +11,9 @@
 // is significant at 1 % over all parameters (Holm), and the second set is predicted by the first set's values
 // with errors that are larger by 1.1 or more than with its own, r.m.s. in floors: what is smaller is not
 // worth a finding (gap/fit/gap_size.h). Source: Holm, Scand. J. Stat. 6, 1979.
+//
+// Its time is counted by effort (gap/budget.h): what has changed on a rig is no matter of how busy a computer
+// is.
 #include "core/recording.h"
 #include "gap/diagnosis.h"
 

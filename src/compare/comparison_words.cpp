@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/compare/comparison.h"
 #include "src/diagnose/diagnosis_json.h"
 

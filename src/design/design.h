@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An experiment as numbers that a search may change: pieces of voltage or setpoint for either stage.
 #include "src/simulation/experiments.h"

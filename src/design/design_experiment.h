@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The experiment that tells best what recordings leave open.
 #include "gap/budget.h"

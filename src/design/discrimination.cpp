@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/design/discrimination.h"
 
 #include "gap/evidence/parallel.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How well a recording tells a rig that is as one explanation says from another explanation.
 #include "gap/evidence.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The explanations that a diagnosis leaves open beside its own: one of its effects exchanged for a rival.
 #include "gap/diagnosis.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What recordings leave open: explanations that do equally well, and how far their values may be off.
 #include "gap/diagnosis.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What an experiment is worth before it is recorded.
 #include "gap/budget.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Experiments from which a search for a better one begins.
 #include "core/random.h"

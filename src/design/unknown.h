@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How much an experiment teaches of what no named effect explains and no equation describes.
 #include "gap/diagnosis.h"

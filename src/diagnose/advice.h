@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What an effect is in words of the workshop, how to check on the rig that it is there, and how to cure it.
 #include <span>

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/designed_experiment.h"
 
 #include "core/rig.h"
 #include "src/diagnose/words.h"
-#include "src/interrupt.h"
+#include "src/process/interrupt.h"
 
 #include <algorithm>
 #include <cctype>

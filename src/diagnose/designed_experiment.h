@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The experiment that is designed for what a diagnosis leaves open.
 #include "gap/diagnosis.h"

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/diagnose_recordings.h"
 
 #include "core/rig.h"
-#include "src/config/effects_file.h"
 #include "src/diagnose/matters.h"
 #include "src/diagnose/next_experiment.h"
 #include "src/diagnose/thinned.h"
+#include "src/files/rig/effects_file.h"
 
 #include <algorithm>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From recordings to all that is said of them: the same for every command that diagnoses, and for Python.
 #include "gap/diagnose.h"

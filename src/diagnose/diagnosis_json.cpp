@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/diagnosis_json.h"
 
 #include "core/rig.h"
-#include "src/config/rig_edit.h"
 #include "src/diagnose/verdict_words.h"
+#include "src/files/rig/rig_edit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/frame_looks.h"
 
 #include "gap/budget.h"
@@ -5,7 +6,7 @@
 #include "src/images/grey_range.h"
 #include "src/images/image_frame.h"
 #include "vision/images/image_file.h"
-#include "vision/tag_appearance.h"
+#include "vision/tags/tag_appearance.h"
 
 #include <algorithm>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the frames of recordings show of their tags' looks.
 #include "core/recording.h"
@@ -17,7 +18,7 @@ namespace fidservo::diagnose {
 /// the recording has detections; half of them spread evenly, half where tags move fastest in the image.
 std::vector<FrameName> chosen_frames(const Recording& recording, std::size_t most);
 
-/// The appearances of a recording's detections in one of its frames (vision/tag_appearance.h).
+/// The appearances of a recording's detections in one of its frames (vision/tags/tag_appearance.h).
 void add_appearances(Recording& recording, TimeNs time_ns, const cv::Mat& image);
 
 /// Measures the detections of recordings in their frames, 1200 frames in all at most, shared evenly between

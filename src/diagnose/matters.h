@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a user says matters: how large a discrepancy of a signal may be before it is called a gap.
 #include "gap/diagnosis.h"

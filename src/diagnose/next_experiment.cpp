@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/next_experiment.h"
 
 #include "gap/evidence/halves.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The experiment that decides between causes that the recordings do not tell apart.
 #include "gap/diagnosis.h"

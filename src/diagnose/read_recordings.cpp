@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/read_recordings.h"
 
 #include "src/diagnose/frame_looks.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 
 #include <utility>
 

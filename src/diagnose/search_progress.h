@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a diagnosis tries, and how much of its time is gone, on stderr: one line that is written over on a
 // terminal, otherwise a line every few seconds.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Long recordings, as far as a diagnosis looks at them.
 #include "core/recording.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A diagnosis in one sentence of plain words.
 #include "gap/diagnosis.h"

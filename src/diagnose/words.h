@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the parts of a diagnosis are called in sentences for people.
 #include "gap/diagnosis.h"

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/campaign.h"
 
 #include "core/input_error.h"
+#include "src/files/recording/reader.h"
 #include "src/fleet/content.h"
 #include "src/fleet/task_name.h"
-#include "src/recording/reader.h"
 
 #include <set>
 #include <vector>

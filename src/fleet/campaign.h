@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A campaign as a fleet sees it: recordings of one rig, made at about one time.
-#include "src/recording/description.h"
+#include "src/files/recording/description.h"
 
 #include <filesystem>
 #include <string>

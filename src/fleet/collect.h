@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The results of all stretches as the tables of one `replay`.
 #include "src/fleet/stretch.h"

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/content.h"
 
 #include "core/input_error.h"
-#include "src/inspect/sha256.h"
+#include "src/files/disk/sha256.h"
 
 #include <algorithm>
 
@@ -23,15 +24,15 @@ std::string content_of(const fs::path& top, const std::vector<fs::path>& folders
     std::ranges::sort(files);
     std::string all;
     for (const fs::path& file : files)
-        all += fmt::format("{} {}\n", inspect::sha256_of_file(file), file.lexically_relative(top).string());
-    return inspect::sha256(all);
+        all += fmt::format("{} {}\n", sha256_of_file(file), file.lexically_relative(top).string());
+    return sha256(all);
 }
 
 std::string content_of_files(const std::vector<fs::path>& files) {
-    if (files.size() == 1) return inspect::sha256_of_file(files.front());
+    if (files.size() == 1) return sha256_of_file(files.front());
     std::string all;
-    for (const fs::path& file : files) all += inspect::sha256_of_file(file) + "\n";
-    return inspect::sha256(all);
+    for (const fs::path& file : files) all += sha256_of_file(file) + "\n";
+    return sha256(all);
 }
 
 }  // namespace fidservo::fleet

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a result is made from, as a fingerprint.
 #include <filesystem>

@@ -1,14 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/diagnose.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
+#include "src/files/rig/rig_file.h"
 #include "src/fleet/campaign.h"
 #include "src/fleet/content.h"
 #include "src/fleet/task_name.h"
-#include "src/inspect/sha256.h"
-#include "src/recording/description.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +41,7 @@ Common common_of(const DiagnoseRequest& request) {
             .rig = rig,
             .options = diagnose::options_of(asked, rig),
             .rig_content = content_of_files(files_of_rig(request.rig_file)),
-            .effects_content = asked.effects_file.empty() ? "" : inspect::sha256_of_file(asked.effects_file)};
+            .effects_content = asked.effects_file.empty() ? "" : sha256_of_file(asked.effects_file)};
 }
 
 /// All that a result is made from.
@@ -57,7 +56,7 @@ std::string key_of(const Common& common, const std::string& content) {
                       {"matters", request.asked.matters},
                       {"effort_s", request.effort_s},
                       {"program", this_program()}};
-    return inspect::sha256(inputs.dump());
+    return sha256(inputs.dump());
 }
 
 /// The diagnosis of a campaign as `diagnose --json` writes it, and how many rows might be predicted for it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // fidservo fleet diagnose: a campaign a task.
 #include "src/diagnose/diagnose_recordings.h"

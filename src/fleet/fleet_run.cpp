@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/fleet_run.h"
 
 #include "core/input_error.h"
-#include "src/interrupt.h"
-#include "src/progress.h"
+#include "src/process/interrupt.h"
+#include "src/process/progress.h"
 
 #include <algorithm>
 #include <cstdio>

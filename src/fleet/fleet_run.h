@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the tasks of a fleet have in common, whatever they do.
 #include "src/fleet/result_store.h"

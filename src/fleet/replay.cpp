@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/replay.h"
 
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/disk/sha256.h"
+#include "src/files/recording/description.h"
+#include "src/files/rig/rig_file.h"
 #include "src/fleet/collect.h"
 #include "src/fleet/content.h"
 #include "src/fleet/stretch.h"
 #include "src/fleet/stretch_result.h"
 #include "src/fleet/task_name.h"
 #include "src/images/image_frames.h"
-#include "src/inspect/sha256.h"
-#include "src/recording/description.h"
 #include "src/replay/tag_finder.h"
 
 #include <algorithm>
@@ -84,16 +85,16 @@ class StretchTasks {
     /// Of a video its file; of images what they are read from, page and bits, and when they were taken.
     std::string content_of_stretch(const Stretch& stretch) const {
         const ImageFrames::Series series = frames_.series()[stretch.series];
-        if (series.is_video) return inspect::sha256_of_file(series.name);
+        if (series.is_video) return sha256_of_file(series.name);
         std::string all, last_content;
         fs::path last;
         each_frame(stretch, [&](const ImageFrame& frame) {
-            if (frame.file != last) last_content = inspect::sha256_of_file(frame.file);
+            if (frame.file != last) last_content = sha256_of_file(frame.file);
             last = frame.file;
             all += fmt::format("{} {} {} {} {}\n", last_content, frame.page, frame.bits,
                                frame.time_ns ? fmt::format("{}", *frame.time_ns) : "-", frame.from_recording);
         });
-        return inspect::sha256(all);
+        return sha256(all);
     }
 
     ResultName name_of(const Stretch& stretch, const std::string& content) const {
@@ -109,7 +110,7 @@ class StretchTasks {
                           {"inverted", print.inverted},
                           {"mirrored", request_.reading.mirrored},
                           {"program", this_program()}};
-        return {stretch.stem(), inspect::sha256(inputs.dump())};
+        return {stretch.stem(), sha256(inputs.dump())};
     }
 
     Json head_of(const Stretch& stretch, const std::string& content, const ResultName& name) const {

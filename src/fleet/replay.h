@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // fidservo fleet replay: a stretch of images a task.
 #include "src/fleet/fleet_run.h"
 #include "src/images/image_names.h"
-#include "vision/tag_book.h"
+#include "vision/tags/tag_book.h"
 
 #include <filesystem>
 #include <vector>

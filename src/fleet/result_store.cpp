@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/result_store.h"
 
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/result.h"
-#include "src/recording/durable_file.h"
+#include "src/files/disk/durable_file.h"
 
 #include <cerrno>
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The results of a fleet: a folder in which a result appears whole, once, whoever else writes there.
 #include <filesystem>

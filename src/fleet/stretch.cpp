@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/stretch.h"
 
 #include "src/fleet/task_name.h"

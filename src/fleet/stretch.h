@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Very many images, cut into stretches.
 #include "src/images/image_frames.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/stretch_result.h"
 
 #include "src/replay/replay_tables.h"

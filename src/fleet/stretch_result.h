@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What is found in a stretch of images, as its result holds it.
 #include "src/images/image_frame.h"

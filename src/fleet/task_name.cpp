@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/task_name.h"
 
-#include "src/inspect/sha256.h"
+#include "src/files/disk/sha256.h"
 
 #include <fmt/format.h>
 
@@ -35,7 +36,7 @@ std::string file_stem(const std::string& noted) {
             stem += fmt::format("%{:02X}", static_cast<unsigned char>(letter));
     }
     if (stem.size() <= most_bytes) return stem;
-    return inspect::sha256(noted).substr(0, digest_digits) + "%" + stem.substr(stem.size() - most_bytes);
+    return sha256(noted).substr(0, digest_digits) + "%" + stem.substr(stem.size() - most_bytes);
 }
 
 }  // namespace fidservo::fleet

@@ -1,7 +1,8 @@
-#include "calib/actuator/hall_curve.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/hall/hall_curve.h"
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/plate_file.h"
+#include "src/files/rig/plate_file.h"
 #include "src/identify/identify.h"
 #include "vision/camera_position.h"
 

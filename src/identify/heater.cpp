@@ -1,4 +1,5 @@
-#include "calib/actuator/heater_fit.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/wire/heater_fit.h"
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/result.h"

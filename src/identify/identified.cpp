@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/identify/identified.h"
 
 #include "calib/tails.h"
 #include "core/rig.h"
-#include "src/config/rig_edit.h"
-#include "src/recording/durable_file.h"
+#include "src/files/disk/durable_file.h"
+#include "src/files/rig/rig_edit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What an identification found, as it is printed, written as JSON and into a rig file.
 #include "core/preisach.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The identifications behind the commands identify and calibrate. Each throws InputError where the input
 // lacks what it needs; what the data do not determine is listed in the answer.

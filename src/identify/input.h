@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What identifications read: recordings of a rig, or a text table.
 #include "core/recording.h"

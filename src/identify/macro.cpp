@@ -1,5 +1,6 @@
-#include "calib/axis/macro_force.h"
-#include "calib/axis/macro_identification.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/macro/macro_force.h"
+#include "calib/macro/macro_identification.h"
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/result.h"

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/identify/text_table.h"
 
 #include "core/demand.h"
 #include "core/input_error.h"
+#include "src/files/table/clock_time.h"
+#include "src/files/table/plain_table.h"
 #include "src/identify/column_units.h"
-#include "src/table/clock_time.h"
-#include "src/table/plain_table.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Columns of numbers from a text table that somebody else made.
-#include "src/table/table_structure.h"
+#include "src/files/table/table_structure.h"
 
 #include <filesystem>
 #include <span>
@@ -41,7 +42,7 @@ struct TextTable {
     std::size_t rows() const { return columns.front().values.size(); }
 };
 
-/// Reads columns of a table that any program wrote (src/table/plain_table.h). A column's unit is the
+/// Reads columns of a table that any program wrote (src/files/table/plain_table.h). A column's unit is the
 /// choice's; else that of its title (column_units.h), or of the line of units below the titles. A column with
 /// the role `time` may hold times of day (clock_time.h): they become seconds from the first row's. Throws
 /// InputError "FILE:LINE: ..." on a column that is not there or that two titles mean, units that contradict

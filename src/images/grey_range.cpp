@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/images/grey_range.h"
 
 #include "src/images/ordered_work.h"
-#include "src/progress.h"
+#include "src/process/progress.h"
 
 #include <algorithm>
 #include <optional>

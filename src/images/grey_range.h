@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which of the bits of a sequence's samples are used. Cameras of 10, 12 and 14 bits are saved in samples
 // of 16.

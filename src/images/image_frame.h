@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A frame of the images, stacks, recordings and videos that a user gives.
 #include "core/result.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The one reader of images: recordings, folders, stacks, videos and single images as one ordered sequence.
 #include "src/images/image_frame.h"

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/images/image_list.h"
 
 #include "core/input_error.h"
 #include "core/result.h"
+#include "src/files/recording/reader.h"
 #include "src/images/image_times.h"
-#include "src/recording/reader.h"
 #include "vision/images/image_file.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a user gives as images, as lists of frames, without decoding any.
 #include "src/images/grey_range.h"

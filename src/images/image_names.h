@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What names of images and videos tell: their kind, their order, and times where people write them into
 // names.

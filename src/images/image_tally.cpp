@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/images/image_tally.h"
 
 #include <algorithm>

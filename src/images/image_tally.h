@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What became of the frames that were to be read.
 #include "src/images/image_frame.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "src/images/image_frame.h"
 #include "src/images/image_names.h"

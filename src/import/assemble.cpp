@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/assemble.h"
 
 #include "core/input_error.h"
-#include "src/config/plate_file.h"
+#include "src/files/rig/plate_file.h"
 #include "src/import/resample.h"
 #include "src/import/signal_times.h"
 

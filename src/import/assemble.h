@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A recording out of logs, as a map says.
 #include "core/recording.h"
+#include "src/files/recording/layout.h"
 #include "src/import/import_map.h"
 #include "src/import/log.h"
-#include "src/recording/layout.h"
 
 #include <array>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Offset and rate between two clocks, from a motion that signals on both have seen.
 #include <string>

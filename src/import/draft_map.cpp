@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/draft_map.h"
 
 #include "src/identify/column_units.h"

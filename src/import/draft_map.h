@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a log holds, for people, and a map to edit.
 #include "src/import/log.h"

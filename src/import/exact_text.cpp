@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/files/recording/row_format.h"
 #include "src/import/recording_folder.h"
-#include "src/recording/row_format.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/export_log.h"
 
 #include "core/input_error.h"
-#include "src/config/plate_file.h"
+#include "src/files/disk/durable_file.h"
+#include "src/files/recording/layout.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/plate_file.h"
 #include "src/import/import_map.h"
 #include "src/import/import_module.h"
 #include "src/import/recording_folder.h"
-#include "src/recording/durable_file.h"
-#include "src/recording/layout.h"
-#include "src/recording/reader.h"
 
 #include <algorithm>
 #include <cmath>

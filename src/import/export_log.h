@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A recording as signals that other programs read, with the map by which an import gives it back.
 #include "src/import/log.h"

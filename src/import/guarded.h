@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A library's reader in a process of its own: a file that makes the library crash, loop or take all memory
 // costs one line, not the program.

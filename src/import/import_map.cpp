@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/import_map.h"
 
+#include "src/files/recording/description.h"
+#include "src/files/recording/layout.h"
 #include "src/identify/column_units.h"
-#include "src/recording/description.h"
-#include "src/recording/layout.h"
 
 #include <algorithm>
 #include <utility>

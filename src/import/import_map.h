@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The map that binds a log's signals to a recording: format fidservo-map/1 (docs/import.md).
 #include "core/recording.h"
-#include "src/config/yaml_reader.h"
-#include "src/recording/description.h"
-#include "src/table/table_structure.h"
+#include "src/files/recording/description.h"
+#include "src/files/table/table_structure.h"
+#include "src/files/text/yaml_reader.h"
 
 #include <filesystem>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The libraries of other programs' formats (libmatio, libhdf5, SQLite), behind a module that is loaded when
 // the first such file is opened: what they depend on takes longer to load than the program.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What another program's file of measurements holds, whatever its format: signals, cameras, texts.
 #include "core/time.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A log's signals, texts and notes as bytes, from one process of this program to another.
 #include "src/import/log.h"

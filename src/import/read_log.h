@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The one reader of other programs' logs: which format a file is in is told by what it begins with.
+#include "src/files/table/table_structure.h"
 #include "src/import/log.h"
-#include "src/table/table_structure.h"
 
 #include <filesystem>
 

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/recording_folder.h"
 
 #include "core/input_error.h"
-#include "src/config/plate_file.h"
-#include "src/interrupt.h"
-#include "src/recording/durable_file.h"
-#include "src/recording/row_format.h"
+#include "src/files/disk/durable_file.h"
+#include "src/files/recording/row_format.h"
+#include "src/files/rig/plate_file.h"
+#include "src/process/interrupt.h"
 #include "vision/images/image_file.h"
 
 #include <string_view>

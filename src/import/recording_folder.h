@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An imported recording as a folder, every number as it was logged.
 #include "src/import/assemble.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Signals with times of their own on the rows of a recording.
 #include "core/time.h"

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/signal_times.h"
 
 #include "core/input_error.h"
-#include "src/config/key_names.h"
+#include "src/files/text/key_names.h"
 #include "src/import/clock_fit.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Signals of logs as the map asks for them: found, in the recording's unit, with times on its clock.
 #include "src/import/import_map.h"

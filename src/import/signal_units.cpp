@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input_error.h"
 #include "src/identify/column_units.h"
 #include "src/import/signal_times.h"

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/table_log.h"
 
 #include "core/input_error.h"
+#include "src/files/table/clock_time.h"
+#include "src/files/table/plain_table.h"
 #include "src/identify/column_units.h"
-#include "src/table/clock_time.h"
-#include "src/table/plain_table.h"
 
 #include <algorithm>
 #include <charconv>

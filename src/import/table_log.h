@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A text table (src/table/plain_table.h) as signals.
+// A text table (src/files/table/plain_table.h) as signals.
+#include "src/files/table/table_structure.h"
 #include "src/import/log.h"
-#include "src/table/table_structure.h"
 
 #include <filesystem>
 

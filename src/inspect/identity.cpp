@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/identity.h"
 
 #include "core/rig.h"
-#include "src/commit.h"
-#include "src/inspect/sha256.h"
+#include "src/files/disk/sha256.h"
+#include "src/process/commit.h"
 
 #include <set>
 

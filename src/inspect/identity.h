@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a run depends on, as fingerprints.
 #include "src/inspect/journal.h"

@@ -1,11 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/inspection_run.h"
 
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/commands/commands.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
+#include "src/files/disk/output_paths.h"
+#include "src/files/recording/utc_time.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/inspect/identity.h"
 #include "src/inspect/journal.h"
 #include "src/inspect/live_progress.h"
@@ -17,7 +19,7 @@
 #include "src/inspect/run_json.h"
 #include "src/inspect/saved_images.h"
 #include "src/live/live_server.h"
-#include "src/recording/utc_time.h"
+#include "src/process/exit_code.h"
 #include "src/session/camera_choice.h"
 
 #include <algorithm>

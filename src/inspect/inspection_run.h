@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A whole inspection, from the recipe to the report; or what is left of one that was killed.
 #include "src/inspect/measure/results.h"

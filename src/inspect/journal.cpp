@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/journal.h"
 
 #include "core/input_error.h"
-#include "src/inspect/durable.h"
+#include "src/files/disk/durable.h"
 #include "src/inspect/visit_json.h"
 
 #include <fstream>

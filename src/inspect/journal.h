@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The memory of a run that may be killed at any moment: one JSON line for what began, one for each visit that
 // ended, each on the disk before the run goes on. A line that was cut short does not count.

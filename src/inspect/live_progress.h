@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the live page is told of an inspection.
 #include "src/inspect/measure/results.h"

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/saved_images.h"
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "src/images/grey_range.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // `--camera images:DIR`: the images of an earlier run measured again, by today's recipe; nothing moves.
 #include "core/result.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A visit as JSON, exactly: what is read back equals what was written, to the last bit.
 #include "src/inspect/measure/results.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the live page shows, collected from the feed by one thread and sent to browsers by others.
 #include "core/micro_model.h"

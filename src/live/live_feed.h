@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a run shows of itself while it is under way, and what it is asked. The run's thread puts things here
 // and never waits for whoever looks at them: there is no lock between the two. What nobody takes in time is

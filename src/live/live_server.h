@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The live page: a small web server on this machine's loopback interface that shows a run and can pause and
 // stop it.

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/record/campaign_file.h"
 
 #include "core/input_error.h"
-#include "src/inspect/sha256.h"
-#include "src/recording/durable_file.h"
+#include "src/files/disk/durable_file.h"
+#include "src/files/disk/sha256.h"
 
 #include <fstream>
 
@@ -19,7 +20,7 @@ std::filesystem::path campaign_file(const ExperimentOptions& options) {
 
 nlohmann::ordered_json campaign_json(const ExperimentOptions& options) {
     return {{"format", "fidservo-campaign/1"},
-            {"rig_sha256", inspect::sha256_of_file(options.session.rig_file)},
+            {"rig_sha256", sha256_of_file(options.session.rig_file)},
             {"seed", options.session.seed},
             {"stage", options.session.stage},
             {"camera", options.session.camera}};

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What an experiment would do to a rig, told in advance from the rig file.
 #include "core/recording.h"

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An experiment on the rig at hand: its law at every tick, and the camera's frames beside it.
 #include "core/result.h"
-#include "src/progress.h"
+#include "src/process/progress.h"
 #include "src/session/session.h"
 #include "src/simulation/experiments.h"
 

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/record/plan.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/stage_keys.h"
+#include "src/files/recording/description.h"
+#include "src/files/rig/stage_keys.h"
 #include "src/record/foresight.h"
 #include "src/record/start.h"
-#include "src/recording/description.h"
 #include "src/session/home.h"
 #include "src/session/motion_params.h"
 #include "src/session/stage_choice.h"

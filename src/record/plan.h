@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What `record` is to do: which experiments, in which folders, and how long that takes.
 #include "src/session/session.h"

@@ -1,17 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/record/record_experiments.h"
 
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/commands/commands.h"
-#include "src/commands/session_options.h"
-#include "src/config/rig_file.h"
-#include "src/inspect/measure/output.h"
-#include "src/progress.h"
+#include "src/files/disk/output_paths.h"
+#include "src/files/recording/writer.h"
+#include "src/files/rig/rig_file.h"
+#include "src/process/exit_code.h"
+#include "src/process/progress.h"
 #include "src/record/campaign_file.h"
 #include "src/record/on_rig.h"
 #include "src/record/start.h"
-#include "src/recording/writer.h"
 #include "src/session/pilot.h"
 #include "src/simulation/experiment_law.h"
 
@@ -75,7 +75,7 @@ RecordingOptions recording_of(const PlannedRun& run, bool frames) {
 bool record_one(Session& session, ExperimentStart& start, const PlannedRun& run, bool frames) {
     const auto remark = start.bring_to(run.experiment.carriage_mm);
     if (!remark) stop_run(session, run.name + ": on the way to its start", remark.error());
-    inspect::set_aside(run.folder);
+    set_aside(run.folder);
     session.record_to(run.folder, recording_of(run, frames));
     if (!remark->empty()) session.pilot().machine.note("start", *remark);
     Progress progress("s of " + run.name, static_cast<std::size_t>(run.experiment.duration_s));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/record/start.h"
 
 #include "core/micro_parameters.h"

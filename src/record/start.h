@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where experiments begin: the carriage at a place, the wire cold, everything at rest.
 #include "core/result.h"

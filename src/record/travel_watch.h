@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Whether a carriage that somebody else's commands move stays on its travel.
 #include <optional>

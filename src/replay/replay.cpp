@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/replay/replay.h"
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "src/images/ordered_work.h"
-#include "src/progress.h"
+#include "src/process/progress.h"
 #include "src/replay/replay_tables.h"
 #include "src/replay/tag_finder.h"
 #include "vision/displacement.h"

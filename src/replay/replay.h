@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "src/images/image_frames.h"
 #include "src/images/image_tally.h"
 #include "src/replay/unread_tags.h"
-#include "vision/tag_book.h"
+#include "vision/tags/tag_book.h"
 
 #include <cstddef>
 #include <filesystem>

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/replay/replay_tables.h"
 
 #include "core/input_error.h"
 #include "core/result.h"
-#include "src/recording/layout.h"
-#include "src/recording/row_format.h"
+#include "src/files/recording/layout.h"
+#include "src/files/recording/row_format.h"
 
 #include <utility>
 

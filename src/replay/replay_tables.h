@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // detections.csv and displacements.csv as `replay` writes them.
 #include "core/detection.h"
+#include "src/files/disk/durable_file.h"
 #include "src/images/image_frame.h"
-#include "src/recording/durable_file.h"
 #include "vision/displacement.h"
 
 #include <filesystem>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/replay/tag_finder.h"
 
-#include "core/camera_parameters.h"
-#include "vision/contrast_regions.h"
+#include "core/camera/camera_parameters.h"
+#include "vision/tags/contrast_regions.h"
 
 #include <algorithm>
 

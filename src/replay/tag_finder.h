@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From a frame to its fiducials, as precise as they can be had.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/detection.h"
 #include "src/images/image_frame.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <optional>
 #include <vector>
@@ -22,9 +23,9 @@ struct FrameResult : FoundTags {
 };
 
 /// Finds the tags of images; one a thread. Those of a recording are searched as the rig's own camera's, where
-/// there is contrast (vision/contrast_regions.h); everything else as photographs, everywhere. Images of the
-/// camera's size are taken to be the camera's, if there is one: its geometry and noise then help to measure
-/// the tags. What is found in an image depends on that image alone.
+/// there is contrast (vision/tags/contrast_regions.h); everything else as photographs, everywhere. Images of
+/// the camera's size are taken to be the camera's, if there is one: its geometry and noise then help to
+/// measure the tags. What is found in an image depends on that image alone.
 class TagFinder {
   public:
     explicit TagFinder(const std::optional<CameraParameters>& camera = {},

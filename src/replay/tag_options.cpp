@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/replay/tag_options.h"
 
 #include "core/input_error.h"
-#include "src/config/tag_print_keys.h"
+#include "src/files/rig/tag_print_keys.h"
 
 #include <fmt/format.h>
 

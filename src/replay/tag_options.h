@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What is looked for in images that exist, as users say it: `replay`, `fleet replay` and Python.
 #include "core/rig.h"
 #include "src/images/image_names.h"
-#include "vision/tag_book.h"
+#include "vision/tags/tag_book.h"
 
 #include <filesystem>
 #include <string>

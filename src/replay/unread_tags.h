@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What to say where images were searched for tags, and none or few were found.
-#include "vision/other_readings.h"
-#include "vision/tag_book.h"
+#include "vision/tags/other_readings.h"
+#include "vision/tags/tag_book.h"
 
 #include <cstddef>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Charts as plain SVG: no script, sharp on paper. Colours come from the page's style sheet.
 #include <optional>

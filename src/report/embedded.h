@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Text that is compiled into the program: style sheets and scripts of the reports and of the live page.
 #include <string_view>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The skeleton of every report: one self-contained HTML file that works offline, light and dark.
 #include <string>

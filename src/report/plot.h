@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Traces over time that the reader zooms and pans (drawn by uPlot, src/web/report.js).
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Axes of a chart in plain SVG. Colours come from the page's style sheet.
 #include <string>

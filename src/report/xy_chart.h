@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One quantity over another as plain SVG: loops, characteristics, anything that is not a trace over time.
 #include <string>

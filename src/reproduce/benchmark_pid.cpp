@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The benchmark PID and its stick-slip limit cycle (fig. 17).
 #include "core/random.h"
 #include "core/rig.h"

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the publication leaves for later: friction beside the dead zone, the carriage shaking the platform, a
 // second thermal mass. Here as effects of the simulator (plant/effects), against the same run without them.
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/writer.h"
 #include "src/reproduce/chapters.h"
 #include "src/reproduce/figures.h"
 #include "src/reproduce/step_response.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the report on the published system is made of: chapters, each with its figures and the claims that
 // they decide.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The chapters of the report, each from its own experiments. They throw InputError where the rig lacks what
 // they need.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The Hall sensor's calibration: displacement by the camera against the converter's reading.
 #include "core/hall.h"
 #include "core/input_error.h"

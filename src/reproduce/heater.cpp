@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The heater: temperature inferred from position through the inverse hysteresis, then static gain, heating
 // and cooling (fig. 13 to 16).
-#include "calib/actuator/heater_fit.h"
+#include "calib/wire/heater_fit.h"
 #include "core/input_error.h"
 #include "core/random.h"
 #include "core/rig.h"

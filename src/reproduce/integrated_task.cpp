@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The integrated task (fig. 22): the macro stage moves and settles, then the camera leads the micro stage.
 // This runs the program's own session, through rendered images, on the simulated rig.
 #include "core/input_error.h"
 #include "core/result.h"
 #include "core/rig.h"
-#include "src/config/plate_file.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/plate_file.h"
 #include "src/reproduce/chapters.h"
 #include "src/reproduce/figures.h"
 #include "src/session/session.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where the experiments are made: the independent model of the rig (reference/), under the published
 // controllers. What identifies the rig has not seen it. Every recording is kept.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The PI with anti-windup on the micro stage: sequential steps (fig. 21), and bandwidth over the full travel.
 #include "core/rig.h"
 #include "src/report/xy_chart.h"

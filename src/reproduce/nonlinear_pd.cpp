@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The nonlinear PD on a decaying square wave (fig. 18, 19), and both readings of eq. 9.
 #include "core/rig.h"
 #include "src/reproduce/chapters.h"

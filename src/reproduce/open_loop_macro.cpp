@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The macro stage in open loop: identified as published, then predicted with the plain dead zone (eq. 5) and
 // with the modified one (eq. 7, fig. 9).
-#include "calib/axis/macro_step_response.h"
+#include "calib/macro/macro_step_response.h"
 #include "core/input_error.h"
 #include "core/result.h"
 #include "core/rig.h"

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/reproduce/reproduce.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/commit.h"
-#include "src/config/rig_file.h"
-#include "src/progress.h"
-#include "src/recording/durable_file.h"
+#include "src/files/disk/durable_file.h"
+#include "src/files/rig/rig_file.h"
+#include "src/process/commit.h"
+#include "src/process/progress.h"
 #include "src/report/html.h"
 #include "src/report/page.h"
 #include "src/reproduce/chapters.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The experiments of the published system, on the simulated rig, in one report.
 #include "src/reproduce/chapter.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How a controlled stage answers a step of its set point.
 #include <cstddef>

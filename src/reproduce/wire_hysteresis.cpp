@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The wire's hysteresis: a family of first-order descending curves from a kiln, the Preisach model that it
 // gives, and its validation on another temperature profile, forwards and inverted (fig. 12).
-#include "calib/actuator/fod_curves.h"
+#include "calib/wire/fod_curves.h"
 #include "core/input_error.h"
 #include "core/random.h"
 #include "core/rig.h"

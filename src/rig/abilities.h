@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What each command can do with a rig: by the parts that its file describes.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A rig file for somebody who begins: what they know of their stage, and guesses for what only measurements
 // can tell, each with the command that measures it.

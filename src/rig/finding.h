@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What looks wrong in a rig file that loads. Each kind of number has its own file; where a limit comes from
 // is said beside it.

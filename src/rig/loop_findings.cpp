@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The loops, linear and without limits, on the file's own model: what follows the dead zone's edge is
 // slope * command, and what is sampled, computed and held in a tick is exact there.
 #include "core/rig.h"

@@ -1,7 +1,8 @@
-#include "core/camera_geometry.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/camera/camera_geometry.h"
 #include "core/plate.h"
 #include "core/rig.h"
-#include "src/config/plate_file.h"
+#include "src/files/rig/plate_file.h"
 #include "src/inspect/recipe/seen_box.h"
 #include "src/rig/finding.h"
 

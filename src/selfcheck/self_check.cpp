@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/selfcheck/self_check.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "gap/diagnose.h"
 #include "src/diagnose/time_limit.h"
-#include "src/interrupt.h"
-#include "src/progress.h"
+#include "src/process/interrupt.h"
+#include "src/process/progress.h"
 #include "src/selfcheck/draw/campaign.h"
 #include "src/selfcheck/draw/case_draw.h"
 #include "src/selfcheck/draw/crowded_draw.h"

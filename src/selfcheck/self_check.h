@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The diagnosis judged on rigs whose effects are known: drawn, recorded on the independent model, diagnosed
 // without their labels, scored.
@@ -48,7 +49,7 @@ struct SelfCheck {
 /// One line on the case that was finished last: an outcome or a failure.
 std::string line_of_last(const SelfCheck& check);
 
-/// Case after case; Ctrl-C (src/interrupt.h) ends it after the present one.
+/// Case after case; Ctrl-C (src/process/interrupt.h) ends it after the present one.
 /// @param done  called after every case with all so far
 /// Throws InputError if the rig lacks what the cases need: micro stage, camera, fiducials, controllers; and
 /// for kinds with and without frames together.

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/selfcheck/tally_json.h"
 
 #include "core/result.h"
-#include "src/commit.h"
 #include "src/diagnose/diagnosis_json.h"
+#include "src/process/commit.h"
 
 #include <cmath>
 

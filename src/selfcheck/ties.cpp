@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/selfcheck/ties.h"
 
 #include "core/rig.h"
-#include "src/config/stage_keys.h"
 #include "src/design/design_experiment.h"
+#include "src/files/rig/stage_keys.h"
 #include "src/selfcheck/tally/score.h"
 #include "src/simulation/simulate_reference.h"
 

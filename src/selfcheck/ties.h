@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a designed experiment makes of ties: the case's rig records it, and all is diagnosed again.
 #include "gap/diagnosis.h"

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/camera_choice.h"
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/input_error.h"
-#include "src/config/capture_keys.h"
+#include "src/files/rig/capture_keys.h"
 #include "vision/v4l2/camera_list.h"
 #include "vision/v4l2/v4l2_camera.h"
 

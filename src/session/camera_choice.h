@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which camera `--camera` stands for.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "src/session/session.h"
 #include "vision/camera.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Whether what comes from the camera can be an image of the plate, taken now.
 #include "control/stage.h"

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/devices.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
-#include "src/interrupt.h"
+#include "src/files/rig/rig_file.h"
+#include "src/process/interrupt.h"
 #include "src/session/camera_choice.h"
 #include "src/session/faulty_devices.h"
 #include "src/session/stage_choice.h"

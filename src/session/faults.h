@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What goes wrong with devices, on purpose: a drill for the program and for those who run it.
 #include "core/time.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/faulty_devices.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Devices with faults in them: decorators of the boundaries to stage and camera. What stands behind the
 // boundary does not know of them, nor what stands before it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/home.h"
 
 #include "core/failure.h"
@@ -5,7 +6,7 @@
 #include "src/session/motion_params.h"
 #include "src/session/rig_check.h"
 #include "src/session/tuning_sweep.h"
-#include "vision/tag_choice.h"
+#include "vision/tags/tag_choice.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/machine.h"
 
 #include "core/failure.h"
-#include "src/interrupt.h"
 #include "src/live/live_feed.h"
+#include "src/process/interrupt.h"
 
 #include <chrono>
 #include <string>

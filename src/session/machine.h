@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The one loop: sample, control, write, record; a tick at a time.
 //
@@ -9,7 +10,7 @@
 #include "control/stage_loop.h"
 #include "core/recording.h"
 #include "core/result.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/writer.h"
 #include "src/session/camera_watch.h"
 #include "vision/camera.h"
 

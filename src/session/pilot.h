@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The rig under way: machine, sight and positioner together, and the registration that tells where the camera
 // is.

@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/session.h"
 
-#include "core/camera_covariance.h"
+#include "core/camera/camera_covariance.h"
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "core/units.h"
-#include "src/config/plate_file.h"
-#include "src/interrupt.h"
-#include "src/recording/layout.h"
-#include "src/recording/utc_time.h"
+#include "src/files/recording/layout.h"
+#include "src/files/recording/utc_time.h"
+#include "src/files/rig/plate_file.h"
+#include "src/process/interrupt.h"
 #include "src/session/camera_choice.h"
 #include "src/session/devices.h"
 #include "src/session/home.h"
@@ -18,8 +19,8 @@
 #include "src/session/stage_choice.h"
 #include "src/session/stage_start.h"
 #include "src/session/state_json.h"
-#include "vision/tag_choice.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_choice.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <array>
 #include <chrono>

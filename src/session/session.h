@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A rig in use: stage, camera, controllers and vision put together, and the recording of all that happens.
 // In simulation one thread runs everything in virtual time; same seed, same bytes.
 #include "core/plate.h"
 #include "core/result.h"
-#include "src/recording/description.h"
+#include "src/files/recording/description.h"
 #include "src/session/faults.h"
 #include "src/session/machine.h"
 #include "vision/camera.h"
@@ -101,7 +102,7 @@ class Session {
     /// The same, and keeps what every frame shows in the recording; the frames too, if they are to be kept.
     Status observe(double duration_s);
     /// Keeps the tags of a frame that has just arrived in the recording, as far as their corners can be
-    /// measured (vision/tag_refinement.h); the frame too, if frames are kept.
+    /// measured (vision/tags/tag_refinement.h); the frame too, if frames are kept.
     Status look();
 
     /// All that happens from now on is shown there too.

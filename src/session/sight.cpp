@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/sight.h"
 
-#include "core/camera_parameters.h"
-#include "core/camera_slopes.h"
+#include "core/camera/camera_parameters.h"
+#include "core/camera/camera_slopes.h"
 #include "core/failure.h"
-#include "vision/tag_choice.h"
+#include "vision/tags/tag_choice.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the camera sees of the plate: frame -> tag -> where the camera is.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/plate.h"
 #include "core/result.h"
 #include "vision/camera_position.h"
 #include "vision/servo/servo_law.h"
-#include "vision/tag_tracker.h"
+#include "vision/tags/tag_tracker.h"
 
 #include <optional>
 #include <vector>
@@ -18,7 +19,7 @@ class Sight {
     Sight(const CameraParameters& camera, const Plate& nominal);
 
     /// Where the camera was when the frame was taken. The tag is looked for where the registration says,
-    /// around it, and in the whole image, until it is found (vision/tag_tracker.h).
+    /// around it, and in the whole image, until it is found (vision/tags/tag_tracker.h).
     /// @param expected_s_mm  where the registration believes it to be; chooses the tag by the plate's
     /// geometry
     /// @param preferred_tag  measured by where it is wholly in view

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The simulated rig: one truth behind a stage and a camera, in virtual time. Time passes when a command is
 // written, a tick at a time; frames are rendered only when somebody asks for them.
 #include "control/guardian.h"
 #include "control/stage.h"
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/plate.h"
 #include "core/result.h"
 #include "plant/stage_plant.h"

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/stage_choice.h"
 
 #include "control/comedi/comedi_board.h"
 #include "control/comedi/libcomedi_link.h"
 #include "control/watchdog.h"
 #include "core/input_error.h"
-#include "src/config/stage_keys.h"
+#include "src/files/rig/stage_keys.h"
 
 #include <cmath>
 #include <filesystem>

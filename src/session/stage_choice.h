@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which stage `--stage` stands for.
 #include "control/guardian.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/stage_start.h"
 
 #include "control/stage_check.h"

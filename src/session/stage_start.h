@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a real stage has to show before anything is entrusted to it.
 #include "control/loop_statistics.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Explicit states as JSON, exact to the last bit: what a checkpoint is made of.
 #include "control/positioner.h"

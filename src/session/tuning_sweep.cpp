@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/session/tuning_sweep.h"
 
-#include "calib/actuator/actuator_tuning.h"
+#include "calib/wire/actuator_tuning.h"
 #include "core/micro_parameters.h"
 
 #include <spdlog/spdlog.h>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The tuning sweep: the platform once over its travel, up and down, under known commands. What the camera and
 // the Hall sensor see of it calibrates the sensor, the camera's time stamps and the model of the actuator.
-#include "calib/actuator/hall_map.h"
+#include "calib/hall/hall_map.h"
 #include "core/micro_model.h"
 #include "core/result.h"
 

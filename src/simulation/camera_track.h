@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // When the simulated camera takes its frames, and where it is meanwhile.
 #include "core/time.h"

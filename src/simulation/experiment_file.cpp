@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/simulation/experiment_file.h"
 
 #include "core/rig.h"
-#include "src/config/yaml_reader.h"
+#include "src/files/text/yaml_reader.h"
 #include "src/simulation/pieces.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Experiments that people write themselves: a YAML file of pieces, one after the other, for either stage.
 // docs/formats.md describes it.

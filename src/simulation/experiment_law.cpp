@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/simulation/experiment_law.h"
 
 #include "core/rig.h"
-#include "src/recording/layout.h"
+#include "src/files/recording/layout.h"
 
 #include <algorithm>
 #include <cmath>

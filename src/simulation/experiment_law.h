@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An experiment's law: from what the sensors read at a tick to what is commanded from then on. One for
 // simulated rigs and for the one at hand.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The experiments that tell a rig apart from its simulation: what is commanded, over time.
 #include "core/recording.h"

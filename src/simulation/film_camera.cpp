@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/simulation/film_camera.h"
 
 #include "core/rig.h"
-#include "src/config/plate_file.h"
-#include "vision/tag_refinement.h"
+#include "src/files/rig/plate_file.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <utility>
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/detection.h"
 #include "core/plate.h"
 #include "plant/view/plate_view.h"
 #include "src/simulation/camera_track.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <deque>
 #include <functional>

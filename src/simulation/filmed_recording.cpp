@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/simulation/filmed_recording.h"
 
 #include "core/input_error.h"
 #include "core/result.h"
 #include "core/rig.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/writer.h"
 #include "src/simulation/experiment_law.h"
 #include "src/simulation/run_experiment.h"
 #include "src/simulation/simulate.h"

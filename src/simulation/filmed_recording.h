@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "plant/effects/effect.h"
-#include "src/recording/description.h"
+#include "src/files/recording/description.h"
 #include "src/simulation/experiments.h"
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A course made of pieces that follow each other: constants, ramps and sines are one formula,
 //

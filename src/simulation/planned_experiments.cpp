@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/simulation/planned_experiments.h"
 
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/effects_file.h"
+#include "src/files/rig/effects_file.h"
 #include "src/simulation/experiment_file.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What users ask a rig to do, and what they say it has: the words of `simulate`, `record` and Python.
 #include "plant/effects/effect.h"

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/simulation/run_experiment.h"
 
 #include "core/random.h"
 #include "core/rig.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/writer.h"
 #include "src/simulation/experiment_law.h"
 
 #include <cmath>

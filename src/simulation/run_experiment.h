@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One loop for every simulated rig: the published controllers on what the sensors read, tick by tick.
 #include "core/recording.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 "use strict";
 // The fleet's report: units by time as coloured cells, values of each effect over units and over time. Zoomed by dragging.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 "use strict";
 const byId = (id) => document.getElementById(id);
 const shownSeconds = 20;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 "use strict";
 // Behaviour of the reports: plots, filters of tables, images that enlarge. Everything else is plain HTML.
 

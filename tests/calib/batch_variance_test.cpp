@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether 95 % intervals contain the truth in 95 % of campaigns.
 #include "calib/batch_variance.h"
 

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Recordings of a macro stage for tests, made by the independent model of rigs, so that no fit is compared
 // with its own model.
-#include "calib/axis/macro_identification.h"
+#include "calib/macro/macro_identification.h"
 #include "core/random.h"
 #include "reference/reference_rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A real drive, recorded by others (Janot, Gautier, Brunot, Data Set and Reference Models of EMPS, 2019).
-#include "calib/axis/macro_force.h"
-#include "calib/axis/macro_identification.h"
+#include "calib/macro/macro_force.h"
+#include "calib/macro/macro_identification.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/rig_file.h"
 
 #include <cstdlib>
 #include <filesystem>

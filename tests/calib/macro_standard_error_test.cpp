@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether the standard errors that identification claims are those that its estimates show.
 #include "core/result.h"
 #include "core/rig.h"
@@ -19,7 +20,7 @@ class Score {
         squares_ += std::pow((estimate->value - truth) / estimate->std, 2) / runs;
     }
     /// 99.8 % of a chi-square law with 60 degrees of freedom, over 60. Claims also count what a recording
-    /// does not show (calib/axis/macro_knowledge.h), by which they may be larger than the scatter: half as
+    /// does not show (calib/macro/macro_knowledge.h), by which they may be larger than the scatter: half as
     /// large again here, of a motion without anything else.
     void expect_true(const std::string& name) const {
         ::testing::Test::RecordProperty(name, std::to_string(squares_));

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A wire as many thousand relays with drawn switching temperatures: Preisach's model by its definition,
 // without tables or grids, for checking what is fitted with tables.
-#include "calib/actuator/preisach_data.h"
+#include "calib/wire/preisach_data.h"
 #include "core/random.h"
 
 #include <algorithm>

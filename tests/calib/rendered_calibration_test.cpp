@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A lens and a mount from rendered images, and what they are good for: displacements in micrometres.
 #include "calib/camera/calibration_verdict.h"
 #include "calib/camera/camera_calibration.h"
-#include "calib/camera/camera_mount.h"
 #include "calib/camera/target_images.h"
-#include "core/camera_parameters.h"
+#include "calib/stage/camera_mount.h"
+#include "core/camera/camera_parameters.h"
 #include "core/result.h"
 #include "plant/view/plate_view.h"
 #include "tests/calib/synthetic_target.h"
 #include "tests/reference_camera.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <array>
 #include <cmath>

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Synthetic views of a row of tags by a camera of known mount, with noise of known covariance.
 #include "calib/camera/pictured_corners.h"
-#include "calib/camera/stage_map.h"
+#include "calib/stage/stage_map.h"
 #include "core/random.h"
-#include "vision/tag_choice.h"
+#include "vision/tags/tag_choice.h"
 
 #include <cmath>
 #include <vector>

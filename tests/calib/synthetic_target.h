@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Tags where core's projection puts them, with noise of known covariance: calibration's answers beforehand.
 #include "calib/camera/target_view.h"
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "core/random.h"
-#include "vision/quad.h"
-#include "vision/tag_choice.h"
+#include "vision/tags/quad.h"
+#include "vision/tags/tag_choice.h"
 
 #include <string>
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cameras of either lens model, drawn at random, before a hand-held target: the
 // lens is found within its stated standard errors, or refused for the reason
 // that the draw gave it.

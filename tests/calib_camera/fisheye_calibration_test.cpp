@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Equidistant lenses are found from nothing but corners, with standard errors
 // that hold, as OpenCV finds them.
 #include "calib/camera/calibration_verdict.h"

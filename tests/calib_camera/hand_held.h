@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Hand-held views of a flat target before a camera of either lens, as corners
 // with noise.
 #include "calib/camera/camera_calibration.h"
 #include "calib/camera/target_view.h"
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "core/random.h"
 #include "tests/calib/synthetic_target.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The whole way: a rig that differs from its file, moved by a session that knows the file only, seen through
 // rendered images.
 #include "core/result.h"

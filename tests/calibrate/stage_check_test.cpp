@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
 #include "src/calibrate/stage_verdict.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/calibrate/synthetic_survey.h"
 
 #include <cmath>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo calibrate stage as a user meets it, on the real executable.
-#include "core/camera_covariance.h"
+#include "core/camera/camera_covariance.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/src/run_program.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a quick survey would record on a rig of known numbers: no images, no motion, the sensors' noise and
 // rounding and the corners' noise only.

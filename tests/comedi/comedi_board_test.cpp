@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Volts and counts through a board in memory.
 #include "control/comedi/comedi_board.h"
 

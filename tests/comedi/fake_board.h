@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A board in memory: subdevices as a test says, registers that can be looked at, refusals on demand.
 #include "control/comedi/board_link.h"

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a rig file may say about its stage.
-#include "src/config/stage_keys.h"
+#include "src/files/rig/stage_keys.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/src/temporary_folder.h"
 
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Channel maps against boards.
 #include "control/comedi/wiring.h"
 

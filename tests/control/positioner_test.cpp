@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The supervisor on the simulated stage, without images: the camera's word is the truth plus its noise, late.
 #include "control/positioner.h"
 

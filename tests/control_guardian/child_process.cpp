@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/control_guardian/child_process.h"
 
 #include "core/demand.h"

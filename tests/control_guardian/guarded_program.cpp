@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A program under a guardian, for the tests: drives both outputs until something ends it.
 //
 //     guarded_program REGISTERS LOG loop|process ENDING

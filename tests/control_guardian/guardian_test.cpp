@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The guardian, seen from outside: what the board's registers hold during and after a program that ends in
 // every way a program can end.
 #include "control/guardian.h"

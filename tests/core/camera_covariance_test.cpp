@@ -1,4 +1,5 @@
-#include "core/camera_covariance.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/camera/camera_covariance.h"
 
 #include <gtest/gtest.h>
 

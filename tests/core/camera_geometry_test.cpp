@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Projection and its inverse, for cameras with every parameter off its neutral value.
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 
-#include "core/camera_slopes.h"
+#include "core/camera/camera_slopes.h"
 #include "core/random.h"
 
 #include <algorithm>

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Both lens models: against OpenCV, back and forth, their derivatives, the end of their domain.
-#include "core/lens.h"
+#include "core/camera/lens.h"
 
-#include "core/camera_geometry.h"
-#include "core/camera_slopes.h"
+#include "core/camera/camera_geometry.h"
+#include "core/camera/camera_slopes.h"
 #include "core/random.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Experiments designed for what recordings leave open.
 #include "src/design/design_experiment.h"
 

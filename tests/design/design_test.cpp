@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Designed experiments as pieces: what is written is what is commanded, and within what the rig allows.
 #include "src/design/design.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How well explanations are told apart, against closed forms.
 #include "src/design/discrimination.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vision/v4l2/camera_list.h"
 
 #include "tests/devices/fake_models.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vision/v4l2/control_lock.h"
 
 #include "core/input_error.h"

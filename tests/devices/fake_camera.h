@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A V4L2 driver without a kernel: umockdev hands the program's requests to it. It has one node, /dev/video0,
 // for the whole test program's life; every test gives it new properties.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Fake cameras that several tests use.
 #include "tests/devices/fake_camera.h"

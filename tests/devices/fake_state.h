@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The fake driver's state and what requests do to it; umockdev's side is in fake_camera.cpp.
 #include "tests/devices/fake_camera.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vision/v4l2/frame_time.h"
 
 #include <gtest/gtest.h>

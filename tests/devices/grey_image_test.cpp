@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pixel formats against values worked out by hand and against OpenCV's own conversions.
 #include "vision/v4l2/grey_image.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The whole camera against a driver made by umockdev. Waits end with what they wait for; their limit of 20 s
 // is for the case that it never comes.
 #include "vision/v4l2/v4l2_camera.h"

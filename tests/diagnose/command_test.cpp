@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo diagnose, as it is called.
 #include "tests/src/run_program.h"
 #include "tests/src/temporary_folder.h"

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/compare/comparison.h"
 
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/simulation/experiments.h"
 #include "src/simulation/simulate.h"
 

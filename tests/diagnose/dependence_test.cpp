@@ -1,4 +1,5 @@
-#include "src/diagnose/dependence.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/diagnose/report/dependence.h"
 
 #include <cmath>
 #include <vector>

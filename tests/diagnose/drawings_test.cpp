@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
-#include "src/diagnose/chain_drawing.h"
-#include "src/diagnose/waterfall.h"
+#include "src/diagnose/report/chain_drawing.h"
+#include "src/diagnose/report/waterfall.h"
 #include "src/diagnose/words.h"
 #include "tests/diagnose/well_formed.h"
 #include "tests/reference_rig.h"

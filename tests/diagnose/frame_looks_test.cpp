@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which frames of a recording are measured, and what is said of those that cannot be.
 #include "src/diagnose/frame_looks.h"
 
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "src/simulation/filmed_recording.h"
 #include "tests/reference_rig.h"
 #include "tests/src/temporary_folder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The experiment that decides between causes that are tied.
 #include "src/diagnose/next_experiment.h"
 

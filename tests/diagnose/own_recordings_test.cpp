@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a rig records in its work, on the nominal simulated rig: there is no gap.
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/control_guardian/child_process.h"
 #include "tests/src/temporary_folder.h"
 

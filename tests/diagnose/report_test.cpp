@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The report of a diagnosis made by hand, over recordings of the simulated rig.
-#include "src/diagnose/report.h"
+#include "src/diagnose/report/report.h"
 
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
-#include "src/diagnose/predictions.h"
+#include "src/diagnose/report/predictions.h"
 #include "src/simulation/experiments.h"
 #include "src/simulation/simulate.h"
 #include "tests/diagnose/well_formed.h"

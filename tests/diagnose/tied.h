@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Diagnoses that leave something open, for tests of the experiments that decide.
 #include "gap/diagnosis.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/words.h"
 
 #include "gap/residuals/surrogate.h"

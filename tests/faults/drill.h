@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A small inspection on the simulated rig in which something fails on purpose, and what is left of it.
 #include "src/inspect/inspection_run.h"

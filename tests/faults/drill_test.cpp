@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every fault of docs/faults.md, in a run: the table there says what has to come of it.
 #include "tests/faults/drill.h"
 

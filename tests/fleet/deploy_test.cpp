@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The scripts and the manifest in deploy/ are what their engines take.
 #include "tests/src/temporary_folder.h"
 

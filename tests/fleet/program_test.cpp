@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo fleet as its users run it.
 #include "tests/control_guardian/child_process.h"
 #include "tests/src/run_program.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A result appears whole, once.
 #include "src/fleet/result_store.h"
 

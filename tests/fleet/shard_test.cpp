@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shares of tasks, and the names of results.
 #include "src/fleet/shard.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tasks in processes: what one of them does to itself, the others do not feel.
 #include "src/fleet/workers.h"
 

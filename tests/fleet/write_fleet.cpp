@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // write_fleet OUT RIG.yaml UNITS WEEKS SEED RECORDING...: campaigns OUT/unit-UU/week-WW of rigs that the
 // independent model (reference/) stands for, one effect drawn for each unit, of each campaign the recordings
 // named.
 #include "core/rig.h"
-#include "src/config/rig_file.h"
-#include "src/recording/description.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/description.h"
+#include "src/files/recording/writer.h"
+#include "src/files/rig/rig_file.h"
 #include "src/selfcheck/draw/campaign.h"
 #include "src/selfcheck/draw/case_draw.h"
 #include "src/simulation/experiments.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/fleet_report/drawn_fleet.h"
 
 #include "plant/effects/catalogue.h"

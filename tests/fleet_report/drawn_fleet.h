@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Fleets drawn at the level of parameters: what diagnoses would say of units whose effects are known.
 #include "src/fleet/report/result.h"

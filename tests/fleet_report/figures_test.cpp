@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How well fleets are judged, on histories drawn at the level of parameters.
 #include "src/fleet/report/findings.h"
 #include "tests/fleet_report/drawn_fleet.h"

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/inspect/report/rig_history.h"
 #include "tests/fleet_report/drawn_fleet.h"
 #include "tests/src/temporary_folder.h"

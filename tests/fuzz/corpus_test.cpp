@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the fuzzers start from and what they found, read once more by every build.
 #include "tests/fuzz/targets.h"
 

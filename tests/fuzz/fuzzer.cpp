@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One fuzzer: libFuzzer's entry to the target FIDSERVO_FUZZ_TARGET.
 #include "tests/fuzz/targets.h"
 

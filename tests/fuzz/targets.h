@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Everything that reads a file, as functions of the file's bytes: for a fuzzer, and for the corpus in a plain
 // test.

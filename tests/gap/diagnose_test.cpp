@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From recordings of the simulated rig to the effect that it has.
 #include "gap/diagnose.h"
 

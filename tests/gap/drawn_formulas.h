@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Formulas drawn at random ports of the machine.
 #include "core/formula_effect.h"

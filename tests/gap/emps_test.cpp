@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A real machine, by other people: the linear motor of Janot, Gautier and Brunot's EMPS data set.
 #include "core/rig.h"
 #include "gap/balance/carriage_forces.h"
 #include "gap/diagnose.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/campaign.h"
 
 #include <cmath>

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What recordings of an independent model of the reference rig, and of a real drive, say about hypotheses
 // whose truth is known.
 #include "core/rig.h"
 #include "gap/diagnose.h"
 #include "gap/evidence.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/campaign.h"
 #include "tests/gap/effect_names.h"
 #include "tests/gap/effects.h"

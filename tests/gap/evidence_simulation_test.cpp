@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What recordings of the simulated rig say about the effect that it has.
 #include "core/input_error.h"
 #include "core/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Formulas of an effects file are found by name, beside the listed effects.
 #include "core/input_error.h"
 #include "gap/diagnose.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How tags look to a camera whose deviation is known.
 #include "core/recording.h"

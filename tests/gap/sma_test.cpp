@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A real wire, by other people: NiTi heated and cooled once under each of two loads. Its table is fitted to
 // one load, and the diagnosis is asked about the other.
-#include "calib/actuator/preisach_fit.h"
+#include "calib/wire/preisach_fit.h"
 #include "core/rig.h"
 #include "gap/candidates/candidate.h"
 #include "gap/diagnose.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The real program on the simulated rig, ended in mid-run in every way: what the board's registers hold then.
 #include "control/guardian_process.h"
 #include "tests/control_guardian/child_process.h"

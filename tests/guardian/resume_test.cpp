@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The real program, ended in mid-run by what can happen to a machine, and taken up again: the results are
 // those of a run that nothing happened to, byte for byte.
 #include "control/output_board.h"

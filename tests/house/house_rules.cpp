@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/house/house_rules.h"
 
 #include <algorithm>
@@ -15,7 +16,8 @@ namespace {
 
 using Rooms = std::set<std::string>;
 
-constexpr std::size_t longest_file_lines = 400;
+constexpr std::size_t longest_file_lines = 400;  // besides the licence's
+constexpr std::string_view licence = "// SPDX-License-Identifier: GPL-3.0-or-later\n";
 
 /// What each room may include besides itself.
 const std::map<std::string, Rooms>& arrows() {
@@ -43,6 +45,14 @@ const std::vector<std::string>& rooms_of_gap() {
 
 std::string room_of(const std::string& path) {
     return path.substr(0, path.find('/'));
+}
+
+/// The part of the program that a file of src belongs to.
+std::string part_of_src(const std::string& path) {
+    static const std::regex pattern("src/files/[^/]+/|src/[^/]+/");
+    std::smatch found;
+    return std::regex_search(path, found, pattern, std::regex_constants::match_continuous) ? found.str()
+                                                                                           : "src/";
 }
 
 std::string finding(const SourceFile& file, const std::string& what, const std::string& why) {
@@ -146,6 +156,38 @@ Findings steps_up_in_gap(const SourceFile& file) {
     return findings;
 }
 
+Findings circles_in_src(const std::vector<SourceFile>& house) {
+    Findings findings;
+    std::map<std::string, std::set<std::string>> seen_by;
+    for (const SourceFile& file : house) {
+        if (room_of(file.path) != "src") continue;
+        const std::string part = part_of_src(file.path);
+        seen_by[part];
+        for (const std::string& include : quoted_includes(file.text)) {
+            const std::string other = part_of_src(include);
+            if (room_of(include) != "src" || other == part) continue;
+            seen_by[part].insert(other);
+            if (other == "src/cli/") findings.push_back(finding(file, include, "is above it"));
+        }
+    }
+    const auto is_at_an_end = [&](const auto& part) {
+        const bool sees_some =
+            std::any_of(part.second.begin(), part.second.end(),
+                        [&](const std::string& other) { return seen_by.count(other) > 0; });
+        const bool is_seen = std::any_of(seen_by.begin(), seen_by.end(), [&](const auto& other) {
+            return other.second.count(part.first) > 0;
+        });
+        return !sees_some || !is_seen;
+    };
+    for (;;) {
+        const auto end = std::find_if(seen_by.begin(), seen_by.end(), is_at_an_end);
+        if (end == seen_by.end()) break;
+        seen_by.erase(end);
+    }
+    for (const auto& [part, others] : seen_by) findings.push_back(part + ": in a circle of folders");
+    return findings;
+}
+
 Findings includes_not_from_the_top(const SourceFile& file, const std::vector<SourceFile>& house) {
     Findings findings;
     for (const auto& include : quoted_includes(file.text)) {
@@ -174,7 +216,7 @@ Findings leaking_third_party(const SourceFile& file, const std::vector<SourceFil
 
 Findings wrong_namespace(const SourceFile& file) {
     const std::string room = room_of(file.path);
-    if (!arrows().contains(room) || file.path == "src/main.cpp") return {};
+    if (!arrows().contains(room) || file.path == "src/cli/main.cpp") return {};
     const bool plain = room == "core" || room == "src";
     const std::string expected = plain ? "namespace fidservo" : "namespace fidservo::" + room;
     if (file.text.find(expected) != std::string::npos) return {};
@@ -182,13 +224,18 @@ Findings wrong_namespace(const SourceFile& file) {
 }
 
 Findings unguarded_header(const SourceFile& file) {
-    if (!is_header(file.path) || file.text.starts_with("#pragma once\n")) return {};
+    if (!is_header(file.path) || file.text.find("\n#pragma once\n") == licence.size() - 1) return {};
     return {file.path + ": does not begin with #pragma once"};
+}
+
+Findings unlicensed(const SourceFile& file) {
+    if (file.text.starts_with(licence)) return {};
+    return {file.path + ": does not begin with its SPDX line"};
 }
 
 Findings too_long(const SourceFile& file) {
     const auto lines = static_cast<std::size_t>(std::count(file.text.begin(), file.text.end(), '\n'));
-    if (lines <= longest_file_lines) return {};
+    if (lines <= longest_file_lines + 1) return {};
     return {file.path + ": " + std::to_string(lines) + " lines; at most " +
             std::to_string(longest_file_lines)};
 }
@@ -204,7 +251,7 @@ Findings machine_paths(const SourceFile& file) {
 Findings wall_clocks(const SourceFile& file) {
     static const std::regex pattern(R"re((system_clock|CLOCK_REALTIME|gettimeofday|\btime\())re");
     if (!arrows().contains(room_of(file.path)) || file.path == "control/guardian_process.cpp" ||
-        file.path == "src/recording/utc_time.cpp")
+        file.path == "src/files/recording/utc_time.cpp")
         return {};
     Findings findings;
     for (const auto& clock : matches(file.text, pattern))

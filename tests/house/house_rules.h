@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The house's rules that can be read off the text of its files (CONTRIBUTING.md).
 #include <string>
@@ -23,6 +24,9 @@ Findings forbidden_arrows(const SourceFile& file);
 
 /// Includes of a room of the diagnosis that has its place after the file's own.
 Findings steps_up_in_gap(const SourceFile& file);
+/// Includes of a command by what is below it, and folders of src that see each other in a circle. Folders are
+/// those of a job (src/NAME with all that is below it) and those of src/files.
+Findings circles_in_src(const std::vector<SourceFile>& house);
 /// Quoted includes that are not written from the top of the repository.
 Findings includes_not_from_the_top(const SourceFile& file, const std::vector<SourceFile>& house);
 /// Headers that show third-party types (Eigen, cv::Mat and tl::expected excepted) outside their own folder.
@@ -31,6 +35,8 @@ Findings leaking_third_party(const SourceFile& file, const std::vector<SourceFil
 Findings wrong_namespace(const SourceFile& file);
 /// Headers without #pragma once.
 Findings unguarded_header(const SourceFile& file);
+/// Files that do not begin with their licence's SPDX line.
+Findings unlicensed(const SourceFile& file);
 /// Files that nobody reads in one sitting.
 Findings too_long(const SourceFile& file);
 /// Paths that only exist on somebody's machine.

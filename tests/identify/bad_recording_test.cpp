@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings that are not as they should be, given to every identification: a clear line, the right exit
 // code, no crash.
 #include "tests/src/run_program.h"

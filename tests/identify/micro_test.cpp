@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/identify/identify.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"

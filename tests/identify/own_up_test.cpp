@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What identify macro says when the recordings do not fit together, or the model does not fit them.
 #include "src/identify/identify.h"
 #include "tests/identify/owned_recordings.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings drawn at random that contradict each other, that the model misses, that fix a ratio only: every
 // number stated has an interval that holds the truth, or it is said that it is not known.
 #include "src/identify/identify.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Recordings of a slow carriage without dead zone, made by the independent model of rigs.
 #include "core/recording.h"

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/identify/identify.h"
 #include "src/simulation/simulate_reference.h"
 #include "tests/src/message_of.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables as many instruments, libraries and spreadsheets would write the same numbers.
 #include "core/input_error.h"
 #include "src/identify/text_table.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/identify/text_table.h"
 
 #include "src/identify/input.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files that are cut short or of which a byte is wrong. What is cut short is never taken for whole. A wrong
 // byte is found where the format has a checksum; elsewhere the image at least has the right size.
 #include "tests/src/temporary_folder.h"

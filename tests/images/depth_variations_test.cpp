@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sequences of samples of 8 to 16 bits, dark and bright: one full scale for all of a sequence's frames.
 #include "src/images/grey_range.h"
 #include "src/images/image_frames.h"

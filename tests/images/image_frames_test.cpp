@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What folders, indexes and single files stand for.
 #include "src/images/image_frames.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fidservo replay on what other programs write: displacements that are known, and what is said.
 #include "core/tag_families.h"
 #include "tests/images/film.h"

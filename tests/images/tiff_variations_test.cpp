@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pages of TIFFs of every layout, judged by the samples that were written.
 #include "src/images/image_frames.h"
 #include "tests/images/written_tiff.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Videos: each frame with its own time stamp, or none has one.
 #include "src/images/image_frames.h"
 #include "tests/images/film.h"

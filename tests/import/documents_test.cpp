@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The pages for users of other programs: their commands and maps, run on files as those programs write them.
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "tests/import/made_files.h"
 #include "tests/src/run_program.h"
 #include "tests/src/temporary_folder.h"

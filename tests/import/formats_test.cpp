@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the readers make of each format's own ways.
+#include "src/files/recording/reader.h"
 #include "src/import/read_log.h"
-#include "src/recording/reader.h"
 #include "tests/import/made_files.h"
 #include "tests/src/message_of.h"
 #include "tests/src/run_program.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files that are cut off, empty, not what their names say, or made to hurt: one line each, and no more.
 #include "core/input_error.h"
 #include "src/import/guarded.h"

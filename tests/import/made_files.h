@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Logs as other programs write them, made by these formats' own libraries.
 #include "core/recording.h"
-#include "src/recording/layout.h"
+#include "src/files/recording/layout.h"
 
 #include <cstdint>
 #include <filesystem>

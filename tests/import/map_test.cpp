@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a map may say, and what a log and a map have to agree on.
 #include "src/import/assemble.h"
 #include "src/import/import_map.h"

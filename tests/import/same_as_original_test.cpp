@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A recording, given to other programs' formats by their own libraries, comes back number for number, and its
 // diagnosis byte for byte.
 #include "core/input_error.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "tests/import/made_files.h"
 #include "tests/src/run_program.h"
 #include "tests/src/temporary_folder.h"

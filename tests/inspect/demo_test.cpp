@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The demo, whole, on the simulated rig: what it finds, and that a killed run ends like one that was not.
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/inspect/inspection_run.h"
 #include "src/inspect/journal.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inspection by a camera that is turned, tilted, distorting, on an oblique axis, and whose rig file says so.
 #include "core/rig.h"
 #include "src/inspect/inspection_run.h"

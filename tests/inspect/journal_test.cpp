@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/journal.h"
 
 #include "core/input_error.h"
-#include "src/inspect/sha256.h"
+#include "src/files/disk/sha256.h"
 
 #include <fstream>
 #include <sstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which images an inspection measures again, and what it says of those that cannot serve.
 #include "src/inspect/saved_images.h"
 

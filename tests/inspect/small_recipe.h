@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A recipe of two sites on a small rig, and the means to spoil it.
 #include "core/rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/live/live_board.h"
 #include "tests/live/shown_run.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A feed as a run fills it.
 #include "src/live/live_feed.h"

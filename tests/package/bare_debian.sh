@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # bare_debian.sh PACKAGES FOLDER: installs the packages in a bare Debian 12, made in FOLDER, as a user would who has nothing
 # else: the program, with which the demo is inspected, then the libraries, against which the examples are built and run.
 # As root. Nothing outside FOLDER changes; what is mounted is gone when it ends.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The test program's own operator new. It stands apart from the tests: were it inlined into them, the
 // compiler would take its free() for a mismatch.
 #include "tests/plant/allocation_count.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/stage_plant.h"
 #include "tests/plant/allocation_count.h"
 #include "tests/plant/reference_rig.h"

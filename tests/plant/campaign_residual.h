@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How well a plant, fed with the commands of a recording, follows its readings.
 #include "core/recording.h"

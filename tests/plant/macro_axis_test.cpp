@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/macro_axis.h"
 
 #include "core/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/motion_series.h"
 
 #include "plant/dormand_prince.h"

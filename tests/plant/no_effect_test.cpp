@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fed with the commands of recordings that an independent model of the reference rig made, the plant must
 // follow the recorded encoder and Hall readings to their noise floor.
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "tests/campaign.h"
 #include "tests/plant/campaign_residual.h"
 #include "tests/plant/reference_rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/thermal_rod.h"
 
 #include "core/random.h"

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A camera that is not as its file says: what is in the pictures is where plant/camera.h says, and looks as
 // the effects' texts say.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/random.h"
 #include "plant/actual_camera.h"
 #include "tests/plant_view/view_fixture.h"
-#include "vision/tag_choice.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_choice.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <algorithm>
 #include <array>

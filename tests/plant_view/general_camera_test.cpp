@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A rig file's camera may itself be turned, tilted and distorting: what it sees is where
-// core/camera_geometry.h says, to a few thousandths of a pixel.
-#include "core/camera_parameters.h"
-#include "core/camera_slopes.h"
+// core/camera/camera_geometry.h says, to a few thousandths of a pixel.
+#include "core/camera/camera_parameters.h"
+#include "core/camera/camera_slopes.h"
 #include "plant/actual_camera.h"
 #include "tests/plant_view/view_fixture.h"
 

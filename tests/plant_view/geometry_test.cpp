@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Places in rendered images: what moves by 0.01 px moves by 0.01 px, and the detector finds tags where they
 // are.
-#include "core/camera_geometry.h"
-#include "core/camera_parameters.h"
+#include "core/camera/camera_geometry.h"
+#include "core/camera/camera_parameters.h"
 #include "core/input_error.h"
 #include "core/random.h"
 #include "tests/plant_view/view_fixture.h"

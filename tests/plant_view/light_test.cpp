@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Light, pixel gains, glare, and what lies on the plate.
 #include "tests/plant_view/view_fixture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Motion during the exposure.
 #include "plant/view/edge_profile.h"
 #include "plant/view/motion_blur.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Noise: the moments that the sensor's data sheet promises, and nothing that repeats.
 #include "core/random.h"
 #include "plant/view/sensor.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coverage of every shape against brute force: 32 x 32 samples a pixel, then a Gaussian.
 #include "plant/view/cell_grid.h"
 #include "plant/view/disc.h"

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The reference rig's camera, and numbers from rendered images.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/plate.h"
 #include "plant/view/plate_view.h"
 #include "tests/reference_camera.h"

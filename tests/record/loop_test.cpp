@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The whole loop: a rig whose file is wrong is recorded and diagnosed; with the file that the diagnosis
 // writes the next recordings have no gap.
 #include "core/rig.h"
 #include "gap/diagnose.h"
-#include "src/config/rig_edit.h"
-#include "src/config/rig_file.h"
 #include "src/diagnose/diagnosis_json.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/rig_edit.h"
+#include "src/files/rig/rig_file.h"
 #include "src/record/record_experiments.h"
-#include "src/recording/reader.h"
 #include "tests/src/temporary_folder.h"
 
 #include <cstdint>

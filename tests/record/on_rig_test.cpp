@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Experiments on a rig that is homed, brought to their start and driven by the program's own loop; frames are
 // rendered and the detector finds what is in them.
 #include "src/record/on_rig.h"
 
 #include "core/rig.h"
+#include "src/files/recording/reader.h"
+#include "src/files/recording/writer.h"
 #include "src/record/start.h"
-#include "src/recording/reader.h"
-#include "src/recording/writer.h"
 #include "src/session/pilot.h"
 #include "src/simulation/experiment_law.h"
 #include "src/simulation/simulate.h"

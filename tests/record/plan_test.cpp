@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/record/plan.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/record/campaign_file.h"
 #include "src/record/foresight.h"
 #include "tests/src/message_of.h"

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The real program, ended in the middle of a recording and taken up again.
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "tests/control_guardian/child_process.h"
 #include "tests/src/run_program.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/reference/campaign_residual.h"
 
 #include "tests/campaign.h"

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The shared campaigns were recorded on another model of the same machine. Fed with their commands, this one
 // must follow their readings to the noise floor.
 #include "tests/campaign.h"
 
 #include "core/rig.h"
-#include "src/config/rig_file.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/reference/campaign_residual.h"
 
 #include <algorithm>

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How the integration converges as its sub-steps are halved. The classical Runge-Kutta method is of order 4:
 // the error falls to a 16th, also across end stops and a carriage that sticks, as their times are located.
 #include "core/rig.h"
 #include "reference/reference_rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <algorithm>
 #include <array>

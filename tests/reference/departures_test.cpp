@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Each departure against an answer worked out by hand.
 #include "tests/reference/departed_rig.h"
 

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The program's experiments on the reference model: the loop and the controllers are those of the simulator.
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/simulation/simulate.h"
 #include "src/simulation/simulate_reference.h"
 

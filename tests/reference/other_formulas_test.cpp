@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Departures of which the catalogue has another formula, and smooth ones, each against an answer worked out
 // by hand.
 #include "tests/reference/departed_rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Two models of one machine, written apart: in closed form (plant/) and integrated (reference/). Under the
 // same commands they must go the same way. Each checks the other.
 #include "core/random.h"
@@ -5,7 +6,7 @@
 #include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 #include "reference/reference_rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The staircase of relays: what Preisach's law promises, and the published sum (eq. 8) as another way to the
 // same contraction.
 #include "reference/preisach_plane.h"
@@ -5,7 +6,7 @@
 #include "core/preisach.h"
 #include "core/random.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <cmath>
 #include <memory>

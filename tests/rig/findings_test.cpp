@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What rig check finds: nothing in a sound rig, and each mistake by its key.
 #include "core/input_error.h"
 #include "core/preisach.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/rig/abilities.h"
 #include "src/rig/finding.h"
 #include "src/session/motion_params.h"

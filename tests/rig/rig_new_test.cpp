@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The rig file to start from: it loads, and commands take it.
 #include "core/rig.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/rig/draft.h"
 #include "src/rig/finding.h"
 #include "src/rig/generic_fod.h"

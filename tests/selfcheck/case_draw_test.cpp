@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the cases are made with: the same for the same seed, even over classes, and nowhere to be read in what
 // the diagnosis is given.
 #include "src/selfcheck/draw/case_draw.h"
@@ -5,7 +6,7 @@
 #include "core/rig.h"
 #include "gap/candidates/candidate.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/selfcheck/draw/campaign.h"
 #include "src/selfcheck/draw/listed_effects.h"
 #include "src/selfcheck/draw/unlisted_effects.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigs with many causes at once: what is drawn keeps to what was promised of it.
 #include "src/selfcheck/draw/crowded_draw.h"
 
@@ -6,7 +7,7 @@
 #include "gap/fit/gap_size.h"
 #include "gap/fit/score.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/selfcheck/draw/campaign.h"
 #include "src/selfcheck/draw/discrepancy_draw.h"
 #include "src/selfcheck/draw/gap_alone.h"

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A proposed equation against the one that is right.
 #include "src/selfcheck/tally/equation_score.h"
 
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/selfcheck/draw/campaign.h"
 #include "src/selfcheck/tally/equation_figures.h"
 

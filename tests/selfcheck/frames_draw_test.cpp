@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cases with frames: the same for the same seed, even over the image's effects, and filmed as they are drawn.
 #include "src/selfcheck/draw/frames_draw.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "reference/tag_picture.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/selfcheck/self_check.h"
-#include "vision/tag_appearance.h"
+#include "vision/tags/tag_appearance.h"
 
 #include <cmath>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The search for a size that makes a gap, on gaps in closed form.
 #include "src/selfcheck/draw/gap_alone.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A label means what the catalogue means by it: a rig with a departure of the independent model is predicted
 // to the floor by the plant with the effect of that name.
 #include "src/selfcheck/draw/listed_effects.h"
@@ -6,7 +7,7 @@
 #include "gap/fit/gap_size.h"
 #include "gap/fit/score.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/selfcheck/draw/campaign.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The scorer on diagnoses made by hand.
 #include "src/selfcheck/tally/score.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What is counted of ties that were settled.
 #include "src/selfcheck/ties.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A camera may be askew about its mount, about the plate, about anything between: one effect, with the way of
 // its centre.
 #include "gap/diagnose.h"

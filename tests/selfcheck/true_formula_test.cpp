@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The formula by which an equation is judged is what the rig has: with it the plant predicts the independent
 // model's recordings to the floor.
 #include "src/selfcheck/draw/true_formula.h"
@@ -7,7 +8,7 @@
 #include "gap/fit/score.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/selfcheck/draw/campaign.h"
 #include "src/selfcheck/draw/listed_effects.h"
 #include "src/selfcheck/draw/put_effect.h"

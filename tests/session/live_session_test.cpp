@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The whole session in real time, as on hardware: loop in a thread of its own, a camera that delivers by the
 // wall clock, vision in between. The truth is a simulated rig that goes on whatever the program does.
 #include "control/stage_check.h"
@@ -5,11 +6,11 @@
 #include "core/result.h"
 #include "core/rig.h"
 #include "core/units.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/record/on_rig.h"
 #include "src/record/start.h"
-#include "src/recording/reader.h"
 #include "src/session/pilot.h"
 #include "src/session/session.h"
 #include "src/session/stage_start.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fiducial-relative positioning end to end, through rendered images, judged by the plant's own truth: on the
 // rig as its file says, and on rigs that differ from their file in ways the session is not told.
 #include "core/failure.h"

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/failure.h"
 #include "core/input_error.h"
 #include "core/result.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "src/session/faulty_devices.h"
 #include "src/session/pilot.h"
 #include "tests/session/watched_rig.h"

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A simulated rig whose truth a test writes down, tick by tick, while a session drives it through its
 // devices.
 #include "core/plate.h"
 #include "core/result.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/session/session.h"
 #include "src/session/simulated_rig.h"
 

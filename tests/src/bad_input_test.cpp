@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a user gave and is wrong: one clear line, the right exit code, nothing overwritten. On the real
 // executable.
 #include "core/rig.h"

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/calibrate/calibrate_camera.h"
 
 #include "core/rig.h"
 #include "src/calibrate/camera_images.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files of intrinsics and of calibration targets that other programs write.
+#include "core/camera/lens.h"
 #include "core/input_error.h"
-#include "core/lens.h"
 #include "src/calibrate/camera_target.h"
-#include "src/config/camera_info.h"
+#include "src/files/rig/camera_info.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 #include "tests/variations.h"

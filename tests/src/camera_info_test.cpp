@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The camera of a rig file, and ROS's files of intrinsics.
-#include "src/config/camera_info.h"
+#include "src/files/rig/camera_info.h"
 
 #include "core/random.h"
 #include "core/rig.h"
-#include "src/config/rig_edit.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_edit.h"
+#include "src/files/rig/rig_file.h"
 #include "src/inspect/identity.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"

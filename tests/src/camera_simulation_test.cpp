@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The simulated camera in recordings: detections that are not made from images and frames with the real
 // detector must tell the same story, whatever the camera is like.
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "src/simulation/filmed_recording.h"
 #include "src/simulation/simulate.h"
 #include "tests/reference_rig.h"

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a file of detections says of how well corners are known.
-#include "src/recording/reader.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/reader.h"
+#include "src/files/recording/writer.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effects as formulas in files: what is read is what is written, and mistakes are named where they stand.
-#include "src/config/effects_file.h"
+#include "src/files/rig/effects_file.h"
 
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
 #include "plant/formulas/port.h"
-#include "src/config/rig_edit.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_edit.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 

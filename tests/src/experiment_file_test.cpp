@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Experiments that people write: what they command, tick by tick, and what is refused.
 #include "src/simulation/experiment_file.h"
 

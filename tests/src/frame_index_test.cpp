@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lists of images and times as other programs write them.
-#include "src/recording/frame_index.h"
+#include "src/files/recording/frame_index.h"
 
 #include "core/input_error.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 #include "tests/variations.h"

@@ -1,7 +1,8 @@
-#include "src/manual/manual.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/cli/manual/manual.h"
 
-#include "src/cli.h"
-#include "src/manual/command_tree.h"
+#include "src/cli/cli.h"
+#include "src/cli/manual/command_tree.h"
 #include "tests/src/run_program.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Folders, camera files and targets of other programs given to the program itself.
 #include "tests/src/run_program.h"
 #include "tests/src/temporary_folder.h"

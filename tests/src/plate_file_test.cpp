@@ -1,4 +1,5 @@
-#include "src/config/plate_file.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/files/rig/plate_file.h"
 
 #include "tests/src/message_of.h"
 

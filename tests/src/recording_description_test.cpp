@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What recording.yaml states, and recordings whose writer was ended in the middle.
 #include "core/input_error.h"
-#include "src/recording/description.h"
-#include "src/recording/reader.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/description.h"
+#include "src/files/recording/reader.h"
+#include "src/files/recording/writer.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/config/rig_file.h"
-#include "src/recording/reader.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/reader.h"
+#include "src/files/recording/writer.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 

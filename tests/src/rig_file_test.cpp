@@ -1,7 +1,8 @@
-#include "src/config/rig_file.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/files/rig/rig_file.h"
 
 #include "core/rig.h"
-#include "src/config/fod_file.h"
+#include "src/files/rig/fod_file.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
 

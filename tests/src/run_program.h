@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Runs the real executable, for what only it can show: exit codes and what stands on stderr.
 #include "tests/src/temporary_folder.h"

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
-#include "src/recording/row_format.h"
+#include "src/files/recording/row_format.h"
 #include "src/simulation/simulate.h"
 #include "tests/reference_rig.h"
 

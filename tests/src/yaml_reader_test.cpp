@@ -1,4 +1,5 @@
-#include "src/config/yaml_reader.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/files/text/yaml_reader.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"

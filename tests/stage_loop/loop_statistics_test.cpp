@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "control/loop_statistics.h"
 
 #include <gtest/gtest.h>

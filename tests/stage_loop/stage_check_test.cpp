@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The check of a stage against simulated ones, healthy and not.
 #include "control/stage_check.h"
 

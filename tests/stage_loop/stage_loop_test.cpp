@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The loop's thread on a stage in memory: what it hands over, what it does alone, how it ends. Nothing here
 // depends on how fast this machine is.
 #include "control/stage_loop.h"
@@ -8,7 +9,7 @@
 #include "core/result.h"
 #include "core/rig.h"
 #include "plant/stage_plant.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 #include "src/session/motion_params.h"
 #include "tests/plant/allocation_count.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Each alarm by what it is for, and none of them by a healthy stage.
 #include "control/watchdog.h"
 

@@ -1,6 +1,7 @@
-#include "src/table/number_notation.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/files/table/number_notation.h"
 
-#include "src/table/clock_time.h"
+#include "src/files/table/clock_time.h"
 
 #include <gtest/gtest.h>
 

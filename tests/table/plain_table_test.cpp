@@ -1,4 +1,5 @@
-#include "src/table/plain_table.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/files/table/plain_table.h"
 
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The best that any unbiased estimator can do with one frame.
 #include "tests/tag_precision/sensor.h"

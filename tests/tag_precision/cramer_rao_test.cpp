@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/tag_precision/cramer_rao.h"
 
 #include <cmath>

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a refinement is judged on: pictures, what it is told of them, and how good it must be.
 #include "tests/tag_precision/sensor.h"
 #include "tests/tag_precision/tag_scene.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <string>
 #include <vector>

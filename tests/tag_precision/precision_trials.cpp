@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/tag_precision/precision_trials.h"
 
 #include "tests/core_time.h"

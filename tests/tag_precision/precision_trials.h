@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Many noisy frames of one case, and what an estimator's errors over them say.
 #include "core/detection.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The judge itself is judged: by estimators whose errors are known.
 #include "tests/tag_precision/precision_trials.h"
 

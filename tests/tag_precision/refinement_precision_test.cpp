@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // refine_tag against the Cramer-Rao bound of every kind of picture.
 #include "tests/effort.h"
 #include "tests/tag_precision/precision_trials.h"

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The mean picture of one printed tag under a camera, as a function of everything that shapes it. Exact to
 // rounding for a camera without noise; shares nothing with the program's own pictures.
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "core/detection.h"
 #include "tests/tag_precision/blurred_region.h"
 

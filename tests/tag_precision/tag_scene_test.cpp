@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/tag_precision/tag_scene.h"
 
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Pictures of tags of any family. Their cells are drawn by the libraries that define them, not by the
 // program.
 #include "core/detection.h"
-#include "vision/tag_book.h"
+#include "vision/tags/tag_book.h"
 
 #include <array>
 #include <random>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures without the tags that are looked for.
 #include "tests/tags/drawn_tag.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_pattern.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_pattern.h"
 
 #include <array>
 #include <filesystem>

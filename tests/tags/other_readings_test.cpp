@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tags that were not looked for as what they are: the hint names how they would be found.
-#include "vision/other_readings.h"
+#include "vision/tags/other_readings.h"
 
 #include "tests/tags/drawn_tag.h"
 #include "tests/variations.h"
-#include "vision/square_outlines.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/square_outlines.h"
+#include "vision/tags/tag_detector.h"
 
 #include <algorithm>
 #include <cmath>

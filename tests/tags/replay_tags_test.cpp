@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Images of tags that are not printed as usual, by way of the program.
 #include "src/calibrate/camera_images.h"
 #include "src/replay/unread_tags.h"

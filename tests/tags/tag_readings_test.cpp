@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every family, with borders of one and two cells, inverted and mirrored: read as what it is, and measured.
 #include "tests/tags/drawn_tag.h"
 #include "tests/variations.h"
-#include "vision/tag_appearance.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_appearance.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <cmath>
 #include <functional>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Equations of a band whose blocks' weights change, against equations added up anew.
-#include "vision/band_model.h"
+#include "vision/tags/band_model.h"
 
-#include "vision/tag_pattern.h"
+#include "vision/tags/tag_pattern.h"
 
 #include <array>
 #include <random>

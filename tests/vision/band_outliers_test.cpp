@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which blocks are left out, on residuals made by hand.
-#include "vision/band_outliers.h"
+#include "vision/tags/band_outliers.h"
 
-#include "vision/tag_pattern.h"
+#include "vision/tags/tag_pattern.h"
 
 #include <array>
 #include <cmath>

@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The machine's own frames, rendered by the simulated plate, through the real detector.
 #include "vision/camera_position.h"
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/failure.h"
 #include "core/random.h"
 #include "core/result.h"
 #include "plant/view/plate_view.h"
 #include "tests/row_of_tags.h"
-#include "vision/tag_choice.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_choice.h"
+#include "vision/tags/tag_detector.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The camera's projection against OpenCV's, an independent second method.
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 #include "core/random.h"
 
 #include <cstdint>

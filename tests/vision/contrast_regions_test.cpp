@@ -1,8 +1,9 @@
-#include "vision/contrast_regions.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vision/tags/contrast_regions.h"
 
 #include "core/random.h"
 #include "tests/vision/quick_tag.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <algorithm>
 

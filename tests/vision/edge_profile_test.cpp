@@ -1,4 +1,5 @@
-#include "vision/edge_profile.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vision/tags/edge_profile.h"
 
 #include <array>
 #include <cmath>

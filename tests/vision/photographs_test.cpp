@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Photographs made by others, with the tags that are in them. All tags of the three .jpg have the id 0.
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <algorithm>
 #include <cstdio>

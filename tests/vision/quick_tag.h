@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Tags drawn in a hurry, for tests of thousands of pictures: four samples a pixel, so that edges are right to
 // a fifth of a pixel or so.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/vision/rendered_tag.h"
 
 #include "core/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Frames with tags for tests of detection and refinement, from the exact pictures of tests/tag_precision/.
 #include <array>

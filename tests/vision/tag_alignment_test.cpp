@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An expected tag is found where it is, within the stated reach, and never where another one is.
-#include "vision/tag_alignment.h"
+#include "vision/tags/tag_alignment.h"
 
 #include "core/random.h"
 #include "tests/effort.h"

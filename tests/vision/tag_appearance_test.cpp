@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Blur, brightness and noise of tags in rendered frames, against what they were rendered with. Limits are
 // what gap/links/image_link.h allows for.
-#include "vision/tag_appearance.h"
+#include "vision/tags/tag_appearance.h"
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/plate.h"
 #include "plant/view/plate_view.h"
 #include "tests/reference_camera.h"

@@ -1,4 +1,5 @@
-#include "vision/tag_choice.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vision/tags/tag_choice.h"
 
 #include <numbers>
 

@@ -1,4 +1,5 @@
-#include "vision/tag_detector.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vision/tags/tag_detector.h"
 
 #include "core/random.h"
 #include "tests/effort.h"

@@ -1,10 +1,11 @@
-#include "vision/tag_refinement.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vision/tags/tag_refinement.h"
 
 #include "core/failure.h"
 #include "core/random.h"
 #include "core/result.h"
 #include "tests/vision/rendered_tag.h"
-#include "vision/tag_detector.h"
+#include "vision/tags/tag_detector.h"
 
 #include <cmath>
 

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tags followed through motion, jumps, covers, exchanges and empty frames. Truth: what was drawn.
-#include "vision/tag_tracker.h"
+#include "vision/tags/tag_tracker.h"
 
 #include "core/random.h"
 #include "tests/effort.h"

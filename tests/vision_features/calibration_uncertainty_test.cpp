@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What is measured with a camera that is a little other than its calibration says.
 #include "core/random.h"
 #include "core/units.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Does a stated uncertainty describe the errors? Over many independent trials the normalised squared errors
 // follow a chi-square law.

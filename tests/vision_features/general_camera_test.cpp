@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Printed features under a camera that is turned, tilted, distorting, on an oblique axis: measured in its
 // image, stated on the plate.
 #include "tests/vision_features/scene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/vision_features/scene.h"
 
 #include "plant/view/plate_view.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A small world for tests: a plate, a camera above it, and images of it.
 #include "core/plate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Images are read as OpenCV's own codecs read them, and what is written is read back.
 #include "vision/images/image_file.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vision/servo/servo_law.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # boot.sh [--own-time] [--keep FOLDER] DIR MODULES TIMEOUT_S COMMAND: boots the virtual machine of setup.sh in software,
 # loads kernel modules ("vivid:n_devs=1,comedi_test": options after colons), runs a shell command in the current folder
 # and relays its output and exit code. 125: the machine itself failed. The command sees this machine's files; what it

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A stage and a camera for a program on the other side of the kernel:
 //
 //     comedi_rig RIG.yaml PLATE.yaml COMEDI-NODE VIDEO-NODE SECONDS [NAME:PARAMETER=VALUE,...]...
@@ -15,8 +16,8 @@
 #include "core/monotonic_clock.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/live_rig.h"
 #include "tests/vm/loopback_feed.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Comedi's own test driver (analogue outputs looped back to the inputs) and the MultiQ-3's, by libcomedi and
 // a kernel. The first node is the MultiQ-3 without a board, the second comedi_test.
 #include "control/comedi/comedi_board.h"

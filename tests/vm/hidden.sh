@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # hidden.sh VM-DIR BUILD-DIR MODULES [EFFECT...]: what is wrong with a rig that only a kernel's drivers show is found out. One
 # effect after the other hides in the simulated machine behind them: fidservo records it, diagnose names the effect and
 # writes a rig file; with that file fidservo records another experiment, in which nothing is wrong any more. The machine

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # inspection.sh BUILD-DIR [killed]: a whole inspection in which images and stage both cross the kernel. comedi_rig
 # simulates what the Comedi loopback was commanded and feeds v4l2loopback; fidservo inspects through both.
 # killed: the run gets a SIGKILL once a site is measured; the board has to be at zero then, and the run is taken up again.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The other end of v4l2loopback: what is shown here is what a camera on the node sees.
 #include "vision/v4l2/device.h"

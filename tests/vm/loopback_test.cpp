@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rendered frames of the moving plate through the kernel (v4l2loopback) and the V4L2 camera: every image
 // arrives, every tag is found, and displacements are those that were rendered.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "core/failure.h"
 #include "core/result.h"
 #include "core/units.h"

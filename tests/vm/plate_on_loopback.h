@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The reference rig's plate, seen by a camera with a smaller image (2.56 x 1.92 mm), rendered as the
 // simulated camera renders it.

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `fidservo record` and `fidservo cameras` on a camera behind the kernel (v4l2loopback): what the recording
 // holds is what was shown.
 #include "core/rig.h"
-#include "src/config/plate_file.h"
-#include "src/config/rig_file.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/rig/rig_file.h"
 #include "tests/src/run_program.h"
 #include "tests/vm/loopback_feed.h"
 #include "tests/vm/plate_on_loopback.h"

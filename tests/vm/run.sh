@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # run.sh VM-DIR BUILD-DIR [GROUP...]: the device tests, a boot a group. Exit code 0 if all groups passed, or if there is no
 # virtual machine to run them in: they are skipped then.
 set -uo pipefail

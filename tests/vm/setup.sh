@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # setup.sh DIR: the virtual machine for the device tests. Downloads Debian's kernel without installing it, builds
 # v4l2loopback and Comedi's multiq3 driver for it, and leaves DIR/vmlinux and DIR/initrd.gz. Does nothing if they are
 # there for this kernel already.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The V4L2 camera on the kernel's own test driver, which can also misbehave when told to.
 #include "core/failure.h"
 #include "core/input_error.h"

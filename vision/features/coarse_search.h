@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Finds a small printed shape near its nominal place by normalised correlation.
 #include "core/result.h"

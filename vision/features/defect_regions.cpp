@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vision/features/defect_regions.h"
 
 #include "vision/features/normal_law.h"

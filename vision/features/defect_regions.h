@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From a difference image to defects: which pixels differ beyond chance, and what they form.
 #include <vector>

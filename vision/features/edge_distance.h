@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The distance between two nearly parallel edges: of two features, or of a feature and a tag.
 #include "core/plate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Collects the pixels along an outline, section by section, each with its distance from the outline.
 #include "vision/features/subpixel_edge.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A printed line: its width, where it is thinnest, and where it runs.
 #include "core/plate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Robust weighted linear least squares: how a shape must change so that its outline passes through the edges
 // found.

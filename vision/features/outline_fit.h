@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Fits a shape's outline to the edge found along it: what dots, pads and single edges have in common.
 #include "core/failure.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A printed rectangle: where it is, how large, how turned.
 #include "core/plate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Weighted nonlinear least squares for models of a grey profile with a handful of parameters.
 #include "core/normal_equations.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Brings a reference image onto an image: shift, gain, offset and uneven light.
 #include "core/result.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Comparison with a reference image: what is there that should not be, and what is missing.
 #include "core/result.h"

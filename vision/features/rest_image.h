@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An image taken at rest with all that is known of how it came about, and how what is measured in it is
 // stated: a value with its standard uncertainty.
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 
 #include <array>
 

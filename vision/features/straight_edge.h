@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One straight edge in the image, as a shape that fit_outline can bring onto what is seen.
 #include "vision/features/outline_fit.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where an edge crosses, from grey values at known distances from its presumed place. No interpolation: the
 // samples are pixels, so their noise is independent and the uncertainty that follows from it is exact to

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From a measured value to a decision, guarded against the measurement's own uncertainty.
 #include "vision/features/rest_image.h"

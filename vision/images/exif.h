@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What EXIF data say of an image: how it is to be turned to be seen upright.
 #include <cstddef>

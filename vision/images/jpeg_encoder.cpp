@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/demand.h"
 #include "vision/images/image_file.h"
 

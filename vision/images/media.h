@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Libraries for images and videos that are many and large, behind a module that is loaded at the first call:
 // libtiff, FFmpeg's, and OpenCV's codecs.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // libpng ends on an error by a long jump to the last setjmp, over which no destructor runs: the functions
 // with a setjmp here, and what they call, hold no object that has one.
 #include "vision/images/png.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vision/images/stated_size.h"
 
 #include "core/failure.h"

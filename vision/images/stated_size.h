@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the files say of themselves that OpenCV's codecs decode: their codecs hand out what there is of some
 // formats that were cut short, and take memory for whatever a header claims.

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The visual servo law: from a tag's corners in the image to a move of the stage.
 //
 // This room is compiled as C++17 for its library's sake; the header stays within it.
-#include "core/camera_geometry.h"
+#include "core/camera/camera_geometry.h"
 
 #include <array>
 

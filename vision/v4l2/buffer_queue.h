@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The frames' memory, shared with the driver: a few buffers that are filled in turn.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The cameras of this machine.
 #include "vision/v4l2/controls.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The format in which a camera sends its frames.
 #include "vision/v4l2/capture_settings.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a camera is asked for.
 #include "vision/v4l2/pixel_format.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Exposure, gain and focus fixed: what is measured in images must not depend on what the camera makes of
 // them.

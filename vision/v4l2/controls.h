@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A camera's controls: gain, exposure and whatever else the driver lets one set.
 #include "vision/v4l2/device.h"

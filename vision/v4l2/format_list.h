@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a camera offers: pixel formats, image sizes, frame rates.
 #include "vision/v4l2/device.h"

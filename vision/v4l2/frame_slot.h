@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Between the thread that reads the camera and whoever wants a frame: one place, in which a newer frame takes
 // the older one's.

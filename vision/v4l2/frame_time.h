@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // When a frame was exposed, from what the driver says about it.
 #include "core/time.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The driver's 32-bit frame numbers as one long count, and what is missing in it.
 #include <cstdint>

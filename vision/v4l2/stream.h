@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A camera that sends: opened, set, started. One thread uses it.
 #include "core/result.h"

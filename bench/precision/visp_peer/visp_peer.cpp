@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // ViSP's tag detector on raw frames from standard input: visp_peer WIDTH HEIGHT TAG_ID. Answers each frame
 // with one line: "none", or the tag's corners u0 v0 .. u3 v3 in px, pixel centres at integers.
 #include <cstdio>

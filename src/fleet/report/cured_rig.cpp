@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/report/cured_rig.h"
 
 #include "core/rig.h"
-#include "src/config/rig_edit.h"
+#include "src/files/rig/rig_edit.h"
 
 #include <algorithm>
 #include <vector>

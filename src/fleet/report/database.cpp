@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/report/database.h"
 
 #include "core/failure.h"
 #include "core/input_error.h"
+#include "src/files/disk/sha256.h"
 #include "src/fleet/report/schema.h"
 #include "src/fleet/report/sqlite.h"
-#include "src/inspect/sha256.h"
 
 #include <algorithm>
 #include <fstream>
@@ -134,7 +135,7 @@ void bring_up_to_date(const Database& database, const std::vector<std::filesyste
         const std::string file = path.filename().string();
         try {
             const std::string bytes = bytes_of(path);
-            const std::string sha256 = inspect::sha256(bytes);
+            const std::string sha256 = sha256(bytes);
             const auto old = known.find(file);
             const bool is_new = old == known.end();
             if (!is_new && old->second == sha256) {

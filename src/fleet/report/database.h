@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The results of a fleet in SQLite: FLEET/fleet.sqlite, for the report and for whoever wants to ask more. Its
 // tables are described in docs/fleet-report.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the results of a fleet come to: what is wrong with the model, a batch, a unit; what has changed and
 // since when.

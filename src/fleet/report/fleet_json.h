@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "src/fleet/report/database.h"
 #include "src/fleet/report/findings.h"

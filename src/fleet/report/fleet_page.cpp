@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/report/fleet_page.h"
 
-#include "src/commit.h"
 #include "src/diagnose/words.h"
 #include "src/fleet/report/fleet_page_data.h"
 #include "src/fleet/report/judgement_words.h"
+#include "src/process/commit.h"
 #include "src/report/embedded.h"
 #include "src/report/html.h"
 #include "src/report/page.h"

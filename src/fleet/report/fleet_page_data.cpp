@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/report/fleet_page_data.h"
 
 #include "src/fleet/report/groups.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which units may share a cause: by a label of their recordings, by when they were first recorded, by when
 // they changed.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/report/judgement_words.h"
 
 #include "src/diagnose/advice.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Judgements of a fleet in words of the workshop.
 #include "src/fleet/report/findings.h"

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/report/result.h"
 
 #include "core/input_error.h"
+#include "src/files/table/clock_time.h"
 #include "src/fleet/result_store.h"
-#include "src/table/clock_time.h"
 
 #include <cmath>
 #include <ctime>

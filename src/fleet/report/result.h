@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a report knows of one task of a fleet: a campaign of a unit and its diagnosis, from a file of
 // FLEET/results (format fidservo-fleet-result/1).

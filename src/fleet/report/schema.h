@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The tables of FLEET/fleet.sqlite. docs/fleet-report.md describes them for people who query them.
 #include <cstdint>

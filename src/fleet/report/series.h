@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What results say of each quantity of each unit, over time, in floors.
 //

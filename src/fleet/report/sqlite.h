@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // SQLite's handles, closed when they go, and its errors as exceptions.
 #include <cstdint>

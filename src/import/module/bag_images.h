@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Cameras' messages of ROS 2.
 #include "src/import/log.h"

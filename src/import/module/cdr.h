@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // CDR, the encoding of ROS 2's messages (OMG DDS-XTypes 1.3, 7.4: XCDR version 1, plain): values are aligned
 // to their size, counted from behind the four bytes that say the order of bytes.

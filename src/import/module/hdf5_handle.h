@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Identifiers of libhdf5 that are closed with their scope; attributes as texts.
 #include <string>

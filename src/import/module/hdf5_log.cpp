@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/module/hdf5_log.h"
 
 #include "src/identify/column_units.h"

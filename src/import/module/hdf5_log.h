@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // HDF5 files by libhdf5.
 #include "src/import/log.h"

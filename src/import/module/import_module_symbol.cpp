@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the module offers, under the name by which it is looked up.
 #include "src/import/import_module.h"
 #include "src/import/module/hdf5_log.h"

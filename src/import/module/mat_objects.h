@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // MATLAB's own objects (timetables, strings, datetimes), which no other program can read, by name and class.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/module/rosbag2_log.h"
 
 #include "src/import/module/bag_images.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Bags of ROS 2 in SQLite's format.
 #include "src/import/log.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The checks of a recipe, made on images taken at rest.
 #include "src/inspect/measure/results.h"

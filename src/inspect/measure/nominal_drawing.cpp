@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/measure/nominal_drawing.h"
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "plant/view/plate_view.h"
 #include "src/inspect/recipe/pattern.h"
 #include "src/inspect/recipe/seen_box.h"

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The nominal plate as an ideal camera would see it.
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "src/inspect/measure/checks.h"
 
 namespace fidservo::inspect {

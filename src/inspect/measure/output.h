@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where a run's files lie.
 #include <filesystem>
@@ -21,9 +22,5 @@ std::string visit_name(int tag_id, bool again);
 std::string image_name(int tag_id, bool again, const std::string& view);
 /// "recordings/site-012", relative to the output folder.
 std::string recording_name(int tag_id, bool again);
-
-/// Gives what an interrupted run left under this name another one ("NAME.interrupted-1"): nothing that was
-/// measured is lost. Does nothing if there is nothing.
-void set_aside(const std::filesystem::path& path);
 
 }  // namespace fidservo::inspect

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The view against an image of what it should be.
 #include "src/inspect/measure/checks.h"

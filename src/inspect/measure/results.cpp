@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/measure/results.h"
 
-#include "src/recording/durable_file.h"
+#include "src/files/disk/durable_file.h"
 
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What an inspection found: rows of results, what was seen where in the images, and how each visit went.
 #include "vision/features/verdict.h"

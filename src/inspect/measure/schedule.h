@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which site comes next: the recipe's order first, then, once more, those that were put off.
 #include "src/inspect/measure/results.h"

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/measure/site_measurement.h"
 
-#include "src/recording/durable_file.h"
+#include "src/files/disk/durable_file.h"
 #include "vision/images/image_file.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What is made of a site's images: the checks of every view, the images on the disk.
 #include "src/inspect/measure/checks.h"

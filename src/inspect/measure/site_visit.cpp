@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/measure/site_visit.h"
 
 #include "core/failure.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One visit to a site: go to each view, take its picture at rest, measure.
 #include "src/inspect/measure/schedule.h"

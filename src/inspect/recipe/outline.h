@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Outlines of what was measured, for drawing over the image.
 #include "core/plate.h"

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/recipe/pattern.h"
 
-#include "src/config/plate_file.h"
+#include "src/files/rig/plate_file.h"
 
 #include <fmt/format.h>
 

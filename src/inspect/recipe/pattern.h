@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What is printed beside every site's fiducial, written once in the recipe.
-#include "src/config/yaml_reader.h"
+#include "src/files/text/yaml_reader.h"
 #include "src/inspect/recipe/recipe.h"
 
 #include <string>

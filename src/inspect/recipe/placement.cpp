@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/recipe/placement.h"
 
-#include "core/camera_covariance.h"
+#include "core/camera/camera_covariance.h"
 #include "core/failure.h"
 #include "core/units.h"
 #include "src/inspect/recipe/recipe.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A fiducial against the nominal grid.
 //
@@ -9,7 +10,7 @@
 // and the placement error of k is the mean of the d_j. With one neighbour on either side an error of the
 // camera's scale or of its rotation cancels. The spread of the d_j widens the uncertainty,
 //     u^2 = (sum of their variances) / n^2 + (standard deviation of the d_j)^2 / n + J C J^T,
-// where J C J^T is what the camera's calibration leaves of that mean (core/camera_covariance.h),
+// where J C J^T is what the camera's calibration leaves of that mean (core/camera/camera_covariance.h),
 // so that a displaced neighbour makes the placement undecidable rather than wrong.
 #include "core/result.h"
 #include "src/inspect/recipe/snapshot.h"

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What this rig can reach and see: everything that is refused when the recipe is read.
-#include "core/camera_geometry.h"
-#include "src/config/yaml_reader.h"
+#include "core/camera/camera_geometry.h"
+#include "src/files/text/yaml_reader.h"
 #include "src/inspect/recipe/recipe.h"
 
 namespace fidservo::inspect {

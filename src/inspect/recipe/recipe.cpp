@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/recipe/recipe.h"
 
-#include "src/config/plate_file.h"
-#include "src/config/yaml_reader.h"
+#include "src/files/rig/plate_file.h"
+#include "src/files/text/yaml_reader.h"
 #include "src/inspect/recipe/pattern.h"
 #include "src/inspect/recipe/reach.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What an inspection is told: the plate as it should be, the places to go to, and what to check there.
 // docs/inspection.md describes the file.

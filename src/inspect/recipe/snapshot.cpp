@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/recipe/snapshot.h"
 
-#include "core/camera_parameters.h"
+#include "core/camera/camera_parameters.h"
 #include "src/inspect/recipe/recipe.h"
 #include "vision/camera_position.h"
 

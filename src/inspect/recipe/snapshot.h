@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An image taken at rest, and what its fiducials say about where it was taken.
 #include "core/plate.h"
 #include "core/result.h"
 #include "vision/camera.h"
 #include "vision/features/rest_image.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <vector>
 

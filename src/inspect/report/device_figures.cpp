@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/report/device_figures.h"
 
 #include "src/report/chart.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How the devices of a run did: the control loop's punctuality, the camera's frames.
 #include "control/loop_statistics.h"

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/report/inspection_report.h"
 
 #include "core/rig.h"
+#include "src/files/disk/durable_file.h"
 #include "src/inspect/report/report_sections.h"
 #include "src/inspect/report/report_traces.h"
 #include "src/inspect/saved_images.h"
-#include "src/recording/durable_file.h"
 
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The report of an inspection: one HTML file that works offline.
 #include "src/inspect/journal.h"

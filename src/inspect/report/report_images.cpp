@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/report/report_sections.h"
 #include "src/report/html.h"
 #include "vision/images/image_file.h"

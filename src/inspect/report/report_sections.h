@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The parts of an inspection's report, each as HTML.
 #include "src/inspect/journal.h"

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/report/report_traces.h"
 
 #include "core/hall.h"
 #include "core/rig.h"
 #include "core/time.h"
+#include "src/files/recording/reader.h"
 #include "src/inspect/report/report_sections.h"
-#include "src/recording/reader.h"
 #include "src/report/plot.h"
 
 #include <algorithm>

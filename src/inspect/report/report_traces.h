@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Macro and micro stage over the whole run, from the recordings.
 #include "src/inspect/measure/output.h"

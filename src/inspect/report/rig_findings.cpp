@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/report/rig_findings.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "src/diagnose/diagnose_recordings.h"
 #include "src/diagnose/diagnosis_json.h"
-#include "src/diagnose/report.h"
+#include "src/diagnose/report/report.h"
 #include "src/diagnose/verdict_words.h"
 #include "src/diagnose/words.h"
-#include "src/interrupt.h"
-#include "src/recording/durable_file.h"
-#include "src/recording/reader.h"
+#include "src/files/disk/durable_file.h"
+#include "src/files/recording/reader.h"
+#include "src/process/interrupt.h"
 #include "src/report/html.h"
 
 #include <string>

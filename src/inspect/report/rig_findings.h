@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What an inspection's own recordings say of the rig beside its simulation.
 #include "src/inspect/measure/output.h"

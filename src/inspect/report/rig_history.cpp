@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/inspect/report/rig_history.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "src/commit.h"
+#include "src/files/disk/durable.h"
+#include "src/files/disk/sha256.h"
 #include "src/fleet/report/findings.h"
 #include "src/fleet/report/judgement_words.h"
 #include "src/fleet/result_store.h"
-#include "src/inspect/durable.h"
-#include "src/inspect/sha256.h"
+#include "src/process/commit.h"
 #include "src/report/html.h"
 
 #include <fstream>

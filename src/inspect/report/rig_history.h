@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a rig's inspections have said of it, run after run, and whether it has changed.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the diagnosis of a case is given: the recordings of a campaign, in memory.
 #include "core/recording.h"

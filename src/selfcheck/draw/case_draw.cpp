@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/selfcheck/draw/case_draw.h"
 
 #include "core/rig.h"

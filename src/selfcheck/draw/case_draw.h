@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The cases of a self-check: what each is made with, drawn at random and evenly.
 #include "src/selfcheck/draw/label.h"

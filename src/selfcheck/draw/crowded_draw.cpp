@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/selfcheck/draw/crowded_draw.h"
 
 #include "gap/candidates/candidate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Rigs with many causes at once: three effects, or a messy rig.
 //

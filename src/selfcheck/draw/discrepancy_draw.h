@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Discrepancies that no effect has: smooth functions of random shape on one signal's block.
 #include "core/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/selfcheck/draw/filmed_campaign.h"
 
 #include "core/input_error.h"
@@ -7,9 +8,9 @@
 #include "reference/tag_picture.h"
 #include "src/simulation/run_experiment.h"
 #include "src/simulation/simulate_reference.h"
-#include "vision/tag_appearance.h"
-#include "vision/tag_detector.h"
-#include "vision/tag_refinement.h"
+#include "vision/tags/tag_appearance.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
 
 #include <algorithm>
 #include <array>

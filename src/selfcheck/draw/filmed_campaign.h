@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the diagnosis of a case with frames is given.
 #include "core/recording.h"

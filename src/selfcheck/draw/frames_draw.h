@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Cases with frames: effects of the image, which show nowhere else.
 #include "src/selfcheck/draw/case_draw.h"

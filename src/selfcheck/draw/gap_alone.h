@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How large a gap is that one cause makes by itself, and the size at which it makes one of a given size.
 #include "src/selfcheck/draw/true_rig.h"

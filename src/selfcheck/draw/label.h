@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a case of the self-check was made with. The scorer alone reads it.
 #include "core/formula_effect.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The effects of the catalogue that the independent model of rigs (reference/) can have, and how large they
 // are drawn.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Effects of the catalogue made by a formula that the catalogue does not have for them.
 #include "src/selfcheck/draw/listed_effects.h"

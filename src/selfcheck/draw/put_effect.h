@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // An effect of the catalogue put into a rig at a size that is drawn evenly in the logarithm.
 #include "core/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Draws that are even: nothing is met again before all was met.
 #include "core/random.h"

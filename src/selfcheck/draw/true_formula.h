@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What an effect adds at a port of the machine, as the formula that a diagnosis might propose for it.
 #include "core/formula_effect.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Effects that the catalogue lacks: no setting of a named effect, nor two of them, does what they do.
 #include "core/random.h"

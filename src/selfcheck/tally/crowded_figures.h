@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What outcomes of rigs with many causes at once come to.
 #include "src/selfcheck/tally/tally.h"

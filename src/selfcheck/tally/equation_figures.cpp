@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/selfcheck/tally/equation_figures.h"
 
 #include <functional>

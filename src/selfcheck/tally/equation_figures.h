@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What outcomes come to of equations that are proposed for what no name is right for.
 #include "src/selfcheck/tally/tally.h"

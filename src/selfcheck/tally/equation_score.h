@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A proposed equation compared with the formula that the case was made with.
 #include "core/formula_effect.h"

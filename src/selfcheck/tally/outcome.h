@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "src/selfcheck/draw/label.h"
 #include "src/selfcheck/tally/score.h"

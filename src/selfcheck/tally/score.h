@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A diagnosis compared with what its case was made with. Labels are opened here only.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a self-check's outcomes come to.
 #include "src/selfcheck/tally/binomial.h"

@@ -1,4 +1,5 @@
-#include "calib/actuator/actuator_tuning.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/wire/actuator_tuning.h"
 
 #include "core/failure.h"
 #include "core/result.h"

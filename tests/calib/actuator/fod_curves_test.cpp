@@ -1,4 +1,5 @@
-#include "calib/actuator/fod_curves.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/wire/fod_curves.h"
 
 #include "core/failure.h"
 #include "core/result.h"

@@ -1,4 +1,5 @@
-#include "calib/actuator/hall_curve.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/hall/hall_curve.h"
 
 #include "core/failure.h"
 #include "core/random.h"

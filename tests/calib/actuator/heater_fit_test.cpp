@@ -1,11 +1,12 @@
-#include "calib/actuator/heater_fit.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/wire/heater_fit.h"
 
 #include "core/failure.h"
 #include "core/random.h"
 #include "core/result.h"
 #include "core/rig.h"
 #include "reference/reference_rig.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "tests/calib/sweep.h"
 #include "tests/shared_table.h"
 

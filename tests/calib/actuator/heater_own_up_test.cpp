@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What identify heater says when recordings contradict each other, fix a combination only, or are missed.
-#include "calib/actuator/heater_fit.h"
 #include "calib/significance.h"
 #include "calib/tails.h"
+#include "calib/wire/heater_fit.h"
 #include "core/random.h"
 #include "core/result.h"
 

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings of a heated wire drawn at random that contradict each other, that the model misses, that fix a
 // combination only: every number stated has an interval that holds the truth, or it is said not to be known.
-#include "calib/actuator/heater_fit.h"
 #include "calib/tails.h"
+#include "calib/wire/heater_fit.h"
 #include "core/result.h"
 #include "tests/variations.h"
 

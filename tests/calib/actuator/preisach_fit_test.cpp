@@ -1,6 +1,7 @@
-#include "calib/actuator/preisach_fit.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/wire/preisach_fit.h"
 
-#include "calib/actuator/preisach_shift.h"
+#include "calib/wire/preisach_shift.h"
 #include "core/failure.h"
 #include "core/random.h"
 #include "core/result.h"

@@ -1,4 +1,5 @@
-#include "calib/axis/encoder_scale.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/macro/encoder_scale.h"
 
 #include "calib/significance.h"
 #include "core/failure.h"

@@ -1,4 +1,5 @@
-#include "calib/axis/macro_identification.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/macro/macro_identification.h"
 
 #include "core/failure.h"
 #include "core/result.h"

@@ -1,4 +1,5 @@
-#include "calib/axis/macro_step_response.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/macro/macro_step_response.h"
 
 #include "core/rig.h"
 #include "tests/calib/macro_drive.h"

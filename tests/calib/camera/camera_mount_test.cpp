@@ -1,4 +1,5 @@
-#include "calib/camera/camera_mount.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/stage/camera_mount.h"
 
 #include "calib/camera/lens_projection.h"
 #include "calib/camera/plane_pose.h"

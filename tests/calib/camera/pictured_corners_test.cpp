@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/camera/pictured_corners.h"
 
 #include "tests/calib/stage_views.h"

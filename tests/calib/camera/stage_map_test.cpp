@@ -1,4 +1,5 @@
-#include "calib/camera/stage_map.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/stage/stage_map.h"
 
 #include "calib/significance.h"
 #include "core/failure.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Waves of a force along the rail, from the balance of the forces along the way recorded.
 #include "gap/balance/balanced_waves.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The forces that a carriage's prediction lacks, against forces that are known.
 #include "gap/balance/carriage_forces.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether forces balance along recorded ways.
 #include "gap/balance/force_balance.h"
 

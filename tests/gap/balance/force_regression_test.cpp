@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which effects balance a carriage's forces together.
 #include "gap/balance/force_regression.h"
 

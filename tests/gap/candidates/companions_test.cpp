@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effects that show only beside what another one does.
 #include "gap/diagnose.h"
 #include "tests/gap/effect_names.h"

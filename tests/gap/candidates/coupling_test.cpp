@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which effects meet in the same signals, and what a search remembers of them.
 #include "gap/candidates/coupling.h"
 

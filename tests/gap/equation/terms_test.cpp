@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The library of terms, and what sparse regression makes of a force that is known.
 #include "gap/equation/screening.h"
 #include "gap/evidence/halves.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What formulas saw along recordings, and the recordings in which something is lost.
 #include "gap/equation/visited.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/evidence/halves.h"
 
 #include "tests/gap/simulated_campaign.h"

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings whose loop left ticks out: the commands of the tick before went on, and nothing was read.
 #include "gap/evidence/late_ticks.h"
 
 #include "core/random.h"
 #include "gap/diagnose.h"
-#include "src/recording/writer.h"
+#include "src/files/recording/writer.h"
 #include "src/simulation/experiment_law.h"
 #include "tests/gap/effects.h"
 #include "tests/gap/simulated_campaign.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings that were made over a plate of their own.
 #include "gap/evidence/plate_tag.h"
 

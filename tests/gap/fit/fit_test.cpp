@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fits of hypotheses whose errors are known in closed form.
 #include "gap/fit/fit.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fits of what depends on a parameter by jumps.
 #include "gap/fit/polish.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear models of what is left: found where there is something, and only there.
 #include "gap/fit/regression.h"
 

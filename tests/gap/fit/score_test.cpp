@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Losses of windows, comparisons of hypotheses, and what is no chance: against hand calculation, published
 // tables of Student's law, and random draws.
 #include "gap/fit/score.h"

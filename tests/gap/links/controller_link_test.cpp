@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Controllers replayed on what was recorded: the rig file's, under every reading that firmware is free to
 // have.
 #include "gap/links/controller_link.h"

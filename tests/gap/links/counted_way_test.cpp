@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/links/counted_way.h"
 
 #include "plant/effects/catalogue.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Looks of tags as they follow from a camera, and what a diagnosis makes of frames of the simulated rig.
 #include "gap/links/image_link.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What recordings share that a rig made without being switched off, and where its encoder counts from.
 #include "gap/links/power_on.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What frames themselves show of exposure and readout, and which detections are clear: against formulas.
 #include "gap/links/shutter.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings that begin with a warm wire, of whose history nothing is known.
 #include "core/rig.h"
 #include "gap/evidence.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which block a pattern of errors accuses.
 #include "gap/residuals/accusation.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the errors of a carriage depend on that is driven or braked by a law that no effect has.
 #include "core/dead_zone.h"
 #include "core/rig.h"

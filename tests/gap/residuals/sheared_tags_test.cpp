@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tags of a camera whose rows are exposed one after the other, and of cameras that are off otherwise.
 #include "gap/residuals/sheared_tags.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a remainder depends on, and which block that accuses, where the effect is withheld.
 #include "core/hall.h"
 #include "core/random.h"

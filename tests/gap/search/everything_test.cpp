@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // All smooth candidates at once, and what the data need of them.
 #include "gap/search/everything.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Losses that are level but for steps: no slope leads from one valley to the next.
 #include "gap/search/scatter.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A weak wave of force, which shows in no balance of forces, by which way the carriage goes.
 #include "gap/search/wave_scan.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a diagnosis says that it cannot decide.
 #include "core/input_error.h"
 #include "core/random.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Windows in which where a carriage stands within a count decides which way it goes.
 #include "gap/verdict/unpredictable.h"
 

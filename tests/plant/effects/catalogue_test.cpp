@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/effects/catalogue.h"
 
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "plant/view/plate_view.h"
-#include "src/config/plate_file.h"
+#include "src/files/rig/plate_file.h"
 #include "src/simulation/practice_camera.h"
 #include "tests/plant/reference_rig.h"
 

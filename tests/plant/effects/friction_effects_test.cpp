@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/dead_zone.h"
 #include "core/macro_parameters.h"
 #include "plant/spring_motion.h"

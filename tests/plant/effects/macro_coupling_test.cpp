@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/plant/effects/effect_rig.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input_error.h"
 #include "tests/plant/allocation_count.h"
 #include "tests/plant/effects/effect_rig.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The effects' equations against an independent model's: one value, estimated on one recording of a rig with
 // the effect, must explain the readings of all others.
 #include "plant/effects/catalogue.h"
-#include "src/recording/reader.h"
+#include "src/files/recording/reader.h"
 #include "tests/campaign.h"
 #include "tests/plant/campaign_residual.h"
 #include "tests/plant/reference_rig.h"

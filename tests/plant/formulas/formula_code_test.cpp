@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a formula may say, and what is answered to one that says something else.
 #include "plant/formulas/formula_code.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effects of the catalogue written as formulas: the same rig.
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"

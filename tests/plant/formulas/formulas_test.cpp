@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What formulas add, and what they remember, against closed forms.
 #include "plant/formulas/formulas.h"
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigs whose forces are formulas of their files, beside the same machines integrated by a program of their
 // own: Newton's law in SI units, classical Runge-Kutta steps of 10 us, dry friction by whether a step would
 // turn the motion round.
 #include "core/rig.h"
 #include "plant/stage_plant.h"
-#include "src/config/rig_file.h"
+#include "src/files/rig/rig_file.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # record.sh BUILD-DIR EFFECT EXPERIMENT SEED RIG.yaml: in the virtual machine, fidservo records an experiment on a rig that
 # it knows by RIG.yaml. Stage and camera are comedi_rig's, behind the kernel's drivers: those of rig.yaml, with an effect
 # that neither file states. The recording goes to /vmio/kept.

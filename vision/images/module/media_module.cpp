@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The module's door: the only place that sees OpenCV's image codecs, libtiff and FFmpeg's libraries.
 #include "core/failure.h"
 #include "vision/images/media.h"

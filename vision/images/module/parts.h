@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The parts of the module, as vision/images/media.h says.
 #include "vision/images/media.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vision/images/module/picture_samples.h"
 
 #include "core/failure.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vision/images/module/stated_length.h"
 
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/failure.h"
 #include "vision/images/module/parts.h"
 #include "vision/images/module/tiff_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vision/images/module/tiff_file.h"
 
 #include "vision/images/image_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Whether a deviation from the rig file is one unit's, a batch's, or everybody's.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/report/statistics/change_points.h"
 
 #include "src/fleet/report/statistics/change_scan.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The likelihood of a change at each time, beside changes that are known (change_points.h).
 #include "src/fleet/report/statistics/change_points.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What is known of one quantity of one unit at one time, in floors: 0 is what the rig file says, 1 what by
 // itself makes a gap as large as the noise floor.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/report/statistics/population.h"
 
 #include "core/demand.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // By how much a unit that does not change scatters from one diagnosis to the next beyond what each
 // diagnosis says that it is uncertain by.

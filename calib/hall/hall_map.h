@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The Hall sensor against the camera: while the platform moves over its travel, both see the same
+// displacement.
+//
+// With d(t) the position by the rig file's Hall curve, relative to its centre, and s_i the camera's position
+// stamped t_i,
+//     s_i = y + k1 d(t_i - delay) + k2 d^2 + k3 d^3,
+// which yields the sensor's true scale and curvature, and by how much the camera's time stamps are late.
+#include "core/micro_model.h"
+#include "core/result.h"
+#include "core/time.h"
+
+#include <span>
+#include <vector>
+
+namespace fidservo::calib {
+
+/// One reading per tick, from `start_ns` on.
+struct HallTrace {
+    TimeNs start_ns;
+    TimeNs tick_ns;
+    std::vector<double> adc;
+};
+
+struct CameraSight {
+    TimeNs time_ns;  ///< as stamped
+    double s_mm;     ///< plate x under the optical axis
+    double s_std_mm;
+};
+
+struct HallMap {
+    std::array<double, 4> correction;  ///< as in MicroModel; zero at the trace's first readings (extended)
+    double camera_delay_s;             ///< stamps are later than the exposures by this
+    double camera_delay_std_s;
+    double scale_std;    ///< standard error of the slope at the centre
+    double residual_mm;  ///< r.m.s.
+};
+
+/// @param exposure_s  over which the Hall reading is averaged
+/// @param rest_ticks  how many ticks at the trace's start the platform was at rest, fully extended
+/// Fails with Reason::not_identifiable if the platform moved less than 1 mm in view or fewer than 12 frames
+/// saw it.
+Result<HallMap> fit_hall_map(const HallParameters& hall, const HallTrace& trace,
+                             std::span<const CameraSight> sights, double exposure_s, int rest_ticks);
+
+}  // namespace fidservo::calib

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// What people call the fitted speeds of a macro stage: K, tau, a0, delta, F, b, and what each is known to.
+#include "calib/heterogeneity.h"
+#include "calib/macro/macro_fit.h"
+
+namespace fidservo::calib {
+
+enum class MacroFigure { gain, time_constant, zone_offset, zone_slope, friction, drive_offset };
+inline constexpr int macro_figure_count = 6;
+using MacroFigures = Eigen::Matrix<double, macro_figure_count, 1>;
+using MacroFigureGradient = Eigen::Matrix<double, macro_figure_count, macro_parameter_count>;
+
+/// @param unit_V  the command at which the effective voltage is 1 V
+/// @param threshold_V  of the dead zone, at which a0 is stated
+MacroFigures figures_of(const MacroMotion& motion, double unit_V, double threshold_V);
+
+/// Derivatives of the figures by the parameters, central differences.
+MacroFigureGradient figure_gradient(const MacroMotion& motion, double unit_V, double threshold_V);
+
+/// The standard errors beyond which a figure is no figure: a fifth of gain, time constant, slope and of 1 V
+/// at the threshold; friction and offset a fifth of what drives.
+MacroFigures largest_useful_std(const MacroFigures& value, double fastest_mm_per_s, double drive_V);
+
+}  // namespace fidservo::calib

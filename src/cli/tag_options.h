@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// How the commands that look for tags in images that exist are told what to look for.
+#include "src/replay/tag_options.h"
+
+#include <CLI/App.hpp>
+
+namespace fidservo {
+
+/// --name-times, --family, --border-cells, --inverted, --mirrored.
+void add_tag_options(CLI::App& command, TagOptions& options);
+
+}  // namespace fidservo

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/files/disk/output_paths.h"
+
+#include "core/input_error.h"
+
+#include <fmt/format.h>
+
+namespace fidservo {
+
+void demand_new_file(const char* option, const std::filesystem::path& file) {
+    std::error_code error;
+    if (!file.empty() &&
+        std::filesystem::symlink_status(file, error).type() != std::filesystem::file_type::not_found)
+        throw InputError(
+            fmt::format("{}: {}: exists already; give the name of a new file", option, file.string()));
+}
+
+void make_output_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    if (std::filesystem::symlink_status(folder, error).type() != std::filesystem::file_type::not_found)
+        throw InputError(
+            fmt::format("--out: {}: exists already; give the name of a new folder", folder.string()));
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw InputError(fmt::format("--out: {}: cannot be made: {}", folder.string(), error.message()));
+}
+
+void set_aside(const std::filesystem::path& path) {
+    if (!std::filesystem::exists(path)) return;
+    for (int k = 1;; ++k) {
+        const auto other = path.parent_path() / fmt::format("{}.interrupted-{}{}", path.stem().string(), k,
+                                                            path.extension().string());
+        if (std::filesystem::exists(other)) continue;
+        std::error_code problem;
+        std::filesystem::rename(path, other, problem);
+        if (problem)
+            throw RunFault(fmt::format("{}: cannot be renamed: {}", path.string(), problem.message()));
+        return;
+    }
+}
+
+}  // namespace fidservo

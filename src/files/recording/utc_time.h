@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// When recordings are made.
+#include <string>
+#include <string_view>
+
+namespace fidservo {
+
+/// Whether a text is a time in UTC by ISO 8601, to the second: 2026-11-02T08:15:00Z.
+bool is_utc_time(std::string_view text);
+
+/// The time of day, so. For people and files alone: this clock may be set at any moment, nothing is measured
+/// by it.
+std::string utc_now();
+
+}  // namespace fidservo

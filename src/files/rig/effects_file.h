@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Effects as formulas, in a file of their own or stated in a rig file: format fidservo-effects/1
+// (docs/effects.md).
+#include "core/rig.h"
+#include "plant/effects/effect.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fidservo {
+
+class YamlValue;
+
+/// The effects of a file, in its order. Throws InputError with file, line and key where it is none, an effect
+/// cannot be evaluated, or two have one name.
+std::vector<const plant::Effect*> load_effects_file(const std::filesystem::path& file);
+/// The same of a file that was read.
+std::vector<const plant::Effect*> read_effects_file(const YamlValue& root);
+
+/// Throws InputError with the option where a name that it gives is of no effect.
+/// @param formulas  that are known beside the catalogue
+void demand_effects(const char* option, const std::vector<std::string>& names,
+                    std::span<const plant::Effect* const> formulas);
+
+/// A formula with the values of its parameters, as a rig file states it: like an entry of an effects file,
+/// with `value` beside a parameter's bounds where it is not the typical one.
+StatedEffect read_stated_formula(const YamlValue& map);
+
+/// What read_stated_formula() reads, as text.
+std::string stated_formula_yaml(const StatedEffect& effect);
+
+}  // namespace fidservo

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The camera of a rig file: its keys and what they may hold.
+#include "core/camera/camera_parameters.h"
+#include "src/files/text/yaml_reader.h"
+
+#include <array>
+
+namespace fidservo {
+
+inline constexpr int least_image_px = 16;
+inline constexpr int most_image_px = 20'000;
+
+/// Keys of `camera` that a ROS file gives in their place.
+inline constexpr std::array intrinsic_camera_keys{
+    "width_px", "height_px", "focal_px", "focal_ratio", "principal_point_px", "lens", "distortion"};
+
+/// A rig file's `camera`: its own numbers, or those of a ROS file (camera_info.h) where it names one. Throws
+/// InputError.
+CameraParameters read_rig_camera(const YamlValue& map);
+
+/// Demands that a pixel is nearly square. @param value  what the error names
+void check_focal_ratio(const YamlValue& value, double focal_ratio);
+
+}  // namespace fidservo

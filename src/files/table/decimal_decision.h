@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Which of point and comma is the decimal sign of a table, by all its numbers together.
+#include "src/files/table/plain_table.h"
+
+namespace fidservo {
+
+/// What the numbers of a table tell; the first line of each kind.
+struct DecimalEvidence {
+    struct Place {
+        int line = 0;
+        std::string field = {};
+    };
+    Place point = {}, comma = {};
+    bool has_point_between_commas =
+        false;  ///< 1.234 between commas: no program writes points between thousands there
+    /// Between commas, a column that could be the decimals of the one before it: digits alone, all as many;
+    /// or a zero in front of other digits, several digits before an exponent, and in the one before it a zero
+    /// with a sign.
+    std::optional<std::size_t> could_be_decimals = {};
+    /// Between commas, a column that could be the last three digits, or more behind a point, of the one
+    /// before it.
+    std::optional<std::size_t> could_be_thousands = {};
+};
+
+/// Looks at all rows. @param columns  of the table
+DecimalEvidence decimal_evidence_of(const PlainTable& table, char separator, std::size_t columns);
+
+}  // namespace fidservo

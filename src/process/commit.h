@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace fidservo {
+
+/// Of the release: major.minor.patch.
+const char* program_version();
+
+/// What git calls the commit that the program was built from, "-dirty" behind it if files were changed;
+/// "unknown" without git.
+const char* built_from_commit();
+
+}  // namespace fidservo

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vision/tags/other_readings.h"
+
+#include "core/detection.h"
+#include "core/median.h"
+#include "vision/tags/readings_screen.h"
+#include "vision/tags/square_outlines.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_pattern.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+namespace fidservo::vision {
+namespace {
+
+/// A larger book of ArUco's begins with the smaller ones of as many cells.
+bool contains(const TagFamily& larger, const TagFamily& family) {
+    return larger.layout == family.layout && larger.size() > family.size() &&
+           std::ranges::equal(larger.codes.first(family.codes.size()), family.codes);
+}
+
+/// Everything that a tag can be read as, without books that others contain.
+std::vector<TagReading> all_readings() {
+    std::vector<TagReading> readings;
+    for (const TagFamily& family : tag_families()) {
+        const auto contains_it = [&](const TagFamily& other) { return contains(other, family); };
+        if (std::ranges::any_of(tag_families(), contains_it)) continue;
+        for (int border = 1; border <= (family.has_plain_border() ? 2 : 1); ++border)
+            for (const bool inverted : {false, true})
+                for (const bool mirrored : {false, true})
+                    readings.push_back({{&family, border, inverted}, mirrored});
+    }
+    return readings;
+}
+
+std::vector<cv::Mat> of_bearable_size(std::span<const cv::Mat> images) {
+    constexpr double most_px = 3e6;
+    std::vector<cv::Mat> smaller;
+    for (const cv::Mat& image : images) {
+        const double scale = std::sqrt(most_px / std::max<double>(1.0, static_cast<double>(image.total())));
+        smaller.push_back(image);
+        if (scale < 1.0) cv::resize(image, smaller.back(), {}, scale, scale, cv::INTER_AREA);
+    }
+    return smaller;
+}
+
+/// How likely a random pattern is one of the book.
+double chance_of(const TagFamily& family) {
+    return family.size() / std::exp2(static_cast<double>(std::ranges::count(family.layout, 'd')));
+}
+
+struct Found {
+    std::size_t tags = 0;
+    int last_id = 0;
+};
+
+Found found_as(const std::vector<cv::Mat>& images, const TagReading& reading) {
+    TagDetector detector(thorough_options(reading));
+    Found found;
+    for (const cv::Mat& image : images)
+        for (const TagDetection& tag : detector.detect(image, 0)) {
+            ++found.tags;
+            found.last_id = std::max(found.last_id, tag.tag_id);
+        }
+    return found;
+}
+
+/// The smallest book that has all ids up to one.
+const TagFamily& smallest_with(const TagFamily& family, int last_id) {
+    const TagFamily* smallest = &family;
+    for (const TagFamily& other : tag_families())
+        if (contains(family, other) && other.size() > last_id && other.size() < smallest->size())
+            smallest = &other;
+    return *smallest;
+}
+
+/// Readings that see something in the images, the most first; of those that see as much, the one that could
+/// least be chance.
+std::vector<TagReading> likely_readings(const std::vector<cv::Mat>& images) {
+    const std::vector<TagReading> readings = all_readings();
+    std::vector<std::size_t> tags(readings.size(), 0);
+    ReadingsScreen screen(readings);
+    for (const cv::Mat& image : images)
+        for (const std::size_t k : screen.seen_in(image)) ++tags[k];
+    std::vector<std::size_t> order(readings.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::erase_if(order, [&](std::size_t k) { return tags[k] == 0; });
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+        return std::pair(tags[b], chance_of(*readings[a].print.family)) <
+               std::pair(tags[a], chance_of(*readings[b].print.family));
+    });
+    constexpr std::size_t most = 4;
+    std::vector<TagReading> likely;
+    for (std::size_t k = 0; k < std::min(most, order.size()); ++k) likely.push_back(readings[order[k]]);
+    return likely;
+}
+
+ImagesSeen look_at(const std::vector<cv::Mat>& images) {
+    ImagesSeen seen;
+    std::array<double, 256> histogram{};
+    double pixels = 0.0;
+    std::vector<SquareOutline> outlines;
+    for (const cv::Mat& image : images) {
+        for (int row = 0; row < image.rows; ++row)
+            for (int column = 0; column < image.cols; ++column)
+                histogram[image.at<unsigned char>(row, column)] += 1.0;
+        pixels += static_cast<double>(image.total());
+        const auto found = square_outlines(image);
+        outlines.insert(outlines.end(), found.begin(), found.end());
+    }
+    if (pixels == 0.0) return seen;
+    const auto level_below_which = [&](double share) {
+        double sum = 0.0;
+        for (std::size_t level = 0; level < histogram.size(); ++level)
+            if ((sum += histogram[level]) > share * pixels) return static_cast<double>(level);
+        return 255.0;
+    };
+    seen.darkest_grey = level_below_which(0.01);
+    seen.brightest_grey = level_below_which(0.99);
+    seen.saturated_share = histogram[255] / pixels;
+    seen.squares = outlines.size();
+    seen.patterned =
+        static_cast<std::size_t>(std::ranges::count(outlines, true, &SquareOutline::has_pattern));
+    if (seen.patterned > 0)
+        std::erase_if(outlines, [](const SquareOutline& outline) { return !outline.has_pattern; });
+    if (outlines.empty()) return seen;
+    const auto median_by = [&](auto value) {
+        std::vector<double> values(outlines.size());
+        std::ranges::transform(outlines, values.begin(), value);
+        return median_of(std::move(values));
+    };
+    seen.side_px = median_by([](const SquareOutline& outline) { return outline.side_px; });
+    seen.contrast_grey = median_by([](const SquareOutline& o) { return std::abs(o.contrast_grey); });
+    seen.blur_px = median_by([](const SquareOutline& outline) { return outline.blur_px; });
+    return seen;
+}
+
+}  // namespace
+
+bool looks_unread(const cv::Mat& image, std::size_t tags_found) {
+    const std::vector<SquareOutline> outlines = square_outlines(image);
+    const auto patterned =
+        static_cast<std::size_t>(std::ranges::count(outlines, true, &SquareOutline::has_pattern));
+    return patterned > 0 && patterned >= 2 * tags_found;
+}
+
+OtherReadings try_other_readings(std::span<const cv::Mat> images, const TagReading& tried) {
+    const std::vector<cv::Mat> bearable = of_bearable_size(images);
+    OtherReadings others{.images = images.size(),
+                         .tags = found_as(bearable, tried).tags,
+                         .better = {},
+                         .seen = look_at(bearable)};
+    for (const TagReading& likely : likely_readings(bearable)) {
+        TagReading reading = likely;
+        Found found = found_as(bearable, reading);
+        const TagFamily& smallest = smallest_with(*likely.print.family, found.last_id);
+        if (&smallest != likely.print.family) {
+            reading.print.family = &smallest;
+            found = found_as(bearable, reading);
+        }
+        const std::size_t to_beat = others.better.empty() ? others.tags + 1 : others.better.front().tags;
+        if (reading == tried || found.tags < to_beat) continue;
+        if (!others.better.empty() && found.tags > to_beat) others.better.clear();
+        others.better.push_back({reading, found.tags});
+    }
+    return others;
+}
+
+std::string text_of(const ImagesSeen& seen, const TagReading& tried) {
+    constexpr double uniform_grey = 10.0, dark_grey = 32.0, most_saturated = 0.5;
+    constexpr double least_cell_px = 1.5, most_blur_cells = 0.5, faint_grey = 20.0;
+    std::string text;
+    const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+    if (seen.brightest_grey - seen.darkest_grey < uniform_grey)
+        add(fmt::format("the images are uniform, grey levels {:.0f} to {:.0f}", seen.darkest_grey,
+                        seen.brightest_grey));
+    else if (seen.brightest_grey < dark_grey)
+        add(
+            fmt::format("the images are dark, 99 % of the pixels at grey level {:.0f} of 255 or below: more "
+                        "light, or a longer exposure",
+                        seen.brightest_grey));
+    if (seen.saturated_share > most_saturated)
+        add(fmt::format("{:.0f} % of the pixels are saturated: a shorter exposure",
+                        100.0 * seen.saturated_share));
+    if (seen.squares == 0) {
+        add("no square with four straight sides, 8 px long or more, is to be seen");
+        return text;
+    }
+    add(
+        fmt::format("{} square{} with four straight sides, {} of them with something inside; typically "
+                    "{:.0f} px a side, contrast {:.0f} grey levels, edges blurred by {:.1f} px",
+                    seen.squares, seen.squares == 1 ? "" : "s", seen.patterned, seen.side_px,
+                    seen.contrast_grey, seen.blur_px));
+    const double cell_px = seen.side_px / tried.print.outline_cells();
+    if (cell_px < least_cell_px)
+        add(fmt::format("a cell of {} would be {:.1f} px there, and {:.1f} are needed: come nearer",
+                        tried.print.family->name, cell_px, least_cell_px));
+    else if (seen.blur_px > most_blur_cells * cell_px)
+        add(
+            fmt::format("a cell of {} would be {:.1f} px there, no more than the blur: focus, or expose for "
+                        "less long",
+                        tried.print.family->name, cell_px));
+    if (seen.contrast_grey < faint_grey) add("the contrast is faint: more light");
+    return text;
+}
+
+}  // namespace fidservo::vision

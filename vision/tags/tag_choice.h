@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Which tags the camera sees from where, and which of them to measure by. Pure geometry.
+#include "core/camera/camera_geometry.h"
+#include "core/plate.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace fidservo::vision {
+
+/// Corners of a tag's black border on the plate in mm, in the order of detections.
+std::array<Eigen::Vector2d, 4> corners_mm(const PlateTag& tag);
+
+/// Tags whose border and white quiet zone (one cell all around) lie wholly in view
+/// from camera position s; nearest to the optical axis first, then by id.
+std::vector<PlateTag> visible_tags(const CameraGeometry& camera, const Plate& plate, double s_mm);
+
+/// The tag to measure by from s: the first of visible_tags(). Empty if there is none.
+std::optional<PlateTag> tag_to_use(const CameraGeometry& camera, const Plate& plate, double s_mm);
+
+/// Camera positions from which a tag is wholly in view.
+struct ViewRange {
+    double low_mm, high_mm;
+};
+
+/// The stage moves along x alone: a tag whose row lies outside the image's height is never seen.
+/// Empty then, or if the tag is larger than the image.
+std::optional<ViewRange> view_range(const CameraGeometry& camera, const PlateTag& tag);
+
+/// Can the tag's row be brought into view at all, wherever the stage stands along x?
+bool row_is_reachable(const CameraGeometry& camera, const PlateTag& tag);
+
+/// The tags of a plate whose rows can be brought into view, in the plate's order.
+std::vector<PlateTag> reachable_rows(const CameraGeometry& camera, const Plate& plate);
+
+/// The plate's tag of this id; empty if it has none.
+std::optional<PlateTag> find_tag(const Plate& plate, int tag_id);
+
+}  // namespace fidservo::vision

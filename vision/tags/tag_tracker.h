@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Tags followed from frame to frame: the image is searched only where a tag is expected, and as a whole only
+// when one is lost.
+#include "vision/tags/tag_alignment.h"
+#include "vision/tags/tag_detector.h"
+#include "vision/tags/tag_refinement.h"
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+
+namespace fidservo::vision {
+
+/// How a tag was found, cheapest first.
+enum class FoundBy { tracking, region_search, full_search };
+
+struct FoundTag {
+    TagDetection detection;  ///< corners good to half a pixel
+    FoundBy found_by;
+};
+
+struct TrackedTag {
+    RefinedTag tag;  ///< `explained` is 0 where the refinement refused it
+    FoundBy found_by;
+};
+
+/// How the picture moved since the last frame, from the stage's sensors.
+struct PictureMotion {
+    Eigen::Vector2d shift_px;
+    double uncertainty_px;  ///< largest error of the shift that is to be reckoned with
+    Eigen::Vector2d during_exposure_px = Eigen::Vector2d::Zero();
+};
+
+struct TagTrackerOptions {
+    TagDetectorOptions detector = machine_camera_options();
+    AlignmentOptions alignment;
+    RefinementOptions refinement;
+    /// Every so many frames the whole image is searched for tags that have come into view; 0: only when a
+    /// tag is lost or none is known.
+    int look_around_every = 0;
+};
+
+/// Finds tags where they are expected (align_tag), where that fails with libapriltag in the region around,
+/// and where that fails in the whole image. An id is never taken over from the frame before: it is read again
+/// in every frame. A tag that is expected across the image's border or outside is not searched for in the
+/// whole image: it has left the view, unless nothing else is seen.
+/// Holds working memory: use one a thread.
+class TagTracker {
+  public:
+    explicit TagTracker(const TagTrackerOptions& options = {});
+
+    /// Every tag of the last frame that is still in view, and what searches for lost ones bring to light.
+    /// @param image   CV_8UC1
+    /// @param motion  empty: constant velocity, from the last two frames
+    std::vector<TrackedTag> track(const cv::Mat& image, TimeNs time_ns,
+                                  const std::optional<PictureMotion>& motion = {});
+
+    /// The same of tags whose places are known beforehand, from the plate's geometry; keeps no memory.
+    std::vector<FoundTag> find(const cv::Mat& image, TimeNs time_ns,
+                               const std::vector<ExpectedTag>& expected);
+
+    /// Forgets the last frame: the next one is searched as a whole.
+    void forget() { *this = TagTracker(options_); }
+
+  private:
+    struct Followed {
+        TagDetection last;
+        std::optional<Eigen::Vector2d> velocity_px_per_s;
+    };
+    std::vector<ExpectedTag> predict(TimeNs time_ns, const std::optional<PictureMotion>& motion) const;
+    void remember(const std::vector<TrackedTag>& tags);
+
+    TagTrackerOptions options_;
+    TagDetector detector_;
+    std::vector<Followed> followed_;
+    double blur_px_;  ///< of the tag refined last
+    int frames_since_full_search_ = 0;
+};
+
+}  // namespace fidservo::vision
