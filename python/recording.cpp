@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recording: columns as arrays, without a copy.
 #include "python/bindings.h"
-#include "src/import/assemble.h"
-#include "src/import/draft_map.h"
-#include "src/import/export_log.h"
 #include "src/files/recording/layout.h"
 #include "src/files/recording/reader.h"
 #include "src/files/recording/writer.h"
+#include "src/import/assemble.h"
+#include "src/import/draft_map.h"
+#include "src/import/export_log.h"
 
 #include <cstdint>
 #include <limits>

@@ -21,7 +21,8 @@ def main() -> None:
     centres_px = np.array([tag.centre_px for tag in seen])
     claimed_px = np.sqrt(np.mean([np.diag(tag.centre_covariance_px2) for tag in seen], axis=0))
 
-    print(f"{len(images)} images of {images[0].shape[1]} x {images[0].shape[0]} px; tag {tag_id} in {len(seen)} of them")
+    height_px, width_px = images[0].shape
+    print(f"{len(images)} images of {width_px} x {height_px} px; tag {tag_id} in {len(seen)} of them")
     for name, centre, scatter, claim in zip("uv", centres_px.mean(axis=0), centres_px.std(axis=0, ddof=1), claimed_px):
         print(f"  {name} = {centre:.3f} px, scatter {scatter:.4f} px, claimed {claim:.4f} px")
 

@@ -28,7 +28,8 @@ def main() -> None:
         risen = np.flatnonzero(moved_mm >= 0.9 * abs(size_mm))
         rise_ms = 1e3 * (time_s[first + risen[0]] - time_s[first]) if risen.size else np.nan
         overshoot_mm = max(0.0, moved_mm.max() - abs(size_mm))
-        print(f"  at {time_s[first]:6.3f} s by {size_mm:+7.2f} mm: 90 % after {rise_ms:5.0f} ms, overshoot {overshoot_mm:.2f} mm")
+        step = f"at {time_s[first]:6.3f} s by {size_mm:+7.2f} mm"
+        print(f"  {step}: 90 % after {rise_ms:5.0f} ms, overshoot {overshoot_mm:.2f} mm")
 
 
 if __name__ == "__main__":

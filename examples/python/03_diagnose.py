@@ -32,7 +32,8 @@ def main() -> None:
         progress=lambda what, share: print(f"  {share:4.0%} {what}"),
     )
 
-    print(f"{diagnosis.verdict}: the gap was {diagnosis.gap.before:.1f} times the noise and is {diagnosis.gap.after:.2f} times")
+    gap = diagnosis.gap
+    print(f"{diagnosis.verdict}: the gap was {gap.before:.1f} times the noise and is {gap.after:.2f} times")
     for effect in diagnosis.effects:
         print(f"{effect.effect} ({effect.block}), probability {effect.probability:.2f}")
         for parameter in effect.parameters:

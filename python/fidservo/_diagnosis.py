@@ -182,7 +182,7 @@ def _made(kind: type[Made], content: dict[str, Any], place: str) -> Made:
     """A dataclass of a JSON object; what it does not know is passed over."""
     types = get_type_hints(kind)
     values = {}
-    for one in fields(kind):  # type: ignore[arg-type]
+    for one in fields(kind):
         if one.name not in content:
             raise ValueError(f"{place}: {one.name} is missing")
         values[one.name] = _value(types[one.name], content[one.name], f"{place}.{one.name}")
