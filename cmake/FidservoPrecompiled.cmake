@@ -27,6 +27,12 @@ endfunction()
 # fidservo_compiled_with(TARGET SET GROUP): takes the precompiled headers of SET and compiles GROUP sources as one.
 function(fidservo_compiled_with target set group)
   if(FIDSERVO_PRECOMPILED)
+    # Headers are precompiled position-independent; of programs CMake would ask for the weaker kind.
+    get_target_property(kind ${target} TYPE)
+    if(kind STREQUAL EXECUTABLE)
+      set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+      target_compile_options(${target} PRIVATE -fPIC)
+    endif()
     target_precompile_headers(${target} REUSE_FROM fidservo_precompiled_${set})
   endif()
   if(FIDSERVO_GROUPED AND group GREATER 1)

@@ -9,6 +9,7 @@
 #include "plant/effects/catalogue.h"
 #include "src/cli/commands.h"
 #include "src/cli/session_options.h"
+#include "src/files/rig/plate_file.h"
 #include "src/files/rig/rig_file.h"
 #include "src/process/progress.h"
 #include "src/session/pilot.h"

@@ -11,6 +11,9 @@
 #include "src/diagnose/report/report.h"
 #include "src/diagnose/search_progress.h"
 #include "src/files/disk/durable_file.h"
+#include "src/files/rig/effects_file.h"
+#include "src/files/rig/rig_file.h"
+#include "src/files/rig/stage_keys.h"
 #include "src/process/interrupt.h"
 
 #include <memory>

@@ -6,6 +6,7 @@
 #include "core/rig.h"
 #include "src/cli/commands.h"
 #include "src/cli/session_options.h"
+#include "src/files/rig/plate_file.h"
 #include "src/files/rig/rig_file.h"
 #include "src/record/record_experiments.h"
 #include "src/session/camera_choice.h"

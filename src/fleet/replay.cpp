@@ -139,8 +139,7 @@ class StretchTasks {
                 return;
             }
             const std::string damage = as_noted(frame.damage, path, noted_path(path));
-            images.push_back(
-                frame_json({.frame = std::move(frame), .grey = {}, .tags = {}, .refined = {}}, damage));
+            images.push_back(frame_json({{}, std::move(frame), {}}, damage));
         });
         return images;
     }

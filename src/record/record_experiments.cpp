@@ -6,6 +6,7 @@
 #include "core/rig.h"
 #include "src/files/disk/output_paths.h"
 #include "src/files/recording/writer.h"
+#include "src/files/rig/plate_file.h"
 #include "src/files/rig/rig_file.h"
 #include "src/process/exit_code.h"
 #include "src/process/progress.h"

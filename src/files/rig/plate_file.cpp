@@ -2,6 +2,8 @@
 #include "src/files/rig/plate_file.h"
 
 #include "core/fiducial_parameters.h"
+#include "core/input_error.h"
+#include "core/rig.h"
 #include "core/units.h"
 #include "src/files/rig/tag_print_keys.h"
 #include "src/files/text/yaml_reader.h"

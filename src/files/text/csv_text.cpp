@@ -3,8 +3,8 @@
 
 #include "core/input_error.h"
 #include "src/files/table/text_file.h"
+#include "src/files/text/plain_number.h"
 
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -21,13 +21,6 @@ void split_at_commas(std::string_view line, std::vector<std::string_view>& field
         if (end == std::string_view::npos) return;
         line.remove_prefix(end + 1);
     }
-}
-
-template <class T>
-bool parse_all(std::string_view text, T& value) {
-    if (text.starts_with('+')) text.remove_prefix(1);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size();
 }
 
 /// The bytes of a file without UTF-8's byte order mark.

@@ -3,9 +3,9 @@
 
 #include "core/input_error.h"
 #include "src/files/text/key_names.h"
+#include "src/files/text/plain_number.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -95,13 +95,6 @@ std::string allowed_numbers(const NumberRange& range) {
     if (low) return fmt::format(" {} {}", range.open_low ? "above" : "of at least", range.low);
     if (high) return fmt::format(" of at most {}", range.high);
     return "";
-}
-
-template <class T>
-bool parse_all(std::string_view text, T& value) {
-    if (text.starts_with('+')) text.remove_prefix(1);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size();
 }
 
 /// How many bytes the UTF-8 character that begins here has; 0 if it is none that a text holds. (RFC 3629;

@@ -135,16 +135,16 @@ void bring_up_to_date(const Database& database, const std::vector<std::filesyste
         const std::string file = path.filename().string();
         try {
             const std::string bytes = bytes_of(path);
-            const std::string sha256 = sha256(bytes);
+            const std::string hash = sha256(bytes);
             const auto old = known.find(file);
             const bool is_new = old == known.end();
-            if (!is_new && old->second == sha256) {
+            if (!is_new && old->second == hash) {
                 known.erase(old);
                 continue;
             }
             const FleetResult result = result_of(file, bytes);
             if (!is_new) writer.remove(file);
-            writer.add(result, sha256);
+            writer.add(result, hash);
             collected.added += 1;
             if (!is_new) known.erase(old);
         } catch (const InputError& error) {
