@@ -66,5 +66,5 @@ function(fidservo_install_interface)
   install(FILES ${CMAKE_BINARY_DIR}/fidservoConfig.cmake ${CMAKE_BINARY_DIR}/fidservoConfigVersion.cmake
     DESTINATION ${FIDSERVO_CONFIG_DIR} COMPONENT development)
   install(EXPORT fidservo_targets FILE fidservoTargets.cmake NAMESPACE fidservo:: DESTINATION ${FIDSERVO_CONFIG_DIR} COMPONENT development)
-  install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development PATTERN "python" EXCLUDE)
 endfunction()

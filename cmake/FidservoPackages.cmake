@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Debian packages, by `./run package`: fidservo, what a user needs, and libfidservo-dev, what a programmer needs besides.
+# Debian packages, by `./run package`: fidservo, what a user needs; libfidservo-dev, what a programmer needs besides;
+# python3-fidservo, the Python module.
 
 install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${CMAKE_SOURCE_DIR}/CITATION.cff ${CMAKE_SOURCE_DIR}/SECURITY.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
@@ -34,4 +35,17 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # The libraries link against no shared ones themselves; whoever links them needs all of these.
 list(JOIN FIDSERVO_DEVELOPMENT_PACKAGES ", " development_packages)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "fidservo (= ${PROJECT_VERSION}), ${development_packages}")
+
+if(TARGET fidservo_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "fidservo (= ${PROJECT_VERSION}), python3-numpy, python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${next_minor})")
+endif()
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Python module of fidservo
+Recordings as arrays, the simulated rig, fiducials measured in an image with
+their covariance, and diagnoses of why a rig and its simulator disagree;
+four example programs.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-fidservo)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 include(CPack)

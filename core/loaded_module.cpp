@@ -11,16 +11,25 @@ namespace fidservo {
 
 namespace {
 
-/// The folders in which the program's own libraries are looked for: its run path, then the system's. Asked
-/// for by name, a library would be sought on the run path of who calls dlopen, which under the address
-/// sanitizer is not the program.
+/// What this code is linked into: a module of Python's, or the program.
+void* own_object() {
+    Dl_info own{};
+    void* module = dladdr(reinterpret_cast<const void*>(&own_object), &own) != 0
+                       ? dlopen(own.dli_fname, RTLD_LAZY | RTLD_NOLOAD)
+                       : nullptr;
+    return module != nullptr ? module : dlopen(nullptr, RTLD_LAZY);
+}
+
+/// The folders in which its own libraries are looked for: its run path, then the system's. Asked for by name,
+/// a library would be sought on the run path of who calls dlopen, which under the address sanitizer is not
+/// the program.
 std::vector<std::string> library_folders() {
-    void* program = dlopen(nullptr, RTLD_LAZY);
+    void* object = own_object();
     Dl_serinfo size{};
-    if (program == nullptr || dlinfo(program, RTLD_DI_SERINFOSIZE, &size) != 0) return {};
+    if (object == nullptr || dlinfo(object, RTLD_DI_SERINFOSIZE, &size) != 0) return {};
     std::vector<std::max_align_t> memory(size.dls_size / sizeof(std::max_align_t) + 1);
     auto* found = reinterpret_cast<Dl_serinfo*>(memory.data());
-    if (dlinfo(program, RTLD_DI_SERINFOSIZE, found) != 0 || dlinfo(program, RTLD_DI_SERINFO, found) != 0)
+    if (dlinfo(object, RTLD_DI_SERINFOSIZE, found) != 0 || dlinfo(object, RTLD_DI_SERINFO, found) != 0)
         return {};
     std::vector<std::string> folders;
     const Dl_serpath* paths = found->dls_serpath;  // as many as dls_cnt, though declared as one

@@ -88,7 +88,7 @@ std::shared_ptr<const diagnose::DesignedNext> write_experiment(const DiagnoseOpt
 
 int diagnose_rig(const DiagnoseOptions& options, const Rig& rig, const gap::DiagnosisOptions& what) {
     diagnose::Conduct conduct{.interrupted = interrupt_requested};
-    diagnose::ReadRecordings read = diagnose::read_recordings(options.recordings);
+    diagnose::ReadRecordings read = diagnose::read_recordings(options.recordings, interrupt_requested);
     diagnose::SearchProgress progress(diagnose::time_limit(read.recordings).whole_s);
     conduct.tell = [&](std::string_view tried, double) { progress.tell(tried); };
     auto [evidence, diagnosis, limit] = diagnose::diagnose_recordings(rig, std::move(read), what, conduct);

@@ -59,7 +59,8 @@ Answer diagnose_recordings(const Rig& rig, ReadRecordings read, gap::DiagnosisOp
     gap::Evidence evidence(rig, thinned(std::move(read.recordings), read.notes), budget);
     gap::Diagnosis diagnosis = gap::diagnose(evidence, options);
     diagnosis.notes.insert(diagnosis.notes.end(), read.notes.begin(), read.notes.end());
-    if (!conduct.is_brief) diagnosis.next_experiment = next_experiment(evidence.rig(), diagnosis);
+    if (!conduct.is_brief)
+        diagnosis.next_experiment = next_experiment(evidence.rig(), diagnosis, conduct.interrupted);
     return {std::move(evidence), std::move(diagnosis), limit};
 }
 

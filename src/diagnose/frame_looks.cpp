@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/frame_looks.h"
 
+#include "gap/budget.h"
 #include "gap/evidence/parallel.h"
 #include "src/images/grey_range.h"
 #include "src/images/image_frame.h"
@@ -112,7 +113,8 @@ void add_appearances(Recording& recording, TimeNs time_ns, const cv::Mat& image)
 }
 
 std::vector<std::string> measure_frames(std::span<Recording> recordings,
-                                        std::span<const std::filesystem::path> folders) {
+                                        std::span<const std::filesystem::path> folders,
+                                        const std::function<bool()>& interrupted) {
     constexpr std::size_t most_frames = 1200;
     std::vector<std::string> notes;
     const auto with_frames =
@@ -137,7 +139,10 @@ std::vector<std::string> measure_frames(std::span<Recording> recordings,
                              .detections = detections.at(frame.time_ns)});
         decide_bits(std::span(tasks).subspan(first));
     }
-    gap::parallel_for(tasks.size(), [&](std::size_t k) { measure(tasks[k]); });
+    gap::parallel_for(tasks.size(), [&](std::size_t k) {
+        if (interrupted && interrupted()) throw gap::BudgetEnded(gap::Ended::interrupted);
+        measure(tasks[k]);
+    });
     std::map<std::size_t, std::size_t> missing;
     for (Task& task : tasks) {
         std::vector<TagAppearance>& all = recordings[task.recording].appearances;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +25,9 @@ void add_appearances(Recording& recording, TimeNs time_ns, const cv::Mat& image)
 /// the recordings that have some. One frame a thread is in memory. What is missing, or no image, is in the
 /// result, a line for people each.
 /// @param folders  of the recordings
+/// @param interrupted  whether the user wants an end at once; throws gap::BudgetEnded then
 std::vector<std::string> measure_frames(std::span<Recording> recordings,
-                                        std::span<const std::filesystem::path> folders);
+                                        std::span<const std::filesystem::path> folders,
+                                        const std::function<bool()>& interrupted = {});
 
 }  // namespace fidservo::diagnose

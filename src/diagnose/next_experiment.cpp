@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,10 +25,10 @@ namespace {
 
 /// Loss that a rival, fitted, has beyond the truth on what an experiment would record.
 double lack(const Rig& rig, const Experiment& experiment, const gap::Hypothesis& truth,
-            const gap::Hypothesis& rival) {
+            const gap::Hypothesis& rival, const std::shared_ptr<const gap::Budget>& budget) {
     constexpr std::uint64_t seed = 1;
     const std::string name = experiment.kind + "-next";
-    const gap::Evidence evidence(rig, {simulate(rig, truth, experiment, name, seed)});
+    const gap::Evidence evidence(rig, {simulate(rig, truth, experiment, name, seed)}, budget);
     const gap::Wanted wanted = gap::everything(evidence);
     const gap::Predict predict = [&](const gap::Hypothesis& hypothesis) {
         return evidence.errors(hypothesis, wanted);
@@ -41,11 +42,12 @@ struct Proposal {
     double separation = std::numeric_limits<double>::infinity();  ///< of the worst pair, both ways
 };
 
-}  // namespace
-
-std::optional<gap::ProposedExperiment> next_experiment(const Rig& rig, const gap::Diagnosis& diagnosis) {
-    const std::vector<design::Exchange> exchanges = design::exchanges(diagnosis);
-    if (exchanges.empty()) return {};
+/// The one that sets them furthest apart; nothing where the rig can do none.
+std::optional<Proposal> best_proposal(const Rig& rig, const gap::Diagnosis& diagnosis,
+                                      const std::vector<design::Exchange>& exchanges,
+                                      const std::function<bool()>& interrupted) {
+    constexpr double never_s = std::numeric_limits<double>::infinity();
+    const auto budget = std::make_shared<const gap::Budget>(never_s, never_s, interrupted);
     std::vector<Proposal> proposals;
     for (const std::string_view kind : experiment_kinds()) {
         if (!missing_for(kind, rig).empty()) continue;
@@ -58,12 +60,21 @@ std::optional<gap::ProposedExperiment> next_experiment(const Rig& rig, const gap
         for (const design::Exchange& exchange : exchanges)
             proposal.separation =
                 std::min({proposal.separation,
-                          lack(rig, proposal.experiment, diagnosis.hypothesis, exchange.hypothesis),
-                          lack(rig, proposal.experiment, exchange.hypothesis, diagnosis.hypothesis)});
+                          lack(rig, proposal.experiment, diagnosis.hypothesis, exchange.hypothesis, budget),
+                          lack(rig, proposal.experiment, exchange.hypothesis, diagnosis.hypothesis, budget)});
     });
-    const Proposal& best = *std::ranges::max_element(proposals, {}, &Proposal::separation);
-    if (!(best.separation >= design::least_log_odds)) return {};
-    gap::ProposedExperiment proposed{best.experiment.kind, {}, {}};
+    return *std::ranges::max_element(proposals, {}, &Proposal::separation);
+}
+
+}  // namespace
+
+std::optional<gap::ProposedExperiment> next_experiment(const Rig& rig, const gap::Diagnosis& diagnosis,
+                                                       const std::function<bool()>& interrupted) try {
+    const std::vector<design::Exchange> exchanges = design::exchanges(diagnosis);
+    if (exchanges.empty()) return {};
+    const std::optional<Proposal> best = best_proposal(rig, diagnosis, exchanges, interrupted);
+    if (!best || !(best->separation >= design::least_log_odds)) return {};
+    gap::ProposedExperiment proposed{best->experiment.kind, {}, {}};
     for (const design::Exchange& exchange : exchanges)
         for (const std::string& name :
              {diagnosis.effects[exchange.place].effect, std::string(exchange.rival->name)})
@@ -73,8 +84,10 @@ std::optional<gap::ProposedExperiment> next_experiment(const Rig& rig, const gap
     for (const std::string& name : proposed.separates) names.push_back(readable(name));
     proposed.text =
         fmt::format("Record {} ({:.3g} s): in the simulator it tells {} apart, whichever of them it is.",
-                    best.experiment.kind, best.experiment.duration_s, enumerated(names));
+                    best->experiment.kind, best->experiment.duration_s, enumerated(names));
     return proposed;
+} catch (const gap::BudgetEnded&) {
+    return {};
 }
 
 }  // namespace fidservo::diagnose

@@ -3,6 +3,7 @@
 // The experiment that decides between causes that the recordings do not tell apart.
 #include "gap/diagnosis.h"
 
+#include <functional>
 #include <optional>
 
 namespace fidservo {
@@ -15,7 +16,9 @@ namespace fidservo::diagnose {
 /// rivals furthest apart. Each is run in the simulator with each cause in turn; its rival is fitted to what
 /// that would record, and what the rival then lacks, in loss (gap/fit/score.h), is how well the experiment
 /// tells them apart. The worst pair counts.
-/// @return nothing where nothing is tied, or where no experiment would decide
-std::optional<gap::ProposedExperiment> next_experiment(const Rig& rig, const gap::Diagnosis& diagnosis);
+/// @param interrupted  whether the user wants an end at once
+/// @return nothing where nothing is tied, where no experiment would decide, and after an interrupt
+std::optional<gap::ProposedExperiment> next_experiment(const Rig& rig, const gap::Diagnosis& diagnosis,
+                                                       const std::function<bool()>& interrupted = {});
 
 }  // namespace fidservo::diagnose

@@ -4,20 +4,29 @@
 #include "src/diagnose/frame_looks.h"
 #include "src/files/recording/reader.h"
 
+#include <utility>
+
 #include <malloc.h>
 
 namespace fidservo::diagnose {
 
-ReadRecordings read_recordings(const std::vector<std::filesystem::path>& paths) {
-    ReadRecordings read;
+ReadRecordings with_frames(std::vector<Recording> recordings,
+                           const std::vector<std::filesystem::path>& folders,
+                           const std::function<bool()>& interrupted) {
+    std::vector<std::string> notes = measure_frames(recordings, folders, interrupted);
+    return {std::move(recordings), std::move(notes)};
+}
+
+ReadRecordings read_recordings(const std::vector<std::filesystem::path>& paths,
+                               const std::function<bool()>& interrupted) {
+    std::vector<Recording> recordings;
     std::vector<std::filesystem::path> folders;
     for (const std::filesystem::path& path : paths)
         for (const std::filesystem::path& folder : find_recordings(path)) {
-            read.recordings.push_back(read_recording(folder));
+            recordings.push_back(read_recording(folder));
             folders.push_back(folder);
         }
-    read.notes = measure_frames(read.recordings, folders);
-    return read;
+    return with_frames(std::move(recordings), folders, interrupted);
 }
 
 void keep_memory() {

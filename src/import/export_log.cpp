@@ -22,14 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "macro_setpoint_mm", a name for MATLAB too; for units of px^2 "px2".
-std::string exported_name(std::string_view title) {
-    std::string name(name_of_title(title));
-    std::string unit(unit_of_title(title));
-    std::erase(unit, '^');
-    return unit.empty() ? name : name + "_" + unit;
-}
-
 /// How a format joins a group's name and a signal's.
 std::string joined(ExportFormat format, std::string_view group, const std::string& name) {
     return format == ExportFormat::hdf5 ? fmt::format("/{}/{}", group, name)
@@ -194,6 +186,13 @@ std::string csv_map(std::string map, const fs::path& file) {
 }
 
 }  // namespace
+
+std::string exported_name(std::string_view title) {
+    std::string name(name_of_title(title));
+    std::string unit(unit_of_title(title));
+    std::erase(unit, '^');
+    return unit.empty() ? name : name + "_" + unit;
+}
 
 std::vector<std::string> export_recording(const fs::path& folder, ExportFormat format, const fs::path& file) {
     const Recording recording = read_recording(folder);

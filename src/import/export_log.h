@@ -4,8 +4,15 @@
 #include "src/import/log.h"
 
 #include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace fidservo::imports {
+
+/// Of a column's title "macro_setpoint [mm]": "macro_setpoint_mm", a name for MATLAB and Python; of px^2
+/// "px2".
+std::string exported_name(std::string_view title);
 
 enum class ExportFormat { mat, hdf5, csv };
 

@@ -30,6 +30,7 @@ const std::map<std::string, Rooms>& arrows() {
         {"calib", {"core", "vision"}},
         {"gap", {"core", "plant", "calib", "control"}},
         {"src", {"core", "vision", "control", "calib", "plant", "gap", "reference"}},
+        {"python", {"core", "vision", "control", "calib", "plant", "gap", "reference", "src"}},
     };
     return allowed;
 }

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bare_debian.sh PACKAGES FOLDER: installs the packages in a bare Debian 12, made in FOLDER, as a user would who has nothing
-# else: the program, with which the demo is inspected, then the libraries, against which the examples are built and run.
+# else: the program, with which the demo is inspected; the libraries, against which the examples are built and run; the Python
+# module and its examples.
 # As root. Nothing outside FOLDER changes; what is mounted is gone when it ends.
 set -euo pipefail
 (($# == 2)) || { echo "usage: bare_debian.sh PACKAGES FOLDER" >&2 && exit 2; }
@@ -45,3 +46,11 @@ printf 'installed in %d s\n' $((SECONDS - begin))
 inside 'cp -r /usr/share/doc/fidservo/examples /root/ && cd /root/examples
     cmake -B build >/dev/null && cmake --build build -j "$(nproc)"
     ctest --test-dir build --output-on-failure'
+
+say "the Python module"
+begin=$SECONDS
+inside 'apt-get install -qq -y --no-install-recommends /root/python3-fidservo_*.deb' >"$folder/install-python.log" 2>&1
+printf 'installed in %d s\n' $((SECONDS - begin))
+inside 'cd /root && for example in /usr/share/doc/python3-fidservo/examples/*.py; do
+        echo "$example" && python3 "$example" | tail -2
+    done'
