@@ -70,12 +70,19 @@ endfunction()
 # The allocator keeps what a diagnosis gives back, as in the program: the same bounds as in src/cli/main.cpp.
 set(fidservo_test_environment "GLIBC_TUNABLES=glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=268435456")
 
-# fidservo_shards(NAME LABEL COUNT FILTER SERIAL): the cases of a test program that FILTER names, in COUNT processes.
-function(fidservo_shards name label count filter serial)
+# fidservo_shards(NAME LABEL FILTER SECONDS MOST SERIAL): the cases of a test program that FILTER names, which take SECONDS of
+# processor time, in as many processes as make each last MOST of them. ctest starts the costliest first, so that the end of all is
+# not a long one on one core.
+function(fidservo_shards name label filter seconds most serial)
+  math(EXPR count "(${seconds} + ${most} - 1) / ${most}")
+  if(serial OR count LESS 1)
+    set(count 1)
+  endif()
   math(EXPR last "${count} - 1")
+  math(EXPR cost "1 + ${seconds} / ${count}")
   foreach(shard RANGE ${last})
     add_test(NAME ${name}.${label}.${shard} COMMAND ${name} --gtest_filter=${filter})
-    set_tests_properties(${name}.${label}.${shard} PROPERTIES LABELS ${label} RUN_SERIAL ${serial} TIMEOUT 1500
+    set_tests_properties(${name}.${label}.${shard} PROPERTIES LABELS ${label} RUN_SERIAL ${serial} TIMEOUT 1500 COST ${cost}
       ENVIRONMENT "GTEST_TOTAL_SHARDS=${count};GTEST_SHARD_INDEX=${shard};${fidservo_test_environment}")
   endforeach()
 endfunction()
@@ -88,13 +95,20 @@ function(fidservo_in_a_test_program)
   endforeach()
 endfunction()
 
-# fidservo_test(NAME [SERIAL] SOURCES a.cpp ... USES targets...): one GoogleTest program.
+# fidservo_test(NAME [SERIAL] [QUICK_S n] [SLOW_S n] SOURCES a.cpp ... USES targets...): one GoogleTest program.
 # Cases of suites whose name begins with Slow are labelled slow, the others quick; a few processes run them all. Each
 # case is a test of its own besides, with the label case: `ctest -L case -R NAME`.
+# QUICK_S, SLOW_S: about how many seconds of processor time the cases take (default: 1 and 15), for a process of few seconds each.
 # SERIAL: no other test runs at the same time, for tests that watch processes on the wall clock.
 include(GoogleTest)
 function(fidservo_test name)
-  cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL" "QUICK_S;SLOW_S" "SOURCES;USES" ${ARGN})
+  if(NOT ARG_QUICK_S)
+    set(ARG_QUICK_S 1)
+  endif()
+  if(NOT ARG_SLOW_S)
+    set(ARG_SLOW_S 15)
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   fidservo_in_a_test_program(${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE fidservo_test_options ${ARG_USES} GTest::gtest_main GTest::gmock)
@@ -103,17 +117,11 @@ function(fidservo_test name)
     FIDSERVO_ASSETS_DIR="${CMAKE_SOURCE_DIR}/assets"
     FIDSERVO_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
     FIDSERVO_DATA_DIR="${FIDSERVO_DATA_DIR}")
-  set(quick_shards 4)
-  set(slow_shards 6)
-  if(ARG_SERIAL)
-    set(quick_shards 1)
-    set(slow_shards 1)
-  endif()
-  fidservo_shards(${name} quick ${quick_shards} "-Slow*" ${ARG_SERIAL})
+  fidservo_shards(${name} quick "-Slow*" ${ARG_QUICK_S} 6 ${ARG_SERIAL})
   foreach(source ${ARG_SOURCES})
     file(STRINGS ${source} slow_suites REGEX "^(TEST|TEST_F|TEST_P|INSTANTIATE_TEST_SUITE_P)\\(Slow|^class Slow" LIMIT_COUNT 1)
     if(slow_suites)
-      fidservo_shards(${name} slow ${slow_shards} "Slow*" ${ARG_SERIAL})
+      fidservo_shards(${name} slow "Slow*" ${ARG_SLOW_S} 15 ${ARG_SERIAL})
       break()
     endif()
   endforeach()

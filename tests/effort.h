@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <cstdlib>
+#include <string_view>
 
 namespace fidservo::testing {
 
@@ -11,6 +13,14 @@ constexpr int cases([[maybe_unused]] int all, [[maybe_unused]] int under_sanitiz
 #else
     return all;
 #endif
+}
+
+/// How many draws a scan makes: a guard's worth; all of them, for the figures that the documentation states,
+/// where the environment says FIDSERVO_DRAWS=all (./run test --all-draws). The guard's draws are the first of
+/// all.
+inline int draws(int all, int guard) {
+    const char* const asked = std::getenv("FIDSERVO_DRAWS");
+    return asked != nullptr && std::string_view(asked) == "all" ? all : guard;
 }
 
 }  // namespace fidservo::testing

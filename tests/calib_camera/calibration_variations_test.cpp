@@ -5,6 +5,7 @@
 #include "calib/camera/calibration_verdict.h"
 #include "calib/camera/other_explanations.h"
 #include "tests/calib_camera/hand_held.h"
+#include "tests/effort.h"
 #include "tests/variations.h"
 
 #include <algorithm>
@@ -17,8 +18,8 @@
 namespace fidservo::calib {
 namespace {
 
-constexpr int tried = 200;
-constexpr int tried_of_long = 25;  ///< of kinds whose every answer takes a dozen calibrations
+const int tried = testing::draws(200, 40);
+const int tried_of_long = testing::draws(25, 8);  ///< of kinds whose every answer takes a dozen calibrations
 constexpr double side_mm = 88.0, pitch_mm = 114.4;
 
 std::vector<PlateTag> small_target() {

@@ -15,7 +15,7 @@ namespace {
 std::vector<Point> weekly(const std::vector<double>& values, double std) {
     std::vector<Point> points;
     for (std::size_t week = 0; week < values.size(); ++week)
-        points.push_back({static_cast<double>(week), values[week], std, true});
+        points.push_back({static_cast<double>(week), values[week], std});
     return points;
 }
 
@@ -108,8 +108,8 @@ TEST(ChangePoints_, StepAndRepair_AreBothFound) {
 
 TEST(ChangePoints_, LongTimeWithoutAName_CountsAsOneDiagnosis) {
     std::vector<Point> points;
-    for (int week = 0; week < 40; ++week) points.push_back({static_cast<double>(week), 0.0, 0.265, false});
-    for (int week = 40; week < 44; ++week) points.push_back({static_cast<double>(week), 0.47, 0.02, true});
+    for (int week = 0; week < 40; ++week) points.push_back({static_cast<double>(week), 0.0, 0.02, 0.458});
+    for (int week = 40; week < 44; ++week) points.push_back({static_cast<double>(week), 0.47, 0.02});
     EXPECT_TRUE(find_changes(points, {0.0, 100.0}, alarm_bound(50, 52, 0.05)).empty());
 }
 

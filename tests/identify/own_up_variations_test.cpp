@@ -2,6 +2,7 @@
 // Recordings drawn at random that contradict each other, that the model misses, that fix a ratio only: every
 // number stated has an interval that holds the truth, or it is said that it is not known.
 #include "src/identify/identify.h"
+#include "tests/effort.h"
 #include "tests/identify/owned_recordings.h"
 #include "tests/variations.h"
 
@@ -13,6 +14,8 @@ namespace {
 using namespace testing;
 
 constexpr double far = 4.0;  ///< standard errors, scaled up where Student's law is wider than a normal one
+
+const int tried = draws(200, 50);
 
 double draw(std::mt19937_64& random, double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -79,7 +82,7 @@ Outcome one_recording(const Carriage& carriage, std::mt19937_64& random,
 }
 
 TEST(SlowOwnUpVariations, RecordingsThatContradictEachOther_AreOwnedUpTo) {
-    expect_right_or_refused("identify macro: recordings that contradict", 200, [](std::mt19937_64& random) {
+    expect_right_or_refused("identify macro: recordings that contradict", tried, [](std::mt19937_64& random) {
         constexpr double duration_s = 3.6;
         const Carriage common = drawn_carriage(random);
         const auto which = random() % 4, count = 2 + random() % 3;
@@ -105,7 +108,7 @@ TEST(SlowOwnUpVariations, RecordingsThatContradictEachOther_AreOwnedUpTo) {
 }
 
 TEST(SlowOwnUpVariations, ForcesThatTheModelLacks_AreOwnedUpTo) {
-    expect_right_or_refused("identify macro: a force the model lacks", 200, [](std::mt19937_64& random) {
+    expect_right_or_refused("identify macro: a force the model lacks", tried, [](std::mt19937_64& random) {
         Carriage carriage = drawn_carriage(random);
         const double size_V = draw(random, 0.05, 1.5);
         reference::Departures& other = carriage.other;
@@ -137,7 +140,7 @@ TEST(SlowOwnUpVariations, ForcesThatTheModelLacks_AreOwnedUpTo) {
 }
 
 TEST(SlowOwnUpVariations, SensorsAndColumnsThatAreWrong_AreOwnedUpTo) {
-    expect_right_or_refused("identify macro: sensor or columns wrong", 200, [](std::mt19937_64& random) {
+    expect_right_or_refused("identify macro: sensor or columns wrong", tried, [](std::mt19937_64& random) {
         const Carriage carriage = drawn_carriage(random);
         const auto kind = random() % 5;
         const double size = draw(random, 0.3, 1.0);
@@ -160,7 +163,7 @@ TEST(SlowOwnUpVariations, SensorsAndColumnsThatAreWrong_AreOwnedUpTo) {
 
 /// Single steps: of steady speed or not, with a carriage that is held before the step or creeps.
 TEST(SlowOwnUpVariations, ExcitationsThatFixARatioOnly_AreOwnedUpTo) {
-    expect_right_or_refused("identify macro: ratio only", 1000, [](std::mt19937_64& random) {
+    expect_right_or_refused("identify macro: ratio only", draws(1000, 150), [](std::mt19937_64& random) {
         Carriage carriage = drawn_carriage(random);
         carriage.time_constant_s = draw(random, 0.05, 3.0);
         carriage.friction_V = random() % 2 == 0 ? 0.0 : carriage.friction_V;
@@ -185,7 +188,7 @@ TEST(SlowOwnUpVariations, ExcitationsThatFixARatioOnly_AreOwnedUpTo) {
 }
 
 TEST(SlowOwnUpVariations, FrictionAtItsBound_IsOwnedUpTo) {
-    expect_right_or_refused("identify macro: friction at its bound", 200, [](std::mt19937_64& random) {
+    expect_right_or_refused("identify macro: friction at its bound", tried, [](std::mt19937_64& random) {
         Carriage carriage = drawn_carriage(random);
         carriage.friction_V = random() % 2 == 0 ? 0.0 : draw(random, 0.0, 0.02);
         return one_recording(carriage, random, {}, 2.4);

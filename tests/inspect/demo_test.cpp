@@ -1,25 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The demo, whole, on the simulated rig: what it finds, and that a killed run ends like one that was not.
-#include "core/rig.h"
-#include "src/files/rig/rig_file.h"
 #include "src/inspect/inspection_run.h"
-#include "src/inspect/journal.h"
+#include "tests/control_guardian/child_process.h"
+#include "tests/src/temporary_folder.h"
 
+#include <chrono>
 #include <csignal>
-#include <fstream>
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace fidservo::inspect {
 namespace {
 
 namespace fs = std::filesystem;
+using fidservo::testing::ChildProcess;
+using fidservo::testing::TemporaryFolder;
+using fidservo::testing::text_of;
 
 std::string without_site(int site, const std::string& csv) {
     std::istringstream lines(csv);
@@ -37,12 +41,6 @@ InspectionOptions demo(const fs::path& out) {
     return options;
 }
 
-std::string text_of(const fs::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-}
-
 std::size_t visits_in(const fs::path& journal) {
     const std::string text = text_of(journal);
     std::size_t visits = 0;
@@ -50,22 +48,26 @@ std::size_t visits_in(const fs::path& journal) {
     return visits;
 }
 
-class SlowDemo : public testing::Test {
+/// One run that nothing happens to, for all cases.
+class SlowDemo : public ::testing::Test {
   protected:
-    SlowDemo() : folder_(fs::temp_directory_path() / ("fidservo-demo-" + std::to_string(::getpid()))) {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
+    static void SetUpTestSuite() {
+        folder_ = std::make_unique<TemporaryFolder>();
+        counts_ = run_inspection(demo(whole()));
     }
-    ~SlowDemo() override { fs::remove_all(folder_); }
-    fs::path folder_;
+    static void TearDownTestSuite() { folder_.reset(); }
+
+    static fs::path whole() { return *folder_ / "whole"; }
+
+    static inline std::unique_ptr<TemporaryFolder> folder_;
+    static inline Counts counts_;
 };
 
 TEST_F(SlowDemo, KnownDefects_AllAreFoundAndNothingElse) {
-    const Counts counts = run_inspection(demo(folder_ / "run"));
-    EXPECT_EQ(counts.not_decidable, 0);
-    EXPECT_EQ(counts.not_measured, 0);
+    EXPECT_EQ(counts_.not_decidable, 0);
+    EXPECT_EQ(counts_.not_measured, 0);
     std::map<int, std::set<std::string>> failed;
-    std::istringstream rows(text_of(folder_ / "run/results.csv"));
+    std::istringstream rows(text_of(whole() / "results.csv"));
     for (std::string row; std::getline(rows, row);) {
         if (row.find(",fail,") == std::string::npos) continue;
         std::istringstream fields(row);
@@ -84,44 +86,49 @@ TEST_F(SlowDemo, KnownDefects_AllAreFoundAndNothingElse) {
 }
 
 TEST_F(SlowDemo, ImagesMeasuredAgain_SameRecipeGivesTheSameResults) {
-    const Counts at_first = run_inspection(demo(folder_ / "run"));
-    InspectionOptions again = demo(folder_ / "again");
-    again.session.camera = "images:" + (folder_ / "run").string();
+    const fs::path kept = *folder_ / "kept";
+    fs::create_directory(kept);
+    fs::copy(whole() / "images", kept / "images", fs::copy_options::recursive);
+    InspectionOptions again = demo(*folder_ / "again");
+    again.session.camera = "images:" + kept.string();
     const Counts counts = run_inspection(again);
-    EXPECT_EQ(counts.fail, at_first.fail);
-    EXPECT_EQ(text_of(again.out / "results.csv"), text_of(folder_ / "run/results.csv"));
+    EXPECT_EQ(counts.fail, counts_.fail);
+    EXPECT_EQ(text_of(again.out / "results.csv"), text_of(whole() / "results.csv"));
     EXPECT_FALSE(fs::exists(again.out / "recordings")) << "nothing moved";
 
-    fs::remove(folder_ / "run/images/site-041-left.png");
-    again.out = folder_ / "incomplete";
+    fs::remove(kept / "images/site-041-left.png");
+    again.out = *folder_ / "incomplete";
     const Counts incomplete = run_inspection(again);
     EXPECT_GT(incomplete.not_measured, 0);
     const std::string results = text_of(again.out / "results.csv");
     EXPECT_NE(results.find("no_image: no image site-041-left"), std::string::npos);
-    EXPECT_EQ(without_site(41, results), without_site(41, text_of(folder_ / "run/results.csv")));
+    EXPECT_EQ(without_site(41, results), without_site(41, text_of(whole() / "results.csv")));
 }
 
 TEST_F(SlowDemo, KilledTwiceAndResumed_ResultsAreByteForByteTheSame) {
-    InspectionOptions options = demo(folder_ / "killed");
+    InspectionOptions options = demo(*folder_ / "killed");
     const fs::path journal = options.out / "journal.jsonl";
+    const std::string killed = options.out.string();
     for (const std::size_t after : {2u, 9u}) {
-        const pid_t child = ::fork();
-        ASSERT_GE(child, 0);
-        if (child == 0) {
-            run_inspection(options);
-            ::_exit(0);
-        }
-        int status = 0;
-        while (visits_in(journal) < after && ::waitpid(child, &status, WNOHANG) == 0) ::usleep(20000);
-        ::usleep(150000);  // somewhere within the next site
-        ::kill(child, SIGKILL);
-        ::waitpid(child, &status, 0);
-        ASSERT_TRUE(WIFSIGNALED(status)) << "the run was over before it could be killed";
+        std::vector<std::string> command{FIDSERVO_PROGRAM,
+                                         "inspect",
+                                         options.recipe.string(),
+                                         "--rig",
+                                         options.session.rig_file.string(),
+                                         "--no-diagnosis",
+                                         "--out",
+                                         killed};
+        if (options.resume) command.emplace_back("--resume");
+        ChildProcess run(command);
+        while (visits_in(journal) < after)
+            if (run.output_ends(std::chrono::milliseconds(20))) break;
+        run.output_ends(std::chrono::milliseconds(150));  // somewhere within the next site
+        run.send(SIGKILL);
+        ASSERT_EQ(run.wait(), -SIGKILL) << "the run was over before it could be killed";
         options.resume = true;
     }
     run_inspection(options);
-    run_inspection(demo(folder_ / "whole"));
-    EXPECT_EQ(text_of(options.out / "results.csv"), text_of(folder_ / "whole/results.csv"));
+    EXPECT_EQ(text_of(options.out / "results.csv"), text_of(whole() / "results.csv"));
     EXPECT_NE(text_of(options.out / "run.json").find("\"resumed\": 2"), std::string::npos);
     int set_aside = 0;
     for (const auto& entry : fs::directory_iterator(options.out / "recordings"))

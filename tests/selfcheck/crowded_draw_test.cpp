@@ -12,6 +12,7 @@
 #include "src/selfcheck/draw/discrepancy_draw.h"
 #include "src/selfcheck/draw/gap_alone.h"
 #include "src/selfcheck/draw/other_formulas.h"
+#include "tests/selfcheck/messy_cases.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,15 +25,11 @@
 namespace fidservo::selfcheck {
 namespace {
 
+using fidservo::testing::first_crowded_case;
+
 const Rig& nominal() {
     static const Rig rig = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
     return rig;
-}
-
-std::size_t first_number_of(CaseKind kind, std::uint64_t seed) {
-    std::size_t number = 0;
-    while (kind_of_crowded_case(seed, number) != kind) ++number;
-    return number;
 }
 
 std::vector<Case> cases_of_three(std::uint64_t seed, std::size_t count) {
@@ -45,12 +42,7 @@ std::vector<Case> cases_of_three(std::uint64_t seed, std::size_t count) {
 
 void expect_same(const Case& a, const Case& b) {
     EXPECT_EQ(a.campaign_seed, b.campaign_seed);
-    ASSERT_EQ(a.label.effects.size(), b.label.effects.size());
-    for (std::size_t k = 0; k < a.label.effects.size(); ++k) {
-        EXPECT_EQ(a.label.effects[k].effect, b.label.effects[k].effect);
-        EXPECT_EQ(a.label.effects[k].formula, b.label.effects[k].formula);
-        EXPECT_EQ(a.label.effects[k].size, b.label.effects[k].size);
-    }
+    fidservo::testing::expect_same_label(a.label, b.label);
 }
 
 TEST(CrowdedDraw, ThreeCasesInARow_AreOfAllKinds) {
@@ -161,23 +153,15 @@ void expect_messy(const Label& label, bool has_dominant) {
     expect_between(label.discrepancy->gap_floors, discrepancy_floors, "discrepancy");
 }
 
-/// A draw takes half a minute.
-const Case& messy_none() {
-    static const Case drawn = draw_crowded_case(nominal(), 3, first_number_of(CaseKind::messy_none, 3));
-    return drawn;
-}
-
-TEST(SlowCrowdedDraw, MessyRigs_KeepTheirGapsAndAreTheSameAgain) {
-    const std::size_t number = first_number_of(CaseKind::messy, 3);
-    const Case messy = draw_crowded_case(nominal(), 3, number);
-    expect_messy(messy.label, true);
-    expect_same(messy, draw_crowded_case(nominal(), 3, number));
-    expect_messy(messy_none().label, false);
+/// That they are the same again when they are drawn again: self_check_test.cpp.
+TEST(SlowCrowdedDraw, MessyRigs_KeepTheirGaps) {
+    expect_messy(first_crowded_case(CaseKind::messy).label, true);
+    expect_messy(first_crowded_case(CaseKind::messy_none).label, false);
 }
 
 /// Sizes are looked for with fewer sub-steps than a case is recorded with.
 TEST(SlowGapAlone, OfADiscrepancy_IsThatOfTheFullModel) {
-    const Case& drawn = messy_none();
+    const Case& drawn = first_crowded_case(CaseKind::messy_none);
     TrueRig alone{nominal(), {}};
     alone.departures.discrepancy = drawn.true_rig.departures.discrepancy;
     const gap::Evidence evidence(nominal(), record_campaign(nominal(), alone, drawn.campaign_seed));

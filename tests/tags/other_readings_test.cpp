@@ -2,6 +2,7 @@
 // Tags that were not looked for as what they are: the hint names how they would be found.
 #include "vision/tags/other_readings.h"
 
+#include "tests/effort.h"
 #include "tests/tags/drawn_tag.h"
 #include "tests/variations.h"
 #include "vision/tags/square_outlines.h"
@@ -80,7 +81,7 @@ std::size_t right_tags(const Picture& picture, const TagReading& reading, std::s
 
 TEST(SlowOtherReadings, TagsOfAnyOtherKind_AreFoundByTheReadingThatIsNamed) {
     const TagDetector keeps_its_book(thorough_options());
-    expect_right_or_refused("hints", 200, [](std::mt19937_64& random) {
+    expect_right_or_refused("hints", fidservo::testing::draws(200, 40), [](std::mt19937_64& random) {
         const TagReading reading = unusual_reading(random);
         const Picture picture = picture_of(reading, random);
         const std::string name = fmt::format("{}{} from {}", reading.mirrored ? "mirrored " : "",

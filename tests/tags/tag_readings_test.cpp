@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every family, with borders of one and two cells, inverted and mirrored: read as what it is, and measured.
+#include "tests/effort.h"
 #include "tests/tags/drawn_tag.h"
 #include "tests/variations.h"
 #include "vision/tags/tag_appearance.h"
@@ -87,7 +88,7 @@ Outcome read_one(const TagReading& reading, std::mt19937_64& random, CornerError
 
 void expect_read(const std::string& kind, const std::function<TagReading(std::mt19937_64&)>& draw_reading) {
     CornerErrors errors;
-    expect_right_or_refused(kind, 200, [&](std::mt19937_64& random) {
+    expect_right_or_refused(kind, fidservo::testing::draws(200, 50), [&](std::mt19937_64& random) {
         const TagReading reading = draw_reading(random);
         return read_one(reading, random, errors);
     });

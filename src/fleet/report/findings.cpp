@@ -2,6 +2,7 @@
 #include "src/fleet/report/findings.h"
 
 #include "src/fleet/report/groups.h"
+#include "src/fleet/report/statistics/censored.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,8 @@ void look_for_changes(QuantityFindings& found, WithinScatter scatter, std::span<
         UnitFindings& unit = found.units[u];
         unit.changes = find_changes(timed(unit), of_others(u), bound);
         const std::span<const Point> all = unit.series.points;
-        unit.level = level_now(unit.changes.empty() ? all : timed(unit), of_others(u), unit.changes);
+        unit.known = level_now(unit.changes.empty() ? all : timed(unit), of_others(u), unit.changes);
+        unit.level = as_normal(unit.known);
     }
     found.scatter = scatter.of_all(common.front());
 }
@@ -61,20 +63,21 @@ void pool(QuantityFindings& found) {
     const std::vector<bool> odd = odd_units(found);
     std::vector<Level> alike;
     for (std::size_t u = 0; u < found.units.size(); ++u)
-        if (!odd[u]) alike.push_back(found.units[u].level);
+        if (!odd[u]) alike.push_back(found.units[u].known);
     if (alike.empty())
-        for (const UnitFindings& unit : found.units) alike.push_back(unit.level);
+        for (const UnitFindings& unit : found.units) alike.push_back(unit.known);
     found.population = population_of(alike);
     for (std::size_t u = 0; u < found.units.size(); ++u)
         found.units[u].pooled =
-            odd[u] ? found.units[u].level : pooled(found.units[u].level, found.population);
+            odd[u] ? found.units[u].level : pooled(found.units[u].known, found.population);
 }
 
 QuantityFindings unjudged(QuantityOverFleet fleet) {
     QuantityFindings found;
     found.quantity = std::move(fleet.quantity);
     for (QuantitySeries& series : fleet.units)
-        found.units.push_back({.series = std::move(series), .changes = {}, .level = {}, .pooled = {}});
+        found.units.push_back(
+            {.series = std::move(series), .changes = {}, .known = {}, .level = {}, .pooled = {}});
     return found;
 }
 

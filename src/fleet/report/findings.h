@@ -29,7 +29,8 @@ struct UnitGroup {
 struct UnitFindings {
     QuantitySeries series;
     std::vector<Change> changes;  ///< places among the series' points
-    Level level;                  ///< now, by its own diagnoses
+    Level known;                  ///< now, by its own diagnoses; with a limit where they name nothing
+    Level level;                  ///< the same as a normal law
     Level pooled;                 ///< the same given the fleet
 };
 

@@ -75,7 +75,7 @@ nlohmann::json effect_plot(const std::vector<FleetResult>& results, const Quanti
         }
         for (std::size_t p = unit.series.untimed; p < unit.series.points.size(); ++p) {
             const Point& point = unit.series.points[p];
-            if (!point.named) continue;
+            if (!point.named()) continue;
             when.push_back(static_cast<double>(*results[unit.series.results[p]].recorded_at_s));
             whose.push_back(row_of[unit.series.unit]);
             value.push_back(in_unit(point.value));

@@ -51,10 +51,10 @@ Saying saying_of(const FleetResult& result, std::string_view effect, const Named
     return was_tried && result.ended == "finished" ? Saying::absent : Saying::nothing;
 }
 
-/// The std of sizes that a diagnosis may have passed over.
-double passed_over_std(double gap_after) {
+/// The size below which a diagnosis names nothing, floors.
+double limit_of(double gap_after) {
     const double least = std::max(gap::least_floors, gap_after);
-    return std::sqrt(least * least - 1.0) / std::numbers::sqrt3;
+    return std::sqrt(least * least - 1.0);
 }
 
 std::optional<Point> point_of(const Quantity& quantity, const FleetResult& result, double usual_std) {
@@ -65,24 +65,25 @@ std::optional<Point> point_of(const Quantity& quantity, const FleetResult& resul
             const NamedParameter* parameter = find_parameter(*named, quantity.parameter);
             if (parameter == nullptr || !std::isfinite(parameter->value)) return {};
             const double std = parameter->std * quantity.floors_per_unit;
-            return Point{time, quantity.in_floors(parameter->value), std > 0.0 ? std : usual_std, true};
+            return Point{time, quantity.in_floors(parameter->value), std > 0.0 ? std : usual_std};
         }
         case Saying::absent:
-            return Point{time, 0.0, passed_over_std(result.gap_after), false};
+            return Point{time, 0.0, usual_std, limit_of(result.gap_after)};
         case Saying::nothing:
             break;
     }
     return {};
 }
 
-/// The quantity's median standard error in floors, for a value at a bound, which has none.
+/// The quantity's median standard error in floors, for a value at a bound and for what is not named, which
+/// have none.
 double usual_std_of(const Quantity& quantity, const std::vector<const NamedEffect*>& names) {
     std::vector<double> stds;
     for (const NamedEffect* named : names)
         if (const NamedParameter* parameter = find_parameter(*named, quantity.parameter);
             parameter != nullptr && parameter->std > 0.0)
             stds.push_back(parameter->std * quantity.floors_per_unit);
-    return stds.empty() ? passed_over_std(gap::least_floors) : median_of(stds);
+    return stds.empty() ? limit_of(gap::least_floors) / std::numbers::sqrt3 : median_of(stds);
 }
 
 QuantityOverFleet over_fleet(const Quantity& quantity, const std::vector<FleetResult>& results,

@@ -11,10 +11,9 @@
 //
 // A diagnosis that names the effect with a probability of one half or more gives value and standard error.
 // One that does not name it, though it tried it, has passed over what was too small: below 1.1 floors, or
-// below what it has left unexplained, nothing is named. All sizes up to L = sqrt(max(1.1, gap after)^2 - 1)
-// are as likely: 0 with the standard deviation L / sqrt(3) of the uniform law. It says nothing of an effect
-// that it could not tell from one that it names, names with less than one half, or did not come to as its
-// time was over.
+// below what it has left unexplained, nothing is named: the limit L = sqrt(max(1.1, gap after)^2 - 1), with
+// the error of diagnoses that name it (statistics/censored.h). It says nothing of an effect that it could not
+// tell from one that it names, names with less than one half, or did not come to as its time was over.
 #include "src/fleet/report/result.h"
 #include "src/fleet/report/statistics/point.h"
 

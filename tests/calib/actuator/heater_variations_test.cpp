@@ -4,6 +4,7 @@
 #include "calib/tails.h"
 #include "calib/wire/heater_fit.h"
 #include "core/result.h"
+#include "tests/effort.h"
 #include "tests/variations.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 namespace fidservo::calib {
 namespace {
 
-constexpr int tried = 200;
+const int tried = testing::draws(200, 40);
 constexpr double far = 4.0;  ///< standard errors, scaled up where Student's law is wider than a normal one
 constexpr double tick_s = 0.5;
 

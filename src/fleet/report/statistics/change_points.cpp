@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/report/statistics/change_points.h"
 
+#include "src/fleet/report/statistics/censored.h"
 #include "src/fleet/report/statistics/change_scan.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ struct CountedPoints {
 CountedPoints counted(std::span<const Point> all) {
     CountedPoints kept;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!all[i].named && i > 0 && !all[i - 1].named) continue;
+        if (!all[i].named() && i > 0 && !all[i - 1].named()) continue;
         kept.points.push_back(all[i]);
         kept.index.push_back(i);
     }
@@ -34,6 +35,14 @@ std::vector<ChangeColumn> columns_of(std::span<const Point> all, std::span<const
     return columns;
 }
 
+/// Whether M passes the bound. What comes nowhere near it with normal laws is not integrated over.
+bool passes(std::span<const Point> points, const Scatter& scatter, std::span<const ChangeColumn> known,
+            double log_bound) {
+    constexpr double near = 6.0;
+    return scan_as_normal(points, scatter, known).log_sum() >= log_bound - near &&
+           scan(points, scatter, known).log_sum() >= log_bound;
+}
+
 /// Whether M passes the bound without any one of the diagnoses, too. A point that stands for several is none.
 bool stands_without_any(const CountedPoints& kept, std::size_t count, const Scatter& scatter,
                         std::span<const ChangeColumn> known, double log_bound) {
@@ -42,7 +51,7 @@ bool stands_without_any(const CountedPoints& kept, std::size_t count, const Scat
         std::vector<Point> fewer(kept.points.begin(),
                                  kept.points.begin() + static_cast<std::ptrdiff_t>(count));
         fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(left_out));
-        if (scan(fewer, scatter, known).log_sum() < log_bound) return false;
+        if (!passes(fewer, scatter, known, log_bound)) return false;
     }
     return true;
 }
@@ -52,7 +61,7 @@ std::optional<std::size_t> first_alarm(const CountedPoints& kept, const Scatter&
                                        std::span<const ChangeColumn> known, double log_bound) {
     for (std::size_t count = 2; count <= kept.points.size(); ++count) {
         const std::span<const Point> until(kept.points.data(), count);
-        if (scan(until, scatter, known).log_sum() >= log_bound &&
+        if (passes(until, scatter, known, log_bound) &&
             stands_without_any(kept, count, scatter, known, log_bound))
             return count - 1;
     }
@@ -114,8 +123,18 @@ std::vector<Change> find_changes(std::span<const Point> points, const Scatter& s
 }
 
 Level level_now(std::span<const Point> points, const Scatter& scatter, std::span<const Change> changes) {
-    const CountedPoints kept = counted(points);
-    return value_at(kept.points, scatter, columns_of(points, changes), points.back().time_weeks);
+    std::size_t begin = 0;
+    for (const Change& change : changes) {
+        if (change.kind == ChangeKind::trend)
+            return value_at(counted(points).points, scatter, columns_of(points, changes),
+                            points.back().time_weeks);
+        begin = std::max(begin, change.first);
+    }
+    const std::vector<Point> since = counted(points.subspan(begin)).points;
+    if (since.size() == 1 && !since.front().named())
+        return {0.0, std::hypot(since.front().std, scatter.std), since.front().limit};
+    const Moments level = over_level(since, scatter.std * scatter.std).moments();
+    return {level.mean, std::sqrt(level.variance)};
 }
 
 }  // namespace fidservo::fleet

@@ -7,9 +7,11 @@
 //
 //     E_k = p(y_1 .. y_t | changed since k) / p(y_1 .. y_t | unchanged)
 //
-// with the unknown level and scale integrated out (contrasts, Student's law; within_scatter.h). While nothing
-// changes, each E_k is a martingale of mean 1, so that their sum M_t = sum_k E_k (Shiryaev and Roberts) minus
-// the number of looks is one, too, and the mean number of looks before M passes a bound A is at least A. With
+// with the unknown level and scale integrated out (contrasts, Student's law; within_scatter.h); of a
+// diagnosis that does not name the quantity the likelihood is that of seeing nothing (limited_scan.h). While
+// nothing changes, each E_k is a martingale of mean 1, so that their sum M_t = sum_k E_k (Shiryaev and
+// Roberts) minus the number of looks is one, too, and the mean number of looks before M passes a bound A is
+// at least A. With
 //
 //     A = quantities * looks a year / rate
 //
@@ -63,7 +65,8 @@ double alarm_bound(double quantities, double looks_a_year, double rate);
 /// By time.
 std::vector<Change> find_changes(std::span<const Point> points, const Scatter& scatter, double bound);
 
-/// What the last point's value is by all points since, and with, the changes.
+/// What the last point's value is by all points since, and with, the changes. Where none of these names it,
+/// it has a limit.
 Level level_now(std::span<const Point> points, const Scatter& scatter, std::span<const Change> changes);
 
 }  // namespace fidservo::fleet

@@ -2,6 +2,8 @@
 #include "src/fleet/report/statistics/change_scan.h"
 
 #include "core/demand.h"
+#include "src/fleet/report/statistics/censored.h"
+#include "src/fleet/report/statistics/limited_scan.h"
 #include "src/fleet/report/statistics/log_of_sum.h"
 
 #include <algorithm>
@@ -14,7 +16,6 @@
 namespace fidservo::fleet {
 namespace {
 
-/// The laws that sizes are drawn from: standard deviations, floors; of trends, floors a week.
 constexpr std::array step_laws{1.0, 4.0, 16.0};
 constexpr std::array trend_laws{0.25, 1.0, 4.0};
 
@@ -129,6 +130,24 @@ Eigen::MatrixXd basis_of(std::span<const Point> points, const Eigen::VectorXd& r
     return basis;
 }
 
+std::vector<Point> as_normals(std::span<const Point> points) {
+    std::vector<Point> normals;
+    for (const Point& point : points) normals.push_back(as_normal(point));
+    return normals;
+}
+
+/// The first point after a begin that has a known step that the begin has not.
+std::size_t end_of_stretch(std::span<const Point> points, std::size_t begin,
+                           std::span<const ChangeColumn> steps) {
+    const auto steps_at = [&](std::size_t t) {
+        return std::ranges::count_if(
+            steps, [&](const ChangeColumn& step) { return step.since_weeks <= points[t].time_weeks; });
+    };
+    std::size_t end = begin + 1;
+    while (end < points.size() && steps_at(end) == steps_at(begin)) ++end;
+    return end;
+}
+
 }  // namespace
 
 ChangeColumn column_of(ChangeKind kind, std::span<const Point> points, std::size_t first) {
@@ -165,12 +184,25 @@ ChangeDates ChangeScan::dates(ChangeKind kind) const {
     return dates;
 }
 
+void ChangeScan::set_from(std::size_t begin, const ChangeScan& stretch) {
+    for (std::size_t k = 1; k < stretch.step_.size(); ++k) {
+        set(ChangeKind::step, begin + k, stretch.step_[k], stretch.step_best_[k]);
+        set(ChangeKind::trend, begin + k, stretch.trend_[k], stretch.trend_best_[k]);
+    }
+}
+
 void ChangeScan::set(ChangeKind kind, std::size_t first, double log_ratio, double log_best) {
     (kind == ChangeKind::step ? step_ : trend_)[first] = log_ratio;
     (kind == ChangeKind::step ? step_best_ : trend_best_)[first] = log_best;
 }
 
-ChangeScan scan(std::span<const Point> points, const Scatter& scatter, std::span<const ChangeColumn> known) {
+std::span<const double> laws_of(ChangeKind kind) {
+    return kind == ChangeKind::step ? std::span<const double>(step_laws) : trend_laws;
+}
+
+ChangeScan scan_as_normal(std::span<const Point> all, const Scatter& scatter,
+                          std::span<const ChangeColumn> known) {
+    const std::vector<Point> points = as_normals(all);
     if (known.empty()) return scan_beside_level(points, scatter);
     ChangeScan result(points.size());
     const Eigen::VectorXd roots = roots_of_weights(points, scatter);
@@ -195,8 +227,30 @@ ChangeScan scan(std::span<const Point> points, const Scatter& scatter, std::span
     return result;
 }
 
-Level size_of(std::span<const Point> points, const Scatter& scatter, std::span<const ChangeColumn> others,
+ChangeScan scan(std::span<const Point> points, const Scatter& scatter, std::span<const ChangeColumn> known) {
+    const auto is_trend = [](const ChangeColumn& column) { return column.kind == ChangeKind::trend; };
+    if (std::ranges::all_of(points, &Point::named) || scatter.degrees == 0.0 ||
+        std::ranges::any_of(known, is_trend))
+        return scan_as_normal(points, scatter, known);
+    // Between known steps the level is any: each stretch is by itself.
+    ChangeScan result(points.size());
+    for (std::size_t begin = 0; begin < points.size();) {
+        const std::size_t end = end_of_stretch(points, begin, known);
+        if (begin > 0)
+            for (const ChangeKind kind : {ChangeKind::step, ChangeKind::trend})
+                result.set(kind, begin, 0.0, 0.0);
+        const std::span<const Point> stretch = points.subspan(begin, end - begin);
+        result.set_from(begin, std::ranges::all_of(stretch, &Point::named)
+                                   ? scan_as_normal(stretch, scatter, {})
+                                   : scan_with_limits(stretch, scatter));
+        begin = end;
+    }
+    return result;
+}
+
+Level size_of(std::span<const Point> all, const Scatter& scatter, std::span<const ChangeColumn> others,
               const ChangeColumn& change) {
+    const std::vector<Point> points = as_normals(all);
     const Eigen::VectorXd roots = roots_of_weights(points, scatter);
     const Eigen::MatrixXd basis = basis_of(points, roots, others);
     Eigen::VectorXd column = roots.cwiseProduct(over(points, change));
@@ -206,8 +260,9 @@ Level size_of(std::span<const Point> points, const Scatter& scatter, std::span<c
     return {column.dot(roots.cwiseProduct(values_of(points))) / square, 1.0 / std::sqrt(square)};
 }
 
-Level value_at(std::span<const Point> points, const Scatter& scatter, std::span<const ChangeColumn> changes,
+Level value_at(std::span<const Point> all, const Scatter& scatter, std::span<const ChangeColumn> changes,
                double time_weeks) {
+    const std::vector<Point> points = as_normals(all);
     const Eigen::VectorXd roots = roots_of_weights(points, scatter);
     const auto columns = static_cast<Eigen::Index>(changes.size());
     Eigen::MatrixXd design(roots.size(), columns + 1);

@@ -43,20 +43,31 @@ class ChangeScan {
     /// @param log_ratio  log E_k of that kind alone
     /// @param log_best  log of the likelihood with the best size
     void set(ChangeKind kind, std::size_t first, double log_ratio, double log_best);
+    /// What a stretch of the points says of itself. @param begin  its first point's place
+    void set_from(std::size_t begin, const ChangeScan& stretch);
 
   private:
     static constexpr double none = -1e300;
     std::vector<double> step_, trend_, step_best_, trend_best_;  ///< by the first point that has the change
 };
 
+/// The laws that sizes of changes are drawn from: their standard deviations, floors or floors a week.
+std::span<const double> laws_of(ChangeKind kind);
+
+/// Points that are not named count by their limits (limited_scan.h); beside a trend, and where nothing is
+/// known of the scatter's scale, as normal laws (as_normal()).
 /// @param known  changes that are there in any case
 ChangeScan scan(std::span<const Point> points, const Scatter& scatter, std::span<const ChangeColumn> known);
+
+/// Likewise with all that is not named as normal laws: quicker, and near it.
+ChangeScan scan_as_normal(std::span<const Point> points, const Scatter& scatter,
+                          std::span<const ChangeColumn> known);
 
 /// The size of one change beside others; floors, or floors a week.
 Level size_of(std::span<const Point> points, const Scatter& scatter, std::span<const ChangeColumn> others,
               const ChangeColumn& change);
 
-/// The value at a time by a level and changes.
+/// The value at a time by a level and changes. Beside trends, what is not named counts as normal laws.
 Level value_at(std::span<const Point> points, const Scatter& scatter, std::span<const ChangeColumn> changes,
                double time_weeks);
 

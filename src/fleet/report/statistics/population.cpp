@@ -2,35 +2,19 @@
 #include "src/fleet/report/statistics/population.h"
 
 #include "core/demand.h"
+#include "src/fleet/report/statistics/censored.h"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace fidservo::fleet {
 namespace {
 
-struct WeightedMean {
-    double mean, weights;
-};
-
-WeightedMean weighted_mean(std::span<const Level> units, double variance) {
-    double weights = 0.0, values = 0.0;
-    for (const Level& unit : units) {
-        const double weight = 1.0 / (unit.std * unit.std + variance);
-        weights += weight;
-        values += weight * unit.value;
-    }
-    return {values / weights, weights};
-}
-
-double log_restricted_likelihood(std::span<const Level> units, double spread) {
-    const WeightedMean mean = weighted_mean(units, spread * spread);
-    double sum = std::log(mean.weights);
-    for (const Level& unit : units) {
-        const double variance = unit.std * unit.std + spread * spread;
-        sum += std::log(variance) + (unit.value - mean.mean) * (unit.value - mean.mean) / variance;
-    }
-    return -0.5 * sum;
+Nodes over_mean(std::span<const Level> units, double spread) {
+    std::vector<Point> points;
+    for (const Level& unit : units) points.push_back({0.0, unit.value, unit.std, unit.limit});
+    return over_level(points, spread * spread);
 }
 
 /// The largest of a function between two places, by golden sections.
@@ -61,9 +45,10 @@ double largest_between(double low, double high, const Function& function) {
 double likeliest_spread(std::span<const Level> units) {
     constexpr int steps = 40;
     double range = 0.0;
-    for (const Level& unit : units) range = std::max(range, std::abs(unit.value - units.front().value));
+    for (const Level& unit : units)
+        range = std::max(range, std::abs(unit.value - units.front().value) + unit.limit);
     if (units.size() < 2 || range == 0.0) return 0.0;
-    const auto likelihood = [&](double spread) { return log_restricted_likelihood(units, spread); };
+    const auto likelihood = [&](double spread) { return over_mean(units, spread).log_integral(); };
     // A grid first: with few units the likelihood may have two maxima. Squares, as it is steep at nothing.
     const auto spread_at = [&](int k) { return 2.0 * range * k * k / (steps * steps); };
     int best = 0;
@@ -83,16 +68,18 @@ Population population_of(std::span<const Level> units) {
     FIDSERVO_DEMAND(!units.empty());
     for (const Level& unit : units) FIDSERVO_DEMAND(unit.std > 0.0);
     const double spread = likeliest_spread(units);
-    const WeightedMean mean = weighted_mean(units, spread * spread);
-    return {mean.mean, 1.0 / std::sqrt(mean.weights), spread};
+    const Moments mean = over_mean(units, spread).moments();
+    return {mean.mean, std::sqrt(mean.variance), spread};
 }
 
 Level pooled(const Level& unit, const Population& population) {
-    const double own =
-        population.spread * population.spread / (population.spread * population.spread + unit.std * unit.std);
-    const double variance =
-        own * unit.std * unit.std + (1.0 - own) * (1.0 - own) * population.mean_std * population.mean_std;
-    return {own * unit.value + (1.0 - own) * population.mean, std::sqrt(variance)};
+    const double variance = unit.std * unit.std, all = variance + population.spread * population.spread;
+    const double own = population.spread * population.spread / all;
+    const Moments known =
+        unit.named() ? Moments{unit.value, 0.0} : moments_within(unit.limit, population.mean, std::sqrt(all));
+    const double drawn = (1.0 - own) * population.mean_std;
+    return {own * known.mean + (1.0 - own) * population.mean,
+            std::sqrt(own * variance + own * own * known.variance + drawn * drawn)};
 }
 
 }  // namespace fidservo::fleet

@@ -4,15 +4,21 @@
 //
 //     y_u = theta_u + e_u,   e_u ~ N(0, s_u^2),   theta_u ~ N(mu, tau^2)
 //
-// tau^2 maximises the restricted likelihood, w = 1 / (s^2 + tau^2),
+// Of a unit of which no diagnosis names the quantity only |y_u| < L_u is known (censored.h). tau maximises
+// the likelihood with mu integrated out, which is the restricted one where all are named; mu and its standard
+// error are those of its likelihood at that tau:
 //
-//     log L = -1/2 [ sum log(1/w_u) + log sum w_u + sum w_u (y_u - mu)^2 ],   mu = sum w y / sum w
+//     L(tau) = integral over mu of the product over u of  N(y_u; mu, s_u^2 + tau^2)  or
+//              Phi((L_u - mu) / sqrt(s_u^2 + tau^2)) - Phi((-L_u - mu) / sqrt(s_u^2 + tau^2))
 //
-// and a unit's value given the fleet is drawn to the fleet's mean by how little it says itself:
+// A unit's value given the fleet is drawn to the fleet's mean by how little it says itself; y is its own
+// value, or the mean, of the variance V, of all that it may be:
 //
-//     theta_u | y = B y_u + (1 - B) mu,   B = tau^2 / (tau^2 + s_u^2),   var = B s_u^2 + (1 - B)^2 var(mu)
+//     theta_u | y = B y_u + (1 - B) mu,   B = tau^2 / (tau^2 + s_u^2),   var = B s_u^2 + B^2 V + (1 - B)^2
+//     var(mu)
 //
-// Sources: Efron, Morris, JASA 70, 1975; Raudenbush, Bryk, Hierarchical Linear Models, 2002, ch. 3.
+// Sources: Efron, Morris, JASA 70, 1975; Raudenbush, Bryk, Hierarchical Linear Models, 2002, ch. 3; Tobin,
+// Econometrica 26, 1958.
 #include "src/fleet/report/statistics/point.h"
 
 #include <span>
@@ -28,7 +34,7 @@ struct Population {
 /// Of one unit at least. Of a single one the spread is 0.
 Population population_of(std::span<const Level> units);
 
-/// A unit's value, given the fleet.
+/// A unit's value, given the fleet; of one that is not named, too.
 Level pooled(const Level& unit, const Population& population);
 
 }  // namespace fidservo::fleet

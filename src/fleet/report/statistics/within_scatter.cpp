@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/report/statistics/within_scatter.h"
 
+#include "src/fleet/report/statistics/censored.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -21,10 +24,30 @@ double sigma_at(std::size_t k) {
     return k == 0 ? 0.0 : first * std::pow(ratio, static_cast<double>(k - 1));
 }
 
+/// Of a unit that some diagnoses name and others do not.
+std::vector<double> log_likelihoods_with_limits(const std::vector<Point>& points) {
+    constexpr std::size_t scale_count = scatter_scales.size();
+    std::array<std::array<double, scale_count>, scale_degrees.size()> weights{};
+    std::ranges::transform(scale_degrees, weights.begin(), log_weights_of_scales);
+    std::vector<double> over_grid;
+    for (std::size_t k = 0; k < sigma_count; ++k) {
+        const double sigma = sigma_at(k);
+        std::array<double, scale_count> of_scale{};
+        std::ranges::transform(scatter_scales, of_scale.begin(), [&](double scale) {
+            return over_level(points, sigma * sigma, scale).log_integral();
+        });
+        for (const auto& of_degrees : weights) {
+            std::array<double, scale_count> terms{};
+            std::ranges::transform(of_scale, of_degrees, terms.begin(), std::plus{});
+            over_grid.push_back(log_of_sum(terms));
+        }
+    }
+    return over_grid;
+}
+
 std::vector<double> log_likelihoods(const std::vector<Point>& points) {
     std::vector<double> over_grid(sigma_count * scale_degrees.size(), 0.0);
     const double contrasts = static_cast<double>(points.size()) - 1.0;
-    if (contrasts < 1.0) return over_grid;
     std::array<double, scale_degrees.size()> constant{};
     for (std::size_t d = 0; d < scale_degrees.size(); ++d) {
         const double nu = scale_degrees[d];
@@ -66,19 +89,32 @@ double likeliest_sigma(const std::vector<double>& over_grid, double degrees) {
 
 }  // namespace
 
+std::array<double, scatter_scales.size()> log_weights_of_scales(double degrees) {
+    std::array<double, scatter_scales.size()> weights{};
+    std::ranges::transform(scatter_scales, weights.begin(),
+                           [&](double scale) { return -0.5 * degrees * (std::log(scale) + 1.0 / scale); });
+    const double all = log_of_sum(weights);
+    for (double& weight : weights) weight -= all;
+    return weights;
+}
+
 WithinScatter::WithinScatter(std::span<const std::vector<Point>> units)
     : sum_(sigma_count * scale_degrees.size(), 0.0) {
     for (const std::vector<Point>& points : units) {
         double unnamed = 0.0, variances = 0.0;
-        for (const Point& point : points) {
-            unnamed += point.named ? 0.0 : 1.0;
-            variances += point.named ? 0.0 : point.std * point.std;
-        }
+        for (const Point& point : points)
+            if (!point.named()) {
+                unnamed += 1.0;
+                variances += std::pow(as_normal(point).std, 2);
+            }
         unnamed_of_unit_.push_back(unnamed);
         unnamed_variance_of_unit_.push_back(variances);
-        const bool counts = unnamed == 0.0 && points.size() > 1;
-        of_unit_.push_back(log_likelihoods(counts ? points : std::vector<Point>{}));
-        contrasts_of_unit_.push_back(counts ? static_cast<double>(points.size()) - 1.0 : 0.0);
+        const double named = static_cast<double>(points.size()) - unnamed;
+        const bool counts = named > 0.0 && points.size() > 1;
+        of_unit_.push_back(!counts         ? std::vector<double>(sum_.size(), 0.0)
+                           : unnamed > 0.0 ? log_likelihoods_with_limits(points)
+                                           : log_likelihoods(points));
+        contrasts_of_unit_.push_back(!counts ? 0.0 : unnamed > 0.0 ? named : named - 1.0);
         contrasts_ += contrasts_of_unit_.back();
         for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += of_unit_.back()[k];
     }

@@ -12,12 +12,16 @@
 //     log L_u = log G((nu + m)/2) - log G(nu/2) - m/2 log(pi nu) - 1/2 sum log v_t - 1/2 log sum 1/v_t
 //               - (nu + m)/2 log(1 + S_u/nu),     v = s^2 + sigma^2,   S_u = sum (y - mean)^2 / v
 //
+// Where some diagnoses of a unit do not name the quantity, their factors are those of censored.h, the level
+// is integrated over numerically, and phi is summed over. Units of which no diagnosis names it say nothing.
+//
 // sigma maximises the sum over units; nu that over all quantities, too. A unit is judged by what the others
 // say: were it to drift, its own drift would pass for scatter. Sources: restricted likelihood: Patterson,
 // Thompson, Biometrika 58, 1971; scales that are drawn from an inverse chi^2: Smyth, Stat. Appl. Genet. Mol.
 // Biol. 3, 2004.
 #include "src/fleet/report/statistics/point.h"
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -31,12 +35,17 @@ struct Scatter {
     double degrees = 0.0;  ///< nu; 0: nothing is known of the scale beforehand
 };
 
+/// What phi may be where it is summed over, not integrated.
+inline constexpr std::array scatter_scales{0.25, 0.354, 0.5, 0.707, 1.0, 1.414, 2.0, 2.828, 4.0};
+
+/// The logarithms of their weights, by the density of log(phi): nu / phi ~ chi^2(nu); of no degrees, all
+/// alike.
+std::array<double, scatter_scales.size()> log_weights_of_scales(double degrees);
+
 /// The scatter of one quantity in all units.
 class WithinScatter {
   public:
-    /// @param units  their points, by time. Scatter is learnt from units that every diagnosis names: of
-    /// others the
-    ///               names are a selection
+    /// @param units  their points, by time
     explicit WithinScatter(std::span<const std::vector<Point>> units);
 
     /// By all units. @param common  common_scatter()
