@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/diagnose_recordings.h"
 
+#include "core/input_error.h"
 #include "core/rig.h"
 #include "src/diagnose/matters.h"
 #include "src/diagnose/next_experiment.h"
@@ -11,6 +12,8 @@
 #include <memory>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace fidservo::diagnose {
 namespace {
 
@@ -18,6 +21,8 @@ TimeLimit limit_of(const Conduct& conduct, const std::vector<Recording>& recordi
     if (conduct.is_brief) return {half_a_minute.search_s, half_a_minute.whole_s};
     TimeLimit limit = time_limit(recordings);
     if (!conduct.effort_s) return limit;
+    if (!(*conduct.effort_s > 0.0))
+        throw InputError(fmt::format("effort: {} s: must be positive", *conduct.effort_s));
     const double times = *conduct.effort_s / usual_effort_s();
     return {times * limit.search_s, times * limit.whole_s, times * limit.equation_s};
 }

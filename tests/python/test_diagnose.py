@@ -113,9 +113,11 @@ def test_what_progress_raises_ends_the_diagnosis(rig: fidservo.Rig, pulses: fids
         fidservo.diagnose(rig, [pulses], progress=fail)
 
 
-def test_no_effort_raises(rig: fidservo.Rig, pulses: fidservo.Recording) -> None:
-    with pytest.raises(fidservo.BudgetEnded):
-        fidservo.diagnose(rig, [pulses], effort_s=1e-6)
+def test_too_little_effort_is_said(rig: fidservo.Rig, pulses: fidservo.Recording) -> None:
+    assert fidservo.diagnose(rig, [pulses], effects=FEW, effort_s=1e-6).ended == "budget"
+    for wrong in (0.0, -1.0, math.nan):
+        with pytest.raises(fidservo.InputError, match="effort"):
+            fidservo.diagnose(rig, [pulses], effort_s=wrong)
 
 
 def test_wrong_words_raise(rig: fidservo.Rig, pulses: fidservo.Recording) -> None:
