@@ -4,6 +4,7 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "src/diagnose/diagnosis_json.h"
+#include "src/files/disk/sha256.h"
 #include "src/files/rig/rig_file.h"
 #include "src/fleet/campaign.h"
 #include "src/fleet/content.h"

@@ -26,8 +26,11 @@ struct Odd {
     std::uint64_t seed;
     std::size_t unit, effect, onset;
 
-    explicit Odd(std::uint64_t seed)
-        : seed(seed), unit(seed % units), effect(seed % drawn_effects().size()), onset(4 + seed % 5) {}
+    explicit Odd(std::uint64_t number)
+        : seed(number),
+          unit(number % units),
+          effect(number % drawn_effects().size()),
+          onset(4 + number % 5) {}
 
     std::string name() const { return fmt::format("P-{:04}", unit + 1); }
 };
