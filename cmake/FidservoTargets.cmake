@@ -75,7 +75,7 @@ set(fidservo_test_environment "GLIBC_TUNABLES=glibc.malloc.mmap_threshold=335544
 # not a long one on one core.
 function(fidservo_shards name label filter seconds most serial)
   math(EXPR count "(${seconds} + ${most} - 1) / ${most}")
-  if(serial OR count LESS 1)
+  if(serial)
     set(count 1)
   endif()
   math(EXPR last "${count} - 1")
@@ -95,18 +95,24 @@ function(fidservo_in_a_test_program)
   endforeach()
 endfunction()
 
-# fidservo_test(NAME [SERIAL] [QUICK_S n] [SLOW_S n] SOURCES a.cpp ... USES targets...): one GoogleTest program.
+# fidservo_test(NAME [SERIAL] [QUICK_S n] [SLOW_S n] [SLOW_TOGETHER suites] SOURCES a.cpp ... USES targets...): one GoogleTest
+# program.
 # Cases of suites whose name begins with Slow are labelled slow, the others quick; a few processes run them all. Each
 # case is a test of its own besides, with the label case: `ctest -L case -R NAME`.
 # QUICK_S, SLOW_S: about how many seconds of processor time the cases take (default: 1 and 15), for a process of few seconds each.
+# SLOW_TOGETHER: slow suites, as SuiteA.*:SuiteB.*, whose cases share what takes long to make: one process for them all, not in
+# SLOW_S, which is then 0 by default: there are no others.
 # SERIAL: no other test runs at the same time, for tests that watch processes on the wall clock.
 include(GoogleTest)
 function(fidservo_test name)
-  cmake_parse_arguments(ARG "SERIAL" "QUICK_S;SLOW_S" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL" "QUICK_S;SLOW_S;SLOW_TOGETHER" "SOURCES;USES" ${ARGN})
   if(NOT ARG_QUICK_S)
     set(ARG_QUICK_S 1)
   endif()
-  if(NOT ARG_SLOW_S)
+  set(slow_cases "Slow*")
+  if(ARG_SLOW_TOGETHER)
+    set(slow_cases "Slow*-${ARG_SLOW_TOGETHER}")
+  elseif(NOT ARG_SLOW_S)
     set(ARG_SLOW_S 15)
   endif()
   add_executable(${name} ${ARG_SOURCES})
@@ -120,11 +126,16 @@ function(fidservo_test name)
   fidservo_shards(${name} quick "-Slow*" ${ARG_QUICK_S} 6 ${ARG_SERIAL})
   foreach(source ${ARG_SOURCES})
     file(STRINGS ${source} slow_suites REGEX "^(TEST|TEST_F|TEST_P|INSTANTIATE_TEST_SUITE_P)\\(Slow|^class Slow" LIMIT_COUNT 1)
-    if(slow_suites)
-      fidservo_shards(${name} slow "Slow*" ${ARG_SLOW_S} 15 ${ARG_SERIAL})
+    if(slow_suites AND ARG_SLOW_S)
+      fidservo_shards(${name} slow ${slow_cases} ${ARG_SLOW_S} 30 ${ARG_SERIAL})
       break()
     endif()
   endforeach()
+  if(ARG_SLOW_TOGETHER)
+    add_test(NAME ${name}.slow.together COMMAND ${name} --gtest_filter=${ARG_SLOW_TOGETHER})
+    set_tests_properties(${name}.slow.together PROPERTIES LABELS slow RUN_SERIAL ${ARG_SERIAL} TIMEOUT 1500 COST 60
+      ENVIRONMENT ${fidservo_test_environment})
+  endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS case RUN_SERIAL ${ARG_SERIAL} TIMEOUT 1500 ENVIRONMENT ${fidservo_test_environment})
 endfunction()

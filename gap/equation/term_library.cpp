@@ -62,6 +62,11 @@ void TermLibrary::add(std::string text, std::string unit, double size, std::stri
     terms_.push_back({{std::move(text)}, std::move(unit), size, {}, next_family_++, std::move(words)});
 }
 
+void TermLibrary::keep(Term term) {
+    const auto has_room = [](const TermShape& shape) { return shape.low < shape.high; };
+    if (std::ranges::all_of(term.shapes, has_room)) terms_.push_back(std::move(term));
+}
+
 void TermLibrary::add_constant(const std::string& factor, const std::string& words) {
     add(factor.empty() ? "1" : factor, "", 1.0, words);
 }
@@ -84,7 +89,7 @@ void TermLibrary::add_squares_elsewhere(const KnownVariable& of, const std::stri
     const double half = of.range.half(), middle = of.range.middle();
     for (const double share : {-0.5, 0.5}) {
         square.shapes = {{of.unit, middle + share * half, middle - 2.0 * half, middle + 2.0 * half}};
-        terms_.push_back(square);
+        keep(square);
     }
 }
 
@@ -92,7 +97,7 @@ void TermLibrary::add_knees(const std::string& text, const KnownVariable& of, co
     const int family = next_family_++;
     for (const double share : {0.2, 0.5, 0.8}) {
         const double at = of.range.low + share * (of.range.high - of.range.low);
-        terms_.push_back({{text},
+        keep({{text},
                           of.unit,
                           0.5 * (of.range.high - of.range.low),
                           {{of.unit, at, of.range.low, of.range.high}},
@@ -110,7 +115,7 @@ void TermLibrary::add_shaped(const std::vector<std::string>& texts, const TermSh
                              std::span<const double> values, const std::string& words) {
     const int family = next_family_++;
     for (const double value : values)
-        terms_.push_back({texts, "", 1.0, {{shape.unit, value, shape.low, shape.high}}, family, words});
+        keep({texts, "", 1.0, {{shape.unit, value, shape.low, shape.high}}, family, words});
 }
 
 void TermLibrary::add_waves(const std::string& variable, std::span<const double> periods_mm,
@@ -128,7 +133,7 @@ void TermLibrary::add_steps_and_bells(const KnownVariable& of, std::span<const B
     const auto add_bends = [&](const std::string& text, const std::string& words) {
         const int family = next_family_++;
         for (const auto& [width, centre] : bends)
-            terms_.push_back(
+            keep(
                 {{times(factor, text)},
                  "",
                  1.0,
@@ -157,7 +162,7 @@ void TermLibrary::add_remembering(const Memory& memory, const KnownVariable& of,
                                   std::span<const double> values, const std::string& words) {
     const int family = next_family_++;
     for (const double value : values)
-        terms_.push_back({{fmt::format("({} - {})", memory_name, of.name)},
+        keep({{fmt::format("({} - {})", memory_name, of.name)},
                           of.unit,
                           of.reach(),
                           {{shape.unit, value, shape.low, shape.high}},

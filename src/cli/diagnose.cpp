@@ -125,7 +125,7 @@ int compare_sets(const DiagnoseOptions& options, const Rig& rig) {
     diagnose::ReadRecordings b = diagnose::read_recordings({options.compare[1]});
     diagnose::SearchProgress progress(2.0 * diagnose::half_a_minute.whole_s);
     const compare::Comparison comparison =
-        compare::compare(rig, std::move(a.recordings), std::move(b.recordings), interrupt_requested,
+        compare::compare(rig, std::move(a), std::move(b), interrupt_requested,
                          [&](std::string_view what) { progress.tell(what); });
     fmt::print("{}", compare::describe(comparison));
     if (!options.json.empty()) write_or_throw(options.json, compare::comparison_json(comparison));

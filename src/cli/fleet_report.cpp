@@ -26,7 +26,7 @@ struct FleetReportOptions {
 int report_fleet(const FleetReportOptions& options) {
     demand_new_file("--html", options.html);
     demand_new_file("--json", options.json);
-    const fleet::Collected collected = fleet::collect(options.fleet);
+    const fleet::Collected collected = fleet::collect_results(options.fleet);
     for (const std::string& line : collected.damaged) fmt::print(stderr, "passed over: {}\n", line);
     if (collected.results.empty())
         throw InputError(fmt::format("{}: there is no result in it", (options.fleet / "results").string()));

@@ -125,6 +125,10 @@ void pay_for_all(std::vector<ParameterPair>& pairs) {
     }
 }
 
+void add_notes(gap::Diagnosis& diagnosis, const std::vector<std::string>& notes) {
+    diagnosis.notes.insert(diagnosis.notes.end(), notes.begin(), notes.end());
+}
+
 }  // namespace
 
 bool Comparison::has_changed() const {
@@ -132,18 +136,18 @@ bool Comparison::has_changed() const {
            (beyond.unexplained && !before.unexplained);
 }
 
-Comparison compare(const Rig& rig, std::vector<Recording> before, std::vector<Recording> after,
+Comparison compare(const Rig& rig, diagnose::ReadRecordings before, diagnose::ReadRecordings after,
                    const std::function<bool()>& interrupted,
                    const std::function<void(std::string_view)>& tell) {
     Comparison comparison;
-    std::vector<std::string> notes;
-    auto budget = budget_for(before, interrupted);
-    const gap::Evidence first(rig, diagnose::thinned(std::move(before), notes), budget);
+    auto budget = budget_for(before.recordings, interrupted);
+    const gap::Evidence first(rig, diagnose::thinned(std::move(before.recordings), before.notes), budget);
     comparison.before = diagnosed(first, tell);
+    add_notes(comparison.before, before.notes);
     budget->end();
     const gap::Hypothesis& names = comparison.before.hypothesis;
-    budget = budget_for(after, interrupted);
-    std::vector<Recording> second_set = diagnose::thinned(std::move(after), notes);
+    budget = budget_for(after.recordings, interrupted);
+    std::vector<Recording> second_set = diagnose::thinned(std::move(after.recordings), after.notes);
     gap::Hypothesis own;
     std::map<std::string, bool> worse;  ///< whether B is predicted worse with A's values of an effect
     {
@@ -164,7 +168,7 @@ Comparison compare(const Rig& rig, std::vector<Recording> before, std::vector<Re
     for (ParameterPair& pair : comparison.shared) pair.has_changed = worse[pair.effect] && pair.p < level;
     const gap::Evidence beside(with_stated(rig, own), std::move(second_set), budget);
     comparison.beyond = diagnosed(beside, tell);
-    comparison.beyond.notes.insert(comparison.beyond.notes.end(), notes.begin(), notes.end());
+    add_notes(comparison.beyond, after.notes);
     return comparison;
 }
 

@@ -14,8 +14,8 @@
 //
 // Its time is counted by effort (gap/budget.h): what has changed on a rig is no matter of how busy a computer
 // is.
-#include "core/recording.h"
 #include "gap/diagnosis.h"
+#include "src/diagnose/read_recordings.h"
 
 #include <functional>
 #include <string>
@@ -47,10 +47,11 @@ struct Comparison {
     bool has_changed() const;
 };
 
+/// What was noted while a set was read and thinned stands among the notes of its diagnosis.
 /// @param interrupted  whether the user wants an end at once
 /// Throws InputError where nothing in a set can be judged, gap::BudgetEnded where the end came before
 /// anything was predicted.
-Comparison compare(const Rig& rig, std::vector<Recording> before, std::vector<Recording> after,
+Comparison compare(const Rig& rig, diagnose::ReadRecordings before, diagnose::ReadRecordings after,
                    const std::function<bool()>& interrupted,
                    const std::function<void(std::string_view)>& tell);
 

@@ -30,6 +30,8 @@ std::string describe(const Comparison& comparison) {
     }
     if (comparison.beyond.unexplained && !comparison.before.unexplained)
         text += "  new in B, and not explained: " + comparison.beyond.unexplained->text + "\n";
+    for (const std::string& note : comparison.before.notes) text += "note on A: " + note + "\n";
+    for (const std::string& note : comparison.beyond.notes) text += "note on B: " + note + "\n";
     return text;
 }
 

@@ -5,10 +5,10 @@
 #include "src/files/disk/sha256.h"
 #include "src/files/recording/description.h"
 #include "src/files/rig/rig_file.h"
-#include "src/fleet/collect.h"
 #include "src/fleet/content.h"
 #include "src/fleet/stretch.h"
 #include "src/fleet/stretch_result.h"
+#include "src/fleet/stretch_tables.h"
 #include "src/fleet/task_name.h"
 #include "src/images/image_frames.h"
 #include "src/replay/tag_finder.h"
@@ -204,7 +204,7 @@ int replay_fleet(const ReplayRequest& request, const Rig& rig) {
     auto others = made_by_others(tasks, stretches.size(), own, request.run);
     if (!others) return own.exit_code;
     own.done.merge(*others);
-    collect(request.run.out, store.folder(), frames, stretches, own.done, rig.fiducials->side_mm);
+    write_replay_tables(request.run.out, store.folder(), frames, stretches, own.done, rig.fiducials->side_mm);
     return own.exit_code;
 }
 

@@ -255,8 +255,10 @@ Counts run_inspection(const InspectionOptions& options) {
         RigFindings findings = find_in_recordings(output, rig, options.session.rig_file);
         fmt::print("{}\n", findings.line);
         if (!options.history.empty()) {
+            RecordingOrigin origin = session_options.origin;
+            origin.recorded_at = utc_now();
             const HistoryFindings history =
-                append_to_history(options.history, rig, identity.rig_sha256, findings, utc_now());
+                append_to_history(options.history, rig, identity.rig_sha256, findings, origin);
             for (const std::string& line : history.lines) fmt::print("{}\n", line);
             findings.html += history.html;
         }

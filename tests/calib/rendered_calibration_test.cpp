@@ -8,6 +8,7 @@
 #include "core/result.h"
 #include "plant/view/plate_view.h"
 #include "tests/calib/synthetic_target.h"
+#include "tests/effort.h"
 #include "tests/reference_camera.h"
 #include "vision/tags/tag_detector.h"
 
@@ -141,9 +142,9 @@ DisplacementErrors displacement_errors(const CameraGeometry& lens, const Plate& 
 
 TEST(SlowRenderedCalibration, ThirtyViews_GiveTheLensAndDisplacementsOfHundredthsOfAMicrometre) {
     const Plate plate = calibration_plate();
-    constexpr int seeds = 3;
+    const int seeds = testing::draws(3, 1);
     double squares = 0.0;
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(seeds); ++seed) {
         const std::vector<TargetImage> images = tilted_by_hand(plate, 30, seed);
         const auto found = calibrated(images, plate);
         ASSERT_TRUE(found) << "seed " << seed << ": " << found.error().text;
@@ -172,8 +173,8 @@ TEST(SlowRenderedCalibration, ThirtyViews_GiveTheLensAndDisplacementsOfHundredth
         EXPECT_LT(errors.in_view.rms(), 0.05);
         EXPECT_LT(errors.by_stage.rms(), 0.05);
     }
-    // chi^2 of 12 errors: above 32.9 once in a thousand.
-    EXPECT_LT(squares, 32.9);
+    // chi^2 of four errors a seed: above that once in a thousand.
+    EXPECT_LT(squares, seeds == 1 ? 18.5 : 32.9);
 }
 
 TEST(SlowRenderedCalibration, PlateThatIsNeverTilted_DoesNotTellTheFocalLength) {

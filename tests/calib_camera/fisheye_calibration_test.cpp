@@ -4,6 +4,7 @@
 #include "calib/camera/calibration_verdict.h"
 #include "calib/camera/plane_pose.h"
 #include "tests/calib_camera/hand_held.h"
+#include "tests/effort.h"
 
 #include <array>
 #include <cstdio>
@@ -53,8 +54,8 @@ TEST(FisheyeCalibration, WithoutNoise_IsFoundExactly) {
 }
 
 /// Errors in standard deviations over many noises: none beyond 4, as many within 2 as normal ones are.
-TEST(SlowFisheyeCalibration, StandardErrors_HoldOverAHundredDraws) {
-    constexpr int draws = 100;
+TEST(SlowFisheyeCalibration, StandardErrors_HoldOverManyDraws) {
+    const int draws = testing::draws(100, 30);
     const CameraGeometry lens = wide_fisheye();
     const std::vector<PlateTag> tags = tag_grid(4, 4, 88.0, 114.4);
     int numbers = 0, within_two = 0;

@@ -39,7 +39,7 @@ class FleetFolder : public ::testing::Test {
 };
 
 TEST_F(FleetFolder, CollectedAgain_ChangesNothing) {
-    const Collected first = collect(fleet()), second = collect(fleet());
+    const Collected first = collect_results(fleet()), second = collect_results(fleet());
     EXPECT_EQ(first.added, 36U);
     EXPECT_EQ(second.added, 0U);
     EXPECT_EQ(second.removed, 0U);
@@ -48,7 +48,7 @@ TEST_F(FleetFolder, CollectedAgain_ChangesNothing) {
 }
 
 TEST_F(FleetFolder, ResultsComeBackAsTheyWere) {
-    const Collected collected = collect(fleet());
+    const Collected collected = collect_results(fleet());
     ASSERT_EQ(collected.results.size(), 36U);
     const FleetResult& result = collected.results[2];
     EXPECT_EQ(result.unit, "P-0001");
@@ -61,7 +61,7 @@ TEST_F(FleetFolder, ResultsComeBackAsTheyWere) {
 TEST_F(FleetFolder, DamagedAndForeignFiles_AreNamedAndTheRestGoesOn) {
     write("cut.json", R"({"format": "fidservo-fleet-result/1", "task": {"ki)");
     write("other.json", R"({"format": "something-else/1"})");
-    const Collected collected = collect(fleet());
+    const Collected collected = collect_results(fleet());
     EXPECT_EQ(collected.results.size(), 36U);
     ASSERT_EQ(collected.damaged.size(), 2U);
     EXPECT_EQ(collected.damaged[0], "cut.json: is no whole JSON file");
@@ -70,24 +70,24 @@ TEST_F(FleetFolder, DamagedAndForeignFiles_AreNamedAndTheRestGoesOn) {
 }
 
 TEST_F(FleetFolder, FileThatIsGone_IsRemoved) {
-    (void)collect(fleet());
+    (void)collect_results(fleet());
     std::filesystem::remove(fleet() / "results" / "u0000-w000.json");
-    const Collected collected = collect(fleet());
+    const Collected collected = collect_results(fleet());
     EXPECT_EQ(collected.removed, 1U);
     EXPECT_EQ(collected.results.size(), 35U);
 }
 
 TEST_F(FleetFolder, DatabaseOfAnotherProgram_IsLeftAlone) {
     std::ofstream(fleet() / "fleet.sqlite") << std::string(4096, 'x');
-    EXPECT_THROW((void)collect(fleet()), InputError);
+    EXPECT_THROW((void)collect_results(fleet()), InputError);
 }
 
 TEST(Fleet, NoFolder_IsSaid) {
-    EXPECT_THROW((void)collect("no-such-fleet"), InputError);
+    EXPECT_THROW((void)collect_results("no-such-fleet"), InputError);
 }
 
 TEST_F(FleetFolder, ModelAndUnit_AreJudged) {
-    const Collected collected = collect(fleet());
+    const Collected collected = collect_results(fleet());
     const FleetFindings findings = findings_of(collected.results);
     const auto json = nlohmann::json::parse(fleet_json(collected, findings, {}));
     ASSERT_GE(json["judgements"].size(), 2U);

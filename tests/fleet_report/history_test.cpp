@@ -25,8 +25,12 @@ RigFindings run_with(double floors, std::uint64_t seed) {
 }
 
 /// A run a day.
-std::string day(std::uint64_t run) {
-    return fleet::date_of(1'772'409'600 + 86'400 * static_cast<std::int64_t>(run)) + "T08:00:00Z";
+RecordingOrigin day(std::uint64_t run, const std::string& unit = {}) {
+    RecordingOrigin origin;
+    origin.unit = unit;
+    origin.recorded_at =
+        fleet::date_of(1'772'409'600 + 86'400 * static_cast<std::int64_t>(run)) + "T08:00:00Z";
+    return origin;
 }
 
 bool warns(const HistoryFindings& said) {
@@ -50,7 +54,7 @@ TEST(RigHistory, LineCutShort_IsPassedOverAndSaid) {
     std::ofstream(folder / "h", std::ios::app) << R"({"format": "fidservo-fleet-res)";
     const HistoryFindings said = append_to_history(folder / "h", rig, "sha", run_with(2.0, 2), day(2));
     EXPECT_NE(said.lines.front().find("line 2: is no whole JSON file"), std::string::npos);
-    EXPECT_NE(said.lines.back().find("(2 runs)"), std::string::npos);
+    EXPECT_NE(said.lines.back().find("(2 runs of "), std::string::npos);
 }
 
 TEST(RigHistory, NothingDiagnosed_AppendsNothing) {
@@ -70,6 +74,20 @@ TEST(RigHistory, RigThatJumps_IsWarnedOf) {
         warned = warned || now;
     }
     EXPECT_TRUE(warned);
+}
+
+TEST(RigHistory, UnitsOfOneFile_AreToldApart) {
+    const fidservo::testing::TemporaryFolder folder;
+    const Rig rig = load_rig(reference_rig_file());
+    HistoryFindings steady, jumping;
+    for (std::uint64_t run = 0; run < 24; ++run) {
+        steady = append_to_history(folder / "h", rig, "sha", run_with(2.0, 80 + run), day(run, "P-1"));
+        jumping = append_to_history(folder / "h", rig, "sha", run_with(run < 12 ? 2.0 : 9.0, 40 + run),
+                                    day(run, "P-2"));
+    }
+    EXPECT_FALSE(warns(steady));
+    EXPECT_TRUE(warns(jumping));
+    EXPECT_NE(jumping.lines.back().find("(24 runs of P-2)"), std::string::npos);
 }
 
 }  // namespace

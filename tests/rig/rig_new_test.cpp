@@ -112,7 +112,7 @@ TEST(SlowRigNew, EveryOtherCommand_TakesIt) {
     ASSERT_EQ(run_new(folder, {}).exit_code, 0);
     expect_taken(folder, {"goto", "--tag", "30", "--dx-um", "150", "--hold", "0.1", "--rig", "rig.yaml"});
     expect_taken(folder, {"calibrate", "stage", "--check", "--rig", "rig.yaml"});
-    const std::string recipe = FIDSERVO_ASSETS_DIR "/demo/recipe.yaml";
+    const std::string recipe = FIDSERVO_SOURCE_DIR "/tests/faults/drill.yaml";
     expect_taken(folder, {"inspect", recipe, "--rig", "rig.yaml", "--out", "run", "--no-diagnosis"}, 1);
     expect_taken(folder, {"simulate", "campaign", "--rig", "rig.yaml", "--out", "campaign"});
     for (const char* part : {"macro", "hysteresis", "heater"})

@@ -106,7 +106,8 @@ TEST(TagAlignment, LargeTagFifteenPixelsOff_IsFound) {
 
 TEST(SlowTagAlignment, AnotherTagAtThePlace_IsNeverTakenForTheExpectedOne) {
     constexpr std::uint64_t seed = 13;
-    constexpr int pictures = fidservo::testing::cases(3000, 300);
+    using fidservo::testing::cases;
+    const int pictures = fidservo::testing::draws(cases(3000, 300), cases(600, 300));
     Draw random(seed);
     for (int k = 0; k < pictures; ++k) {
         SCOPED_TRACE(::testing::Message() << "seed " << seed << ", picture " << k);

@@ -149,7 +149,9 @@ Event draw_event(double u) {
 
 TEST(SlowTagTracker, WhateverHappensToTheTag_NoWrongIdAndNoTagMissed) {
     constexpr std::uint64_t seed = 21;
-    constexpr int sequences = fidservo::testing::cases(60, 8), frames = 25;
+    using fidservo::testing::cases;
+    constexpr int frames = 25;
+    const int sequences = fidservo::testing::draws(cases(60, 8), cases(20, 8));
     NoiseStream random(seed, "events");
     const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
     const cv::Size size(240, 180);

@@ -239,7 +239,7 @@ std::vector<FleetResult> all_results(const Database& database) {
 
 }  // namespace
 
-Collected collect(const std::filesystem::path& fleet) {
+Collected collect_results(const std::filesystem::path& fleet) {
     const std::vector<std::filesystem::path> files = result_files(fleet);
     const Database database = opened(fleet / "fleet.sqlite");
     Collected collected;

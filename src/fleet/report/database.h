@@ -22,6 +22,6 @@ struct Collected {
 /// are read, what belongs to files that are gone or damaged is removed, all in one transaction. To do it
 /// again changes nothing. Throws InputError if there is no FLEET/results or the database is none of this
 /// program; RunFault if the disk fails.
-Collected collect(const std::filesystem::path& fleet);
+Collected collect_results(const std::filesystem::path& fleet);
 
 }  // namespace fidservo::fleet

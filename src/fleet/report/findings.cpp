@@ -205,6 +205,7 @@ std::vector<bool> odd_units(const QuantityFindings& found) {
 FleetFindings findings_of(const std::vector<FleetResult>& results) {
     FleetFindings findings;
     findings.units = histories(results);
+    findings.unexplained = unexplained_of(results, findings.units);
     findings.looks_a_year = looks_a_year(results, findings.units);
     findings.bound = alarm_bound(static_cast<double>(quantities_looked_at()), findings.looks_a_year,
                                  false_alarms_a_unit_year);

@@ -7,6 +7,7 @@
 #include "src/fleet/report/statistics/change_points.h"
 #include "src/fleet/report/statistics/population.h"
 #include "src/fleet/report/statistics/within_scatter.h"
+#include "src/fleet/report/unexplained.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -77,6 +78,7 @@ struct Judgement {
 struct FleetFindings {
     std::vector<UnitHistory> units;
     std::vector<QuantityFindings> quantities;
+    Unexplained unexplained;            ///< what no effect accounts for
     std::vector<Judgement> judgements;  ///< most serious first
     double looks_a_year = 52.0;
     double bound = 1.0;  ///< of an alarm (change_points.h)

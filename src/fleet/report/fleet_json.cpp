@@ -36,6 +36,22 @@ FleetJson names_json(const FleetFindings& findings, const std::vector<std::size_
     return names;
 }
 
+FleetJson unexplained_json(const FleetFindings& findings) {
+    const Unexplained& unexplained = findings.unexplained;
+    if (unexplained.empty()) return nullptr;
+    FleetJson units = FleetJson::array();
+    for (const LeftOver& left : unexplained.units)
+        units.push_back({{"unit", findings.units[left.unit].name},
+                         {"floors", rounded(left.floors)},
+                         {"before", rounded(left.before)},
+                         {"block", left.block.empty() ? FleetJson(nullptr) : FleetJson(left.block)},
+                         {"campaign", left.campaign}});
+    return {{"whose", unexplained.is_of_all() ? "all" : "units"},
+            {"units", units},
+            {"text", unexplained_sentence(unexplained)},
+            {"to_do", what_to_do(unexplained)}};
+}
+
 FleetJson units_json(const std::vector<FleetResult>& results, const FleetFindings& findings) {
     FleetJson units = FleetJson::array();
     for (std::size_t u = 0; u < findings.units.size(); ++u) {
@@ -131,6 +147,7 @@ std::string fleet_json(const Collected& collected, const FleetFindings& findings
                         {"false_alarms_a_unit_year", false_alarms_a_unit_year},
                         {"quantities_looked_at", quantities_looked_at()},
                         {"looks_a_year", rounded(findings.looks_a_year)},
+                        {"unexplained", unexplained_json(findings)},
                         {"judgements", judgements},
                         {"units", units_json(collected.results, findings)},
                         {"effects", effects},

@@ -27,8 +27,11 @@ std::size_t units_concerned(const FleetFindings& findings) {
     return static_cast<std::size_t>(std::ranges::count(concerned, true));
 }
 
-std::string headline_of(const FleetFindings& findings) {
-    if (findings.judgements.empty()) return "No unit stands out, and none has changed.";
+std::string judgements_sentence(const FleetFindings& findings) {
+    if (findings.judgements.empty())
+        return findings.unexplained.empty()
+                   ? "No unit stands out, and none has changed."
+                   : "By the effects that are named no unit stands out, and none has changed.";
     const Judgement& first = findings.judgements.front();
     const Quantity& quantity = findings.quantities[first.quantity].quantity;
     const std::string what =
@@ -38,6 +41,11 @@ std::string headline_of(const FleetFindings& findings) {
                            units_concerned(findings), findings.units.size());
     return fmt::format("{} of {} units stand out; first of all {}: {}.", units_concerned(findings),
                        findings.units.size(), whose_words(findings, first), what);
+}
+
+std::string headline_of(const FleetFindings& findings) {
+    if (!findings.unexplained.empty()) return unexplained_sentence(findings.unexplained);
+    return judgements_sentence(findings);
 }
 
 std::string judgement_card(const FleetFindings& findings, const Judgement& judgement) {
@@ -59,10 +67,25 @@ std::string judgement_card(const FleetFindings& findings, const Judgement& judge
         escaped(evidence_sentences(findings, judgement)));
 }
 
+std::string unexplained_card(const FleetFindings& findings) {
+    constexpr std::size_t shown = 12;
+    const Unexplained& unexplained = findings.unexplained;
+    std::string units, steps;
+    for (const std::string& line : unexplained_lines(unexplained, findings.units, shown))
+        units += fmt::format("<li>{}</li>", escaped(line));
+    for (const std::string& step : what_to_do(unexplained))
+        steps += fmt::format("<li>{}</li>", escaped(step));
+    return fmt::format(
+        "<div class=\"card finding {}\"><h3>{}</h3><p>{}</p><ul class=\"notes\">{}</ul><ol>{}</ol></div>\n",
+        report::class_of(Mood::bad), escaped(unexplained_title(unexplained, findings.units)),
+        escaped(unexplained_sentence(unexplained)), units, steps);
+}
+
 std::string to_do_html(const FleetFindings& findings, const std::filesystem::path& cured) {
     constexpr std::size_t shown_at_once = 12;
-    if (findings.judgements.empty()) return "<p>Nothing. Go on recording as often as until now.</p>";
-    std::string html;
+    std::string html = findings.unexplained.empty() ? "" : unexplained_card(findings);
+    if (findings.judgements.empty())
+        return html.empty() ? "<p>Nothing. Go on recording as often as until now.</p>" : html;
     if (!cured.empty())
         html += fmt::format("<p>The rig file that states what all units share: <code>{}</code></p>",
                             escaped(cured.string()));
@@ -144,6 +167,8 @@ std::string units_html(const std::vector<FleetResult>& results, const FleetFindi
     for (const Judgement& judgement : findings.judgements)
         for (const std::size_t unit : judgement.units)
             judgements[unit] += judgement.whose == Whose::all ? 0 : 1;
+    std::vector<bool> leaves(findings.units.size(), false);
+    for (const LeftOver& left : findings.unexplained.units) leaves[left.unit] = true;
     std::string rows;
     for (std::size_t u = 0; u < findings.units.size(); ++u) {
         const UnitHistory& unit = findings.units[u];
@@ -153,18 +178,19 @@ std::string units_html(const std::vector<FleetResult>& results, const FleetFindi
             labels += fmt::format("{}{} {}", labels.empty() ? "" : ", ", label, value);
         rows += fmt::format(
             "<tr data-stands=\"{}\"><td>{}</td><td>{}</td><td class=\"n\">{}</td><td>{}</td><td>{}</td><td "
-            "class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
-            judgements[u] > 0 ? "out" : "in", escaped(unit.name), escaped(labels), unit.results.size(),
-            last.recorded_at_s ? date_of(*last.recorded_at_s) : "\u2013",
+            "class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+            judgements[u] > 0 || leaves[u] ? "out" : "in", escaped(unit.name), escaped(labels),
+            unit.results.size(), last.recorded_at_s ? date_of(*last.recorded_at_s) : "\u2013",
             escaped(last.done ? diagnose::readable(last.verdict) : "failed"),
-            last.done ? diagnose::three_digits(last.gap_before) : "\u2013", judgements[u]);
+            last.done ? diagnose::three_digits(last.gap_before) : "\u2013",
+            last.done ? diagnose::three_digits(last.gap_after) : "\u2013", judgements[u]);
     }
     return "<form class=\"filters\" data-table=\"units\"><input name=\"text\" placeholder=\"unit or "
            "label\"><select name=\"stands\"><option "
            "value=\"\">all</option><option value=\"out\">that stand "
            "out</option></select><output></output></form><div class=\"tall\"><table id=\"units\"><thead><tr>"
            "<th>Unit</th><th>Labels</th><th class=\"n\">Results</th><th>Last</th><th>Verdict</th><th "
-           "class=\"n\">Gap, floors</th><th "
+           "class=\"n\">Gap, floors</th><th class=\"n\">Left, floors</th><th "
            "class=\"n\">Judgements</th></tr></thead><tbody>" +
            rows + "</tbody></table></div>\n";
 }
@@ -213,8 +239,12 @@ std::string fleet_page(const std::filesystem::path& fleet, const Collected& coll
     page.title = fleet.filename().string() + " \u2013 fleet";
     page.kind = "Fleet \u00b7 " + fleet.string();
     page.headline = headline_of(findings);
-    page.subline = fmt::format("{} results of {} units.", results.size(), findings.units.size());
-    page.mood = findings.judgements.empty() ? Mood::good : Mood::unsure;
+    page.subline = fmt::format("{}{} results of {} units.",
+                               findings.unexplained.empty() ? "" : judgements_sentence(findings) + " ",
+                               results.size(), findings.units.size());
+    page.mood = !findings.unexplained.empty() ? Mood::bad
+                : findings.judgements.empty() ? Mood::good
+                                              : Mood::unsure;
     const auto failed =
         std::ranges::count_if(results, [](const FleetResult& result) { return !result.done; });
     const auto of = [&](Whose whose, bool changes) {
@@ -225,6 +255,7 @@ std::string fleet_page(const std::filesystem::path& fleet, const Collected& coll
     const auto changes = std::ranges::count_if(
         findings.judgements, [](const Judgement& one) { return one.matter != Matter::deviation; });
     page.figures = {{std::to_string(findings.units.size()), "units", Mood::neutral},
+                    {std::to_string(findings.unexplained.units.size()), "unexplained", Mood::bad},
                     {std::to_string(units_concerned(findings)), "stand out", Mood::unsure},
                     {of(Whose::all, false), "wrong in the model", Mood::bad},
                     {of(Whose::group, false), "of a batch", Mood::unsure},

@@ -27,6 +27,7 @@ std::vector<std::size_t> order_of_units(const std::vector<FleetResult>& results,
     for (const Judgement& judgement : findings.judgements)
         if (judgement.whose != Whose::all)
             for (const std::size_t unit : judgement.units) urgency[unit] += 1e6;
+    for (const LeftOver& left : findings.unexplained.units) urgency[left.unit] += 1e9;
     std::vector<std::size_t> order(urgency.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, std::greater{}, [&](std::size_t u) { return urgency[u]; });

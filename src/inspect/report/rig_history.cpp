@@ -11,6 +11,8 @@
 #include "src/process/commit.h"
 #include "src/report/html.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -19,16 +21,20 @@
 namespace fidservo::inspect {
 namespace {
 
+std::string unit_of(const Rig& rig, const RecordingOrigin& origin) {
+    return origin.unit.empty() ? rig.name : origin.unit;
+}
+
 std::string line_of(const Rig& rig, const std::string& rig_sha256, const std::string& diagnosis,
-                    const std::string& recorded_at) {
+                    const RecordingOrigin& origin) {
     const nlohmann::ordered_json line{{"format", fleet::result_format},
                                       {"task",
                                        {{"kind", "diagnose"},
-                                        {"campaign", "inspection of " + recorded_at},
+                                        {"campaign", "inspection of " + origin.recorded_at},
                                         {"content", sha256(diagnosis)},
-                                        {"unit", rig.name},
-                                        {"recorded_at", recorded_at},
-                                        {"labels", nlohmann::ordered_json::object()}}},
+                                        {"unit", unit_of(rig, origin)},
+                                        {"recorded_at", origin.recorded_at},
+                                        {"labels", nlohmann::ordered_json(origin.labels)}}},
                                       {"rig", {{"name", rig.name}, {"content", rig_sha256}}},
                                       {"program", program_version()},
                                       {"effort", 0.0},
@@ -69,21 +75,25 @@ History read_history(const std::filesystem::path& file) {
 
 HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& rig,
                                   const std::string& rig_sha256, const RigFindings& findings,
-                                  const std::string& recorded_at) {
+                                  const RecordingOrigin& origin) {
     HistoryFindings said;
     if (findings.diagnosis.empty()) {
         said.lines.emplace_back("history: this run is not in it, as nothing was diagnosed");
         return said;
     }
     History history = read_history(file);
-    const std::string line = line_of(rig, rig_sha256, findings.diagnosis, recorded_at);
+    const std::string line = line_of(rig, rig_sha256, findings.diagnosis, origin);
     // A line that a killed run has left unfinished is ended first.
     append_durably(file, (history.ends_with_a_line ? "" : "\n") + line + "\n");
     history.add(file, line);
     for (const std::string& why : history.passed_over) said.lines.push_back("history: passed over: " + why);
     const fleet::FleetFindings changes = fleet::findings_of(history.runs);
+    const std::string unit = unit_of(rig, origin);
+    const auto is_its_own = [&](std::size_t u) { return changes.units[u].name == unit; };
+    const std::ptrdiff_t runs = std::ranges::count(history.runs, unit, &fleet::FleetResult::unit);
     for (const fleet::Judgement& judgement : changes.judgements) {
-        if (judgement.matter == fleet::Matter::deviation) continue;
+        if (judgement.matter == fleet::Matter::deviation || std::ranges::none_of(judgement.units, is_its_own))
+            continue;
         const std::string text = fleet::matter_sentence(changes, judgement);
         said.lines.push_back("warning: the rig has changed. " + text);
         said.html +=
@@ -91,10 +101,9 @@ HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& 
                         report::escaped(text));
     }
     if (said.html.empty())
-        said.html =
-            fmt::format("<p>Over the {} runs of its history the rig has not changed significantly.</p>\n",
-                        history.runs.size());
-    said.lines.push_back(fmt::format("history: {} ({} runs)", file.string(), history.runs.size()));
+        said.html = fmt::format(
+            "<p>Over the {} runs of its history the rig has not changed significantly.</p>\n", runs);
+    said.lines.push_back(fmt::format("history: {} ({} runs of {})", file.string(), runs, unit));
     return said;
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 // What a rig's inspections have said of it, run after run, and whether it has changed.
 //
-// A line a run, in the form of a fleet's result (fidservo-fleet-result/1), whose unit is the rig: the same
-// statistics say whether a size has made a step or goes on changing
-// (src/fleet/report/statistics/change_points.h).
+// A line a run, in the form of a fleet's result (fidservo-fleet-result/1), whose unit and labels are those of
+// its recordings; without a unit it is the rig's name. The same statistics say whether a size has made a step
+// or goes on changing (src/fleet/report/statistics/change_points.h). A file may hold the runs of several
+// units.
+#include "src/files/recording/description.h"
 #include "src/inspect/report/rig_findings.h"
 
 #include <filesystem>
@@ -23,13 +25,13 @@ struct HistoryFindings {
     std::string html;                ///< for the report's section
 };
 
-/// Appends a run's findings, on the disk before it returns, and judges the whole history. Lines that are no
-/// results (a run was killed while it wrote) are passed over, which is said. Where nothing was diagnosed
-/// nothing is appended.
-/// @param recorded_at  UTC, 2026-11-02T08:15:00Z
+/// Appends a run's findings, on the disk before it returns, and judges the whole history: changes of the
+/// run's own unit are said. Lines that are no results (a run was killed while it wrote) are passed over,
+/// which is said. Where nothing was diagnosed nothing is appended.
+/// @param origin  unit, labels and, in UTC, the time of the run: 2026-11-02T08:15:00Z
 /// Throws RunFault if the disk does not take the line.
 HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& rig,
                                   const std::string& rig_sha256, const RigFindings& findings,
-                                  const std::string& recorded_at);
+                                  const RecordingOrigin& origin);
 
 }  // namespace fidservo::inspect

@@ -5,6 +5,7 @@
 #include "calib/wire/heater_fit.h"
 #include "core/random.h"
 #include "core/result.h"
+#include "tests/effort.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,7 @@ std::array<double, heater_numbers> numbers_of(const HeaterParameters& heater) {
 }
 
 TEST(SlowHeaterIntervals, WhiteAndCorrelatedNoise_AreCovered) {
-    constexpr int campaigns = 150;
+    const int campaigns = testing::draws(150, 50);
     for (const double memory : {0.0, 0.8}) {
         int hits = 0, stated = 0;
         for (int seed = 1; seed <= campaigns; ++seed) {

@@ -7,19 +7,21 @@
 : "${cluster:?is the folder}"
 export SLURM_CONF=$cluster/slurm.conf
 
-# in_namespaces SCRIPT ARGUMENT...: begins the script again, in namespaces of its own for processes, mounts, network and
-# host name; returns where that was done. The daemons take no port of the machine there, and they and whatever they have
-# started end with the script, even where it is killed. A second address lets names be resolved, which is not done where
-# the machine has none but 127.0.0.1.
+# in_namespaces SCRIPT ARGUMENT...: does the script in namespaces of its own for processes, mounts, network and host name,
+# and ends as it ends; returns where that is done already. The daemons take no port of the machine there, and they and
+# whatever they have started end with the script, however that ends. A second address lets names be resolved, which is not
+# done where the machine has none but 127.0.0.1.
 in_namespaces() {
-    if [[ ${fidservo_in_namespaces:-} == yes ]]; then
-        trap 'exit 130' INT
-        trap 'exit 143' TERM HUP
-        return
-    fi
+    [[ ${fidservo_in_namespaces:-} == yes ]] && return
     ((EUID == 0)) || { echo "a cluster needs root" >&2 && exit 2; }
-    fidservo_in_namespaces=yes exec unshare --mount --propagation private --pid --fork --kill-child=KILL --mount-proc --net --uts \
-        bash -c 'hostname localhost && ip link set lo up && ip address add 127.0.0.2/8 dev lo && exec "$@"' _ "$@"
+    fidservo_in_namespaces=yes unshare --mount --propagation private --pid --fork --kill-child=KILL --mount-proc --net --uts \
+        bash -c 'hostname localhost && ip link set lo up && ip address add 127.0.0.2/8 dev lo && exec "$@"' _ "$@" &
+    namespaces=$!
+    trap 'kill -KILL "$namespaces" 2>/dev/null' EXIT
+    trap 'exit 130' INT
+    trap 'exit 143' TERM HUP
+    wait "$namespaces"
+    exit
 }
 
 # A node of two cores, whatever the machine has. A task that is queued again waits until the credential of its first
@@ -71,9 +73,9 @@ node_state() { sinfo --noheader --format=%T 2>/dev/null || true; }
 node_works() { [[ $(node_state) =~ ^(idle|mixed|allocated)$ ]]; }
 node_is_down() { [[ $(node_state) == down* ]]; }
 
-# start_node: its daemon; again after stop_node.
+# start_node: its daemon; again after stop_node. It finds what it had started, as it would not with -c, which ends that.
 start_node() {
-    slurmd -c
+    slurmd
     until_true 60 "the node" node_works
 }
 
@@ -81,6 +83,7 @@ start_node() {
 stop_node() { kill -KILL "$(<"$cluster/slurmd.pid")"; }
 
 start_cluster() {
+    rm -rf "$cluster"
     mkdir -p "$cluster"/{state,spool}
     chmod 755 "$cluster" "$cluster"/{state,spool}
     write_configuration

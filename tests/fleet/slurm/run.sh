@@ -46,11 +46,11 @@ diagnose=(diagnose --rig "$rig" --effort "$effort_s")
 
 run_as_one() {
     rm -rf "$folder/one"
-    "$program" fleet "${diagnose[@]}" "$folder"/recordings/*/* --out "$folder/one"
+    "$program" fleet "${diagnose[@]}" "$folder"/recordings/*/* --out "$folder/one" || (($? == 1))  # 1: some cannot be diagnosed
 }
 
 # The results that are there, each with its file's number: one that is made again has another.
-declare -A number_of
+declare -A number_of=()
 look_at_results() {
     local file number
     while read -r number file; do
@@ -64,12 +64,13 @@ shard_of() { tr '\0' '\n' <"/proc/$1/cmdline" 2>/dev/null | grep -A1 -x -e --sha
 
 # Kills one of the program's processes, if there is any.
 kill_one() {
-    local processes victim what=program shard
+    local processes victim parent what=program shard
     mapfile -t processes < <(pgrep -x "$(basename "$program")" | sort -n)
     ((${#processes[@]})) || return 1
     victim=${processes[RANDOM % ${#processes[@]}]}
     shard=$(shard_of "$victim")
-    [[ $(ps -o comm= -p "$(ps -o ppid= -p "$victim")") == fidservo ]] && what=task
+    parent=$(awk "/^PPid/ { print \$2 }" "/proc/$victim/status" 2>/dev/null)
+    [[ $(cat "/proc/$parent/comm" 2>/dev/null) == fidservo ]] && what=task
     kill -KILL "$victim" 2>/dev/null || return 1
     echo "killed: the $what of shard $shard (${#number_of[@]} results were there)"
 }
@@ -117,7 +118,7 @@ compare() {
     local wanted there
     wanted=$((units * weeks))
     there=$(find "$folder/many/results" -type f | wc -l)
-    (($(grep -c 'JobState=COMPLETED .*ExitCode=0:0' "$folder/jobs.txt") == shards)) || fail "not every task of the array was completed: $folder/jobs.txt"
+    (($(grep -cE 'JobState=(COMPLETED|FAILED) .*ExitCode=[01]:0' "$folder/jobs.txt") == shards)) || fail "not every task of the array came to its end: $folder/jobs.txt"
     ((there == wanted)) || fail "$there files in $folder/many/results, not $wanted"
     [[ ! -e $folder/many/superseded ]] || fail "there are superseded results"
     diff -r "$folder/one/results" "$folder/many/results" || fail "results differ from those of one run"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 namespace fidservo::fleet {
 namespace {
@@ -19,20 +18,6 @@ double log_tail(double z) {
 
 double log_normal(double distance, double variance) {
     return -0.5 * (std::log(2.0 * std::numbers::pi * variance) + distance * distance / variance);
-}
-
-/// Diagnoses that do not name the quantity, alike in limit and error.
-struct Unseen {
-    double limit, std, count;
-};
-
-void count_in(std::vector<Unseen>& unseen, double limit, double std) {
-    for (Unseen& one : unseen)
-        if (one.limit == limit && one.std == std) {
-            one.count += 1.0;
-            return;
-        }
-    unseen.push_back({limit, std, 1.0});
 }
 
 }  // namespace
@@ -55,40 +40,53 @@ Moments moments_within(double limit, double mean, double std) {
     return {mean + std * shift, std * std * std::max(0.0, variance)};
 }
 
-double log_likelihood(const Point& point, double theta, double variance) {
-    return point.named() ? log_normal(point.value - theta, variance)
-                         : log_within(point.limit, theta, std::sqrt(variance));
+void LevelLikelihood::add(const Point& point, double variance, double column) {
+    const double weight = 1.0 / variance;
+    weights_ += weight;
+    product_ += weight * point.value;
+    column_weights_ += weight * column;
+    column_squares_ += weight * column * column;
+    column_product_ += weight * column * point.value;
+    if (point.named()) {
+        named_ += weight;
+        named_product_ += weight * point.value;
+        named_column_ += weight * column;
+        named_column_square_ += weight * column * column;
+        named_column_product_ += weight * column * point.value;
+        named_square_ += weight * point.value * point.value;
+        log_factors_ += log_normal(0.0, variance);
+        return;
+    }
+    const double std = std::sqrt(variance);
+    const auto alike = std::ranges::find_if(unseen_, [&](const Unseen& one) {
+        return one.limit == point.limit && one.std == std && one.column == column;
+    });
+    if (alike != unseen_.end())
+        alike->count += 1.0;
+    else
+        unseen_.push_back({point.limit, std, column, 1.0});
+}
+
+double LevelLikelihood::log_at(double level, double size) const {
+    const double squares = named_square_ - 2.0 * (level * named_product_ + size * named_column_product_) +
+                           level * level * named_ + 2.0 * level * size * named_column_ +
+                           size * size * named_column_square_;
+    double sum = log_factors_ - 0.5 * squares;
+    for (const Unseen& one : unseen_)
+        sum += one.count * log_within(one.limit, level + size * one.column, one.std);
+    return sum;
+}
+
+Level LevelLikelihood::rough_size(double level) const {
+    return {(column_product_ - level * column_weights_) / column_squares_, 1.0 / std::sqrt(column_squares_)};
 }
 
 Nodes over_level(std::span<const Point> points, double extra_variance, double times) {
-    constexpr double step_of_std = 0.8;
-    double start = 0.0, weights = 0.0;
-    for (const Point& point : points) {
-        const double weight = 1.0 / (times * (point.std * point.std + extra_variance));
-        start += weight * point.value;
-        weights += weight;
-    }
-    start /= weights;
-    // Those that are named are a parabola; those of one limit and error are one factor to the power of their
-    // number.
-    double named = 0.0, slope = 0.0, at_start = 0.0;
-    std::vector<Unseen> unseen;
-    for (const Point& point : points) {
-        const double variance = times * (point.std * point.std + extra_variance);
-        if (!point.named()) {
-            count_in(unseen, point.limit, std::sqrt(variance));
-            continue;
-        }
-        named += 1.0 / variance;
-        slope += (point.value - start) / variance;
-        at_start += log_normal(point.value - start, variance);
-    }
-    return nodes_of(start, step_of_std / std::sqrt(weights), [&](double level) {
-        const double from_start = level - start;
-        double sum = at_start + from_start * (slope - 0.5 * from_start * named);
-        for (const Unseen& one : unseen) sum += one.count * log_within(one.limit, level, one.std);
-        return sum;
-    });
+    LevelLikelihood likelihood;
+    for (const Point& point : points) likelihood.add(point, times * (point.std * point.std + extra_variance));
+    const Level rough = likelihood.rough_level();
+    return nodes_of(rough.value, step_of_std * rough.std,
+                    [&](double level) { return likelihood.log_at(level); });
 }
 
 Level as_normal(const Level& level) {

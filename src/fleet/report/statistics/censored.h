@@ -13,7 +13,9 @@
 #include "src/fleet/report/statistics/nodes.h"
 #include "src/fleet/report/statistics/point.h"
 
+#include <cmath>
 #include <span>
+#include <vector>
 
 namespace fidservo::fleet {
 
@@ -23,9 +25,32 @@ double log_within(double limit, double mean, double std);
 /// Mean and variance of x ~ N(mean, std^2) where |x| < limit.
 Moments moments_within(double limit, double mean, double std);
 
-/// log p(what a diagnosis says | theta), natural.
-/// @param variance  v: of its error and of all scatter, floors^2
-double log_likelihood(const Point& point, double theta, double variance);
+/// The likelihood of points by their level, and by the size of a change that adds `size * column` to each.
+/// What is named is a parabola; what is not, and is alike, one factor to the power of its number.
+class LevelLikelihood {
+  public:
+    void add(const Point& point, double variance, double column = 0.0);
+
+    /// Natural.
+    double log_at(double level, double size = 0.0) const;
+    /// The level that is likeliest where all that is not named counts as 0, and the least std that it may
+    /// have.
+    Level rough_level() const { return {product_ / weights_, 1.0 / std::sqrt(weights_)}; }
+    /// Of the size of the change, given the level, likewise.
+    Level rough_size(double level) const;
+    bool all_named() const { return unseen_.empty(); }
+
+  private:
+    struct Unseen {
+        double limit, std, column, count;
+    };
+    double weights_ = 0.0, product_ = 0.0, column_weights_ = 0.0, column_squares_ = 0.0,
+           column_product_ = 0.0;
+    /// The same of what is named alone, with the squares of its values, and the logarithms of its factors.
+    double named_ = 0.0, named_product_ = 0.0, named_column_ = 0.0, named_column_square_ = 0.0,
+           named_column_product_ = 0.0, named_square_ = 0.0, log_factors_ = 0.0;
+    std::vector<Unseen> unseen_;
+};
 
 /// The likelihood of the level that points share, over the level.
 /// @param extra_variance  that each has beside the square of its std, floors^2

@@ -10,6 +10,9 @@
 
 namespace fidservo::fleet {
 
+/// Between nodes, of the least std that a law may have: the sum's error is then 4e-14.
+inline constexpr double step_of_std = 0.8;
+
 /// A mean and a variance.
 struct Moments {
     double mean = 0.0, variance = 0.0;

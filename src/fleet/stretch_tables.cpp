@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "src/fleet/collect.h"
+#include "src/fleet/stretch_tables.h"
 
 #include "core/input_error.h"
 #include "src/fleet/stretch_result.h"
@@ -95,9 +95,9 @@ class Collection {
 
 }  // namespace
 
-void collect(const fs::path& fleet, const fs::path& folder, const ImageFrames& frames,
-             const std::vector<Stretch>& stretches, const std::map<std::size_t, std::string>& results,
-             double tag_side_mm) {
+void write_replay_tables(const fs::path& fleet, const fs::path& folder, const ImageFrames& frames,
+                         const std::vector<Stretch>& stretches,
+                         const std::map<std::size_t, std::string>& results, double tag_side_mm) {
     const DraftFolder draft(fleet);
     Collection collection(draft.path(), frames, tag_side_mm);
     for (const auto& [task, file] : results) {

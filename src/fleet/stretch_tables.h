@@ -16,8 +16,8 @@ namespace fidservo::fleet {
 /// there are. Each takes the place of an earlier one in one step. One result at a time is in memory. Throws
 /// RunFault if a result cannot be read or the disk fails.
 /// @param results  by stretch, their files in `folder`
-void collect(const std::filesystem::path& fleet, const std::filesystem::path& folder,
-             const ImageFrames& frames, const std::vector<Stretch>& stretches,
-             const std::map<std::size_t, std::string>& results, double tag_side_mm);
+void write_replay_tables(const std::filesystem::path& fleet, const std::filesystem::path& folder,
+                         const ImageFrames& frames, const std::vector<Stretch>& stretches,
+                         const std::map<std::size_t, std::string>& results, double tag_side_mm);
 
 }  // namespace fidservo::fleet
