@@ -295,8 +295,16 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
     return diagnosis;
 }
 
-/// An equation beside the names; before that, where these are not credible, one for the whole gap in their
-/// place, which has to predict better than they do.
+/// Where an equation for the whole gap is the likelier explanation, the names are as likely as that leaves
+/// them.
+void stand_in_for_names(double weight_of_names, std::string_view block, Diagnosis& diagnosis) {
+    for (FoundEffect& effect : diagnosis.effects) effect.probability *= weight_of_names;
+    for (BlockProbability& accused : diagnosis.where) accused.probability *= weight_of_names;
+    accuse(diagnosis.where, std::string(block), 1.0 - weight_of_names);
+}
+
+/// An equation for the whole gap in the names' place, which has to be the likelier one of the two; else one
+/// beside them.
 std::optional<ProposedEquation> equation_for(const Evidence& evidence, const Selection& selection,
                                              const DiagnosisOptions& options, Diagnosis& diagnosis) {
     const double tail = options.selection.search.tail;
@@ -304,12 +312,19 @@ std::optional<ProposedEquation> equation_for(const Evidence& evidence, const Sel
     const int number = 1 + static_cast<int>(std::ranges::count_if(evidence.rig().effects, is_unnamed));
     const CrossFit& named = selection.steps.back();
     std::optional<Remainder>& left = diagnosis.unexplained;
-    if (!diagnosis.effects.empty() && mean_probability(diagnosis.effects) <= 0.5) {
-        if (!left) left = remainder_of(evidence, selection.steps.front(), tail, options.matters);
-        if (!left) return {};
-        auto proposed = equation_of(evidence, selection.steps.front(), *left, number, tail);
-        if (proposed && proposed->fitted.loss < named.loss) {
+    if (!diagnosis.effects.empty()) {
+        const CrossFit& nothing = selection.steps.front();
+        const std::optional<Remainder> whole = remainder_of(evidence, nothing, tail, options.matters);
+        if (!left) left = whole;
+        if (!whole) return {};
+        auto proposed = equation_of(evidence, nothing, *whole, number, tail,
+                                    Rival{named, mean_probability(diagnosis.effects) > 0.5});
+        const double weight_of_names =
+            proposed ? weight_of_first(evidence, named.mean_squares, proposed->fitted.mean_squares) : 1.0;
+        if (weight_of_names < 0.5) {
             proposed->equation.in_place_of_names = true;
+            left = whole;
+            stand_in_for_names(weight_of_names, whole->block, diagnosis);
             return proposed;
         }
     }

@@ -108,7 +108,7 @@ struct Equation {
     std::optional<double> gap_removed_of_kinds_left_out = {};
     std::string text;              ///< in words
     plant::EffectSetting setting;  ///< the effect that it stands for, ready to be simulated
-    /// Of the whole gap rather than of what the named effects leave, which are not credible.
+    /// Of the whole gap rather than of what the named effects leave, since it predicts better than they do.
     bool in_place_of_names = false;
 };
 

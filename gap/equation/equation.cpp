@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/equation/equation.h"
 
-#include "gap/equation/equation_search.h"
 #include "gap/equation/kinds_left_out.h"
 #include "gap/fit/gap_size.h"
 #include "gap/search/selection.h"
@@ -33,9 +32,10 @@ std::optional<double> removed_of_kinds_left_out(const Evidence& evidence, std::s
 }  // namespace
 
 std::optional<ProposedEquation> equation_of(const Evidence& evidence, const CrossFit& base,
-                                            const Remainder& remainder, int number, double tail) {
+                                            const Remainder& remainder, int number, double tail,
+                                            const std::optional<Rival>& rival) {
     std::optional<FittedSketch> trial =
-        search_equation(evidence, base, remainder.block, fmt::format("unnamed_{}", number), tail);
+        search_equation(evidence, base, remainder.block, fmt::format("unnamed_{}", number), tail, rival);
     if (!trial) return {};
     const plant::FormulaCode& code = *trial->effect->formula;
     const Fit fitted = fit_to_all(evidence, trial->fitted);

@@ -7,6 +7,7 @@
 // each half of the windows, and judged on the other. Of the ports' formulas the best is kept, then shortened
 // as long as it is as good.
 #include "gap/diagnosis.h"
+#include "gap/equation/equation_search.h"
 #include "gap/fit/cross_fit.h"
 
 #include <optional>
@@ -24,9 +25,11 @@ struct ProposedEquation {
 /// @param before  mean squares of the windows without it, beside which its gap_removed is told
 /// @param number  of the effect's name, unnamed_1
 /// @param tail  of proposing anything where there is nothing, over the whole search
+/// @param rival  another explanation of the same: formulas that promise less are given up
 /// @return none where no formula predicts better beyond chance and removes some of the gap for sure (95 %).
 /// Throws BudgetEnded where nothing was found by then.
 std::optional<ProposedEquation> equation_of(const Evidence& evidence, const CrossFit& base,
-                                            const Remainder& remainder, int number, double tail);
+                                            const Remainder& remainder, int number, double tail,
+                                            const std::optional<Rival>& rival = {});
 
 }  // namespace fidservo::gap

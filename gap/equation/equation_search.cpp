@@ -48,9 +48,10 @@ std::array<std::vector<Port>, 3> ports_for(std::string_view block) {
 class EquationSearch {
   public:
     EquationSearch(const Evidence& evidence, const CrossFit& base, std::string_view block, std::string name,
-                   double tail)
+                   double tail, const std::optional<Rival>& rival)
         : evidence_(evidence),
           base_(base),
+          rival_(rival),
           block_(block),
           name_(std::move(name)),
           tail_(tail),
@@ -65,8 +66,9 @@ class EquationSearch {
         std::optional<FittedSketch> best;
         try {
             const auto try_all = [&](const std::vector<Sketch>& sketches) {
-                for (const Sketch& sketch : most_promising(sketches, base_)) {
-                    std::optional<FittedSketch> trial = tried(sketch);
+                for (const Promise& promise : most_promising(sketches, base_)) {
+                    if (rival_ && promise.gain <= gain_of_rival(promise.sketch)) continue;
+                    std::optional<FittedSketch> trial = tried(promise.sketch);
                     if (!trial) continue;
                     if (!best || trial->fitted.loss < best->fitted.loss) best = trial;
                     fitted_.push_back(*std::move(trial));
@@ -74,7 +76,9 @@ class EquationSearch {
                 return best && leaves_nothing(*best);
             };
             for (const std::vector<Port>& ports : ports_for(block_))
-                if (try_all(screened_at(ports, errors)) || try_all(scanned_at(ports))) break;
+                if (try_all(screened_at(ports, errors)) || try_all(scanned_at(ports)) ||
+                    (rival_ && rival_->is_credible && !ports.empty()))
+                    break;
             if (!best) return {};
             grow(*best);
             shorten(*best);
@@ -134,27 +138,43 @@ class EquationSearch {
 
     /// Those that save most beside an explanation where they were not fitted, with the values of that fit;
     /// best first. Of many, only those are fitted that do best as they are.
-    std::vector<Sketch> most_promising(const std::vector<Sketch>& sketches, const CrossFit& beside) const {
+    std::vector<Promise> most_promising(const std::vector<Sketch>& sketches, const CrossFit& beside) const {
         constexpr double any = -std::numeric_limits<double>::infinity();
-        const std::vector<Sketch> fitted =
-            sketches.size() <= most_fitted ? sketches
-                                           : best_of(sketches, most_fitted, any, [&](const Sketch& sketch) {
-                                                 return saved(sketch, with(sketch), beside);
-                                             });
+        std::vector<Sketch> fitted = sketches;
+        if (sketches.size() > most_fitted) {
+            fitted.clear();
+            for (Promise& promise : best_of(sketches, most_fitted, any, [&](const Sketch& sketch) {
+                     return saved(sketch, with(sketch), beside);
+                 }))
+                fitted.push_back(std::move(promise.sketch));
+        }
         return best_of(fitted, most_tried, 0.0,
                        [&](const Sketch& sketch) { return promised(sketch, beside); });
     }
 
+    /// What the rival saves on the second half, in the windows that a sketch is judged in.
+    double gain_of_rival(const Sketch& sketch) const {
+        const Wanted others =
+            only_of(evidence_.windows(), fitter_.half(1), reached_by({with(sketch).back()}));
+        double gain = 0.0;
+        for (std::size_t w = 0; w < others.size(); ++w)
+            if (others[w] != 0 && !std::isnan(base_.mean_squares[w]) &&
+                !std::isnan(rival_->explanation.mean_squares[w]))
+                gain += window_loss(base_.mean_squares[w]) - window_loss(rival_->explanation.mean_squares[w]);
+        return gain;
+    }
+
     /// Judges sketches, and takes the best ones that save more than the least, best first.
-    static std::vector<Sketch> best_of(const std::vector<Sketch>& sketches, std::size_t count, double least,
-                                       const std::function<Promise(const Sketch&)>& judge) {
+    static std::vector<Promise> best_of(const std::vector<Sketch>& sketches, std::size_t count, double least,
+                                        const std::function<Promise(const Sketch&)>& judge) {
         std::vector<Promise> promises(sketches.size());
         parallel_for(sketches.size(), [&](std::size_t k) { promises[k] = judge(sketches[k]); });
         std::ranges::stable_sort(promises, std::greater{}, &Promise::gain);
-        std::vector<Sketch> best;
-        for (Promise& promise : promises)
-            if (best.size() < count && promise.gain > least) best.push_back(std::move(promise.sketch));
-        return best;
+        const auto end =
+            std::ranges::find_if(promises, [&](const Promise& promise) { return !(promise.gain > least); });
+        promises.erase(end, promises.end());
+        if (promises.size() > count) promises.resize(count);
+        return promises;
     }
 
     /// Of those that differ by the values of coefficients alone the first one stays.
@@ -220,9 +240,9 @@ class EquationSearch {
             for (const Sketch& more : further)
                 if (auto both = joined(present, more)) longer.push_back(*std::move(both));
             drop_repeated(longer);
-            const std::vector<Sketch> promising = most_promising(longer, trial.fitted);
+            const std::vector<Promise> promising = most_promising(longer, trial.fitted);
             const std::optional<FittedSketch> best =
-                promising.empty() ? std::nullopt : tried(promising.front());
+                promising.empty() ? std::nullopt : tried(promising.front().sketch);
             if (!best || !signs_agree(*best) ||
                 !is_no_chance(trial.fitted.mean_squares, best->fitted.mean_squares))
                 return;
@@ -310,6 +330,7 @@ class EquationSearch {
 
     const Evidence& evidence_;
     const CrossFit& base_;
+    std::optional<Rival> rival_;
     std::string_view block_;
     std::string name_;
     double tail_;
@@ -323,8 +344,9 @@ class EquationSearch {
 }  // namespace
 
 std::optional<FittedSketch> search_equation(const Evidence& evidence, const CrossFit& base,
-                                            std::string_view block, const std::string& name, double tail) {
-    return EquationSearch(evidence, base, block, name, tail).best();
+                                            std::string_view block, const std::string& name, double tail,
+                                            const std::optional<Rival>& rival) {
+    return EquationSearch(evidence, base, block, name, tail, rival).best();
 }
 
 }  // namespace fidservo::gap

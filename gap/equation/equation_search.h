@@ -18,14 +18,22 @@ struct FittedSketch {
     CrossFit fitted;  ///< the effect last
 };
 
+/// Another explanation of what a base leaves, than which a formula has to promise more.
+struct Rival {
+    const CrossFit& explanation;
+    bool is_credible;  ///< then only the accused block's own ports are tried against it
+};
+
 /// The formula that predicts best beside an explanation, grown and shortened; none where no formula of the
 /// stage's ports predicts better beyond chance.
 /// @param base  beside which it is looked for
 /// @param block  that is accused: its ports come first, and the others only where these leave something
 /// @param name  of the effect
 /// @param tail  of proposing anything where there is nothing, over the whole search
+/// @param rival  a formula that predicts what it was not fitted to worse than it is given up
 /// Throws BudgetEnded where nothing was found by then.
 std::optional<FittedSketch> search_equation(const Evidence& evidence, const CrossFit& base,
-                                            std::string_view block, const std::string& name, double tail);
+                                            std::string_view block, const std::string& name, double tail,
+                                            const std::optional<Rival>& rival = {});
 
 }  // namespace fidservo::gap

@@ -2,6 +2,7 @@
 #include "gap/verdict/model_weights.h"
 
 #include "core/random.h"
+#include "gap/fit/score.h"
 
 #include <algorithm>
 #include <cmath>
@@ -127,6 +128,17 @@ ChoiceWeights weights_of(const Evidence& evidence, const Choice& choice, std::sp
     }
     weights.of_alternatives.front() = comparisons.weigh();
     return weights;
+}
+
+double weight_of_first(const Evidence& evidence, std::span<const double> first,
+                       std::span<const double> second) {
+    const std::span<const double> better = total_loss(first) < total_loss(second) ? first : second;
+    double of_second = 0.5;
+    Comparisons comparisons(evidence.recordings().size());
+    comparisons.add(log_ratios(evidence, second, first, first, discrepancy_of(evidence.windows(), better)),
+                    &of_second);
+    comparisons.weigh();
+    return 1.0 - of_second;
 }
 
 std::vector<double> weights_of_trials(const Evidence& evidence, const std::vector<Trial>& trials,

@@ -30,6 +30,11 @@ struct ChoiceWeights {
 /// @param explained  S_w of all windows under the whole explanation
 ChoiceWeights weights_of(const Evidence& evidence, const Choice& choice, std::span<const double> explained);
 
+/// Of the first of two explanations, given the mean squares S_w of all windows under each; a half where no
+/// window is predicted by both.
+double weight_of_first(const Evidence& evidence, std::span<const double> first,
+                       std::span<const double> second);
+
 /// Of effects that were tried alone, as the trials; what is missing to 1 is that there is none.
 std::vector<double> weights_of_trials(const Evidence& evidence, const std::vector<Trial>& trials,
                                       const CrossFit& nothing);

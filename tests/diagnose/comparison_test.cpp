@@ -36,8 +36,8 @@ Comparison compared(const std::vector<std::string>& before, const std::vector<st
                     std::uint64_t seed) {
     const Rig rig = load_rig(reference_rig_file());
     return compare(
-        rig, campaign_of(rig, before, seed), campaign_of(rig, after, seed + 1), [] { return false; },
-        [](std::string_view) {});
+        rig, {campaign_of(rig, before, seed), {}}, {campaign_of(rig, after, seed + 1), {}},
+        [] { return false; }, [](std::string_view) {});
 }
 
 const ParameterPair* find_pair(const Comparison& comparison, std::string_view effect) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/verdict/model_weights.h"
 
+#include "tests/gap/simulated_campaign.h"
+
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -36,6 +38,16 @@ TEST(ModelWeights, WhatOneRecordingSaysAlone_IsNot) {
     const std::vector<double> torn = model_weights(Densities{{0, 0}, {-8, 8}});
     EXPECT_NEAR(torn[0], 0.5, 0.1);
     EXPECT_NEAR(torn[0] + torn[1], 1.0, 1e-12);
+}
+
+TEST(ModelWeights, OfTwoExplanations_GoWithWhatTheyPredict) {
+    const gap::Evidence evidence = testing::campaign({}, {"macro-square"});
+    const std::size_t windows = evidence.windows().size();
+    const std::vector<double> floor(windows, 1.0), off(windows, 100.0), unknown(windows, std::nan(""));
+    EXPECT_NEAR(gap::weight_of_first(evidence, floor, floor), 0.5, 1e-9);
+    EXPECT_GT(gap::weight_of_first(evidence, floor, off), 0.99);
+    EXPECT_LT(gap::weight_of_first(evidence, off, floor), 0.01);
+    EXPECT_NEAR(gap::weight_of_first(evidence, floor, unknown), 0.5, 1e-9);
 }
 
 }  // namespace
