@@ -245,6 +245,7 @@ Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings, std::share
         std::ranges::stable_sort(recording.detections, {}, &TagDetection::time_ns);
         std::ranges::stable_sort(recording.appearances, {}, &TagAppearance::time_ns);
         parts.places.push_back(refer_to_travel(recording, rig));
+        parts.budget->check();
     }
     find_noise(parts);
     parts.floors[index_of(Signal::macro_command)] =
@@ -255,7 +256,10 @@ Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings, std::share
     for (Recording& recording : parts.recordings) parts.late.push_back(fill_late_ticks(recording));
     find_looks(parts);
     find_wires(parts);
-    for (std::size_t run = 0; run < parts.recordings.size(); ++run) add_run(parts, run);
+    for (std::size_t run = 0; run < parts.recordings.size(); ++run) {
+        parts.budget->check();
+        add_run(parts, run);
+    }
     parts.first_window.push_back(parts.windows.size());
     for (std::size_t signal = 0; signal < signal_count; ++signal)
         if (std::ranges::none_of(parts.windows,
@@ -265,8 +269,10 @@ Evidence::Evidence(const Rig& rig, std::vector<Recording> recordings, std::share
     parts.nominal.assign(parts.values, std::numeric_limits<float>::quiet_NaN());
     const Models models = models_of(parts.rig, {});
     const Wanted all = everything(*this);
-    for (std::size_t run = 0; run < parts.recordings.size(); ++run)
+    for (std::size_t run = 0; run < parts.recordings.size(); ++run) {
+        parts.budget->check();
         RunPredictor(parts, run, all, models, false).predict(all_signals, parts.nominal);
+    }
 }
 
 Evidence::~Evidence() = default;

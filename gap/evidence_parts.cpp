@@ -218,6 +218,7 @@ void find_looks(Evidence::Parts& parts) {
         return;
     const CameraParameters& camera = *parts.rig.camera;
     for (std::size_t run = 0; run < parts.recordings.size(); ++run) {
+        parts.budget->check();
         parts.smeared[run] = smeared_tags(parts.recordings[run]);
         parts.images[run] = image_run(parts.recordings[run], camera);
     }
@@ -237,6 +238,7 @@ void find_wires(Evidence::Parts& parts) {
     }
     const double zero_lsb = zero_of_sensor_lsb(stage, runs);
     for (RunLinks& links : parts.links) {
+        parts.budget->check();
         links.platform->start = wire_start(stage, *links.platform, zero_lsb);
         keep_known_memory(*links.platform, stage);
     }
