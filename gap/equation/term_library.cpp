@@ -98,11 +98,11 @@ void TermLibrary::add_knees(const std::string& text, const KnownVariable& of, co
     for (const double share : {0.2, 0.5, 0.8}) {
         const double at = of.range.low + share * (of.range.high - of.range.low);
         keep({{text},
-                          of.unit,
-                          0.5 * (of.range.high - of.range.low),
-                          {{of.unit, at, of.range.low, of.range.high}},
-                          family,
-                          words});
+              of.unit,
+              0.5 * (of.range.high - of.range.low),
+              {{of.unit, at, of.range.low, of.range.high}},
+              family,
+              words});
     }
 }
 
@@ -133,13 +133,12 @@ void TermLibrary::add_steps_and_bells(const KnownVariable& of, std::span<const B
     const auto add_bends = [&](const std::string& text, const std::string& words) {
         const int family = next_family_++;
         for (const auto& [width, centre] : bends)
-            keep(
-                {{times(factor, text)},
-                 "",
-                 1.0,
-                 {{of.unit, width, 0.02 * half, 3.0 * half}, {of.unit, centre, of.range.low, of.range.high}},
-                 family,
-                 words});
+            keep({{times(factor, text)},
+                  "",
+                  1.0,
+                  {{of.unit, width, 0.02 * half, 3.0 * half}, {of.unit, centre, of.range.low, of.range.high}},
+                  family,
+                  words});
     };
     add_bends(fmt::format("tanh(({} - centre) / shape)", of.name),
               fmt::format("that steps with {}", of.words));
@@ -163,12 +162,12 @@ void TermLibrary::add_remembering(const Memory& memory, const KnownVariable& of,
     const int family = next_family_++;
     for (const double value : values)
         keep({{fmt::format("({} - {})", memory_name, of.name)},
-                          of.unit,
-                          of.reach(),
-                          {{shape.unit, value, shape.low, shape.high}},
-                          family,
-                          words,
-                          memory});
+              of.unit,
+              of.reach(),
+              {{shape.unit, value, shape.low, shape.high}},
+              family,
+              words,
+              memory});
 }
 
 void TermLibrary::add_delayed(const KnownVariable& of, const TermShape& shape,
