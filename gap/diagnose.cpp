@@ -2,9 +2,10 @@
 #include "gap/diagnose.h"
 
 #include "core/input_error.h"
-#include "core/rig.h"
-#include "gap/equation/equation.h"
+#include "gap/accused.h"
 #include "gap/fit/gap_size.h"
+#include "gap/parameters.h"
+#include "gap/proposal.h"
 #include "gap/residuals/accusation.h"
 #include "gap/residuals/remainder.h"
 #include "gap/verdict/correlated.h"
@@ -45,25 +46,6 @@ std::vector<plant::EffectSetting> rivals(const Choice& choice) {
         settings.push_back(trial->fitted.of_half[0].back());
     }
     return settings;
-}
-
-/// @param halves  as fitted on each half: where fits end in any of many small valleys, what they are apart by
-///                tells more of how sure a value is than the slopes at one of them
-std::vector<FittedParameter> parameters_of(const plant::EffectSetting& setting,
-                                           const std::array<plant::EffectSetting, 2>& halves,
-                                           const Eigen::MatrixXd& covariance, Eigen::Index first) {
-    std::vector<FittedParameter> parameters;
-    for (std::size_t k = 0; k < setting.values.size(); ++k) {
-        const plant::EffectParameter& parameter = setting.effect->parameters[k];
-        const Eigen::Index at = first + static_cast<Eigen::Index>(k);
-        if (parameter.is_negligible(setting.values[k]) ||
-            (parameter.is_choice() && !parameter.is_unusual(setting.values[k])))
-            continue;
-        const double apart = 0.5 * (halves[0].values[k] - halves[1].values[k]);
-        parameters.push_back({std::string(parameter.name), std::string(parameter.unit), setting.values[k],
-                              std::hypot(std::sqrt(std::max(0.0, covariance(at, at))), apart)});
-    }
-    return parameters;
 }
 
 std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection,
@@ -123,18 +105,6 @@ std::string likeliest_block(const Choice& choice) {
             likeliest = block;
     }
     return std::string(likeliest);
-}
-
-/// Likeliest first; of those that are as likely to a twentieth, what was accused first.
-void accuse(std::vector<BlockProbability>& where, const std::string& block, double probability) {
-    const auto known = std::ranges::find(where, block, &BlockProbability::block);
-    if (known != where.end())
-        known->probability = 1.0 - (1.0 - known->probability) * (1.0 - probability);
-    else
-        where.push_back({block, probability});
-    std::ranges::stable_sort(where, std::greater{}, [](const BlockProbability& accused) {
-        return std::lround(20.0 * accused.probability);
-    });
 }
 
 /// Of each block that one of its effects, as far as the weights tell, is part of the explanation.
@@ -223,12 +193,6 @@ void say_what_is_named(const Evidence& evidence, const Selection& selection, con
     diagnosis.where = blocks_of(selection, weights, diagnosis.effects);
 }
 
-double mean_probability(const std::vector<FoundEffect>& effects) {
-    double sum = 0.0;
-    for (const FoundEffect& effect : effects) sum += effect.probability;
-    return effects.empty() ? 0.0 : sum / static_cast<double>(effects.size());
-}
-
 /// Which block is accused beside the names, and how likely it is the cause rather than they.
 void accuse_what_is_left(const Selection& selection, const std::optional<Remainder>& whole,
                          Diagnosis& diagnosis) {
@@ -293,62 +257,6 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
     });
     diagnosis.verdict = verdict_of(selection, something_is_left);
     return diagnosis;
-}
-
-/// Where an equation for the whole gap is the likelier explanation, the names are as likely as that leaves
-/// them.
-void stand_in_for_names(double weight_of_names, std::string_view block, Diagnosis& diagnosis) {
-    for (FoundEffect& effect : diagnosis.effects) effect.probability *= weight_of_names;
-    for (BlockProbability& accused : diagnosis.where) accused.probability *= weight_of_names;
-    accuse(diagnosis.where, std::string(block), 1.0 - weight_of_names);
-}
-
-/// An equation for the whole gap in the names' place, which has to be the likelier one of the two; else one
-/// beside them.
-std::optional<ProposedEquation> equation_for(const Evidence& evidence, const Selection& selection,
-                                             const DiagnosisOptions& options, Diagnosis& diagnosis) {
-    const double tail = options.selection.search.tail;
-    const auto is_unnamed = [](const StatedEffect& effect) { return effect.name.starts_with("unnamed_"); };
-    const int number = 1 + static_cast<int>(std::ranges::count_if(evidence.rig().effects, is_unnamed));
-    const CrossFit& named = selection.steps.back();
-    std::optional<Remainder>& left = diagnosis.unexplained;
-    if (!diagnosis.effects.empty()) {
-        const CrossFit& nothing = selection.steps.front();
-        const std::optional<Remainder> whole = remainder_of(evidence, nothing, tail, options.matters);
-        if (!left) left = whole;
-        if (!whole) return {};
-        auto proposed = equation_of(evidence, nothing, *whole, number, tail,
-                                    Rival{named, mean_probability(diagnosis.effects) > 0.5});
-        const double weight_of_names =
-            proposed ? weight_of_first(evidence, named.mean_squares, proposed->fitted.mean_squares) : 1.0;
-        if (weight_of_names < 0.5) {
-            proposed->equation.in_place_of_names = true;
-            left = whole;
-            stand_in_for_names(weight_of_names, whole->block, diagnosis);
-            return proposed;
-        }
-    }
-    const std::optional<Remainder> beside = remainder_of(evidence, named, tail, options.matters);
-    if (!left) left = beside;
-    return beside ? equation_of(evidence, named, *beside, number, tail) : std::nullopt;
-}
-
-/// @return how the time for an equation ended
-Ended propose_equation(const Evidence& evidence, const Selection& selection, const DiagnosisOptions& options,
-                       Diagnosis& diagnosis) {
-    const bool something_is_left =
-        diagnosis.verdict == Verdict::partly_explained || diagnosis.verdict == Verdict::unexplained;
-    if (options.equation_s <= 0.0 || !something_is_left) return Ended::finished;
-    evidence.budget()->prolong(options.equation_s);
-    if (options.selection.search.tell) options.selection.search.tell("equation for what is left");
-    try {
-        if (auto proposed = equation_for(evidence, selection, options, diagnosis))
-            diagnosis.unexplained->equation = std::move(proposed->equation);
-    } catch (const BudgetEnded& end) {
-        if (end.how() == Ended::interrupted) return end.how();
-        diagnosis.notes.emplace_back("no equation was found for what is left in the time for it");
-    }
-    return Ended::finished;
 }
 
 /// Signals whose discrepancy is no gap by what the user says.

@@ -3,6 +3,7 @@
 
 #include "gap/equation/kinds_left_out.h"
 #include "gap/fit/gap_size.h"
+#include "gap/parameters.h"
 #include "gap/search/selection.h"
 #include "plant/formulas/formula_code.h"
 
@@ -40,26 +41,18 @@ std::optional<ProposedEquation> equation_of(const Evidence& evidence, const Cros
     const plant::FormulaCode& code = *trial->effect->formula;
     const Fit fitted = fit_to_all(evidence, trial->fitted);
     const plant::EffectSetting& setting = fitted.hypothesis.back();
+    const std::array<Hypothesis, 2>& halves = trial->fitted.of_half;
+    const auto own = static_cast<Eigen::Index>(setting.values.size());
     Equation equation{.acts_on = std::string(code.port().name),
                       .formula = code.effect().formula,
                       .variables = code.variable_names(),
-                      .parameters = {},
+                      .parameters = parameters_of(setting, {halves[0].back(), halves[1].back()},
+                                                  fitted.covariance, fitted.covariance.rows() - own),
                       .gap_removed = 0.0,
                       .gap_removed_low = 0.0,
                       .gap_removed_high = 0.0,
                       .text = code.effect().text,
                       .setting = setting};
-    const auto all = static_cast<Eigen::Index>(fitted.covariance.rows());
-    const auto own = static_cast<Eigen::Index>(setting.values.size());
-    for (std::size_t k = 0; k < setting.values.size(); ++k) {
-        const plant::EffectParameter& parameter = setting.effect->parameters[k];
-        const Eigen::Index at = all - own + static_cast<Eigen::Index>(k);
-        const double apart =
-            0.5 * (trial->fitted.of_half[0].back().values[k] - trial->fitted.of_half[1].back().values[k]);
-        equation.parameters.push_back(
-            {std::string(parameter.name), std::string(parameter.unit), setting.values[k],
-             std::hypot(std::sqrt(std::max(0.0, fitted.covariance(at, at))), apart)});
-    }
     const auto gaps = signal_gaps(evidence, base.mean_squares, trial->fitted.mean_squares);
     equation.gap_removed = total_gap(gaps).removed();
     std::tie(equation.gap_removed_low, equation.gap_removed_high) =
@@ -67,7 +60,7 @@ std::optional<ProposedEquation> equation_of(const Evidence& evidence, const Cros
     if (equation.gap_removed_low <= 0.0) return {};
     equation.gap_removed_of_kinds_left_out =
         removed_of_kinds_left_out(evidence, base.mean_squares, trial->fitted);
-    return ProposedEquation{std::move(equation), std::move(trial->fitted)};
+    return ProposedEquation{std::move(equation), std::move(trial->fitted), fitted};
 }
 
 }  // namespace fidservo::gap

@@ -19,6 +19,7 @@ namespace fidservo::gap {
 struct ProposedEquation {
     Equation equation;
     CrossFit fitted;
+    Fit of_all;  ///< names and equation together, fitted to all windows
 };
 
 /// @param base  the explanation beside which it is looked for

@@ -51,6 +51,7 @@ class EquationSearch {
                    double tail, const std::optional<Rival>& rival)
         : evidence_(evidence),
           base_(base),
+          beside_(base),
           rival_(rival),
           block_(block),
           name_(std::move(name)),
@@ -70,6 +71,7 @@ class EquationSearch {
                     if (rival_ && promise.gain <= gain_of_rival(promise.sketch)) continue;
                     std::optional<FittedSketch> trial = tried(promise.sketch);
                     if (!trial) continue;
+                    fit_together(*trial);
                     if (!best || trial->fitted.loss < best->fitted.loss) best = trial;
                     fitted_.push_back(*std::move(trial));
                 }
@@ -79,7 +81,8 @@ class EquationSearch {
                 if (try_all(screened_at(ports, errors)) || try_all(scanned_at(ports)) ||
                     (rival_ && rival_->is_credible && !ports.empty()))
                     break;
-            if (!best) return {};
+            if (!best || is_made_up_for_beside_rival(*best)) return {};
+            go_on_beside(*best);
             grow(*best);
             shorten(*best);
             simplify(*best);
@@ -192,7 +195,7 @@ class EquationSearch {
 
     /// A sketch, as it is, beside the base.
     Hypothesis with(const Sketch& sketch) const {
-        Hypothesis whole = base_.of_half[0];
+        Hypothesis whole = beside_.of_half[0];
         whole.push_back(plant::typical_setting(plant::effect_of(formula_of(sketch, block_, name_))));
         return whole;
     }
@@ -269,11 +272,13 @@ class EquationSearch {
         return true;
     }
 
-    std::optional<FittedSketch> tried(const Sketch& sketch) const {
-        FittedSketch trial{sketch, &plant::effect_of(formula_of(sketch, block_, name_)), base_};
+    std::optional<FittedSketch> tried(const Sketch& sketch) const { return tried_beside(beside_, sketch); }
+
+    std::optional<FittedSketch> tried_beside(const CrossFit& beside, const Sketch& sketch) const {
+        FittedSketch trial{sketch, &plant::effect_of(formula_of(sketch, block_, name_)), beside};
         for (Hypothesis& hypothesis : trial.fitted.of_half)
             hypothesis.push_back(plant::typical_setting(*trial.effect));
-        const Places last{base_.of_half[0].size()};
+        const Places last{beside.of_half[0].size()};
         std::array<bool, 2> can_be{};
         parallel_for(2, [&](std::size_t side) {
             Hypothesis& of_side = trial.fitted.of_half[side];
@@ -284,9 +289,33 @@ class EquationSearch {
                               .hypothesis;
         });
         if (!can_be[0] || !can_be[1]) return {};
-        fitter_.judge_beside(base_, {trial.fitted.of_half[0].back()}, trial.fitted);
+        fitter_.judge_beside(beside, {trial.fitted.of_half[0].back()}, trial.fitted);
         if (!std::isfinite(trial.fitted.loss)) return {};
         return trial;
+    }
+
+    /// Names had to make up for what the formula now says: their values and its own are fitted together.
+    void fit_together(FittedSketch& trial) const {
+        if (base_.of_half[0].empty()) return;
+        CrossFit together = trial.fitted;
+        fitter_.fit_again(together, teachers_of(*trial.effect));
+        if (together.loss < trial.fitted.loss) trial.fitted = std::move(together);
+    }
+
+    /// What is tried from now on is beside the names as they are with this formula.
+    void go_on_beside(const FittedSketch& trial) {
+        if (base_.of_half[0].empty()) return;
+        beside_ = trial.fitted;
+        for (Hypothesis& hypothesis : beside_.of_half) hypothesis.pop_back();
+        fitter_.judge(beside_);
+    }
+
+    /// Whether a credible rival predicts as well as a formula in its place once it has the same formula
+    /// beside it: then what it says may stand, and a formula has to be looked for beside it.
+    bool is_made_up_for_beside_rival(const FittedSketch& trial) const {
+        if (!rival_ || !rival_->is_credible) return false;
+        const std::optional<FittedSketch> beside = tried_beside(rival_->explanation, fitted_values(trial));
+        return beside && !is_no_chance(beside->fitted.mean_squares, trial.fitted.mean_squares);
     }
 
     bool is_no_chance(std::span<const double> without, std::span<const double> with) const {
@@ -330,6 +359,7 @@ class EquationSearch {
 
     const Evidence& evidence_;
     const CrossFit& base_;
+    CrossFit beside_;  ///< the base, its values as they are with the best formula
     std::optional<Rival> rival_;
     std::string_view block_;
     std::string name_;

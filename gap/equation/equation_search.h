@@ -30,7 +30,9 @@ struct Rival {
 /// @param block  that is accused: its ports come first, and the others only where these leave something
 /// @param name  of the effect
 /// @param tail  of proposing anything where there is nothing, over the whole search
-/// @param rival  a formula that predicts what it was not fitted to worse than it is given up
+/// @param rival  a formula that predicts what it was not fitted to worse than it is given up; if it is
+/// credible,
+///               also one that predicts no better than rival and formula together
 /// Throws BudgetEnded where nothing was found by then.
 std::optional<FittedSketch> search_equation(const Evidence& evidence, const CrossFit& base,
                                             std::string_view block, const std::string& name, double tail,

@@ -33,10 +33,18 @@ int report_fleet(const FleetReportOptions& options) {
     const fleet::FleetFindings findings = fleet::findings_of(collected.results);
     fmt::print("{} results of {} units, {} new, {} removed, {} passed over\n", collected.results.size(),
                findings.units.size(), collected.added, collected.removed, collected.damaged.size());
+    if (!findings.unexplained.empty()) {
+        constexpr std::size_t shown = 6;
+        fmt::print("{}\n", fleet::unexplained_sentence(findings.unexplained));
+        for (const std::string& line : fleet::unexplained_lines(findings.unexplained, findings.units, shown))
+            fmt::print("  {}\n", line);
+    }
     for (const fleet::Judgement& judgement : findings.judgements)
         fmt::print("{}. {}\n", fleet::whose_words(findings, judgement),
                    fleet::matter_sentence(findings, judgement));
-    if (findings.judgements.empty()) fmt::print("no unit stands out, and none has changed\n");
+    if (findings.judgements.empty())
+        fmt::print("{}no unit stands out, and none has changed\n",
+                   findings.unexplained.empty() ? "" : "by the effects that are named ");
     std::filesystem::path cured = options.fleet / "cured-rig.yaml";
     if (options.rig_file.empty() || !fleet::write_cured_rig(cured, options.rig_file, findings)) cured.clear();
     if (!cured.empty()) fmt::print("rig file that cures what all share: {}\n", cured.string());

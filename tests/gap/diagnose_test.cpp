@@ -36,7 +36,7 @@ TEST(Diagnosis, RigAsItsFileSays_HasNoGap) {
     EXPECT_EQ(diagnosis.candidates.size(), 3U);
 }
 
-TEST(Diagnosis, EffectIsNamedAmongItsLikes_WithItsValueWithinItsError) {
+TEST(SlowDiagnosis, EffectIsNamedAmongItsLikes_WithItsValueWithinItsError) {
     const Diagnosis diagnosis =
         diagnose(campaign(effects({"viscous_friction:damping_V_s_per_mm=0.0004"}),
                           {"macro-sweep", "macro-pulses", "macro-square"}),
@@ -83,7 +83,7 @@ TEST(Diagnosis, EffectThatIsWithheld_LeavesWhatNothingExplains) {
     EXPECT_GT(diagnosis.gap.before, 2.0);
 }
 
-TEST(Diagnosis, RicherEffect_IsNotNamedForWhatItSharesWithThePlainerOne) {
+TEST(SlowDiagnosis, RicherEffect_IsNotNamedForWhatItSharesWithThePlainerOne) {
     const Evidence evidence =
         campaign(effects({"coulomb_friction:level_V=0.1"}), {"macro-sweep", "macro-pulses", "macro-square"});
     const Diagnosis diagnosis =
@@ -94,7 +94,7 @@ TEST(Diagnosis, RicherEffect_IsNotNamedForWhatItSharesWithThePlainerOne) {
     for (const TriedEffect& tried : diagnosis.candidates) EXPECT_NE(tried.effect, "coulomb_friction");
 }
 
-TEST(Diagnosis, TwoEffectsInTwoBlocks_AreBothNamed) {
+TEST(SlowDiagnosis, TwoEffectsInTwoBlocks_AreBothNamed) {
     const Diagnosis diagnosis =
         diagnose(campaign(effects({"drive_gain:factor=0.97", "airflow:factor=0.9"}),
                           {"macro-sweep", "macro-square", "micro-steps"}),

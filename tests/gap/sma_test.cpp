@@ -91,7 +91,7 @@ std::pair<double, double> guessed_shifts(const Diagnosis& diagnosis) {
     return {std::stod(found[1]), std::stod(found[2])};
 }
 
-TEST(Sma, WireUnderMoreLoad_IsAShiftOfItsTemperatures) {
+TEST(SlowSma, WireUnderMoreLoad_IsAShiftOfItsTemperatures) {
     const auto rows100 = shared_table("sma/filtered_data_100MPa.txt", 1);
     const auto rows150 = shared_table("sma/filtered_data_150MPa.txt", 1);
     if (rows100.empty() || rows150.empty()) GTEST_SKIP() << "the shared data are absent";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that are cut short or of which a byte is wrong. What is cut short is never taken for whole. A wrong
 // byte is found where the format has a checksum; elsewhere the image at least has the right size.
-#include "tests/effort.h"
 #include "tests/src/temporary_folder.h"
 #include "tests/variations.h"
 #include "vision/images/image_file.h"
@@ -53,8 +52,7 @@ Outcome judged_damage(std::mt19937_64& random) {
 }
 
 TEST(DamageVariations, FilesCutShortOrWithAWrongByte_AreNeverTakenForWhole) {
-    expect_right_or_refused("damage: a file cut short or a wrong byte, by format", testing::draws(400, 100),
-                            judged_damage);
+    expect_right_or_refused("damage: a file cut short or a wrong byte, by format", 400, judged_damage);
 }
 
 /// A lossy file of one colour is so short that its end matters.

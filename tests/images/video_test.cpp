@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Videos: each frame with its own time stamp, or none has one.
 #include "src/images/image_frames.h"
-#include "tests/effort.h"
 #include "tests/images/film.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
@@ -197,8 +196,7 @@ Outcome judged_times(std::mt19937_64& random) {
 }
 
 TEST(VideoVariations, TimesOfFrames_AreThoseThatWereWritten) {
-    expect_right_or_refused("times of a video's frames, by container and codec", testing::draws(200, 50),
-                            judged_times);
+    expect_right_or_refused("times of a video's frames, by container and codec", 200, judged_times);
 }
 
 /// A video of which bytes are wrong: what comes out is one of its frames, with that frame's time, or damaged.
@@ -249,8 +247,7 @@ Outcome judged_damage_of_video(std::mt19937_64& random) {
 }
 
 TEST(VideoVariations, DamagedVideos_AreReadAsFarAsTheyGo) {
-    expect_right_or_refused("damage of a video: cut short or wrong bytes", testing::draws(200, 50),
-                            judged_damage_of_video);
+    expect_right_or_refused("damage of a video: cut short or wrong bytes", 200, judged_damage_of_video);
 }
 
 }  // namespace

@@ -51,9 +51,9 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_Core
 SlurmdParameters=config_overrides
 SlurmdTimeout=15
-ReturnToService=2
+ReturnToService=0
 MinJobAge=86400
-SchedulerParameters=sched_interval=2,batch_sched_delay=0
+SchedulerParameters=sched_interval=5
 NodeName=localhost NodeAddr=127.0.0.1 CPUs=2 Boards=1 SocketsPerBoard=1 CoresPerSocket=2 ThreadsPerCore=1 RealMemory=8000 State=UNKNOWN
 PartitionName=fleet Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 CONFIGURATION
@@ -74,8 +74,17 @@ node_works() { [[ $(node_state) =~ ^(idle|mixed|allocated)$ ]]; }
 node_is_down() { [[ $(node_state) == down* ]]; }
 
 # start_node: its daemon; again after stop_node. It finds what it had started, as it would not with -c, which ends that.
-start_node() {
-    slurmd
+start_node() { slurmd; }
+
+nothing_at_work() { ! pgrep slurmstepd >/dev/null; }
+
+# resume_node: as whoever looks after a node does that was given up, when its daemon is there again and has ended what was
+# begun again elsewhere. Slurm 22.05 refuses to start a job again within the second in which it is told that it was ended,
+# and lets it fail.
+resume_node() {
+    until_true 60 "what the node did before" nothing_at_work
+    sleep 2
+    scontrol update NodeName=localhost State=RESUME
     until_true 60 "the node" node_works
 }
 
@@ -93,4 +102,5 @@ start_cluster() {
         --log-file="$cluster/munge.log" --seed-file="$cluster/munge.seed"
     slurmctld -c
     start_node
+    until_true 60 "the node" node_works
 }

@@ -4,8 +4,8 @@
 #
 # A fleet of quick campaigns is diagnosed as an array of 16 shards, two at a time. Meanwhile 20 of its processes, drawn by
 # SEED (by default one of the clock, printed), are killed by SIGKILL: a shard's program, or the process of a task. The
-# node's daemon is killed twice: once it is back at once, once only when the controller has given the node up, so that
-# shards are begun again while those of before still write. In the end all results have to be there, byte for byte those
+# node's daemon is killed twice: once it is back at once and finds its tasks; once only when the controller has given the
+# node up and queued its tasks again, which meanwhile go on and are ended when the node is back. In the end all results have to be there, byte for byte those
 # of one run without shards, each made once: a file that was seen during the run is the same file at the end.
 #
 # All is in FOLDER: recordings/, one/ and many/ (results), cluster/ (daemons' logs), logs/ (shards'). Exit code 0: as it
@@ -86,12 +86,14 @@ disturb() {
             echo "killed: the node's daemon, and started again at once"
             stop_node
             start_node
+            until_true 60 "the node" node_works
         elif ((killed == long_stop_at)); then
             echo "killed: the node's daemon"
             stop_node
             until_true 120 "the controller gives the node up" node_is_down
             echo "started again: the node's daemon, $(pgrep -xc "$(basename "$program")" || true) processes of before still at work"
             start_node
+            resume_node
         fi
     done
     ((killed == kills)) || fail "the array ended after $killed kills: its campaigns are too quick"

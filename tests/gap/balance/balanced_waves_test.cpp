@@ -39,7 +39,7 @@ TEST(BalancedWaves, WeakWave_ComesBackFirst) {
     EXPECT_NEAR(waves.front().values[1], 6.1, 0.06);
 }
 
-TEST(BalancedWaves, HarmonicThatShows_ComesWithIt) {
+TEST(SlowBalancedWaves, HarmonicThatShows_ComesWithIt) {
     const auto waves = waves_of(
         effects({"cogging:amplitude_V=0.4,period_mm=7.05,phase_rad=-2,second_sine=0.2,second_cosine=-0.2"}),
         "cogging", {});

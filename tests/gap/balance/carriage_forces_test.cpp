@@ -88,7 +88,7 @@ TEST(CarriageForces, StateAtAWindowsStart_IsNoForce) {
 }
 
 /// As well as a fit needs it to begin: a fifth of the amplitude, a tenth of a wave over half the rail.
-TEST(PeriodSearch, ForceThatLetsTheCarriageGoByJumps_ComesBackWithPeriodAmplitudeAndPhase) {
+TEST(SlowPeriodSearch, ForceThatLetsTheCarriageGoByJumps_ComesBackWithPeriodAmplitudeAndPhase) {
     struct Truth {
         double amplitude_V, period_mm, phase_rad;
     };

@@ -55,7 +55,7 @@ TEST(SlowDiagnosis, FrictionThatCreeps_IsFoundWithItsCreepSpeed) {
     }
 }
 
-TEST(Diagnosis, FrictionThatBrakesOnlyWhileItCoasts_IsFoundAsThat) {
+TEST(SlowDiagnosis, FrictionThatBrakesOnlyWhileItCoasts_IsFoundAsThat) {
     const Diagnosis diagnosis = diagnosed({"coulomb_friction:level_V=0,dead_zone_share=0.04,only_coasting=1"},
                                           {"macro-sweep", "macro-pulses", "macro-square"},
                                           {"coulomb_friction", "presliding", "viscous_friction", "payload"});
@@ -68,7 +68,7 @@ TEST(Diagnosis, FrictionThatBrakesOnlyWhileItCoasts_IsFoundAsThat) {
     EXPECT_NEAR(share->value, 0.04, 1e-3);
 }
 
-TEST(Diagnosis, FrictionThatDoesNotCreep_HasNoCreepSpeed) {
+TEST(SlowDiagnosis, FrictionThatDoesNotCreep_HasNoCreepSpeed) {
     const Diagnosis diagnosis =
         diagnosed({"coulomb_friction:level_V=0.3,dead_zone_share=0"},
                   {"macro-sweep", "macro-pulses", "macro-square"}, {"coulomb_friction", "drive_gain"});

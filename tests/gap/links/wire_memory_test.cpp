@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Starts, WarmWire,
 
 /// A wire that was heated and reads nearly as a cold one may be taken for one now and then: what tells them
 /// apart is how it goes on, and a rig that differs from its file goes on otherwise, too.
-TEST(WarmWire, NominalRig_IsAtTheFloor_WhereverItsRecordingBegins_ButOneInTwenty) {
+TEST(SlowWarmWire, NominalRig_IsAtTheFloor_WhereverItsRecordingBegins_ButOneInTwenty) {
     int all = 0, off = 0;
     for (const std::string_view kind : {"micro-triangle", "micro-steps", "micro-servo"}) {
         const Recording whole = recorded(kind, {}, 45);

@@ -122,7 +122,7 @@ TEST(SurrogateOfCarriage, FrictionThatOnlyHolds_AccusesTheFriction) {
     expect_accused(with_stiction, "stands or slides", "macro.friction");
 }
 
-TEST(HeldCarriage, IsToldFromOneThatPlayInertiaOrASmallForceKeeps) {
+TEST(SlowHeldCarriage, IsToldFromOneThatPlayInertiaOrASmallForceKeeps) {
     EXPECT_TRUE(carriage_is_held({reference_rig(), recordings_under(with_stiction)}));
     for (const std::string_view effect : {"", "backlash", "payload", "belt_compliance", "drive_delay",
                                           "cogging:amplitude_V=0.002,period_mm=4,phase_rad=1"}) {

@@ -59,7 +59,7 @@ TEST(ShearedTags, OtherCauses_DoNotShear) {
     EXPECT_FALSE(shows_shear({}));
 }
 
-TEST(ShearedTags, WhereNoEffectExplainsThem_TheImageIsAccused) {
+TEST(SlowShearedTags, WhereNoEffectExplainsThem_TheImageIsAccused) {
     const Evidence evidence = testing::campaign(effects({"rolling_shutter:readout_ms=12"}), {"micro-steps"});
     const Diagnosis diagnosis = gap::diagnose(evidence, {});
     EXPECT_EQ(diagnosis.verdict, Verdict::unexplained);

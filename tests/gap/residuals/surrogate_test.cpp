@@ -122,7 +122,7 @@ TEST(Surrogate, LateFrames_AccuseTheClock_AndALens_AccusesTheCamera) {
     EXPECT_EQ(bent.where.front().block, "camera.geometry");
 }
 
-TEST(Surrogate, PeriodOfTheReading_IsToldFromThatOfAForce) {
+TEST(SlowSurrogate, PeriodOfTheReading_IsToldFromThatOfAForce) {
     const Diagnosis reading =
         unnamed(reference_rig(), testing::effects({"encoder_ripple:amplitude_um=60,period_mm=8,phase_rad=1"}),
                 {"macro-sweep", "macro-pulses", "macro-square"}, "clock_skew");

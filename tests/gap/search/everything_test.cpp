@@ -58,7 +58,7 @@ Found needed_of(const Evidence& evidence) {
     return found;
 }
 
-TEST(Everything, FourSmallCausesOfTheWire_AreAllFound_WithTheirValues_AndNoOther) {
+TEST(SlowEverything, FourSmallCausesOfTheWire_AreAllFound_WithTheirValues_AndNoOther) {
     const Hypothesis truth = effects({"ambient_temperature:shift_degC=0.5", "heating_lag:factor=1.03",
                                       "heater_delay:delay_ms=3", "stroke_change:factor=0.99"});
     const Evidence evidence = wire_campaign(truth);

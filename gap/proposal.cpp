@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gap/proposal.h"
+
+#include "core/rig.h"
+#include "gap/accused.h"
+#include "gap/equation/equation.h"
+#include "gap/fit/gap_size.h"
+#include "gap/parameters.h"
+#include "gap/residuals/remainder.h"
+#include "gap/verdict/model_weights.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace fidservo::gap {
+namespace {
+
+/// An explanation, and what it leaves.
+struct Base {
+    const CrossFit& explained;
+    std::optional<Remainder> left;
+};
+
+class Proposals {
+  public:
+    Proposals(const Evidence& evidence, const Selection& selection, const DiagnosisOptions& options,
+              bool are_names_credible)
+        : evidence_(evidence),
+          tail_(options.selection.search.tail),
+          are_names_credible_(are_names_credible),
+          nothing_{selection.steps.front(), remainder(selection.steps.front(), options)},
+          named_{selection.steps.back(), remainder(selection.steps.back(), options)} {}
+
+    const std::optional<Remainder>& left_by_nothing() const { return nothing_.left; }
+    const std::optional<Remainder>& left_by_names() const { return named_.left; }
+
+    /// For the whole gap, likelier than the names.
+    std::optional<ProposedEquation> in_place_of_names() const {
+        auto proposed = of(nothing_, Rival{named_.explained, are_names_credible_});
+        if (!proposed || weight_of_names_against(*proposed) >= 0.5) return {};
+        proposed->equation.in_place_of_names = true;
+        return proposed;
+    }
+
+    std::optional<ProposedEquation> beside_names() const { return of(named_, {}); }
+
+    double weight_of_names_against(const ProposedEquation& whole) const {
+        return weight_of_first(evidence_, named_.explained.mean_squares, whole.fitted.mean_squares);
+    }
+
+    bool leaves_nothing(const ProposedEquation& whole) const {
+        const auto gaps = signal_gaps(evidence_, nothing_.explained.mean_squares, whole.fitted.mean_squares);
+        return total_gap(gaps).after < least_floors;
+    }
+
+    /// The likelier one; where both are as likely, names that are credible stay.
+    std::optional<ProposedEquation> likelier(std::optional<ProposedEquation> whole,
+                                             std::optional<ProposedEquation> beside) const {
+        if (!whole || !beside) return whole ? std::move(whole) : std::move(beside);
+        const double weight =
+            weight_of_first(evidence_, beside->fitted.mean_squares, whole->fitted.mean_squares);
+        const bool is_beside = are_names_credible_ ? weight >= 0.5 : weight > 0.5;
+        return is_beside ? std::move(beside) : std::move(whole);
+    }
+
+  private:
+    std::optional<Remainder> remainder(const CrossFit& explained, const DiagnosisOptions& options) const {
+        return remainder_of(evidence_, explained, options.selection.search.tail, options.matters);
+    }
+
+    std::optional<ProposedEquation> of(const Base& base, const std::optional<Rival>& rival) const {
+        if (!base.left) return {};
+        const auto is_unnamed = [](const StatedEffect& effect) {
+            return effect.name.starts_with("unnamed_");
+        };
+        const auto unnamed = std::ranges::count_if(evidence_.rig().effects, is_unnamed);
+        return equation_of(evidence_, base.explained, *base.left, 1 + static_cast<int>(unnamed), tail_,
+                           rival);
+    }
+
+    const Evidence& evidence_;
+    double tail_;
+    bool are_names_credible_;
+    Base nothing_, named_;
+};
+
+/// The names are as likely as an equation in their place leaves them.
+void stand_in_for_names(double weight_of_names, const std::string& block, Diagnosis& diagnosis) {
+    for (FoundEffect& effect : diagnosis.effects) effect.probability *= weight_of_names;
+    for (BlockProbability& accused : diagnosis.where) accused.probability *= weight_of_names;
+    accuse(diagnosis.where, block, 1.0 - weight_of_names);
+}
+
+/// What the names are worth beside an equation that is no longer made up for by them.
+void take_values(const ProposedEquation& beside, Diagnosis& diagnosis) {
+    const Hypothesis& together = beside.of_all.hypothesis;
+    const std::array<Hypothesis, 2>& halves = beside.fitted.of_half;
+    Eigen::Index first = 0;
+    for (std::size_t k = 0; k < diagnosis.effects.size(); ++k) {
+        diagnosis.effects[k].parameters =
+            parameters_of(together[k], {halves[0][k], halves[1][k]}, beside.of_all.covariance, first);
+        first += static_cast<Eigen::Index>(together[k].values.size());
+    }
+    diagnosis.hypothesis.assign(together.begin(), std::prev(together.end()));
+}
+
+std::optional<ProposedEquation> equation_for(const Proposals& proposals, Diagnosis& diagnosis) {
+    std::optional<Remainder>& left = diagnosis.unexplained;
+    if (!left) left = proposals.left_by_names() ? proposals.left_by_names() : proposals.left_by_nothing();
+    if (diagnosis.effects.empty()) return proposals.beside_names();
+    std::optional<ProposedEquation> whole = proposals.in_place_of_names(), beside;
+    if (!whole || !proposals.leaves_nothing(*whole)) {
+        try {
+            beside = proposals.beside_names();
+        } catch (const BudgetEnded& end) {
+            if (!whole || end.how() == Ended::interrupted) throw;
+        }
+    }
+    std::optional<ProposedEquation> likelier = proposals.likelier(std::move(whole), std::move(beside));
+    if (likelier && !likelier->equation.in_place_of_names) take_values(*likelier, diagnosis);
+    if (likelier && likelier->equation.in_place_of_names) {
+        left = proposals.left_by_nothing();
+        stand_in_for_names(proposals.weight_of_names_against(*likelier), left->block, diagnosis);
+    }
+    return likelier;
+}
+
+}  // namespace
+
+Ended propose_equation(const Evidence& evidence, const Selection& selection, const DiagnosisOptions& options,
+                       Diagnosis& diagnosis) {
+    const bool something_is_left =
+        diagnosis.verdict == Verdict::partly_explained || diagnosis.verdict == Verdict::unexplained;
+    if (options.equation_s <= 0.0 || !something_is_left) return Ended::finished;
+    evidence.budget()->prolong(options.equation_s);
+    if (options.selection.search.tell) options.selection.search.tell("equation for what is left");
+    try {
+        const Proposals proposals(evidence, selection, options, mean_probability(diagnosis.effects) > 0.5);
+        if (auto proposed = equation_for(proposals, diagnosis))
+            diagnosis.unexplained->equation = std::move(proposed->equation);
+    } catch (const BudgetEnded& end) {
+        if (end.how() == Ended::interrupted) return end.how();
+        diagnosis.notes.emplace_back("no equation was found for what is left in the time for it");
+    }
+    return Ended::finished;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// An equation against names that are wrong, and beside names that are right.
+#include "gap/diagnose.h"
+#include "plant/formulas/formula_effect.h"
+#include "tests/gap/simulated_campaign.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace fidservo::gap {
+namespace {
+
+plant::EffectSetting drag(double V_s2_per_mm2) {
+    FormulaEffect effect;
+    effect.name = "drag_of_test";
+    effect.acts_on = "macro.friction";
+    effect.block = "macro.friction";
+    effect.formula = "size * speed * abs(speed)";
+    effect.parameters.push_back({.name = "size", .low = -1.0, .high = 1.0, .typical = V_s2_per_mm2});
+    return plant::typical_setting(plant::effect_of(effect));
+}
+
+Diagnosis diagnosed(const Evidence& evidence, std::vector<std::string> only) {
+    constexpr double as_long_as_it_takes_s = 600.0;
+    const auto budget = std::make_shared<const Budget>(as_long_as_it_takes_s, as_long_as_it_takes_s,
+                                                       std::function<bool()>{}, Seconds::by_effort);
+    const Evidence limited(evidence.rig(), evidence.recordings(), budget);
+    return diagnose(
+        limited,
+        {.only = std::move(only), .without = {}, .equation_s = as_long_as_it_takes_s, .selection = {}});
+}
+
+/// Damping and a constant friction come near drag, and are named where only they may be; the law predicts
+/// better than both, and what they were thought to be is taken back.
+TEST(SlowEquation, LawThatPredictsBetterThanWrongNames_TakesTheirPlace) {
+    const Evidence evidence = testing::campaign({drag(4e-6)}, {"macro-pulses", "macro-sweep"});
+    const Diagnosis diagnosis = diagnosed(evidence, {"coulomb_friction", "viscous_friction"});
+    ASSERT_FALSE(diagnosis.effects.empty());
+    ASSERT_TRUE(diagnosis.unexplained && diagnosis.unexplained->equation);
+    const Equation& equation = *diagnosis.unexplained->equation;
+    EXPECT_TRUE(equation.in_place_of_names);
+    EXPECT_EQ(equation.acts_on, "macro.friction");
+    EXPECT_GT(equation.gap_removed, 0.95);
+    for (const FoundEffect& found : diagnosis.effects) EXPECT_LT(found.probability, 0.05) << found.effect;
+    ASSERT_FALSE(diagnosis.where.empty());
+    EXPECT_EQ(diagnosis.where.front().block, "macro.friction");
+    EXPECT_GT(diagnosis.where.front().probability, 0.9);
+}
+
+/// A name that is right stays, and the law is found beside it.
+TEST(SlowEquation, LawBesideANameThatIsRight_LeavesTheName) {
+    Hypothesis truth = testing::effects({"drive_gain:factor=0.9"});
+    truth.push_back(drag(4e-6));
+    const Evidence evidence = testing::campaign(truth, {"macro-pulses", "macro-sweep"});
+    const Diagnosis diagnosis = diagnosed(evidence, {"drive_gain"});
+    ASSERT_EQ(diagnosis.effects.size(), 1U);
+    ASSERT_TRUE(diagnosis.unexplained && diagnosis.unexplained->equation);
+    EXPECT_FALSE(diagnosis.unexplained->equation->in_place_of_names);
+    const Equation& equation = *diagnosis.unexplained->equation;
+    EXPECT_GT(equation.gap_removed, 0.99);
+    EXPECT_NEAR(equation.parameters.at(0).value, 4e-6, 0.1e-6);
+    const FittedParameter& factor = diagnosis.effects.front().parameters.at(0);
+    EXPECT_NEAR(factor.value, 0.9, 0.01) << "beside the law, the gain makes up for nothing";
+}
+
+}  // namespace
+}  // namespace fidservo::gap
