@@ -87,14 +87,26 @@ std::vector<std::string> matches(const std::string& text, const std::regex& patt
     return has_any ? matches(text, pattern) : std::vector<std::string>{};
 }
 
+/// What is between the brackets of lines that include.
+std::vector<std::string> includes(const std::string& text, char open, char close) {
+    constexpr std::string_view word = "#include ";
+    std::vector<std::string> found;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+        const std::size_t before = text.find_last_not_of(" \t", at - 1), name = at + word.size();
+        const bool begins_a_line = at == 0 || before == std::string::npos || text[before] == '\n';
+        if (!begins_a_line || text[name] != open) continue;
+        const std::size_t end = text.find(close, name + 1);
+        if (end != std::string::npos) found.push_back(text.substr(name + 1, end - name - 1));
+    }
+    return found;
+}
+
 std::vector<std::string> quoted_includes(const std::string& text) {
-    static const std::regex pattern(R"re((?:^|\n)\s*#include "([^"]+)")re");
-    return matches(text, pattern);
+    return includes(text, '"', '"');
 }
 
 std::vector<std::string> angle_includes(const std::string& text) {
-    static const std::regex pattern(R"re((?:^|\n)\s*#include <([^>]+)>)re");
-    return matches(text, pattern);
+    return includes(text, '<', '>');
 }
 
 /// Neither the standard library nor the system, nor one of the libraries that may be seen everywhere.
