@@ -154,7 +154,7 @@ TEST(FisheyeCalibration, Result_IsOpenCVsWithinAStandardErrorAndItsResidualsByOp
     EXPECT_NEAR(ours->rms_px, std::sqrt(squares_px2 / corners), 1e-6);
 }
 
-TEST(FisheyeCalibration, TakenForPlumbBob_IsToldToBeAFisheyeAndNothingElse) {
+TEST(SlowFisheyeCalibration, TakenForPlumbBob_IsToldToBeAFisheyeAndNothingElse) {
     NoiseStream random(seed, "fisheye advice");
     const CameraGeometry lens = wide_fisheye();
     const auto views = hand_held_views(lens, target(), {.views = 6, .most_off_axis_rad = 0.8}, random);

@@ -58,7 +58,7 @@ double worst_difference(const cv::Mat& image, const cv::Mat& mean) {
 // interpolation.
 constexpr double motion_tolerance_grey = 0.5 + 0.5 + 0.2;
 
-TEST(PlateView, EvenMotion_IsTheMeanOfImagesAlongTheWay) {
+TEST(SlowPlateView, EvenMotion_IsTheMeanOfImagesAlongTheWay) {
     const PlateView view = busy_view(ideal_view());
     for (const double travel_mm : {0.0003, 0.003, 0.02, 0.2}) {
         const auto motion = [&](double t) { return 0.0011 + travel_mm * t; };

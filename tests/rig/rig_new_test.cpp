@@ -99,7 +99,7 @@ void expect_taken(const TemporaryFolder& folder, const std::vector<std::string>&
     EXPECT_LE(run.exit_code, worst) << command[0] << " " << command[1] << "\n" << run.out << run.err;
 }
 
-TEST(RigNew, Motions_AreDoneByWhatItDescribes) {
+TEST(SlowRigNew, Motions_AreDoneByWhatItDescribes) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_new(folder, {}).exit_code, 0);
     expect_taken(folder, {"home", "--rig", "rig.yaml"});

@@ -58,7 +58,7 @@ TEST(Session, Home_FindsWhereTheCameraIs) {
     EXPECT_NEAR(rig.session.camera_mm().x(), plant::camera_position_mm(rig.rig->truth()), 0.0005);
 }
 
-TEST(Session, PlatesOfOtherTags_AreMeasuredAsWell) {
+TEST(SlowSession, PlatesOfOtherTags_AreMeasuredAsWell) {
     const auto off_mm = [](const TagPrint& print) {
         Rig of = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
         of.fiducials->print = print;
@@ -79,7 +79,7 @@ TEST(Session, PlatesOfOtherTags_AreMeasuredAsWell) {
         EXPECT_LT(off_mm(print), 0.0005) << text_of(print);
 }
 
-TEST(Session, HomingThatIsRecorded_StatesWhereTheEncoderCountsFrom) {
+TEST(SlowSession, HomingThatIsRecorded_StatesWhereTheEncoderCountsFrom) {
     WatchedRig rig(reference_physics(), reference_plate(), 5);
     const testing::TemporaryFolder folder;
     rig.session.record_to(folder / "homing", "homing");
@@ -153,7 +153,7 @@ TEST(Session, Home_CarriageJams_IsSaidWhereverItIsOnItsWay) {
 }
 
 /// It can still move, and a tag tells where it is.
-TEST(Session, Home_SomethingInTheWay_IsRegisteredAllTheSame) {
+TEST(SlowSession, Home_SomethingInTheWay_IsRegisteredAllTheSame) {
     const auto rig = reference_rig_in_simulation();
     Session session = session_with(rig, {FaultKind::macro_jammed, 0.5, 0.3});
     const auto homed = session.home();
@@ -169,7 +169,7 @@ TEST(Session, DamagedCheckpoint_IsRefused) {
         EXPECT_THROW(rig.session.restore(text), InputError) << text;
 }
 
-TEST(Session, SameSeed_SameCommands) {
+TEST(SlowSession, SameSeed_SameCommands) {
     const auto run = [] {
         WatchedRig rig(reference_physics(), reference_plate(), 9);
         EXPECT_TRUE(rig.session.home());
@@ -194,7 +194,7 @@ TEST(Session, End_LeavesBothCommandsZero) {
     EXPECT_EQ(stage->commands.back().macro_V, 0.0);
 }
 
-TEST(Session, CheckpointRestoredInANewSession_GoesOnBitForBit) {
+TEST(SlowSession, CheckpointRestoredInANewSession_GoesOnBitForBit) {
     const auto physics = reference_physics();
     WatchedRig first(physics, reference_plate(), 11);
     ASSERT_TRUE(first.session.home());
@@ -231,7 +231,7 @@ TEST(Session, PlateWithoutTheTag_FailsWithAReasonAndStaysSafe) {
     EXPECT_TRUE(rig->session.go_to(10, 0.0));
 }
 
-TEST(Session, TagsThatChangedPlaces_LeadTheCameraNotAstray) {
+TEST(SlowSession, TagsThatChangedPlaces_LeadTheCameraNotAstray) {
     Plate printed = reference_plate();
     std::swap(printed.tags[30].id, printed.tags[80].id);
     const auto rig = homed_rig(printed);
@@ -242,7 +242,7 @@ TEST(Session, TagsThatChangedPlaces_LeadTheCameraNotAstray) {
     EXPECT_TRUE(rig->session.go_to(32, 0.0));
 }
 
-TEST(Session, CountsThatWereNoMotion_AreFoundOutByTheTags) {
+TEST(SlowSession, CountsThatWereNoMotion_AreFoundOutByTheTags) {
     const auto rig = reference_rig_in_simulation();
     Session session = session_with(rig, {FaultKind::encoder_jump, 9.0});
     ASSERT_TRUE(session.home());
@@ -255,7 +255,7 @@ TEST(Session, CountsThatWereNoMotion_AreFoundOutByTheTags) {
 }
 
 /// The PD's last nudges then go on for ever, a count to and fro.
-TEST(Session, DriveThatActsLate_IsHomedAndPositioned) {
+TEST(SlowSession, DriveThatActsLate_IsHomedAndPositioned) {
     auto physics = reference_physics();
     const plant::EffectSetting late = plant::parse_effect("drive_delay:delay_ms=5");
     plant::apply_effects(physics, {&late, 1});

@@ -71,7 +71,7 @@ TEST(ReplayTags, AprilGrid_IsFoundByTheOptionThatTheHintNames) {
     EXPECT_THAT(seeing.out, Not(HasSubstr("would be")));
 }
 
-TEST(ReplayTags, OtherFamiliesInvertedAndMirrored_AreFoundByTheOptionsThatTheHintNames) {
+TEST(SlowReplayTags, OtherFamiliesInvertedAndMirrored_AreFoundByTheOptionsThatTheHintNames) {
     for (const vision::TagReading& reading : {vision::TagReading{{find_tag_family("tag25h9")}},
                                               vision::TagReading{{find_tag_family("tagStandard41h12")}},
                                               vision::TagReading{{find_tag_family("DICT_6X6_50")}, true},

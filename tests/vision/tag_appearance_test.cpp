@@ -93,7 +93,7 @@ void expect_variances(const Setting& setting, const std::string& what) {
     }
 }
 
-TEST(TagAppearance, Blur_IsTheEdgesVariance) {
+TEST(SlowTagAppearance, Blur_IsTheEdgesVariance) {
     for (const double blur_px : {0.0, 0.3, 1.0, 2.0, 3.5})
         for (const double angle_rad : {0.0, 0.012, 0.4, 0.78})
             expect_variances({.deviation = {.extra_blur_px = blur_px}, .angle_rad = angle_rad},

@@ -120,7 +120,7 @@ HeaterRun run_of(const std::filesystem::path& folder) {
     return run;
 }
 
-TEST(HeaterFit, Campaigns_GiveTheRigsNumbersFromAWrongStart) {
+TEST(SlowHeaterFit, Campaigns_GiveTheRigsNumbersFromAWrongStart) {
     const std::filesystem::path campaigns = std::filesystem::path(FIDSERVO_DATA_DIR) / "campaigns";
     if (!std::filesystem::is_directory(campaigns)) {
         EXPECT_EQ(std::getenv("FIDSERVO_REQUIRE_DATA"), nullptr) << "the shared data are absent";
@@ -181,7 +181,7 @@ TEST(HeaterFitToTemperature, SimulatedThermometer_IsRecovered) {
             << name_of(static_cast<HeaterNumber>(i));
 }
 
-TEST(HeaterFitToTemperature, RealSpring_IsPredictedOnTheHalfItWasNotFittedTo) {
+TEST(SlowHeaterFitToTemperature, RealSpring_IsPredictedOnTheHalfItWasNotFittedTo) {
     const auto rows = shared_table("sma/heating_AB0.csv", 1);
     if (rows.empty()) GTEST_SKIP() << "the shared data are absent";
     const std::vector<double> command = column(rows, 4);

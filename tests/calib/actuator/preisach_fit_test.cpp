@@ -68,7 +68,7 @@ TEST(PreisachFit, ModelThatLiesOnTheGrid_IsRecoveredExactly) {
             EXPECT_NEAR(fit->table.node_mm(i, j), 2.0 * truth.node_mm(i, j), 1e-3) << i << ", " << j;
 }
 
-TEST(PreisachFit, WireOfRelays_IsPredictedOnProfilesItWasNotFittedTo) {
+TEST(SlowPreisachFit, WireOfRelays_IsPredictedOnProfilesItWasNotFittedTo) {
     constexpr std::uint64_t wire = 1;
     const HysteresisTrace other = record_wire(ramps(25.0, random_turns(9, 60), 0.1), wire, 0.0, 0.0);
     for (const double noise_degC : {0.0, 0.2}) {

@@ -54,7 +54,7 @@ TEST(MacroIdentification, OneVoltEffectiveStep_LeavesTheDeadZoneOpenAndSaysWhy) 
     EXPECT_NE(found->drive_offset_V.error().text.find("one side"), std::string::npos);
 }
 
-TEST(MacroIdentification, SeveralAmplitudesAndWaveforms_GiveTheModifiedDeadZone) {
+TEST(SlowMacroIdentification, SeveralAmplitudesAndWaveforms_GiveTheModifiedDeadZone) {
     const Rig rig = macro_rig();
     const auto found = identify_macro(full_campaign(rig, 100.0), macro_build(rig.macro));
     ASSERT_TRUE(found) << found.error().text;
@@ -69,7 +69,7 @@ TEST(MacroIdentification, SeveralAmplitudesAndWaveforms_GiveTheModifiedDeadZone)
     EXPECT_FALSE(found->threshold_assumed);
 }
 
-TEST(MacroIdentification, PulsesAlone_GiveTheDeadZoneAtTheRigFilesThreshold) {
+TEST(SlowMacroIdentification, PulsesAlone_GiveTheDeadZoneAtTheRigFilesThreshold) {
     const Rig rig = macro_rig();
     const MacroTrace trace = drive(rig, pulses({3.4, -3.4, 4.0, -4.0, 4.8, -4.8}), 3.0, 100.0);
     const auto found = identify_macro({&trace, 1}, macro_build(rig.macro));

@@ -52,7 +52,7 @@ TEST(MacroStepResponse, RisingSteps_GiveTheThreshold) {
     }
 }
 
-TEST(MacroStepResponse, WholeProcedure_AgreesWithTheGeneralIdentification) {
+TEST(SlowMacroStepResponse, WholeProcedure_AgreesWithTheGeneralIdentification) {
     const Rig rig = macro_rig();
     const MacroTrace rising = drive(rig, rising_steps(2.805, 0.01), 4.6, 60.0);
     std::vector<MacroTrace> traces{rising};

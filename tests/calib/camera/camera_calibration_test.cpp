@@ -70,7 +70,7 @@ TEST(CameraCalibration, WithoutNoise_IsFoundExactly) {
 }
 
 /// Errors in standard deviations over many noises have the mean square 1, whatever was measured of the tags.
-TEST(CameraCalibration, StandardErrors_AreThoseOfManyNoises) {
+TEST(SlowCameraCalibration, StandardErrors_AreThoseOfManyNoises) {
     const CameraGeometry lens = bent_lens();
     constexpr int seeds = 16;
     for (const Scatter scatter : {Scatter::rigid, Scatter::every_coordinate}) {
@@ -127,7 +127,7 @@ TEST(CameraCalibration, WideLens_IsFoundFromNothing) {
     EXPECT_EQ(found->unused, 0U);
 }
 
-TEST(CameraCalibration, TermsThatAreNotThere_AreNotFitted) {
+TEST(SlowCameraCalibration, TermsThatAreNotThere_AreNotFitted) {
     const CameraGeometry lens = bent_lens();
     int extra = 0;
     constexpr int seeds = 10;
