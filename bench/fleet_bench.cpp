@@ -24,11 +24,12 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -147,6 +148,45 @@ void bench_report(std::size_t units, std::size_t weeks) {
                 1e-3 * drawn_ms[2]);
 }
 
+/// Of some campaigns, by a program for each; its start-up is in it.
+std::vector<double> core_times_of(const Words& diagnose, std::size_t count, const fs::path& out) {
+    constexpr std::size_t most = 100;
+    std::vector<double> core_s;
+    const std::size_t first = diagnose.size() - count, step = std::max<std::size_t>(1, count / most);
+    for (std::size_t k = first; k < diagnose.size(); k += step) {
+        Words command(diagnose.begin(), diagnose.begin() + static_cast<std::ptrdiff_t>(first));
+        command.insert(command.end(), {diagnose[k], "--jobs", "1", "--out", out.string()});
+        core_s.push_back(run({command}).core_s);
+    }
+    return core_s;
+}
+
+/// 10,000 tasks whose times are drawn from those measured, on 64 cores, each of which takes the next shard
+/// when it is free. Each shard has a start-up. Efficiency: what the tasks alone take, over what 64 cores are
+/// held for.
+void print_scaling(const std::vector<double>& task_s, double start_up_s) {
+    constexpr std::size_t tasks = 10'000, cores = 64;
+    constexpr unsigned seed = 41;
+    std::mt19937_64 generator(seed);
+    std::uniform_int_distribution<std::size_t> any(0, task_s.size() - 1);
+    std::vector<double> times(tasks);
+    for (double& time : times) time = std::max(0.0, task_s[any(generator)] - start_up_s);
+    const double work_s = std::accumulate(times.begin(), times.end(), 0.0);
+    std::printf("a task takes core %.2f s on average, %.2f s at most; a shard's start-up core %.3f s\n",
+                work_s / static_cast<double>(tasks), std::ranges::max(task_s), start_up_s);
+    for (const std::size_t shards : std::array<std::size_t, 3>{64, 256, 1024}) {
+        std::vector<double> free_at(cores, 0.0);
+        for (std::size_t shard = 0; shard < shards; ++shard) {
+            double& core = *std::ranges::min_element(free_at);
+            core += start_up_s;
+            for (std::size_t task = shard; task < tasks; task += shards) core += times[task];
+        }
+        const double end_s = std::ranges::max(free_at);
+        std::printf("10,000 such campaigns on 64 cores in %zu shards: %.0f s, efficiency %.3f\n", shards,
+                    end_s, work_s / (static_cast<double>(cores) * end_s));
+    }
+}
+
 void bench_campaigns(std::size_t units, std::size_t weeks) {
     const testing::TemporaryFolder folder;
     const std::string rig = FIDSERVO_ASSETS_DIR "/rig.yaml";
@@ -164,20 +204,12 @@ void bench_campaigns(std::size_t units, std::size_t weeks) {
         return command;
     };
     const Taken one = run({into("one", {"--jobs", "1"})}), two = run({into("two", {"--jobs", "2"})});
-    const Taken nothing = run({into("one", {"--jobs", "1", "--shard", "1/64"})});
     std::printf(
         "one after the other: %.1f s (core %.1f s); one task a core on two cores: %.1f s (core %.1f s): "
         "%.3f times as many a second\n",
         one.wall_s, one.core_s, two.wall_s, two.core_s, one.wall_s / two.wall_s);
-    std::printf("a task takes core %.2f s, a shard that finds all done %.3f s (core %.3f s)\n",
-                one.core_s / static_cast<double>(count), nothing.wall_s, nothing.core_s);
-    // Each core has one shard of 10000/64 tasks rounded up, after its start-up.
-    constexpr double campaigns = 10'000.0, cores = 64.0;
-    const double task_s = one.core_s / static_cast<double>(count);
-    const double longest =
-        std::ceil(campaigns / cores) * task_s + nothing.core_s * campaigns / static_cast<double>(count);
-    std::printf("10,000 such campaigns on 64 cores, a shard each: %.0f s, efficiency %.3f\n", longest,
-                campaigns * task_s / (cores * longest));
+    const Taken nothing = run({into("one", {"--jobs", "1", "--shard", "1/64"})});
+    print_scaling(core_times_of(diagnose, count, folder / "each"), nothing.core_s);
 }
 
 void write_images(const fs::path& folder, int count) {

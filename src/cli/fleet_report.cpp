@@ -9,8 +9,12 @@
 #include "src/fleet/report/fleet_json.h"
 #include "src/fleet/report/fleet_page.h"
 #include "src/fleet/report/judgement_words.h"
+#include "src/fleet/report/unexplained.h"
 
+#include <cstddef>
+#include <filesystem>
 #include <memory>
+#include <string>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

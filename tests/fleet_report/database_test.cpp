@@ -25,7 +25,7 @@ class FleetFolder : public ::testing::Test {
         drawn.units = 6;
         drawn.weeks = 6;
         drawn.truth = [](std::size_t effect, std::size_t unit, std::size_t) {
-            return effect == 0 ? 3.0 : effect == 1 && unit == 2 ? 6.0 : 0.0;
+            return effect == 0 ? 3.0 : effect == 1 && unit == 2 ? 12.0 : 0.0;
         };
         for (const FleetResult& result : draw(drawn)) write(result.file, file_text(result));
     }

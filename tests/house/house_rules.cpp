@@ -227,10 +227,12 @@ Findings leaking_third_party(const SourceFile& file, const std::vector<SourceFil
     for (const auto& include : angle_includes(file.text)) {
         if (!is_hidden_library(include)) continue;
         for (const auto& other : house) {
+            if (other.text.find(file.path) == std::string::npos) continue;
             const auto seen = quoted_includes(other.text);
             const bool inside = folder_of(other.path) == folder_of(file.path) ||
-                                other.path.starts_with("tests/") ||
-                                (room_of(file.path) == "src" && room_of(other.path) == "src");
+                                other.path.starts_with("tests/") || other.path.starts_with("bench/") ||
+                                (room_of(file.path) == "src" &&
+                                 (room_of(other.path) == "src" || room_of(other.path) == "python"));
             if (inside || std::find(seen.begin(), seen.end(), file.path) == seen.end()) continue;
             findings.push_back(file.path + ": shows <" + include + "> to " + other.path);
         }

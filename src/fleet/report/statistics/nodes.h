@@ -42,7 +42,7 @@ struct Nodes {
 /// @param step  the least std that the function may have, as a density, or less
 template <class LogFunction>
 Nodes nodes_of(double start, double step, const LogFunction& log_of) {
-    constexpr double nothing = 36.0;  // below the largest: exp(-36) is 2e-16
+    constexpr double nothing = 30.0;  // below the largest: exp(-30) is 1e-13
     constexpr int most = 4000;
     const double log_step = std::log(step), first = log_of(start);
     Nodes nodes{{start}, {first + log_step}};

@@ -15,12 +15,12 @@ namespace {
 
 /// Degrees of freedom that are looked at. The last is as good as a scale that all units share.
 constexpr std::array scale_degrees{2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 64.0, 128.0, 1e5};
-constexpr std::size_t sigma_count = 45;
+constexpr std::size_t sigma_count = 27;
 constexpr double least_contrasts = 10.0;
 
-/// 0, and from 0.02 floors on in steps of a fifth up to 44.
+/// 0, and from 0.02 floors on in steps of a third up to 36.
 double sigma_at(std::size_t k) {
-    constexpr double first = 0.02, ratio = 1.2;
+    constexpr double first = 0.02, ratio = 1.35;
     return k == 0 ? 0.0 : first * std::pow(ratio, static_cast<double>(k - 1));
 }
 

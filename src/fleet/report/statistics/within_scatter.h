@@ -36,7 +36,7 @@ struct Scatter {
 };
 
 /// What phi may be where it is summed over, not integrated.
-inline constexpr std::array scatter_scales{0.25, 0.354, 0.5, 0.707, 1.0, 1.414, 2.0, 2.828, 4.0};
+inline constexpr std::array scatter_scales{0.25, 0.5, 1.0, 2.0, 4.0};
 
 /// The logarithms of their weights, by the density of log(phi): nu / phi ~ chi^2(nu); of no degrees, all
 /// alike.
