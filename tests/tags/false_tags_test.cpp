@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures without the tags that are looked for.
+#include "tests/effort.h"
 #include "tests/tags/drawn_tag.h"
 #include "vision/tags/tag_detector.h"
 #include "vision/tags/tag_pattern.h"
@@ -68,19 +69,25 @@ TEST(LeastExplained, OfEveryFamily_IsHigherForSmallerCodesInLargerBooks) {
     EXPECT_NEAR(level("DICT_6X6_1000"), 0.4, 0.02);  // as many bits, nearly twice as many codes
 }
 
+/// Every print of every family on one texture each, all textures among them; on four each for the figures.
 TEST(SlowFalseTags, Texture_HoldsNoTagOfAnyFamily) {
-    constexpr int images_a_family = 16;
+    constexpr int prints = 4, most_rounds = 4;
+    const int rounds = fidservo::testing::draws(most_rounds, 1);
     std::mt19937_64 random(11);
     std::size_t tags = 0;
-    int images = 0;
+    int images = 0, first_round = 0;
     for (const TagFamily& family : tag_families()) {
-        std::array<cv::Mat, images_a_family> textures;
-        for (int k = 0; k < images_a_family; ++k, ++images) textures[k] = texture(k % 8, random);
-        for (int print = 0; print < 4; ++print)  // one after another: what decodes a print takes long to make
-            for (int k = print; k < images_a_family; k += 4) {
+        std::array<cv::Mat, prints * most_rounds> textures;
+        for (std::size_t k = 0; k < textures.size(); ++k)
+            textures[k] = texture(static_cast<int>(k % 8), random);
+        for (int print = 0; print < prints; ++print)  // in turn: what decodes a print takes long to make
+            for (int round = 0; round < rounds; ++round, ++images) {
+                const int k = print + prints * ((first_round + round) % most_rounds);
                 const TagReading reading{{&family, 1, print == 1}, print == 2};
-                tags += expect_nothing(textures[k], reading, fmt::format("texture {}", k));
+                tags += expect_nothing(textures[static_cast<std::size_t>(k)], reading,
+                                       fmt::format("texture {}", k));
             }
+        ++first_round;
     }
     fmt::print("false tags in {} images of texture: {}\n", images, tags);
 }
