@@ -32,6 +32,7 @@ std::vector<plant::EffectSetting> effects_of(const std::vector<std::string>& tex
     std::vector<const plant::Effect*> formulas;
     if (!effects_file.empty()) formulas = load_effects_file(effects_file);
     std::vector<plant::EffectSetting> effects;
+    effects.reserve(texts.size());
     for (const std::string& text : texts) effects.push_back(plant::parse_effect(text, formulas));
     const auto is_named = [&](const plant::Effect* formula) {
         return std::ranges::find(effects, formula, &plant::EffectSetting::effect) != effects.end();

@@ -174,8 +174,8 @@ def test_answer_is_the_programs_to_the_byte(
     for kind in ("macro-pulses", "micro-steps"):
         recording = fidservo.simulate(rig, kind, effects=["heater_gain:factor=1.05", "drive_gain:factor=0.95"], seed=4)
         recording.write(tmp_path / "unit" / kind, rig)
-    run = program("fleet", "diagnose", "--rig", rig.file, tmp_path / "unit", "--effort", 6, "--out", tmp_path / "fleet")
+    run = program("fleet", "diagnose", "--rig", rig.file, tmp_path / "unit", "--effort", 2, "--out", tmp_path / "fleet")
     assert run.returncode == 0, run.stderr
     (file,) = (tmp_path / "fleet").rglob("*unit*.json")
-    diagnosis = fidservo.diagnose(rig, fidservo.read_recordings(tmp_path / "unit"), effort_s=6.0)
+    diagnosis = fidservo.diagnose(rig, fidservo.read_recordings(tmp_path / "unit"), effort_s=2.0)
     assert json.loads(diagnosis.json()) == json.loads(file.read_text())["diagnosis"]
