@@ -11,8 +11,7 @@ namespace fidservo::testing {
 
 std::optional<double> page_drawn_s(const std::filesystem::path& page, const std::filesystem::path& profile) {
     if (!Browser::is_installed()) return std::nullopt;
-    Browser browser("about:blank", profile);
-    (void)browser.value_of("location.href = 'file://" + page.string() + "'");
+    Browser browser("file://" + page.string(), profile);
     if (!browser.eventually("location.protocol === 'file:' && document.readyState === 'complete'"))
         throw std::runtime_error("the page does not open: " + page.string());
     (void)browser.value_of(
