@@ -35,14 +35,6 @@ gap::Diagnosis diagnosed(const gap::Evidence& evidence, const std::function<void
     return gap::diagnose(evidence, options);
 }
 
-gap::Fit fitted(const gap::Evidence& evidence, const gap::Hypothesis& start) {
-    const gap::Wanted wanted = gap::everything(evidence);
-    const auto predict = [&](const gap::Hypothesis& hypothesis) {
-        return evidence.errors(hypothesis, wanted);
-    };
-    return gap::fit(predict, evidence.windows(), wanted, start, {.with_covariance = true});
-}
-
 std::vector<gap::SignalGap> gaps_of(const gap::Evidence& evidence, const gap::Hypothesis& hypothesis) {
     const std::vector<double> squares =
         gap::mean_squares(evidence.windows(), evidence.errors(hypothesis, gap::everything(evidence)));
@@ -51,6 +43,18 @@ std::vector<gap::SignalGap> gaps_of(const gap::Evidence& evidence, const gap::Hy
 
 double gap_of(const gap::Evidence& evidence, const gap::Hypothesis& hypothesis) {
     return gap::total_gap(gaps_of(evidence, hypothesis)).before;
+}
+
+/// A set may be far from what another set's values predict: first all windows are followed, then those that
+/// come near (gap::FitOptions::scale_floors).
+gap::Fit fitted(const gap::Evidence& evidence, const gap::Hypothesis& start) {
+    const gap::Wanted wanted = gap::everything(evidence);
+    const auto predict = [&](const gap::Hypothesis& hypothesis) {
+        return evidence.errors(hypothesis, wanted);
+    };
+    const gap::Fit near = gap::fit(predict, evidence.windows(), wanted, start,
+                                   {.scale_floors = std::max(1.0, gap_of(evidence, start))});
+    return gap::fit(predict, evidence.windows(), wanted, near.hypothesis, {.with_covariance = true});
 }
 
 /// Whether some signal is predicted worse, by what is worth a finding, with another setting at a place of a
