@@ -59,12 +59,12 @@ std::string KnownVariable::power_unit(int power) const {
 }
 
 void TermLibrary::add(std::string text, std::string unit, double size, std::string words) {
-    terms_.push_back({{std::move(text)}, std::move(unit), size, {}, next_family_++, std::move(words)});
+    keep({{std::move(text)}, std::move(unit), size, {}, next_family_++, std::move(words)});
 }
 
 void TermLibrary::keep(Term term) {
     const auto has_room = [](const TermShape& shape) { return shape.low < shape.high; };
-    if (std::ranges::all_of(term.shapes, has_room)) terms_.push_back(std::move(term));
+    if (term.size > 0.0 && std::ranges::all_of(term.shapes, has_room)) terms_.push_back(std::move(term));
 }
 
 void TermLibrary::add_constant(const std::string& factor, const std::string& words) {

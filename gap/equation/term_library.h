@@ -75,7 +75,8 @@ class TermLibrary {
                      std::span<const double> time_constants_s);
 
   private:
-    /// A term whose shapes have somewhere to go: of a variable that did not vary there is none.
+    /// A term that does something and whose shapes have somewhere to go: of a variable that did not vary
+    /// there is none.
     void keep(Term term);
     void add_squares_elsewhere(const KnownVariable& of, const std::string& factor);
     void add_remembering(const FormulaEffect::Memory& memory, const KnownVariable& of, const TermShape& shape,
