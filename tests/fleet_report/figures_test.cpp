@@ -2,6 +2,7 @@
 // How well fleets are judged, on histories drawn at the level of parameters, over a grid of sizes: the tables
 // of docs/fleet-report.md.
 #include "src/fleet/report/findings.h"
+#include "tests/effort.h"
 #include "tests/fleet_report/drawn_fleet.h"
 
 #include <algorithm>
@@ -74,7 +75,7 @@ FoundChanges four_weeks_after(const Odd& odd, ChangeKind kind, double size) {
 }
 
 TEST(SlowFleetFigures, Drift_IsFoundWithinFourWeeks) {
-    constexpr int histories = 200;
+    const int histories = testing::draws(200, 20);
     std::map<double, int> found;
     std::printf("| drift, floors a week | found within 4 weeks | others |\n");
     for (const double drift : drifts_floors_a_week) {
@@ -92,7 +93,7 @@ TEST(SlowFleetFigures, Drift_IsFoundWithinFourWeeks) {
 }
 
 TEST(SlowFleetFigures, Step_IsFoundAndDatedToItsWeek) {
-    constexpr int histories = 100;
+    const int histories = testing::draws(100, 10);
     std::map<double, int> dated;
     std::printf("| step, floors | found within 4 weeks | dated to its week | interval has it | others |\n");
     for (const double size : sizes_floors) {
@@ -118,7 +119,7 @@ TEST(SlowFleetFigures, Step_IsFoundAndDatedToItsWeek) {
 }
 
 TEST(SlowFleetFigures, NothingDrifts_FewFalseAlarmsAUnitYear) {
-    constexpr int fleets = 10;
+    const int fleets = testing::draws(10, 2);
     std::size_t alarms = 0;
     for (int k = 0; k < fleets; ++k) {
         const FleetFindings findings =
@@ -155,7 +156,7 @@ ToldApart told_apart(const Odd& odd, Whose whose, double size) {
 }
 
 TEST(SlowFleetFigures, ModelBatchAndUnit_AreToldApart) {
-    constexpr int fleets = 40;
+    const int fleets = testing::draws(40, 4);
     std::map<double, int> apart;
     std::printf("| deviation, floors | all | batch | unit | right, but more is said |\n");
     for (const double size : sizes_floors) {
