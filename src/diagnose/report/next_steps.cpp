@@ -110,8 +110,9 @@ std::string equation_html(const gap::Equation& equation) {
         "not fitted to.{} {}</p>\n",
         escaped(equation.acts_on), escaped(equation.formula), rows, 100.0 * equation.gap_removed,
         100.0 * equation.gap_removed_low, 100.0 * equation.gap_removed_high,
-        equation.in_place_of_names ? "the whole gap, in place of the effects named, than which it predicts better"
-                                   : "what is left",
+        equation.in_place_of_names
+            ? "the whole gap, in place of the effects named, than which it predicts better"
+            : "what is left",
         elsewhere, escaped(equation.text));
 }
 
