@@ -306,7 +306,6 @@ class Motion {
     double dry_V_at(const State& x) const {
         return dry_friction_V(p_.friction, std::max(0.0, direction_ * x[speed]), x[place], coasts());
     }
-
     bool coasts() const { return branch_ == DeadZoneBranch::inside; }
 
     BristleBend bend_at(const State& x, double dry_V) const {
