@@ -24,4 +24,8 @@ double mean_probability(const std::vector<FoundEffect>& effects) {
     return effects.empty() ? 0.0 : sum / static_cast<double>(effects.size());
 }
 
+bool are_credible(const std::vector<FoundEffect>& effects) {
+    return mean_probability(effects) > 0.5;
+}
+
 }  // namespace fidservo::gap

@@ -15,4 +15,7 @@ void accuse(std::vector<BlockProbability>& where, const std::string& block, doub
 /// Of the effects named; 0 where none is.
 double mean_probability(const std::vector<FoundEffect>& effects);
 
+/// Whether their mean probability is above a half: names that are not may stand in for something else.
+bool are_credible(const std::vector<FoundEffect>& effects);
+
 }  // namespace fidservo::gap

@@ -200,7 +200,7 @@ void accuse_what_is_left(const Selection& selection, const std::optional<Remaind
     const double in_names = mean_probability(diagnosis.effects);
     if (selection.choices.empty()) {
         left.block = block_of_nameless(selection, left);
-    } else if (in_names <= 0.5) {
+    } else if (!are_credible(diagnosis.effects)) {
         if (whole) left.block = whole->block;  // the names stand in for something else
         if (std::ranges::find(diagnosis.where, left.block, &BlockProbability::block) == diagnosis.where.end())
             diagnosis.where.insert(diagnosis.where.begin(), {left.block, 0.0});
@@ -222,7 +222,7 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     const Fit fitted = fit_to_all(evidence, explained);
     say_what_is_named(evidence, selection, fitted, whole, diagnosis);
     diagnosis.unexplained = remainder_of(evidence, explained, tail, options.matters);
-    if (!diagnosis.unexplained && mean_probability(diagnosis.effects) <= 0.5) diagnosis.unexplained = whole;
+    if (!diagnosis.unexplained && !are_credible(diagnosis.effects)) diagnosis.unexplained = whole;
     diagnosis.verdict = verdict_of(selection, diagnosis.unexplained.has_value());
     if (diagnosis.unexplained) accuse_what_is_left(selection, whole, diagnosis);
     if (diagnosis.unexplained && selection.choices.empty()) {

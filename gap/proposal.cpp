@@ -32,8 +32,9 @@ class Proposals {
         : evidence_(evidence),
           tail_(options.selection.search.tail),
           are_names_credible_(are_names_credible),
-          nothing_{selection.steps.front(), remainder(selection.steps.front(), options)},
-          named_{selection.steps.back(), remainder(selection.steps.back(), options)} {}
+          named_{selection.steps.back(), remainder(selection.steps.back(), options)},
+          nothing_{selection.steps.front(),
+                   selection.choices.empty() ? named_.left : remainder(selection.steps.front(), options)} {}
 
     const std::optional<Remainder>& left_by_nothing() const { return nothing_.left; }
     const std::optional<Remainder>& left_by_names() const { return named_.left; }
@@ -85,7 +86,7 @@ class Proposals {
     const Evidence& evidence_;
     double tail_;
     bool are_names_credible_;
-    Base nothing_, named_;
+    Base named_, nothing_;  ///< the same where nothing is named
 };
 
 /// The names are as likely as an equation in their place leaves them.
@@ -121,10 +122,12 @@ std::optional<ProposedEquation> equation_for(const Proposals& proposals, Diagnos
         }
     }
     std::optional<ProposedEquation> likelier = proposals.likelier(std::move(whole), std::move(beside));
-    if (likelier && !likelier->equation.in_place_of_names) take_values(*likelier, diagnosis);
-    if (likelier && likelier->equation.in_place_of_names) {
+    if (!likelier) return {};
+    if (likelier->equation.in_place_of_names) {
         left = proposals.left_by_nothing();
         stand_in_for_names(proposals.weight_of_names_against(*likelier), left->block, diagnosis);
+    } else {
+        take_values(*likelier, diagnosis);
     }
     return likelier;
 }
@@ -139,7 +142,7 @@ Ended propose_equation(const Evidence& evidence, const Selection& selection, con
     evidence.budget()->prolong(options.equation_s);
     if (options.selection.search.tell) options.selection.search.tell("equation for what is left");
     try {
-        const Proposals proposals(evidence, selection, options, mean_probability(diagnosis.effects) > 0.5);
+        const Proposals proposals(evidence, selection, options, are_credible(diagnosis.effects));
         if (auto proposed = equation_for(proposals, diagnosis))
             diagnosis.unexplained->equation = std::move(proposed->equation);
     } catch (const BudgetEnded& end) {
