@@ -6,8 +6,8 @@ COPY . .
 RUN ./run package
 
 FROM debian:bookworm-slim
-COPY --from=build /source/build/release/packages/*.deb /tmp/packages/
-RUN apt-get update && apt-get install -y --no-install-recommends /tmp/packages/fidservo_*.deb \
-    && rm -rf /tmp/packages /var/lib/apt/lists/*
+COPY --from=build /source/build/release/packages/*.deb /packages/
+RUN apt-get update && apt-get install -y --no-install-recommends /packages/fidservo_*.deb \
+    && rm -rf /packages /var/lib/apt/lists/*
 ENTRYPOINT ["fidservo"]
 CMD ["--help"]
