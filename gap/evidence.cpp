@@ -92,8 +92,9 @@ constexpr std::size_t rows_worth_a_window = 20;
 /// Predicts those signals of a run that are asked for.
 class RunPredictor {
   public:
+    /// @param known  the path of a carriage that moves otherwise; null: to be found
     RunPredictor(const Evidence::Parts& parts, std::size_t run, const Wanted& wanted, const Models& models,
-                 bool other_carriage)
+                 bool other_carriage, const CarriagePath* known = nullptr)
         : parts_(parts),
           links_(parts.links[run]),
           windows_(
@@ -102,6 +103,7 @@ class RunPredictor {
           wanted_(std::span(wanted).subspan(parts.first_window[run], windows_.size())),
           models_(models),
           other_carriage_(other_carriage),
+          known_path_(known),
           all_rows_(parts.recordings[run].rows.size()) {}
 
     /// @return the effort, in rows
@@ -112,7 +114,8 @@ class RunPredictor {
             if (wanted_[w] != 0 && touched[signal]) signals[signal] = true;
         }
         const bool hall = signals[index_of(Signal::hall)], tag = signals[index_of(Signal::tag)];
-        const bool needs_path = other_carriage_ && (tag || (hall && models_.platform_feels_carriage));
+        const bool needs_path =
+            other_carriage_ && !known_path_ && (tag || (hall && models_.platform_feels_carriage));
         PredictedCounts predicted;
         if (needs_path)
             predicted = predicted_counts(models_.carriage, links_.carriage, path_);
@@ -129,7 +132,10 @@ class RunPredictor {
     }
 
   private:
-    const CarriagePath& path() const { return path_.position_mm.empty() ? links_.path : path_; }
+    const CarriagePath& path() const {
+        if (known_path_) return *known_path_;
+        return path_.position_mm.empty() ? links_.path : path_;
+    }
 
     void write_counts(const std::vector<double>& predicted, Errors& errors) const {
         const double floor = parts_.floors[index_of(Signal::encoder)];
@@ -212,6 +218,7 @@ class RunPredictor {
     std::span<const std::uint8_t> wanted_;
     const Models& models_;
     bool other_carriage_;
+    const CarriagePath* known_path_;
     std::size_t all_rows_;
     CarriagePath path_;
 };
@@ -318,7 +325,8 @@ double Evidence::effort() const {
     return static_cast<double>(parts_->budget->rows()) / static_cast<double>(std::max(rows, five_minutes));
 }
 
-Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted, double start_offset_count) const {
+Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted, double start_offset_count,
+                        const CarriagePaths* known) const {
     const Parts& parts = *parts_;
     FIDSERVO_DEMAND(wanted.size() == parts.windows.size());
     try {
@@ -334,14 +342,47 @@ Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted, doub
                       errors.begin() + static_cast<std::ptrdiff_t>(window.begin));
         }
         if (std::ranges::none_of(touched.signals, std::identity{})) return errors;
+        if (known && (start_offset_count != 0.0 || known->moving != moving_carriage(hypothesis)))
+            known = nullptr;
         parts.budget->count(parts.windows.size() * rows_worth_a_window);
         parallel_for(parts.recordings.size(), [&](std::size_t run) {
-            parts.budget->count(
-                RunPredictor(parts, run, wanted, models, touched.carriage).predict(touched.signals, errors));
+            const CarriagePath* const path = known ? &known->along[run] : nullptr;
+            parts.budget->count(RunPredictor(parts, run, wanted, models, touched.carriage, path)
+                                    .predict(touched.signals, errors));
         });
         return errors;
     } catch (const InputError&) {
         return {};
+    }
+}
+
+std::shared_ptr<const CarriagePaths> Evidence::paths(const Hypothesis& hypothesis,
+                                                     const Wanted& wanted) const {
+    const Parts& parts = *parts_;
+    FIDSERVO_DEMAND(wanted.size() == parts.windows.size());
+    Hypothesis moving = moving_carriage(hypothesis);
+    if (moving.empty()) return nullptr;
+    try {
+        const Models models = models_of(parts.rig, hypothesis);
+        const auto needs_path = [&](Signal signal) {
+            return signal == Signal::tag || (signal == Signal::hall && models.platform_feels_carriage);
+        };
+        const auto asks = [&](const Window& window) {
+            return wanted[static_cast<std::size_t>(&window - parts.windows.data())] != 0 &&
+                   needs_path(window.signal);
+        };
+        if (std::ranges::none_of(parts.windows, asks)) return nullptr;
+        auto paths = std::make_shared<CarriagePaths>();
+        paths->moving = std::move(moving);
+        paths->along.resize(parts.recordings.size());
+        parallel_for(parts.recordings.size(), [&](std::size_t run) {
+            const PredictedCounts counts =
+                predicted_counts(models.carriage, parts.links[run].carriage, paths->along[run]);
+            parts.budget->count(counts.effort);
+        });
+        return paths;
+    } catch (const InputError&) {
+        return nullptr;
     }
 }
 

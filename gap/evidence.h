@@ -116,6 +116,9 @@ using Wanted = std::vector<std::uint8_t>;
 
 struct TagSighting;
 
+/// Where a hypothesis has the carriage go along each recording (gap/evidence_parts.h).
+struct CarriagePaths;
+
 /// Recordings of a rig, and what hypotheses predict of them.
 class Evidence {
   public:
@@ -156,7 +159,14 @@ class Evidence {
     /// Deterministic, const and safe to call from several threads at once.
     /// Empty if the hypothesis is none that a rig can have (the plant refuses it). Throws BudgetEnded.
     /// @param start_offset_count  by which the carriage begins each window beside the place that fits best
-    Errors errors(const Hypothesis& hypothesis, const Wanted& wanted, double start_offset_count = 0.0) const;
+    /// @param known  paths that are followed where the hypothesis moves the carriage as theirs does; may be
+    ///               null
+    Errors errors(const Hypothesis& hypothesis, const Wanted& wanted, double start_offset_count = 0.0,
+                  const CarriagePaths* known = nullptr) const;
+
+    /// Where a hypothesis has the carriage go; null where its predictions need no path of their own, or the
+    /// plant refuses it. Throws BudgetEnded.
+    std::shared_ptr<const CarriagePaths> paths(const Hypothesis& hypothesis, const Wanted& wanted) const;
 
     /// What all predictions since it was made have cost, whatever the machine: 1 is a carriage that was
     /// followed in closed form for 5 minutes, or along all recordings where they are longer.

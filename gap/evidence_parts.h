@@ -33,6 +33,11 @@ struct RunLinks {
     CarriagePath path;  ///< of the rig file's carriage
 };
 
+struct CarriagePaths {
+    Hypothesis moving;                ///< what of the hypothesis moves the carriage
+    std::vector<CarriagePath> along;  ///< each recording
+};
+
 struct Evidence::Parts {
     Rig rig;
     std::shared_ptr<const Budget> budget;

@@ -4,6 +4,7 @@
 #include "core/median.h"
 #include "core/rig.h"
 #include "gap/balance/balance_fit.h"
+#include "gap/balance/period_search.h"
 #include "gap/candidates/coupling.h"
 #include "gap/candidates/wave.h"
 #include "gap/evidence/parallel.h"
@@ -27,13 +28,10 @@ namespace {
 /// Share of a typical size at which errors are still proportional to it.
 constexpr double small_share = 0.1;
 
-/// The longest period of force that is looked for.
-constexpr double longest_period_mm = 50.0;
-
 constexpr std::size_t most_balanced = 6;
 
 /// The longer supports see weaker forces.
-constexpr std::size_t half_support = long_half_support;
+constexpr std::size_t balanced_half_support = long_half_support;
 
 /// A candidate of which only sizes are unknown; of a wave its sine and cosine are.
 struct ForceGroup {
@@ -215,8 +213,8 @@ class Columns {
     /// Logarithm of how many times likelier windows are of some squares than of other ones, as many values in
     /// each as supports that do not overlap.
     double gain(std::span<const double> without, std::span<const double> with) const {
-        constexpr double apart = 0.5 * static_cast<double>(half_support);
-        constexpr double share = apart / static_cast<double>(2 * half_support + 1);
+        constexpr double apart = 0.5 * static_cast<double>(balanced_half_support);
+        constexpr double share = apart / static_cast<double>(2 * balanced_half_support + 1);
         double gain = 0.0;
         for (const std::size_t window : window_of_)
             gain += share * (window_loss(without[window]) - window_loss(with[window]));
@@ -326,7 +324,7 @@ std::vector<BalancedModel> balanced_models(const Evidence& evidence, std::span<c
                                            std::span<const Candidate* const> candidates, double tail) {
     const std::vector<Window>& windows = evidence.windows();
     const Wanted wanted = only_of(windows, everything(evidence), only(Signal::encoder));
-    const ForceBalance balance(evidence, wanted, half_support);
+    const ForceBalance balance(evidence, wanted, balanced_half_support);
     if (balance.supports().empty()) return {};
     std::vector<const Candidate*> unknown(candidates.begin(), candidates.end());
     std::erase_if(unknown, [&](const Candidate* candidate) {

@@ -18,7 +18,7 @@
 namespace fidservo::gap {
 namespace {
 
-constexpr double shortest_period_mm = 0.8, longest_period_mm = 50.0;
+constexpr double shortest_period_mm = 0.8;
 
 /// What the supports of one window lack, and where they begin in the rows.
 struct Lacking {

@@ -8,6 +8,9 @@
 
 namespace fidservo::gap {
 
+/// Of waves that are looked for along the rail.
+inline constexpr double longest_period_mm = 50.0;
+
 /// A sin(2 pi y / p + phase) of the place y on the rail.
 struct Wave {
     double amplitude = 0.0, phase_rad = 0.0;

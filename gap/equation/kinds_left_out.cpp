@@ -4,6 +4,7 @@
 #include "gap/candidates/coupling.h"
 #include "gap/evidence/halves.h"
 #include "gap/evidence/parallel.h"
+#include "gap/fit/incremental_prediction.h"
 #include "gap/search/search.h"
 
 #include <cmath>
@@ -33,9 +34,8 @@ std::vector<double> predicted_from_other_kinds(const Evidence& evidence, const C
         const Wanted others =
             instructive(evidence.windows(), only_of(evidence.windows(), windows_of(kinds[k], false), taught),
                         cross.mean_squares, SearchOptions{}.windows);
-        const Predict predict = [&](const Hypothesis& part) {
-            return evidence.errors(with_part(start, last, part), others);
-        };
+        IncrementalPrediction whole(evidence, {}, others);
+        const Predict predict = [&](const Hypothesis& part) { return whole(with_part(start, last, part)); };
         const Fit fitted = fit(predict, evidence.windows(), others, part_of(start, last));
         const Wanted own = only_of(evidence.windows(), windows_of(kinds[k], true), reached);
         squares[k] =

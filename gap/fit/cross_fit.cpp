@@ -3,6 +3,7 @@
 
 #include "gap/evidence/halves.h"
 #include "gap/evidence/parallel.h"
+#include "gap/fit/incremental_prediction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,9 +36,9 @@ Wanted CrossFitter::instructive_of(std::size_t side, const SignalFlags& signals,
 Fit CrossFitter::fit_places(std::size_t side, const Hypothesis& start, const Places& places,
                             std::span<const double> mean_squares, const FitOptions& options) const {
     const Wanted wanted = instructive_of(side, taught_by(part_of(start, places)), mean_squares);
-    const Predict predict_whole = predictor(wanted);
+    IncrementalPrediction whole(evidence_, {}, wanted);
     const Predict predict = [&](const Hypothesis& part) {
-        return predict_whole(with_part(start, places, part));
+        return stop_ && stop_() ? Errors{} : whole(with_part(start, places, part));
     };
     Fit fitted = fit(predict, evidence_.windows(), wanted, part_of(start, places), options);
     fitted.hypothesis = with_part(start, places, fitted.hypothesis);

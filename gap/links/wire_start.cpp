@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -34,9 +35,13 @@ constexpr double cooling_taus = 3.0;
 struct Cooling {
     double square = 0.0;    ///< sum, LSB^2
     double variance = 0.0;  ///< about their mean, LSB^2
+    double count = 0.0;     ///< of errors
+    double passed_s = 0.0;  ///< until the end, or until the sum of squares was more than was asked for
 };
 
-Cooling while_cooling(const PlatformModel& model, const PlatformRun& run, plant::MicroStageState state) {
+/// @param most_square  LSB^2, beyond which a sum of squares is not wanted
+Cooling while_cooling(const PlatformModel& model, const PlatformRun& run, plant::MicroStageState state,
+                      double most_square = std::numeric_limits<double>::infinity()) {
     const double enough_s = cooling_taus * model.stage.heater.parameters.cooling_tau_s;
     double sum = 0.0, squares = 0.0, count = 0.0, passed_s = 0.0;
     for (std::size_t k = 0; k < run.hall_adc.size() && passed_s < enough_s; ++k) {
@@ -45,12 +50,13 @@ Cooling while_cooling(const PlatformModel& model, const PlatformRun& run, plant:
             sum += error_lsb;
             squares += error_lsb * error_lsb;
             count += 1.0;
+            if (squares > most_square) break;
         }
         step(model, run, nullptr, k, state);
         passed_s += run.ticks[k] * run.tick_s;
     }
     if (count == 0.0) return {};
-    return {squares, squares / count - (sum / count) * (sum / count)};
+    return {squares, squares / count - (sum / count) * (sum / count), count, passed_s};
 }
 
 /// By how much the first readings exceed those of a cold wire, LSB.
@@ -165,31 +171,40 @@ ColdOrWarm cold_or_warm(const PlatformModel& nominal, const PlatformRun& run, do
 plant::MicroStageState unmoved(const PlatformModel& model, const PlatformRun& run) {
     constexpr double resolution_degC = 0.5, golden = 0.6180339887498949, not_seen_lsb = 1.0;
     const plant::MicroStageState cold = plant::start(model.stage, 0);
+    const Cooling from_cold = while_cooling(model, run, cold);
+    const double bound = far_better * from_cold.square;
+    // Noise alone is more than what would be far better.
+    if (bound < from_cold.count * run.floor_lsb * run.floor_lsb) return cold;
     const auto warmer = [&](double by_degC) {
         plant::MicroStageState warm = cold;
         slide(model.stage, warm, by_degC);
         return warm;
     };
-    const auto square = [&](double by_degC) { return while_cooling(model, run, warmer(by_degC)).square; };
+    const auto found = [&](double by_degC) { return while_cooling(model, run, warmer(by_degC), bound); };
+    // Of two that miss the bound, that which misses it later.
+    const auto is_better = [&](const Cooling& one, const Cooling& other) {
+        return std::min(one.square, other.square) > bound ? one.passed_s > other.passed_s
+                                                          : one.square < other.square;
+    };
     double low = 0.0;
     double high = heated_to(model, not_seen_lsb).heater.temp_degC - cold.heater.temp_degC;
     double left = high - golden * (high - low), right = low + golden * (high - low);
-    double at_left = square(left), at_right = square(right);
+    Cooling at_left = found(left), at_right = found(right);
     while (high - low > resolution_degC) {
-        if (at_left < at_right) {
+        if (is_better(at_left, at_right)) {
             high = right;
             right = left;
             at_right = at_left;
-            at_left = square(left = high - golden * (high - low));
+            at_left = found(left = high - golden * (high - low));
         } else {
             low = left;
             left = right;
             at_left = at_right;
-            at_right = square(right = low + golden * (high - low));
+            at_right = found(right = low + golden * (high - low));
         }
     }
     const double best = 0.5 * (low + high);
-    return square(best) < far_better * square(0.0) ? warmer(best) : cold;
+    return found(best).square < bound ? warmer(best) : cold;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "core/median.h"
 #include "gap/balance/force_balance.h"
 #include "gap/fit/fit.h"
+#include "gap/fit/incremental_prediction.h"
 #include "gap/fit/minimum_norm.h"
 #include "gap/fit/predictive_density.h"
 #include "gap/fit/score.h"
@@ -15,7 +16,6 @@
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <mutex>
 #include <set>
 #include <utility>
 
@@ -27,53 +27,6 @@ constexpr double expected_sizes = 3.0;
 
 /// What a size has to be worth to be kept: twice it is the square of a normal deviate, here of one in 200.
 constexpr double least_worth = 4.0;
-
-/// Predictions of which only what some settings reach is predicted anew.
-class Incremental {
-  public:
-    Incremental(const Evidence& evidence, const Hypothesis& beside, const Wanted& wanted)
-        : evidence_(evidence), beside_(beside), wanted_(wanted) {}
-
-    Errors operator()(const Hypothesis& settings) {
-        Hypothesis changed, whole = beside_;
-        whole.insert(whole.end(), settings.begin(), settings.end());
-        Errors known;
-        {
-            const std::scoped_lock lock(access_);
-            if (known_at_.size() == settings.size()) {
-                for (std::size_t k = 0; k < settings.size(); ++k)
-                    if (!(settings[k] == known_at_[k])) changed.push_back(settings[k]);
-                if (changed.size() <= 1) known = known_;
-            }
-        }
-        if (known.empty()) {
-            Errors errors = evidence_.errors(whole, wanted_);
-            const std::scoped_lock lock(access_);
-            known_at_ = settings;
-            known_ = errors;
-            return errors;
-        }
-        if (changed.empty()) return known;
-        const Wanted reached = only_of(evidence_.windows(), wanted_, reached_by(changed));
-        const Errors errors = evidence_.errors(whole, reached);
-        if (errors.empty()) return errors;
-        const std::vector<Window>& windows = evidence_.windows();
-        for (std::size_t w = 0; w < windows.size(); ++w)
-            if (reached[w] != 0)
-                std::copy(errors.begin() + static_cast<std::ptrdiff_t>(windows[w].begin),
-                          errors.begin() + static_cast<std::ptrdiff_t>(windows[w].end),
-                          known.begin() + static_cast<std::ptrdiff_t>(windows[w].begin));
-        return known;
-    }
-
-  private:
-    const Evidence& evidence_;
-    const Hypothesis& beside_;
-    const Wanted& wanted_;
-    std::mutex access_;
-    Hypothesis known_at_;
-    Errors known_;
-};
 
 /// A fit is near where half of the windows that were off at its start are at less than this mean square.
 constexpr double near_square = 2.0;
@@ -297,8 +250,8 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
                                       const std::array<Wanted, 2>& wanted) {
     // Most of what is not needed shows before values are known closely.
     constexpr int at_first = 4, then = 15;
-    std::array<Incremental, 2> incremental{Incremental(evidence, beside[0], wanted[0]),
-                                           Incremental(evidence, beside[1], wanted[1])};
+    std::array<IncrementalPrediction, 2> incremental{IncrementalPrediction(evidence, beside[0], wanted[0]),
+                                                     IncrementalPrediction(evidence, beside[1], wanted[1])};
     const std::array<Predict, 2> predict{std::ref(incremental[0]), std::ref(incremental[1])};
     Chosen chosen = begun_with(candidates, begun);
     const Wanted leading = windows_off(evidence, wanted[0], predict[0](chosen.settings));
@@ -356,11 +309,8 @@ Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate*
                             const Hypothesis& begun, const Wanted& wanted) {
     constexpr double share_of_best = 0.5;
     constexpr double worth_a_fit = 0.2;  // of the loss, of a wave: errors show one of many periods by chance
-    const Predict predict = [&](const Hypothesis& settings) {
-        Hypothesis whole = beside;
-        whole.insert(whole.end(), settings.begin(), settings.end());
-        return evidence.errors(whole, wanted);
-    };
+    IncrementalPrediction incremental(evidence, beside, wanted);
+    const Predict predict = std::ref(incremental);
     const Chosen others = begun_with(candidates, begun);
     std::vector<const Candidate*> shaped;
     std::vector<GridPoint> grid;

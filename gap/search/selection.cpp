@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/selection.h"
 
+#include "gap/fit/incremental_prediction.h"
 #include "gap/search/at_once.h"
 #include "gap/search/growth.h"
 #include "gap/search/scatter.h"
@@ -235,8 +236,8 @@ CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
 Fit fit_to_all(const Evidence& evidence, const CrossFit& cross) {
     constexpr int most_iterations = 6;  // from what fits half of it
     const Wanted wanted = everything(evidence);
-    const Predict predict = [&](const Hypothesis& hypothesis) { return evidence.errors(hypothesis, wanted); };
-    return fit(predict, evidence.windows(), wanted, cross.of_half[0],
+    IncrementalPrediction predict(evidence, {}, wanted);
+    return fit(std::ref(predict), evidence.windows(), wanted, cross.of_half[0],
                {.most_iterations = most_iterations, .tolerance = 1e-6, .with_covariance = true});
 }
 

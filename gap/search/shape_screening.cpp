@@ -14,51 +14,61 @@
 namespace fidservo::gap {
 namespace {
 
-/// Of the windows counted, a value of each: what its square weighs in the loss. 0 where nothing is counted.
-class Weights {
+using WeightedErrors = Eigen::VectorXf;
+
+/// The values that count, each times the root of what its square weighs in the loss.
+class Weighting {
   public:
-    Weights(std::span<const Window> windows, const Wanted& counted, const Errors& errors, double scale_floors)
-        : of_value_(errors.size(), 0.0F) {
+    Weighting(std::span<const Window> windows, const Wanted& counted, const Errors& errors,
+              double scale_floors) {
         const std::vector<double> squares = mean_squares(windows, errors);
         for (std::size_t w = 0; w < windows.size(); ++w) {
             if (counted[w] == 0 || std::isnan(squares[w])) continue;
             const auto values = static_cast<double>(windows[w].end - windows[w].begin);
             const double weight = 1.0 / (values * (1.0 + squares[w] / (scale_floors * scale_floors)));
-            for (std::size_t k = windows[w].begin; k < windows[w].end; ++k)
-                if (!std::isnan(errors[k])) of_value_[k] = static_cast<float>(weight);
+            for (std::size_t k = windows[w].begin; k < windows[w].end; ++k) {
+                if (std::isnan(errors[k])) continue;
+                at_.push_back(k);
+                root_.push_back(static_cast<float>(std::sqrt(weight)));
+            }
         }
     }
 
-    /// Over values that both have.
-    double product(const Errors& left, const Errors& right) const {
-        double sum = 0.0;
-        for (std::size_t k = 0; k < of_value_.size(); ++k) {
-            if (of_value_[k] == 0.0F) continue;
-            const double product = static_cast<double>(left[k]) * right[k];
-            if (!std::isnan(product)) sum += static_cast<double>(of_value_[k]) * product;
+    /// What is not known weighs nothing.
+    WeightedErrors weighted(const Errors& errors) const {
+        WeightedErrors column(static_cast<Eigen::Index>(at_.size()));
+        for (std::size_t i = 0; i < at_.size(); ++i) {
+            const float error = errors[at_[i]];
+            column(static_cast<Eigen::Index>(i)) = std::isnan(error) ? 0.0F : root_[i] * error;
         }
-        return sum;
+        return column;
     }
 
   private:
-    std::vector<float> of_value_;
+    std::vector<std::size_t> at_;
+    std::vector<float> root_;
 };
+
+double product(const WeightedErrors& left, const WeightedErrors& right) {
+    return left.cast<double>().dot(right.cast<double>());
+}
 
 /// Everything that is there already, as it may still change.
 class Surrounding {
   public:
     Surrounding(const Predict& predict, const Hypothesis& others, const Errors& errors,
-                const Weights& weights, double expected_sizes)
-        : weights_(weights), errors_(errors) {
+                const Weighting& weighting, double expected_sizes)
+        : errors_(weighting.weighted(errors)) {
         const ScaledParameters parameters(others);
         slopes_.resize(parameters.size());
-        parallel_for(slopes_.size(),
-                     [&](std::size_t k) { slopes_[k] = slope(predict, parameters, k, errors, usual_step); });
+        parallel_for(slopes_.size(), [&](std::size_t k) {
+            slopes_[k] = weighting.weighted(slope(predict, parameters, k, errors, usual_step));
+        });
         const auto count = static_cast<Eigen::Index>(slopes_.size());
         Eigen::MatrixXd normal(count, count);
         for (Eigen::Index row = 0; row < count; ++row)
             for (Eigen::Index column = 0; column <= row; ++column)
-                normal(row, column) = normal(column, row) = weights_.product(
+                normal(row, column) = normal(column, row) = product(
                     slopes_[static_cast<std::size_t>(row)], slopes_[static_cast<std::size_t>(column)]);
         for (std::size_t k = 0; k < slopes_.size(); ++k)
             if (parameters.is_size(k)) {
@@ -71,24 +81,23 @@ class Surrounding {
 
     /// Slope and curvature of the loss along a further column, of which a few typical sizes are expected,
     /// with everything else at its best.
-    std::pair<double, double> slope_and_curvature(const Errors& column, double expected_sizes) const {
+    std::pair<double, double> slope_and_curvature(const WeightedErrors& column, double expected_sizes) const {
         const Eigen::VectorXd shared = products_with(column);
-        return {weights_.product(column, errors_) - shared.dot(inverse_ * left_),
-                weights_.product(column, column) + 1.0 / (expected_sizes * expected_sizes) -
+        return {product(column, errors_) - shared.dot(inverse_ * left_),
+                product(column, column) + 1.0 / (expected_sizes * expected_sizes) -
                     shared.dot(inverse_ * shared)};
     }
 
   private:
-    Eigen::VectorXd products_with(const Errors& column) const {
+    Eigen::VectorXd products_with(const WeightedErrors& column) const {
         Eigen::VectorXd products(static_cast<Eigen::Index>(slopes_.size()));
         for (std::size_t k = 0; k < slopes_.size(); ++k)
-            products(static_cast<Eigen::Index>(k)) = weights_.product(slopes_[k], column);
+            products(static_cast<Eigen::Index>(k)) = product(slopes_[k], column);
         return products;
     }
 
-    const Weights& weights_;
-    const Errors& errors_;
-    std::vector<Errors> slopes_;
+    WeightedErrors errors_;
+    std::vector<WeightedErrors> slopes_;
     Eigen::MatrixXd inverse_;
     Eigen::VectorXd left_;
 };
@@ -138,8 +147,8 @@ std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<con
     constexpr double step = 0.05;  // typical sizes: small for the errors to change evenly, above what rounds
     const Errors errors = predict(others);
     if (errors.empty()) return {};
-    const Weights weights(windows, counted, errors, scale_floors);
-    const Surrounding surrounding(predict, others, errors, weights, expected_sizes);
+    const Weighting weighting(windows, counted, errors, scale_floors);
+    const Surrounding surrounding(predict, others, errors, weighting, expected_sizes);
     std::vector<ScreenedShape> screened(grid.size());
     parallel_for(grid.size(), [&](std::size_t k) {
         const auto& [candidate, shape] = grid[k];
@@ -150,7 +159,8 @@ std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<con
         if (column.empty()) return;
         for (std::size_t i = 0; i < column.size(); ++i)
             column[i] = (column[i] - errors[i]) / static_cast<float>(step);
-        const auto [slope_of_loss, curvature] = surrounding.slope_and_curvature(column, expected_sizes);
+        const auto [slope_of_loss, curvature] =
+            surrounding.slope_and_curvature(weighting.weighted(column), expected_sizes);
         if (!(curvature > 0.0)) return;
         const double size = within_bounds(*candidate, shape, -slope_of_loss / curvature);
         screened[k].setting = of_size(*candidate, shape, size);
