@@ -29,9 +29,17 @@ class ScaledParameters {
     /// Whether it says how large an effect is.
     bool is_size(std::size_t k) const { return all_[k]->is_size(); }
 
+    /// Where its effect is without it.
+    double vanishing(std::size_t k) const { return all_[k]->vanishing / scale(k); }
+
+    /// Whether two are the same parameter of one effect.
+    bool is_same(std::size_t k, const ScaledParameters& others, std::size_t other) const {
+        return all_[k] == others.all_[other];
+    }
+
     /// By how many typical sizes a value is from where its effect vanishes; 0 of what is no size.
     double typical_sizes(std::size_t k, double scaled) const {
-        return is_size(k) ? scaled - all_[k]->vanishing / scale(k) : 0.0;
+        return is_size(k) ? scaled - vanishing(k) : 0.0;
     }
 
     /// A value beyond a bound counts as at it.

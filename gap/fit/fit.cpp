@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <ceres/ceres.h>
@@ -47,7 +49,8 @@ class Linearised : public ceres::EvaluationCallback {
             condense({});
         }
         if (!with_derivatives || has_derivatives_ || errors.empty()) return;
-        if (!(options_.keeps_slopes && correct_slopes())) find_slopes();
+        const KnownSlopes* const nearby = kept_.by_parameter.empty() ? options_.known_slopes : &kept_;
+        if (!(options_.keeps_slopes && nearby && go_on_from(*nearby))) find_slopes();
         use_slopes();
     }
 
@@ -72,6 +75,9 @@ class Linearised : public ceres::EvaluationCallback {
         return sum;
     }
 
+    /// The slopes that were used last, where they are kept.
+    KnownSlopes taken_slopes() { return std::move(kept_); }
+
     Errors errors;
     std::vector<WindowProducts> condensed;  ///< of the windows counted
 
@@ -84,38 +90,67 @@ class Linearised : public ceres::EvaluationCallback {
         is_exact_ = true;
     }
 
-    /// Corrects the slopes of the last point by what the errors have changed from there.
+    /// For each parameter of a hypothesis, its place among the parameters fitted, or none where its effect is
+    /// not fitted. Nothing where a parameter is fitted that it does not have, has in other scales, or without
+    /// a slope.
+    std::optional<std::vector<std::optional<std::size_t>>> places_of(const ScaledParameters& others) const {
+        std::vector<std::optional<std::size_t>> places(others.size());
+        const auto is_same = [&](std::size_t own, std::size_t other) {
+            return !places[other] && parameters_.is_same(own, others, other) &&
+                   parameters_.scale(own) == others.scale(other) &&
+                   parameters_.is_level(own) == others.is_level(other);
+        };
+        for (std::size_t own = 0; own < parameters_.size(); ++own) {
+            std::size_t other = 0;
+            while (other < others.size() && !is_same(own, other)) ++other;
+            if (other == others.size()) return {};
+            places[other] = own;
+        }
+        return places;
+    }
+
+    /// Takes slopes over from nearby, corrected by what the errors have changed from there.
     /// @return whether they predicted it
-    bool correct_slopes() {
+    bool go_on_from(const KnownSlopes& nearby) {
         constexpr double well = 0.1;  // of the squares of the change, that they have missed
-        if (slopes_.empty()) return false;
-        std::vector<float> step(values_.size());
+        if (nearby.by_parameter.empty() || nearby.errors.empty()) return false;
+        const ScaledParameters there(nearby.at);
+        const auto places = places_of(there);
+        if (!places) return false;
+        std::vector<float> step(there.size());
         double way = 0.0;
         for (std::size_t k = 0; k < step.size(); ++k) {
-            step[k] = static_cast<float>(values_[k] - values_of_slopes_[k]);
-            way += static_cast<double>(step[k]) * step[k];
+            const std::optional<std::size_t> own = (*places)[k];
+            step[k] = static_cast<float>((own ? values_[*own] : there.vanishing(k)) - there.values[k]);
+            if (own) way += static_cast<double>(step[k]) * step[k];
         }
-        if (!(way > 0.0)) return false;
         Errors missed(errors.size(), 0.0F);
         double missed_squares = 0.0, changed_squares = 0.0;
         for (const std::size_t w : counted_)
             for (std::size_t row = windows_[w].begin; row < windows_[w].end; ++row) {
-                const float change = errors[row] - errors_of_slopes_[row];
+                const float change = errors[row] - nearby.errors[row];
                 float expected = 0.0F;
                 for (std::size_t k = 0; k < step.size(); ++k)
-                    if (std::isfinite(slopes_[k][row])) expected += slopes_[k][row] * step[k];
+                    if (std::isfinite(nearby.by_parameter[k][row]))
+                        expected += nearby.by_parameter[k][row] * step[k];
                 if (!std::isfinite(change)) continue;
                 missed[row] = change - expected;
                 missed_squares += static_cast<double>(missed[row]) * missed[row];
                 changed_squares += static_cast<double>(change) * change;
             }
         if (missed_squares > well * changed_squares) return false;
+        std::vector<Errors> slopes(parameters_.size());
         parallel_for(step.size(), [&](std::size_t k) {
+            const std::optional<std::size_t> own = (*places)[k];
+            if (!own) return;
+            slopes[*own] = nearby.by_parameter[k];
+            if (!(way > 0.0)) return;
             const float share = step[k] / static_cast<float>(way);
             for (const std::size_t w : counted_)
                 for (std::size_t row = windows_[w].begin; row < windows_[w].end; ++row)
-                    slopes_[k][row] += share * missed[row];
+                    slopes[*own][row] += share * missed[row];
         });
+        slopes_ = std::move(slopes);
         is_exact_ = false;
         return true;
     }
@@ -129,8 +164,7 @@ class Linearised : public ceres::EvaluationCallback {
             slopes_.clear();
             return;
         }
-        values_of_slopes_ = values_;
-        errors_of_slopes_ = errors;
+        kept_ = {parameters_.at(values_), errors, slopes_};
     }
 
     void condense(const std::vector<Errors>& by_parameter) {
@@ -186,8 +220,7 @@ class Linearised : public ceres::EvaluationCallback {
     std::vector<double> values_;  ///< that errors are of
     bool has_derivatives_ = false, is_exact_ = false;
     std::vector<Errors> slopes_;  ///< by parameter
-    std::vector<double> values_of_slopes_;
-    Errors errors_of_slopes_;
+    KnownSlopes kept_;
 };
 
 /// A window as one residual a parameter and one more, which have the inner products of all of its values over
@@ -344,10 +377,12 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
     } else {
         parameters.values = values_at_start;
     }
-    if (!options.with_covariance) return result;
-    linearised.PrepareForEvaluation(true, true);
-    linearised.differentiate();
-    find_covariances(linearised, parameters, options, result);
+    if (options.with_covariance) {
+        linearised.PrepareForEvaluation(true, true);
+        linearised.differentiate();
+        find_covariances(linearised, parameters, options, result);
+    }
+    if (options.known_slopes) *options.known_slopes = linearised.taken_slopes();
     return result;
 }
 

@@ -31,6 +31,13 @@ struct Fit {
 /// equally good.
 inline constexpr double usual_step = 0.01, close_step = 0.001;
 
+/// How errors change with each parameter of a hypothesis, for a fit that goes on near it.
+struct KnownSlopes {
+    Hypothesis at;
+    Errors errors;                     ///< of that hypothesis
+    std::vector<Errors> by_parameter;  ///< per scale of each parameter, in order; empty: not known
+};
+
 struct FitOptions {
     int most_iterations = 12;
     double tolerance = 1e-4;  ///< of the loss, and of parameters if less, relative, at which a fit ends
@@ -40,6 +47,9 @@ struct FitOptions {
     /// Whether slopes are kept while they predict what a step changes, and are corrected by it (Broyden,
     /// Math. Comp. 19, 1965): of predictions that change smoothly.
     bool keeps_slopes = false;
+    /// With slopes that are kept: from where a fit may begin, of the same windows and of at least the same
+    /// effects; what it ends with is left here. Null: none.
+    KnownSlopes* known_slopes = nullptr;
     double step_scales = usual_step;  ///< of differences
     /// Errors up to this many floors count as noise: the loss is 1/2 a^2 log(1 + S_w / a^2) with this a. A
     /// fit that starts far off follows all windows with an a of what is left, not just those nearest to it.

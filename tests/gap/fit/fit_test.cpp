@@ -106,27 +106,32 @@ TEST(Fit, ExpectedSizes_BringBackWhatTheWindowsDoNotTell) {
     EXPECT_NEAR(found.hypothesis.front().values.front(), 1.0, 1e-4);
 }
 
-// With a value at the start and none in a window there is a problem without a block, which once kept the
-// loss.
-/// Errors that bend a little with two sizes.
+/// Errors that bend a little with a gain and an offset; of a hypothesis with the first alone, as with no
+/// offset.
+Errors bent_a_little(const Hypothesis& hypothesis) {
+    Errors errors(windows_count * values);
+    const double gain = hypothesis[0].values[0] - 1.03,
+                 offset_V = (hypothesis.size() > 1 ? hypothesis[1].values[0] : 0.0) - 0.05;
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+        const double t = 0.05 * static_cast<double>(k);
+        errors[k] = static_cast<float>(2e3 * gain * (1.0 + 3.0 * gain) * std::sin(t) +
+                                       1e3 * offset_V * (1.0 + offset_V) * std::cos(0.3 * t));
+    }
+    return errors;
+}
+
+const Hypothesis gain_and_offset{plant::parse_effect("drive_gain:factor=1"),
+                                 plant::parse_effect("drive_offset:offset_V=0")};
+
 TEST(Fit, SlopesThatAreKept_LeadToTheSameValues_WithFewerPredictions) {
     const auto fit_counting = [](bool keeps_slopes, int& predictions) {
         std::atomic<int> count = 0;
         const Predict predict = [&](const Hypothesis& hypothesis) {
             ++count;
-            Errors errors(windows_count * values);
-            const double gain = hypothesis[0].values[0] - 1.03, offset_V = hypothesis[1].values[0] - 0.05;
-            for (std::size_t k = 0; k < errors.size(); ++k) {
-                const double t = 0.05 * static_cast<double>(k);
-                errors[k] = static_cast<float>(2e3 * gain * (1.0 + 3.0 * gain) * std::sin(t) +
-                                               1e3 * offset_V * (1.0 + offset_V) * std::cos(0.3 * t));
-            }
-            return errors;
+            return bent_a_little(hypothesis);
         };
-        const Fit found =
-            fit(predict, windows, Wanted(windows_count, 1),
-                {plant::parse_effect("drive_gain:factor=1"), plant::parse_effect("drive_offset:offset_V=0")},
-                {.most_iterations = 30, .tolerance = 1e-8, .keeps_slopes = keeps_slopes});
+        const Fit found = fit(predict, windows, Wanted(windows_count, 1), gain_and_offset,
+                              {.most_iterations = 30, .tolerance = 1e-8, .keeps_slopes = keeps_slopes});
         predictions = count;
         return found.hypothesis;
     };
@@ -139,6 +144,52 @@ TEST(Fit, SlopesThatAreKept_LeadToTheSameValues_WithFewerPredictions) {
     EXPECT_LT(with_some, with_all);
 }
 
+TEST(Fit, SlopesOfAFitNearby_SpareTheirPredictions_AlsoWhereAnEffectWasTakenAway) {
+    std::atomic<int> count = 0;
+    const Predict predict = [&](const Hypothesis& hypothesis) {
+        ++count;
+        return bent_a_little(hypothesis);
+    };
+    KnownSlopes slopes;
+    const Wanted all(windows_count, 1);
+    const FitOptions options{
+        .most_iterations = 30, .tolerance = 1e-8, .keeps_slopes = true, .known_slopes = &slopes};
+    const Hypothesis found = fit(predict, windows, all, gain_and_offset, options).hypothesis;
+    ASSERT_EQ(slopes.by_parameter.size(), 2U);
+
+    count = 0;
+    Hypothesis beside = found;
+    beside[0].values[0] += 1e-3;
+    EXPECT_NEAR(fit(predict, windows, all, beside, options).hypothesis[0].values[0], 1.03, 1e-5);
+    const int from_slopes = count;
+    count = 0;
+    KnownSlopes none;
+    FitOptions anew = options;
+    anew.known_slopes = &none;
+    fit(predict, windows, all, beside, anew);
+    EXPECT_LE(from_slopes, count - 2);
+
+    count = 0;
+    const Hypothesis gain_alone = fit(predict, windows, all, {found[0]}, options).hypothesis;
+    const int alone_from_slopes = count;
+    count = 0;
+    none = {};
+    EXPECT_NEAR(gain_alone[0].values[0], fit(predict, windows, all, {found[0]}, anew).hypothesis[0].values[0],
+                1e-5);
+    EXPECT_LT(alone_from_slopes, count);
+}
+
+TEST(Fit, SlopesOfOtherEffects_AreNotUsed) {
+    KnownSlopes slopes;
+    const Wanted all(windows_count, 1);
+    const FitOptions options{.tolerance = 1e-8, .keeps_slopes = true, .known_slopes = &slopes};
+    fit(bent_a_little, windows, all, {gain_and_offset[0]}, options);
+    const Hypothesis both = fit(bent_a_little, windows, all, gain_and_offset, options).hypothesis;
+    EXPECT_NEAR(both[0].values[0], 1.03, 1e-5);
+    EXPECT_NEAR(both[1].values[0], 0.05, 1e-4);
+}
+
+// With a value at the start and none in a window there is a problem without a block.
 TEST(Fit, WindowsWithoutAValue_GiveTheStartBack) {
     const Predict knows_nothing = [](const Hypothesis&) {
         return Errors(windows_count * values, std::numeric_limits<float>::quiet_NaN());
