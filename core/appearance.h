@@ -29,7 +29,7 @@ struct TagSide {
 /// The noise seen in the strips of one colour around a tag.
 struct GreyNoiseSeen {
     double grey = not_measured;  ///< mean level
-    /// variance of the pixels about a linear gradient of light; rounding included
+    /// Variance of the pixels about a linear gradient of light; rounding included.
     double variance_grey2 = not_measured;
     double std_share = not_measured;  ///< standard deviation of the variance's estimate, as a fraction of it
 };

@@ -16,7 +16,7 @@ struct FormulaEffect {
         std::string unit = {};  ///< empty for a pure number
         double low = 0.0;       ///< the smallest value allowed
         double high = 0.0;      ///< the largest value allowed
-        /// the value without effect; of a parameter that only shapes the effect, any value
+        /// The value without effect; of a parameter that only shapes the effect, any value.
         double vanishing = 0.0;
         double typical = 0.0;       ///< the value where none is given
         std::string role = "size";  ///< "size", "shape" or "optional": docs/effects.md

@@ -19,7 +19,7 @@ class NormalFactor {
 
     bool has_succeeded() const;  ///< A is finite and the factor exists
     bool is_positive() const;
-    /// estimated reciprocal condition number: 1 for the identity, 0 for a singular A
+    /// Estimated reciprocal condition number: 1 for the identity, 0 for a singular A.
     double reciprocal_condition() const;
 
     Vector solve(const Vector& right) const;  ///< A^-1 b

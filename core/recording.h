@@ -29,7 +29,7 @@ struct StageRow {
     double micro_setpoint_mm = not_in_force;  ///< target position of the platform
     double micro_command_V = not_in_force;    ///< sent to the heater
     double hall_adc = not_in_force;           ///< the Hall sensor's reading
-    /// carriage position, in files that give it in place of the encoder's count
+    /// Carriage position, in files that give it in place of the encoder's count.
     double position_mm = not_in_force;
 };
 
@@ -89,7 +89,7 @@ struct RecordingHeader {
     bool is_unfinished = false;  ///< the program that made it ended before the recording was complete
     bool is_seen = false;        ///< detections are from a camera's images, not simulated directly
     StageColumns columns;        ///< which columns of StageRow the recording has
-    /// resolution of macro_setpoint_mm in the file: one unit of its last digit
+    /// Resolution of macro_setpoint_mm in the file: one unit of its last digit.
     double macro_setpoint_step_mm = 1e-4;
 };
 
@@ -99,7 +99,7 @@ struct Recording : RecordingHeader {
     std::vector<StageRow> rows;            ///< one a tick
     std::vector<TagDetection> detections;  ///< of all frames
     std::vector<FrameName> frames;         ///< those whose images are kept
-    /// of some detections, where frames were measured; in the order of time
+    /// of some detections, where frames were measured; in the order of time.
     std::vector<TagAppearance> appearances;
 };
 

@@ -23,7 +23,7 @@ struct StatedEffect {
     };
     std::string name;                   ///< as the simulator's catalogue calls it
     std::vector<Parameter> parameters;  ///< those that the file states
-    /// the formula, of an effect that is not in the simulator's catalogue
+    /// The formula, of an effect that is not in the simulator's catalogue.
     std::optional<FormulaEffect> formula = {};
 };
 

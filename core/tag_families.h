@@ -15,7 +15,7 @@ namespace fidservo {
 struct TagFamily {
     std::string_view name;  ///< as its library calls it: tag36h11, DICT_4X4_50
     int cells;              ///< cells along a side of all that is printed, without the white paper around it
-    /// cells along a side of the square whose corners are detected; side_mm is this square's
+    /// Cells along a side of the square whose corners are detected; side_mm is this square's.
     int outline_cells;
     /// The family's minimum Hamming distance, over all rotations of the codes: a code's distance from its own
     /// rotations counts too.
@@ -46,7 +46,7 @@ const TagFamily* find_tag_family(std::string_view name);
 /// How tags are printed.
 struct TagPrint {
     const TagFamily* family = &usual_tag_family();  ///< the family, which is the code book
-    /// width of the border in cells; 2 on a kalibr AprilGrid, for families with a plain border
+    /// Width of the border in cells; 2 on a kalibr AprilGrid, for families with a plain border.
     int border_cells = 1;
     bool inverted = false;  ///< black and white are exchanged, also those of the paper around the tag
 
@@ -73,7 +73,7 @@ struct TagPattern {
 
     int cells = 0;  ///< cells along a side of all that is printed
     int rim = 0;    ///< cells between the edge of the print and the outline
-    /// which cells are white, row by row, those outside of the outline included
+    /// Which cells are white, row by row, those outside of the outline included.
     std::bitset<most_cells * most_cells> white;
     std::bitset<most_cells * most_cells> code;  ///< which cells carry bits of the code
     bool paper_is_white = true;                 ///< whether the paper around the tag is white

@@ -15,7 +15,7 @@ struct CameraParameters {
     double read_noise_e;      ///< standard deviation of a pixel's read noise, electrons
     double blur_px;           ///< standard deviation of the optical blur
     double latency_s;         ///< from the middle of the exposure to the frame's arrival
-    /// standard deviation of the corners in simulated detections that are not made from rendered images
+    /// Standard deviation of the corners in simulated detections that are not made from rendered images.
     double corner_noise_px;
     double max_speed_mm_per_s;  ///< in simulated detections no tag is seen above this speed
     double gain_spread = 0.0;   ///< standard deviation of the pixels' gains: a fixed pattern of noise
