@@ -18,9 +18,8 @@ struct ThermalRegime {
     Matrix rates_per_s;  ///< A
     Rise at_last;        ///< e: equilibrium per unit of phi
     Matrix tick_decay;   ///< exp(A tick)
-    Rise
-        /// How fast the wire's rise above its surroundings changes, per unit of deviation from phi e.
-        turning_per_s;
+    /// How fast the wire's rise above its surroundings changes, per unit of deviation from phi e.
+    Rise turning_per_s;
 };
 
 /// @param surrounding  s: the wire's surroundings rise by s times the second temperature
