@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Places in rendered images: what moves by 0.01 px moves by 0.01 px, and the detector finds tags where they
+// Places in rendered images: a motion by 0.01 px is one of 0.01 px, and the detector finds tags where they
 // are.
 #include "core/camera/camera_geometry.h"
 #include "core/camera/camera_parameters.h"
@@ -22,7 +22,7 @@ namespace {
 
 struct Centroid {
     double u_px;
-    double std_px;  ///< what rounding to whole grey levels does to it
+    double std_px;  ///< standard deviation from rounding to whole grey levels
 };
 
 /// Centre of intensity in u of an image that is black around one thing. A pixel that is neither black nor
