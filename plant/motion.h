@@ -271,7 +271,7 @@ class Motion {
         return standing_.volts(x[place]) + by_formula_V;
     }
 
-    /// Formulas of a carriage moving in a direction; trial steps past a reversal count as before it.
+    /// The formulas' value at a port; in trial steps past a reversal the direction before it applies.
     double formula_V(Port port, const State& x, double direction, double voltage_V) const {
         double v = x[speed];
         if (axis_.turns_matter) v = direction * std::max(rest_mm_per_s, direction * v);

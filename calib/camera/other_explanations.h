@@ -31,7 +31,7 @@ std::optional<CameraCalibration> with_model(const CameraCalibration& asked, Lens
 /// The same with the tags' size fitted as well: `tag_scale` is the fitted size relative to the stated one.
 std::optional<CameraCalibration> with_free_tag_scale(const CameraCalibration& asked, LensModel model);
 
-/// The same, kept near the stated size.
+/// The calibration with the tags' size fitted as well, but kept near the stated size.
 std::optional<CameraCalibration> with_tag_scale_near(const CameraCalibration& asked, LensModel model);
 
 /// The number of columns of a grid whose ids count along its rows; empty: the target is no such grid.

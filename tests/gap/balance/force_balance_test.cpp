@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether forces balance along recorded ways.
+// Whether forces balance along recorded paths.
 #include "gap/balance/force_balance.h"
 
 #include "gap/candidates/coupling.h"

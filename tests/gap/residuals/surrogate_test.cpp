@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a remainder depends on, and which block that accuses, where the effect is withheld.
+// The quantity on which a remainder depends, and the block that is accused, where the effect is withheld.
 #include "core/hall.h"
 #include "core/random.h"
 #include "core/rig.h"
@@ -25,7 +25,7 @@ namespace {
 using namespace gap;
 using ::testing::HasSubstr;
 
-/// With no effect to try that could explain what is recorded.
+/// A diagnosis that may not try any effect which could explain the recordings.
 Diagnosis unnamed(const Rig& true_rig, const Hypothesis& truth, std::initializer_list<std::string_view> kinds,
                   const std::string& tried) {
     return diagnose(testing::campaign(truth, kinds, true_rig),
@@ -134,7 +134,7 @@ TEST(SlowSurrogate, PeriodOfTheReading_IsToldFromThatOfAForce) {
     EXPECT_EQ(force.where.front().block, "macro.mechanics") << first_dependence(force);
 }
 
-/// Strong ones among them, which let the carriage go by jumps.
+/// Some of them are strong and make the carriage move in jumps.
 TEST(SlowSurrogate, ForcesOnTheCarriage_AccuseTheirBlock) {
     struct Case {
         std::string_view effect, block, dependence;
@@ -162,7 +162,7 @@ TEST(Surrogate, BodyThatStoresHeat_AccusesTheHeater) {
     EXPECT_EQ(diagnosis.where.front().block, "micro.heater") << first_dependence(diagnosis);
 }
 
-/// It hardly contracts, as if its stroke were short.
+/// It hardly contracts, as with a small stroke.
 TEST(SlowSurrogate, WireThatIsHeatedFarTooLittle_AccusesTheHeater) {
     for (const char* effect : {"heater_gain:factor=0.7", "heater_gain:factor=0.55", "airflow:factor=0.5"}) {
         const Diagnosis diagnosis = unnamed(reference_rig(), testing::effects({effect}),
@@ -172,7 +172,7 @@ TEST(SlowSurrogate, WireThatIsHeatedFarTooLittle_AccusesTheHeater) {
     }
 }
 
-/// A longer stroke is no other heater, though a warmer wire contracts further too.
+/// A longer stroke must not be taken for another heater, although a warmer wire contracts further, too.
 using Change = std::function<void(Recording&)>;
 
 /// Of recordings of the reference rig that are changed, at recorded commands.
