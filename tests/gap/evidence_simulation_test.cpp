@@ -82,7 +82,7 @@ TEST(Evidence, SensorThatWouldReadHighAtAColdWire_IsNoWarmWire) {
     const auto rms_with = [&](std::string_view effect) {
         return rms(evidence, evidence.errors(effects({effect}), everything(evidence)), Signal::hall);
     };
-    // Cold, the second one reads an LSB and a half less than was recorded.
+    // From a cold wire both gains predict readings a few LSB below the recorded ones, as if it were warm.
     EXPECT_LT(rms_with("hall_gain:factor=1.005"), 2.2 * rms_with("hall_gain:factor=1.0025"));
 }
 

@@ -11,7 +11,7 @@
 namespace fidservo::testing {
 
 struct Film {
-    /// ffv1, mjpeg, mpeg4 or libx264; in the last two frames are predicted from each other.
+    /// ffv1, mjpeg, mpeg4 or libx264; mpeg4 and libx264 predict frames from other frames.
     std::string codec = "ffv1";
     std::string container = {};  ///< empty: by the file's ending
     /// CV_8UC1, all of one size; for ffv1 also CV_16UC1. The luma of mpeg4 and libx264 has limited range.

@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
         KnownCase{"FarOutOfFocus", 2099, 19, "defocus", is_followed_to_the_floor, true},
         // One half of the data has hardly any moving tag.
         KnownCase{"ShutterThatRollsInOneHalf", 2100, 106, "rolling_shutter", is_followed_to_the_floor, true},
-        // Followed as a spring that does not harden the carriage goes other ways.
+        // A simulation with a spring that does not harden takes the carriage along other paths.
         KnownCase{"HardeningCableOfManyWays", 2097, 337, "cable_force", is_followed_to_the_floor},
         // The balance of forces needs the cable only; the other effect shows in the carriage's path alone.
         KnownCase{"FrictionByDirectionBesideACable", 2101, 369, "friction_asymmetry",

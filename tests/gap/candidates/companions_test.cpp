@@ -110,7 +110,7 @@ TEST(SlowDiagnosis, HalvesThatContradictEachOther_AreEndedWithAnAnswer) {
     EXPECT_NE(diagnosis.verdict, Verdict::explained);
 }
 
-/// The effect in the middle of the rail is less than a count.
+/// Up to 50 mm from a place, the error of a distance from it is at most 0.04 mm, which is less than a count.
 TEST(SlowDiagnosis, SmallFalseScaleOfEitherSign_IsFound) {
     for (const double factor : {0.9992, 1.0008}) {
         const std::string text = fmt::format("encoder_scale:factor={}", factor);
@@ -122,7 +122,7 @@ TEST(SlowDiagnosis, SmallFalseScaleOfEitherSign_IsFound) {
     }
 }
 
-/// At a place between the points of a coarse grid.
+/// The patch lies between the points of the coarse grid of places that the search tries.
 TEST(SlowDiagnosis, NarrowPatchOfFriction_IsFoundWithItsPlace) {
     const Diagnosis diagnosis = diagnosed({"rail_patch:level_V=0.15,centre_mm=73,width_mm=3"},
                                           {"macro-square", "macro-sweep", "macro-pulses"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The quantity on which a remainder depends, and the block that is accused, where the effect is withheld.
+// If the true effect is withheld from the search: the quantity on which the remaining errors are found to
+// depend, and the block that is accused.
 #include "core/hall.h"
 #include "core/random.h"
 #include "core/rig.h"
@@ -162,7 +163,7 @@ TEST(Surrogate, BodyThatStoresHeat_AccusesTheHeater) {
     EXPECT_EQ(diagnosis.where.front().block, "micro.heater") << first_dependence(diagnosis);
 }
 
-/// It hardly contracts, as with a small stroke.
+/// Such a wire hardly contracts, which could be mistaken for a small stroke.
 TEST(SlowSurrogate, WireThatIsHeatedFarTooLittle_AccusesTheHeater) {
     for (const char* effect : {"heater_gain:factor=0.7", "heater_gain:factor=0.55", "airflow:factor=0.5"}) {
         const Diagnosis diagnosis = unnamed(reference_rig(), testing::effects({effect}),
@@ -175,7 +176,7 @@ TEST(SlowSurrogate, WireThatIsHeatedFarTooLittle_AccusesTheHeater) {
 /// A longer stroke must not be taken for another heater, although a warmer wire contracts further, too.
 using Change = std::function<void(Recording&)>;
 
-/// Of recordings of the reference rig that are changed, at recorded commands.
+/// The diagnosis of recordings of the reference rig after a change of their values.
 Diagnosis of_changed(std::initializer_list<std::string_view> kinds, const Change& change) {
     std::vector<Recording> recordings = testing::recordings_of({}, kinds);
     for (Recording& recording : recordings) change(recording);
