@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Algebra on dense matrices of any size. Every shape of factor makes the compiler write the general product
-// and the eigenvalue iteration anew, at seconds each; here they are written once.
+// Linear algebra on dense matrices of any size. The compiler takes seconds for every type of product and
+// eigenvalue iteration; here each is compiled once.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -10,17 +10,17 @@ namespace fidservo::calib {
 /// A B
 Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// J C J^T: the covariance of what depends on numbers of covariance C by the Jacobian J.
+/// J C J^T: the covariance of quantities that depend, with the Jacobian J, on numbers of covariance C.
 Eigen::MatrixXd propagated(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& jacobian);
 
 /// x that minimises |A x - b|, A of full rank.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
-/// (A^T A)^-1: the covariance of what least_squares() finds, for errors of unit variance.
+/// (A^T A)^-1: the covariance of the result of least_squares() for errors of unit variance.
 Eigen::MatrixXd inverse_of_gram(const Eigen::MatrixXd& a);
 
-/// The rotation that takes unit vector `from` to unit vector `to` by the smallest angle; of opposite ones, by
-/// half a turn about any axis across them.
+/// The rotation that takes unit vector `from` to unit vector `to` by the smallest angle; for opposite
+/// vectors, half a turn about some axis at right angles to them.
 Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 struct SymmetricParts {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Whether measured numbers differ from what they should be: by more than chance, and by enough to matter.
+// Whether measured numbers differ from their expected values, by more than chance and by enough to matter.
 #include <span>
 #include <string>
 #include <vector>
@@ -12,13 +12,13 @@ struct Expectation {
     std::string unit;
     double expected;
     double measured;
-    double std;      ///< of the difference
-    double matters;  ///< smaller differences are no drift
+    double std;      ///< standard deviation of measured - expected
+    double matters;  ///< smaller differences do not count as drift
 };
 
 struct DriftVerdict {
     Expectation of;
-    double bound;  ///< on |measured - expected|, above which it is a drift
+    double bound;  ///< |measured - expected| above this is a drift
     bool drifted;
 };
 

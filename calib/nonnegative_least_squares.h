@@ -6,7 +6,7 @@
 //
 // Block principal pivoting: L. F. Portugal, J. J. Judice, L. N. Vicente, "A comparison of block pivoting and
 // interior-point algorithms for linear least squares problems with nonnegative variables", Mathematics of
-// Computation 63, 1994. Exact: it ends at the one minimum, in a dozen factorisations as a rule.
+// Computation 63, 1994. It finds the unique minimum exactly, usually with a dozen factorisations.
 
 #include "core/result.h"
 

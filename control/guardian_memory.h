@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the program and its guardian share.
+// The memory that the program and its guardian process share.
 #include "control/stage.h"
 
 #include <atomic>
@@ -13,7 +13,7 @@ namespace fidservo::control {
 /// Why the outputs were set to zero before the run's end.
 enum class Trip : std::uint32_t { none, stalled, board_refused, guardian_lost };
 
-/// Both outputs in one word, so that a reader never sees half a command.
+/// Both outputs in one 64-bit word, so that a reader never sees half a command.
 inline std::uint64_t packed(const StageCommand& command) noexcept {
     const auto macro = std::bit_cast<std::uint32_t>(static_cast<float>(command.macro_V));
     const auto micro = std::bit_cast<std::uint32_t>(static_cast<float>(command.micro_V));
@@ -36,16 +36,16 @@ struct GuardianMemory {
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<Trip>::is_always_lock_free);
 
-/// How often each of the two looks at the other.
+/// Period at which the program and the guardian each check that the other is alive.
 inline constexpr std::chrono::milliseconds look_period{4};
 
-/// Notices that a counter stands still. Only looks count as evidence: an observer that was itself without a
-/// processor for the time cannot say anything about the other.
+/// Detects that a counter has stopped. Besides the time, a number of checks must have passed: an observer
+/// that was itself not scheduled for the time cannot say anything about the other.
 class Standstill {
   public:
     explicit Standstill(std::chrono::nanoseconds timeout) : timeout_(timeout) {}
 
-    /// One look at the counter. True if it has not changed for the timeout.
+    /// Checks the counter once. True if it has not changed for the timeout.
     bool look(std::uint64_t count) noexcept {
         const auto now = std::chrono::steady_clock::now();
         if (count != count_) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Finding the end stop. The encoder is incremental: nothing is known of the position before. The carriage
-// follows a slow ramp towards the low end of travel; where it stands although the ramp goes on is the stop.
+// Finding the end stop. The encoder is incremental: at power-up the position is unknown. The carriage follows
+// a slow ramp of the setpoint towards the low end of travel; where it stands although the ramp goes on is the
+// stop.
 #include "control/macro_controller.h"
 
 #include <cstdint>
@@ -10,28 +11,29 @@ namespace fidservo::control {
 
 /// What a rig's homing needs.
 struct HomingParams {
-    MacroControllerParams macro;           ///< of the controller that follows the ramp
-    double speed_count_per_s = 600.0;      ///< of the ramp (30 mm/s at 50 um)
-    double stuck_error_count = 60.0;       ///< ramp ahead of the carriage by this much...
-    double stuck_s = 0.100;                ///< ...without a count for this long
-    double longest_travel_count = 4400.0;  ///< farther than this there is no stop
+    MacroControllerParams macro;       ///< the controller that follows the ramp
+    double speed_count_per_s = 600.0;  ///< speed of the ramp, counts per second (30 mm/s at 50 um per count)
+    /// The stop is found where the ramp is ahead of the carriage by this much...
+    double stuck_error_count = 60.0;
+    double stuck_s = 0.100;                ///< ...and the count has not changed for this long
+    double longest_travel_count = 4400.0;  ///< no stop within this distance: homing has failed
 };
 
-/// Where homing is.
+/// The phase of a homing.
 enum class HomingPhase : std::uint8_t {
-    seeking,  ///< the ramp goes on
+    seeking,  ///< the ramp goes on, the stop is not found yet
     at_stop,  ///< the stop is found
-    failed,   ///< there is none within the longest travel
+    failed,   ///< there is no stop within the longest travel
 };
 
 /// All that homing remembers from tick to tick.
 struct HomingState {
-    HomingPhase phase = HomingPhase::seeking;  ///< where it is
-    MacroControllerState macro;                ///< of the controller that follows the ramp
+    HomingPhase phase = HomingPhase::seeking;  ///< the phase
+    MacroControllerState macro;                ///< state of the controller that follows the ramp
     double ramp_count = 0.0;                   ///< how far the ramp has gone
-    std::int64_t start_count = 0;              ///< the reading at the beginning
-    std::int64_t stop_count = 0;               ///< the reading at the end stop, once found
-    double still_s = 0.0;                      ///< how long the carriage has stood
+    std::int64_t start_count = 0;              ///< the encoder's reading at the beginning
+    std::int64_t stop_count = 0;               ///< the encoder's reading at the end stop, once found
+    double still_s = 0.0;                      ///< how long the count has not changed
     bool started = false;                      ///< whether the first reading has come
 };
 

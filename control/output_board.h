@@ -25,22 +25,22 @@ class OutputBoard {
 /// Opens the board; throws RunFault where that is not possible.
 using BoardFactory = std::function<std::unique_ptr<OutputBoard>()>;
 
-/// A board whose D/A registers are a file of two float64 (macro V, micro V), so that anybody can see what the
-/// "hardware" puts out, also after the program died: `od -A n -t f8 FILE`.
+/// A board whose D/A registers are a file of two float64 (macro V, micro V), so that the outputs can be seen
+/// from outside, also after the program has died: `od -A n -t f8 FILE`.
 class SimulatedBoard final : public OutputBoard {
   public:
-    /// Opens the registers, both zero. Throws RunFault.
+    /// Creates the file with both outputs zero. Throws RunFault.
     explicit SimulatedBoard(const std::filesystem::path& file);
     ~SimulatedBoard() override;
 
     bool write(const StageCommand& command) noexcept override;
 
-    /// What the board with these registers puts out now. Throws RunFault.
+    /// What a board with this file puts out now. Throws RunFault.
     static StageCommand outputs(const std::filesystem::path& file);
 
   private:
     struct Registers;
-    Registers* registers_;  ///< mapped file
+    Registers* registers_;  ///< in the mapped file
 };
 
 }  // namespace fidservo::control

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The micro stage's inner loop.
+// The micro stage's inner loop: a PI controller with anti-windup.
 #include "core/micro_parameters.h"
 
 namespace fidservo::control {
 
 /// What a PI remembers from tick to tick.
 struct PiState {
-    double integral_V;  ///< of the error, in the command's unit
+    double integral_V;  ///< integral term of the command
 };
 
-/// The published start: the integrator at the heater's onset.
+/// The initial state of the published controller: the integrator is at the heater's onset.
 inline PiState pi_start(const PiGains& gains) {
     return {gains.low_V};
 }

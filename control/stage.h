@@ -20,7 +20,7 @@ struct StageCommand {
     double micro_V = 0.0;  ///< of the heater
 };
 
-/// A stage that is ticked: read, then write, once a tick. Single-threaded.
+/// A stage that is driven tick by tick: one read, then one write. For one thread.
 class Stage {
   public:
     Stage() = default;

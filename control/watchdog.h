@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the 1 kHz loop itself watches, whoever controls: signs that the stage is not what the program takes it
-// for. Each of them ends the run with both commands at zero.
+// Checks of the 1 kHz loop, whichever program controls: signs that the stage does not behave as the program
+// assumes. Each of them ends the run with both commands at zero.
 #include "control/positioner.h"
 #include "control/stage.h"
 #include "core/macro_parameters.h"
@@ -20,31 +20,33 @@ namespace fidservo::control {
 enum class Alarm : std::uint8_t {
     none,
     late,           ///< the loop stood still
-    unattended,     ///< the motor runs and nobody controls it
-    hall,           ///< readings that no place of the platform gives
-    overheated,     ///< by its commands, the wire is too hot
-    not_following,  ///< the carriage does not go where the commands drive it
+    unattended,     ///< the motor runs and no program controls it
+    hall,           ///< the readings belong to no position of the platform
+    overheated,     ///< by the heater's model and the commands, the wire is too hot
+    not_following,  ///< the carriage does not go where the model says that the commands drive it
     beyond_travel,  ///< the carriage is beyond an end of its travel
 };
 
 struct WatchdogParams {
     double tick_s;
-    int late_ticks = 20;  ///< of standstill; also of motion that nobody controls
-    // Hall sensor: the readings over the travel and a tenth of it to either side.
+    /// Missed ticks in one go that raise the alarm; also ticks for which the motor runs without a program.
+    int late_ticks = 20;
+    // Hall sensor: the readings over the travel, and a tenth of the travel to either side.
     double hall_low_adc, hall_high_adc;
-    double hall_limit_s = 0.05;  ///< for so long out of them
-    // Wire: the heater's model, from ambient.
+    double hall_limit_s = 0.05;  ///< time outside that range that raises the alarm
+    // Wire: the heater's model, started at ambient temperature.
     HeaterParameters heater;
     double wire_limit_degC;
-    // Carriage: tau dv/dt = K V - v with the dead zone; what it leads the encoder by, forgotten with
-    // following_tau_s.
+    // Carriage: the model tau dv/dt = K V - v with the dead zone. The distance by which it leads the encoder
+    // decays with the time constant following_tau_s.
     MacroParameters macro;
     double following_limit_mm = 30.0;
     double following_tau_s = 0.25;
     double overtravel_mm = 2.0;
 };
 
-/// Those of a rig, with the limits that are not given as above and the wire's 15 degC above its table.
+/// The watchdog's parameters for a rig: limits that have a default above keep it; the wire's limit is 15 degC
+/// above the highest temperature of its table.
 /// @param rig  must have a micro stage
 WatchdogParams watchdog_params(const Rig& rig);
 
@@ -53,7 +55,7 @@ struct WatchdogState {
     double hall_out_s = 0.0;
     double wire_degC = 0.0;
     double speed_mm_per_s = 0.0;  ///< of the model's carriage
-    double lead_mm = 0.0;         ///< of the model's carriage before the encoder's
+    double lead_mm = 0.0;         ///< distance by which the model's carriage is ahead of the encoder's
     std::optional<std::int64_t> last_count;
 };
 
@@ -61,17 +63,17 @@ WatchdogState watchdog_start(const WatchdogParams& params);
 
 struct WatchdogInput {
     StageSample sample;
-    StageCommand command;  ///< in force since the last tick
-    int ticks_late = 0;    ///< of this tick, whole periods
-    bool attended = true;  ///< somebody controls
-    /// Counts of the travel's ends, once they are known.
+    StageCommand command;  ///< the commands in force since the last tick
+    int ticks_late = 0;    ///< how late this tick is, in whole periods
+    bool attended = true;  ///< whether a program controls
+    /// Encoder counts of the travel's ends, once they are known.
     std::optional<CarriageTravel> travel;
 };
 
 /// One tick. Does not allocate.
 Alarm watchdog_update(const WatchdogParams& params, WatchdogState& state, const WatchdogInput& input);
 
-/// One line for people, with the numbers.
+/// One line for the user, with the numbers.
 std::string text_of(Alarm alarm, const WatchdogParams& params, const WatchdogState& state,
                     const WatchdogInput& input);
 

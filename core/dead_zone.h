@@ -4,14 +4,14 @@
 //
 //     V = sgn(w) (a0 + d (|w| - w0))  for |w| >= w0, else 0
 //
-// Of this a share s may be dry friction on the motion instead (plant/friction.h), of level s (d w0 - a0),
-// with
+// A share s of it may act as dry friction on the motion instead (plant/friction.h), of level s (d w0 - a0).
+// The voltage is then
 //
 //     V = (1 - s) V + s d w
 //
 // so that a driven carriage moves as before, and a coasting one is braked.
 //
-// Branch by branch, for a motion along which w changes.
+// The functions below take the branch by name, for a motion along which w changes.
 
 #include "core/macro_parameters.h"
 
@@ -20,14 +20,14 @@
 
 namespace fidservo {
 
-/// Where a voltage lies.
+/// On which side of the dead zone a voltage lies.
 enum class DeadZoneBranch {
     left = -1,   ///< below the zone: motion to the left
     inside = 0,  ///< no motion
     right = 1,   ///< above the zone: motion to the right
 };
 
-/// Whether V is one straight line through 0: no dead zone.
+/// Whether V is a straight line through 0 for all w: there is no dead zone.
 inline bool is_straight(const DeadZone& zone) {
     return zone.threshold_V == 0.0 && zone.offset_V == 0.0;
 }
@@ -40,7 +40,7 @@ inline DeadZoneBranch dead_zone_branch(const DeadZone& zone, double drive_V) {
     return drive_V < 0.0 ? DeadZoneBranch::left : DeadZoneBranch::right;
 }
 
-/// V of a branch, also a little beyond its edge.
+/// V by the formula of a branch, which may be asked a little beyond the branch's edge.
 /// @param on_motion  the share s
 inline double dead_zone_V(const DeadZone& zone, DeadZoneBranch branch, double drive_V,
                           double on_motion = 0.0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Why something that can go wrong on a healthy program did not yield a value (core/result.h).
+// Why a function did not yield a value (core/result.h), for failures that may happen in a correct program.
 #include <string_view>
 
 namespace fidservo {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The plate of a rig file (assets/rig.yaml), checked, in memory.
+// The grid of fiducials of a rig file (assets/rig.yaml), checked, in memory.
 #include "core/tag_families.h"
 
 namespace fidservo {
@@ -10,7 +10,7 @@ namespace fidservo {
 struct FiducialParameters {
     TagPrint print;  ///< how its tags are printed
     double side_mm;  ///< of a tag's outline
-    /// From tag to tag, along x and along y.
+    /// Distance between the centres of neighbouring tags along plate x and along plate y.
     double pitch_x_mm, pitch_y_mm;
     /// How many tags there are along x and along y.
     int columns, rows;

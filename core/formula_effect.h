@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An effect that somebody has written down as a formula at a port of the machine: the text of an effects file
-// (docs/effects.md), not yet looked at. What its names mean and whether it can be evaluated is for
+// An effect that a user has written as a formula at a port of the machine, as the text of an effects file
+// (docs/effects.md), not yet parsed. What its names mean and whether it can be evaluated is for
 // plant/formulas to say.
 #include <string>
 #include <vector>
@@ -12,44 +12,45 @@ namespace fidservo {
 struct FormulaEffect {
     /// A number in the formula, which a diagnosis may fit.
     struct Parameter {
-        std::string name = {};      ///< in the formula
-        std::string unit = {};      ///< empty for a pure number
-        double low = 0.0;           ///< bounds, both included
-        double high = 0.0;          ///< the largest value that is tried
-        double vanishing = 0.0;     ///< without effect; of what only shapes the effect, any value
-        double typical = 0.0;       ///< where none is given
-        std::string role = "size";  ///< size | shape | optional
-        /// Of a shape: from which a fit may begin; empty: spread over the bounds.
+        std::string name = {};  ///< as the formula calls it
+        std::string unit = {};  ///< empty for a pure number
+        double low = 0.0;       ///< the smallest value allowed
+        double high = 0.0;      ///< the largest value allowed
+        /// The value without effect; of a parameter that only shapes the effect, any value.
+        double vanishing = 0.0;
+        double typical = 0.0;       ///< the value where none is given
+        std::string role = "size";  ///< "size", "shape" or "optional": docs/effects.md
+        /// Of a shape: the values from which a fit may begin; empty: spread over the bounds.
         std::vector<double> starts = {};
         std::string text = {};  ///< what it is, for people
 
         bool operator==(const Parameter&) const = default;
     };
 
-    /// A quantity that remembers, known to the formula by its name.
+    /// A quantity with memory, which the formula refers to by its name.
     struct Memory {
         /// What is remembered.
         enum class Kind {
-            state,  ///< its derivative by the time is `of`, per s
-            play,   ///< follows `of` as soon as that is half of `by` ahead of it
-            delay,  ///< what `of` was `by` seconds ago
+            state,  ///< `of` is the quantity's time derivative, per s
+            play,   ///< a play operator of width `by`: follows `of` once that is half of `by` ahead
+            delay,  ///< the value of `of`, `by` seconds ago
         };
-        std::string name = {};    ///< in the formula
-        Kind kind = Kind::state;  ///< what is remembered of it
-        std::string of = {};      ///< the variable or formula that it follows
-        std::string by = {};      ///< of parameters alone; unused by states
+        std::string name = {};    ///< as the formula calls it
+        Kind kind = Kind::state;  ///< which law it follows
+        std::string of = {};      ///< an expression: what the memory follows
+        std::string by = {};      ///< an expression of parameters alone: width or delay; unused by states
 
         bool operator==(const Memory&) const = default;
     };
 
-    std::string name = {};                   ///< by which it is called
+    std::string name = {};                   ///< as files and options call the effect
     std::string block = {};                  ///< e.g. "macro.friction"
     std::string acts_on = {};                ///< the port, e.g. "macro.friction"
-    std::string formula = {};                ///< what it adds there, in the port's unit
+    std::string formula = {};                ///< an expression: what is added at the port, in the port's unit
     std::vector<Parameter> parameters = {};  ///< its numbers
-    std::vector<Memory> memories = {};       ///< what it remembers
+    std::vector<Memory> memories = {};       ///< the quantities with memory that the formula uses
     std::string text = {};                   ///< what it is, for people
-    std::string source = {};                 ///< where that is from
+    std::string source = {};                 ///< where the formula is from
 
     bool operator==(const FormulaEffect&) const = default;
 };

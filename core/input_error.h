@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What ends the program is an exception, with one line for the user.
+// The two exceptions that end the program; each carries one line for the user.
 #include <stdexcept>
 
 namespace fidservo {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Libraries that are loaded when they are asked for: what brings many others is not in the program itself.
+// Libraries that are loaded at run time when first needed, because they bring many other libraries with
+// them.
 #include <string>
 
 namespace fidservo {
 
-/// A symbol of a library that is beside the program's own ones.
+/// A symbol of a library that was loaded at run time.
 struct ModuleSymbol {
     const void* symbol = nullptr;
-    std::string why;  ///< there is none
+    std::string why;  ///< why there is no symbol, where there is none
 };
 
 /// Loads a library, which stays until the program ends.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the program believes of its micro stage: the rig file's numbers, corrected by what it measured itself.
+// The program's model of the micro stage: the rig file's numbers, corrected by its own measurements.
 #include "core/hall.h"
 #include "core/micro_parameters.h"
 #include "core/preisach.h"
@@ -10,11 +10,11 @@
 
 namespace fidservo {
 
-/// A micro stage as the program believes it to be.
+/// The program's model of a micro stage.
 struct MicroModel {
     HeaterParameters heater;              ///< of the wire
     std::shared_ptr<const FodTable> fod;  ///< the wire's hysteresis
-    double stroke_scale = 1.0;            ///< contraction = stroke_scale f
+    double stroke_scale = 1.0;            ///< factor on the table's contraction f
     HallParameters hall;                  ///< the sensor's nominal curve
     /// Platform position in mm as a polynomial of d = nominal Hall position - centre:
     /// x = k0 + k1 d + k2 d^2 + k3 d^3.
@@ -34,11 +34,11 @@ double heater_rise_degC(const HeaterParameters& heater, double command_V);
 /// dT/dt = (phi(c) - (T - Ta)) / tau. Not limited.
 double heater_command_V(const HeaterParameters& heater, double temp_degC, double rate_degC_per_s);
 
-/// Temperature in degC after holding a command for a time, exact within one regime (heating or cooling; the
-/// wire never crosses from one to the other under a constant command).
+/// Temperature in degC after holding a command for a time, exact: under a constant command the wire only
+/// heats or only cools.
 double heater_step_degC(const HeaterParameters& heater, double temp_degC, double command_V, double time_s);
 
-/// The same of a heater that would bring the wire to a rise above ambient at last, degC.
+/// Temperature in degC after a time of heating power that would settle at `rise_degC` above ambient.
 double heated_degC(const HeaterParameters& heater, double temp_degC, double rise_degC, double time_s);
 
 }  // namespace fidservo

@@ -7,7 +7,7 @@
 namespace fidservo {
 
 /// A = P^T L D L^T P (Cholesky with pivots; Golub & Van Loan, Matrix Computations, 4.4). Compiled once for
-/// each of the sizes named below, since Eigen's templates take seconds a size wherever they are written out.
+/// each of the sizes at the end of this file, since Eigen's templates take seconds to compile for each size.
 template <int N>
 class NormalFactor {
   public:
@@ -19,7 +19,8 @@ class NormalFactor {
 
     bool has_succeeded() const;  ///< A is finite and the factor exists
     bool is_positive() const;
-    double reciprocal_condition() const;  ///< an estimate, 1 for the identity, 0 for a singular A
+    /// Estimated reciprocal condition number: 1 for the identity, 0 for a singular A.
+    double reciprocal_condition() const;
 
     Vector solve(const Vector& right) const;  ///< A^-1 b
     Matrix inverse() const;  ///< A^-1: the parameters' covariance, for weights of 1 / variance

@@ -14,10 +14,10 @@ namespace fidservo {
 
 /// A tag on the plate.
 struct PlateTag {
-    int id;                     ///< by the family's code book
+    int id;                     ///< as its family's code book numbers it
     Eigen::Vector2d centre_mm;  ///< its place
     double side_mm;  ///< of the outline: the black border square, for families that have a plain border
-    double angle_rad = 0.0;  ///< by which it is turned
+    double angle_rad = 0.0;  ///< rotation from plate x towards y
     TagPrint print = {};     ///< how it is printed
 
     bool operator==(const PlateTag&) const = default;
@@ -33,7 +33,7 @@ struct Dot {
 struct Pad {
     Eigen::Vector2d centre_mm;  ///< its place
     Eigen::Vector2d size_mm;    ///< width along its own x, height along its own y
-    double angle_rad = 0.0;     ///< by which it is turned
+    double angle_rad = 0.0;     ///< rotation from plate x towards y
 };
 
 /// A printed straight stroke.
@@ -43,7 +43,7 @@ struct Line {
     double width_mm;          ///< its thickness
 };
 
-/// A polyline damage, darker or brighter than what it crosses.
+/// A scratch along a polyline, darker or brighter than what it crosses.
 struct Scratch {
     std::vector<Eigen::Vector2d> points_mm;  ///< its corners, in order
     double width_mm;                         ///< its thickness
@@ -51,19 +51,19 @@ struct Scratch {
 
 /// Something printed, or damaged.
 struct Feature {
-    std::string name;                             ///< by which recipes and results call it
+    std::string name;                             ///< as recipes and results call it
     std::variant<Dot, Pad, Line, Scratch> shape;  ///< what it is, and where
     double reflectance;                           ///< 0 black .. 1 white
 };
 
 /// What lies under the camera.
 struct Plate {
-    double paper_reflectance = 0.9;  ///< of the ground, 0 black .. 1 white
-    double ink_reflectance = 0.1;    ///< of tags, 0 black .. 1 white
+    double paper_reflectance = 0.9;  ///< reflectance of the blank paper, 0 black .. 1 white
+    double ink_reflectance = 0.1;    ///< reflectance of the tags' ink, 0 black .. 1 white
     std::vector<PlateTag> tags;      ///< all printed alike
     std::vector<Feature> features;   ///< later ones lie over earlier ones
 
-    /// Of all its tags.
+    /// How all its tags are printed.
     TagPrint print() const { return tags.empty() ? TagPrint{} : tags.front().print; }
 };
 

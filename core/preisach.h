@@ -32,13 +32,13 @@ class FodTable {
     double low_degC() const { return low_degC_; }
     /// The last temperature of the grid.
     double high_degC() const { return high_degC_; }
-    /// From node to node.
+    /// Distance between neighbouring nodes of the grid.
     double step_degC() const { return step_degC_; }
     /// How many temperatures the grid has.
     std::size_t nodes() const { return nodes_; }
     /// f at positive saturation: the full stroke.
     double stroke_mm() const { return contraction_mm(high_degC_, high_degC_); }
-    /// f at two nodes, by their places in the grid.
+    /// f at two nodes, which are given by their indices in the grid.
     double node_mm(std::size_t peak, std::size_t temp) const { return square_mm_[peak * nodes_ + temp]; }
 
   private:

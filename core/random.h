@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// One generator a noise source. Counter-based: draw k of a stream is a pure function of (seed, stream, k), so
-// a snapshot is one number, and adding a source does not disturb the others.
+// A counter-based generator for each noise source: draw k of a stream is a pure function of (seed, stream,
+// k), so that the state is one number, and another source does not disturb the streams of the others.
 #include <cstdint>
 #include <string_view>
 
@@ -19,7 +19,7 @@ class NoiseStream {
 
     /// How many numbers were drawn.
     std::uint64_t position() const { return position_; }
-    /// Goes to where that many numbers were drawn.
+    /// Moves the stream to the state after that many draws.
     void seek(std::uint64_t position) { position_ = position; }
 
   private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What can go wrong at run time is a value: a result, or the reason why there is none.
+// A result or the reason why there is none: failures at run time are values, not exceptions.
 #include <string>
 #include <utility>
 
@@ -11,7 +11,7 @@ namespace fidservo {
 enum class Reason;  ///< core/failure.h lists them
 
 struct Failure {
-    Reason reason;     ///< for programs
+    Reason reason;     ///< the kind of failure, for programs
     std::string text;  ///< one line for people, without the reason's name
 };
 
@@ -22,10 +22,10 @@ class [[nodiscard]] Result : public tl::expected<T, Failure> {
     using tl::expected<T, Failure>::expected;
 };
 
-/// Nothing, or the reason why it was not done.
+/// Success without a value, or the reason why something was not done.
 using Status = Result<void>;
 
-/// What a function returns that has no value to give.
+/// The failure that a function returns in place of a value.
 inline tl::unexpected<Failure> failure(Reason reason, std::string text) {
     return tl::make_unexpected(Failure{reason, std::move(text)});
 }

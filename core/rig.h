@@ -18,23 +18,24 @@ namespace fidservo {
 struct StatedEffect {
     /// One number of the effect.
     struct Parameter {
-        std::string name;  ///< as the catalogue has it
+        std::string name;  ///< as the simulator's catalogue calls it
         double value;      ///< in the parameter's unit
     };
-    std::string name;                           ///< as the catalogue has it
-    std::vector<Parameter> parameters;          ///< as the file states them
-    std::optional<FormulaEffect> formula = {};  ///< of what the simulator's catalogue does not list
+    std::string name;                   ///< as the simulator's catalogue calls it
+    std::vector<Parameter> parameters;  ///< those that the file states
+    /// The formula, of an effect that is not in the simulator's catalogue.
+    std::optional<FormulaEffect> formula = {};
 };
 
 /// A rig as its file describes it.
 struct Rig {
     std::string name;                             ///< of the rig
-    double tick_s;                                ///< of the control loop
+    double tick_s;                                ///< period of the control loop
     MacroParameters macro;                        ///< the carriage and its drive
     std::optional<MicroParameters> micro;         ///< the platform, its wire and its sensor
-    std::optional<CameraParameters> camera;       ///< what looks at the plate
+    std::optional<CameraParameters> camera;       ///< the camera over the plate
     std::optional<FiducialParameters> fiducials;  ///< the grid of tags on the plate
-    std::vector<StatedEffect> effects;  ///< the simulator has them; controllers know nothing of them
+    std::vector<StatedEffect> effects;  ///< simulated with the rig; the controllers know nothing of them
 };
 
 }  // namespace fidservo

@@ -4,11 +4,12 @@
 
 namespace fidservo {
 
-/// A descriptor that becomes readable when it is raised, and stays so until it is cleared: it ends the
-/// waiting of a thread, or of a child process. Raised from any thread; neither call waits.
+/// A file descriptor that becomes readable when the signal is raised, and stays so until it is cleared; it
+/// wakes a thread or a child process that waits for it. May be raised from any thread; neither raise() nor
+/// clear() blocks.
 class WakeSignal {
   public:
-    /// Throws RunFault.
+    /// Throws RunFault if the system gives no descriptor.
     WakeSignal();
     ~WakeSignal();
     WakeSignal(const WakeSignal&) = delete;

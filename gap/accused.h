@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which blocks a diagnosis accuses, and how much its names are to be believed.
+// Which blocks of the rig file a diagnosis accuses of being wrong, and whether the effects that it names are
+// credible.
 #include "gap/diagnosis.h"
 
 #include <string>
@@ -8,14 +9,16 @@
 
 namespace fidservo::gap {
 
-/// Accuses a block, beside what accuses it already: 1 - (1 - p)(1 - probability). Likeliest first; of those
-/// that are as likely to a twentieth, what was accused first.
+/// Adds evidence against a block: its probability p becomes 1 - (1 - p)(1 - probability). The list is ordered
+/// by probability, the likeliest first; blocks within a twentieth of each other are in the order in which
+/// they were accused.
 void accuse(std::vector<BlockProbability>& where, const std::string& block, double probability);
 
-/// Of the effects named; 0 where none is.
+/// The mean probability of the effects named; 0 without effects.
 double mean_probability(const std::vector<FoundEffect>& effects);
 
-/// Whether their mean probability is above a half: names that are not may stand in for something else.
+/// Whether the mean probability of the effects named is above a half. If it is not, they may stand in for
+/// another cause.
 bool are_credible(const std::vector<FoundEffect>& effects);
 
 }  // namespace fidservo::gap

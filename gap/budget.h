@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How long a diagnosis may take, and whether its user still wants it.
+// The time that a diagnosis may take, and whether its user still wants it.
 //
-// A search has no natural end: it ends when its time is spent or its user says so, and the best that it has
-// found until then stands. Whatever takes long asks its budget as it goes.
+// A search has no natural end: it ends when its time is spent or its user says so, and the best result until
+// then is kept. All long computations check the budget regularly.
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -14,33 +14,33 @@
 
 namespace fidservo::gap {
 
-/// How a diagnosis came to its end.
+/// How a diagnosis ended.
 enum class Ended {
-    finished,     ///< all was done
-    budget,       ///< the time was over
+    finished,     ///< everything was done
+    budget,       ///< the time was spent
     interrupted,  ///< by the user
 };
-/// As the report has it.
+/// The name in reports.
 std::string_view name_of(Ended ended);
 
-/// Thrown where the budget is asked after its end.
+/// Thrown by Budget::check() after the budget's end.
 class BudgetEnded : public std::exception {
   public:
-    /// With what ended it.
+    /// @param how  the reason for the end
     explicit BudgetEnded(Ended how) : how_(how) {}
-    /// For people.
+    /// The message.
     const char* what() const noexcept override { return "the time for the diagnosis is over"; }
-    /// What ended it.
+    /// The reason for the end.
     Ended how() const { return how_; }
 
   private:
     Ended how_;
 };
 
-/// What the seconds of a budget are.
+/// How the seconds of a budget are measured.
 enum class Seconds {
-    by_clock,   ///< they pass by themselves
-    by_effort,  ///< one for each rows_a_second rows of recordings that are predicted
+    by_clock,   ///< by the wall clock
+    by_effort,  ///< by computing: one second for each rows_a_second rows of recordings that are predicted
 };
 
 /// Rows of recordings (ticks of 1 ms) predicted within a second, by definition: about what two cores do.
@@ -49,33 +49,34 @@ inline constexpr double rows_a_second = 50e6;
 /// How long a diagnosis may take, and who may end it.
 class Budget {
   public:
-    /// No end.
+    /// A budget without an end.
     Budget() = default;
-    /// @param search_s     from now on, until effects are looked for
-    /// @param whole_s      until what was found is worked out; search_s at least
-    /// @param interrupted  whether the user wants an end at once; asked often, by several threads at a time
+    /// @param search_s     time for the search for effects, from now on
+    /// @param whole_s      time for the search and the evaluation of its result; at least search_s
+    /// @param interrupted  whether the user wants an end at once; called often, by several threads at a time
     Budget(double search_s, double whole_s, std::function<bool()> interrupted,
            Seconds seconds = Seconds::by_clock);
 
-    /// Throws BudgetEnded after the end of the part that is under way.
+    /// Throws BudgetEnded after the end of the present part.
     void check() const;
-    /// Counts rows that were predicted.
+    /// Counts predicted rows.
     void count(std::uint64_t rows) const { rows_.fetch_add(rows, std::memory_order_relaxed); }
-    /// How many were counted so far.
+    /// The number of predicted rows so far.
     std::uint64_t rows() const { return rows_.load(std::memory_order_relaxed); }
-    /// What follows works out what was found.
+    /// Ends the search: what follows is the evaluation of its result.
     void end_search() const { part_.store(Part::working_out, std::memory_order_relaxed); }
-    /// What follows may take so much longer.
+    /// Extends the time for what follows.
     void prolong(double extra_s) const;
-    /// What follows takes a known time, and is done whatever happens: writing a report.
+    /// Ends the budget's control: what follows takes a known time and is completed in any case, such as
+    /// writing a report.
     void end() const { part_.store(Part::over, std::memory_order_relaxed); }
-    /// Whether the user has ended it.
+    /// Whether the user has interrupted the diagnosis.
     bool is_interrupted() const { return interrupted_ && interrupted_(); }
 
   private:
     static constexpr double never = std::numeric_limits<double>::infinity();
 
-    /// Since the budget began.
+    /// Time since the budget began.
     double now_s() const;
 
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -85,9 +86,9 @@ class Budget {
     Seconds seconds_ = Seconds::by_clock;
     mutable std::atomic<std::uint64_t> rows_ = 0;
     enum class Part {
-        search,       ///< effects are looked for
-        working_out,  ///< what was found is worked out
-        over,         ///< nothing more may begin
+        search,       ///< the search for effects
+        working_out,  ///< the evaluation of its result
+        over,         ///< what is completed in any case
     };
     mutable std::atomic<Part> part_ = Part::search;
 };

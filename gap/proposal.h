@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The equation of a diagnosis: for the whole gap in the place of its names, or beside them.
+// The equation of a diagnosis: in place of its named effects for the whole gap, or in addition to them.
 #include "gap/diagnose.h"
 #include "gap/search/selection.h"
 
 namespace fidservo::gap {
 
-/// Where something is left and options.equation_s allows it, looks for an equation (gap/equation/equation.h)
-/// in the place of all names and for one beside them, and proposes the likelier one of both
-/// (weight_of_first), in the place of the names only where it is likelier than they alone. Of names in whose
-/// place it stands, and of the blocks that they accuse, the probabilities are what that leaves them. Where
-/// the time ends before both were judged, what was found by then counts.
-/// @return how the time for it ended
+/// Where something remains unexplained and options.equation_s allows it, searches for an equation
+/// (gap/equation/equation.h) in place of all named effects and for one in addition to them, and proposes the
+/// more probable of the two (weight_of_first); the first only if it is more probable than the named effects
+/// alone. The probabilities of effects that it replaces, and of the blocks that they accuse, are reduced
+/// accordingly. Where the time ends before both were judged, the result until then is used.
+/// @return how the search ended
 Ended propose_equation(const Evidence& evidence, const Selection& selection, const DiagnosisOptions& options,
                        Diagnosis& diagnosis);
 

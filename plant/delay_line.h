@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A command that acts late by any time, not only by whole ticks: what was given at t acts from t + delay on,
-// which may be within a tick. Before the first one 0 is in force.
+// A command that is delayed by any time, not only by whole ticks: what was given at t acts from t + delay on,
+// which may be within a tick. Before the first command acts, 0 is in force.
 #include "core/demand.h"
 #include "core/time.h"
 
@@ -15,23 +15,23 @@ struct DelayLineState {
         TimeNs given_ns;
         double command;
     };
-    std::vector<Change> pending;  ///< a ring; its size is fixed at the start
+    std::vector<Change> pending;  ///< changes still to act, as a ring buffer; its size is fixed at the start
     std::size_t first = 0, count = 0;
-    double given = 0.0;   ///< the last command
-    double acting = 0.0;  ///< the one in force
+    double given = 0.0;   ///< the last command given
+    double acting = 0.0;  ///< the command in force
     TimeNs now_ns = 0;
 };
 
-/// A line on which nothing was ever given. Changes at up to every tick find room.
+/// A line whose commands have been 0 so far. It has room for a change of the command at every tick.
 inline DelayLineState start_delay_line(double delay_s, double tick_s) {
-    constexpr std::size_t spare = 4;  // frames end ticks early, twice at most
+    constexpr std::size_t spare = 4;  // ticks may be cut short at a frame's time, twice at most
     DelayLineState state;
     state.pending.resize(static_cast<std::size_t>(std::ceil(delay_s / tick_s)) + spare);
     return state;
 }
 
-/// Gives a command that is held over a tick, and calls piece(command, duration_s) for all that acts during
-/// it, one after the other. Does not allocate.
+/// Gives a command that is held over a tick, and calls piece(command, duration_s) for each piece of the tick
+/// with a constant command in force, in order. Does not allocate.
 template <class Piece>
 void pass(DelayLineState& state, double delay_s, double tick_s, double command, Piece piece) {
     const std::size_t size = state.pending.size();

@@ -12,11 +12,11 @@ namespace fidservo::plant {
 
 template <std::size_t size>
 struct RungeKuttaStep {
-    std::array<double, size> end;    ///< fifth order
-    std::array<double, size> error;  ///< fifth minus fourth order
+    std::array<double, size> end;    ///< the solution of order 5
+    std::array<double, size> error;  ///< the solution of order 5 minus that of order 4
 };
 
-/// x' = rate(x), autonomous, over a duration h. `first` is rate(start).
+/// One step of x' = rate(x), autonomous, over a duration h. `first` is rate(start).
 template <std::size_t size, class Rate>
 RungeKuttaStep<size> dormand_prince_step(const Rate& rate, const std::array<double, size>& start,
                                          const std::array<double, size>& first, double h) {
@@ -45,7 +45,8 @@ RungeKuttaStep<size> dormand_prince_step(const Rate& rate, const std::array<doub
     return {end, error};
 }
 
-/// The share of a step of such an error, in tolerances, that would keep within them: 0.1 to 5.
+/// The factor on the step size that would bring an error, given in units of the tolerance, within the
+/// tolerance: 0.1 to 5.
 inline double fitting_share(double error) {
     constexpr double safety = 0.9, most = 5.0, of_most = 1.8e-4;  // (safety / most)^5
     return error < of_most ? most : std::max(safety * std::pow(error, -0.2), 0.1);

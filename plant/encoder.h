@@ -2,8 +2,9 @@
 #pragma once
 // The macro stage's incremental encoder:  count = floor(y / resolution + 1/2) - origin.
 //
-// It counts from where it was switched on: before homing a count says nothing about the position. Recordings
-// of the reference rig are made after homing, with the origin at the left end of travel (origin 0).
+// It counts from where the carriage was at power-up, so that before homing a count says nothing about the
+// position. Recordings of the reference rig are made after homing, with the origin at the left end of travel
+// (origin 0).
 #include "plant/formulas/formulas.h"
 
 #include <array>
@@ -13,7 +14,7 @@
 
 namespace fidservo::plant {
 
-/// The error  A sin(2 pi y / p + phase)  of the position that it reads.
+/// A periodic error  A sin(2 pi y / p + phase)  of the position that the encoder reads.
 struct EncoderRipple {
     double amplitude_mm = 0.0;
     double period_mm = 1.0;
@@ -27,14 +28,14 @@ struct Encoder {
     EncoderRipple ripple{};
     Formulas formulas{};
 
-    /// Whether counts are those of a straight scale.
+    /// Whether the scale is without error: no ripple, no formulas.
     bool is_straight() const { return ripple.amplitude_mm == 0.0 && !formulas.any(); }
 };
 
-/// Where the count is zero.
+/// Where the encoder's count is zero.
 enum class EncoderOrigin {
     power_up,       ///< where the carriage stands at the start
-    end_of_travel,  ///< y = 0: a rig that was homed before
+    end_of_travel,  ///< at y = 0: the rig was homed before
 };
 
 struct EncoderState {
@@ -43,12 +44,13 @@ struct EncoderState {
 
 EncoderState start(const Encoder& encoder, double position_mm, EncoderOrigin origin);
 
-/// What formulas add to a place that is read, mm.
+/// What formulas add to the position that the encoder reads, mm.
 inline double formula_error_mm(const Encoder& encoder, double position_mm) {
     return encoder.formulas.any() ? encoder.formulas.value(Port::encoder, std::array{position_mm}, {}) : 0.0;
 }
 
-/// What is rounded to the count, in counts from the left end of travel: (y + ripple + formulas) / resolution.
+/// The value before rounding to a count, in counts from the left end of travel: (y + ripple + formulas) /
+/// resolution.
 inline double mean_reading_count(const Encoder& encoder, double position_mm) {
     const EncoderRipple& ripple = encoder.ripple;
     const double error_mm =
@@ -58,7 +60,7 @@ inline double mean_reading_count(const Encoder& encoder, double position_mm) {
     return (position_mm + error_mm + formula_error_mm(encoder, position_mm)) / encoder.resolution_mm;
 }
 
-/// Its derivative by the position.
+/// Derivative of mean_reading_count() by the position.
 inline double counts_per_mm(const Encoder& encoder, double position_mm) {
     const EncoderRipple& ripple = encoder.ripple;
     const double error_per_mm = ripple.amplitude_mm == 0.0

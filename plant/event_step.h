@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Steps of an integration that end at an event.
+// Integration steps that end at an event.
 #include <optional>
 
 namespace fidservo::plant {
 
-/// Steps are no shorter than this, in s.
+/// The shortest step, s.
 inline constexpr double shortest_step_s = 1e-10;
 
-/// The shortest step found that ends just past an event, by regula falsi on the slack (Illinois: an end that
-/// stays counts half).
-/// @param slack_at_start  how far from the event the steps begin; if it is past or at it, the event is one
-///                        that the motion leaves for the next within the step
+/// A step that ends just past an event, found by regula falsi (Illinois variant) on the slack, the distance
+/// to the event.
+/// @param slack_at_start  the slack where the step begins; if it is 0 or negative, the motion first leaves
+///                        this event and then meets the next one within the step
 /// @param late  a step, of .duration_s, that ends past the event
 /// @param step_of  the step of a duration in s
 /// @param slack_of  how far from the event a step ends, negative past it

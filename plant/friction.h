@@ -6,11 +6,11 @@
 //     g(|v|, y) = Fc + Fs exp(-(|v| / vs)^n) + Fp exp(-(|y - yp| / wp)^m / 2)     Coulomb, Stribeck, rail
 //     patch F = sgn(v) g + c v                                                         c by direction
 //
-// While the dead zone lets nothing through g is larger by coasting_V, which a driven carriage does not feel.
+// While the drive's voltage is inside the dead zone g is larger by coasting_V, which a driven carriage does
+// not feel.
 //
-// At v = 0 dry friction holds whatever is not above g(0, y), or a little more: hold_V. Friction that creeps
-// does not hold: with a creep speed vc, tanh(v / vc) stands for sgn(v) (Andersson et al., Tribology
-// International 40, 2007).
+// At v = 0 dry friction holds against forces up to g(0, y) + hold_V. Friction that creeps does not hold: with
+// a creep speed vc, tanh(v / vc) stands for sgn(v) (Andersson et al., Tribology International 40, 2007).
 //
 // Bristles bend over a length d before they slide (Dahl 1968; in the path that is covered, as Bliman and
 // Sorine 1995 write it):
@@ -18,10 +18,10 @@
 //     F = Fc z + c1 d dz/dt + c v,     dz/dy = e / d,     e = 1 - z sgn(v) Fc / g
 //
 // This is LuGre (Canudas de Wit et al. 1995) with the stiffness sigma0 = Fc / d, whatever g is, and sigma1 =
-// c1. It lets a carriage drift under pulses that are too weak to break it away. Where bristles are springs
-// until they slide, dz/dy = sgn(e) / d, nothing drifts (Dupont et al. 2002). z follows from the way alone, so
-// that no speed makes the equations stiff. Along a way w = s (y - y0) in direction s, on which g / Fc goes
-// evenly from a to b, with little between them, m their mean and q = w / (m d):
+// c1. LuGre's law lets a carriage drift under pulses that are too weak to break it away. Where bristles are
+// springs until they slide, dz/dy = sgn(e) / d, nothing drifts (Dupont et al. 2002). z is a function of the
+// path alone, so that no speed makes the equations stiff. Along a path w = s (y - y0) in direction s, on
+// which g / Fc changes linearly and little from a to b, m their mean and q = w / (m d):
 //
 //     LuGre:    z(y) = s m + (z0 - s m) E + s (b - a) ((1 + E) / 2 - (1 - E) / q),     E = exp(-q)
 //     springs:  z(y) = z0 + s w / d, no farther than to s b
@@ -31,21 +31,22 @@
 
 namespace fidservo::plant {
 
-/// Where on the rail friction is raised: a bell of standard deviation width_mm, or steeper at its edges.
+/// A patch of the rail where friction is raised: a bell of standard deviation width_mm, or one with steeper
+/// flanks.
 struct RailPatch {
     double level_V = 0.0;
     double centre_mm = 0.0;
     double width_mm = 1.0;
-    double exponent = 2.0;  ///< m >= 2
+    double exponent = 2.0;  ///< m >= 2; 2 is a Gaussian
 
-    /// In V.
+    /// The patch's friction at a position, V.
     double friction_V(double position_mm) const {
         const double away = (position_mm - centre_mm) / width_mm;
         return level_V *
                std::exp(-0.5 * (exponent == 2.0 ? away * away : std::pow(std::abs(away), exponent)));
     }
 
-    /// Farther away exp(-32) or less of it is left, which counts as nothing.
+    /// Whether a position is near enough to count; farther away less than exp(-32) of the level is left.
     bool reaches(double position_mm) const {
         constexpr double far_widths = 8.0;
         return level_V != 0.0 && std::abs(position_mm - centre_mm) <= far_widths * width_mm;
@@ -54,27 +55,27 @@ struct RailPatch {
 
 struct Friction {
     double coulomb_V = 0.0;
-    double coasting_V = 0.0;  ///< beyond it, where the drive has no voltage for motion
-    double hold_V = 0.0;      ///< what is held at rest beyond g
-    double stribeck_V = 0.0;  ///< beyond Coulomb friction, at rest
+    double coasting_V = 0.0;  ///< added to coulomb_V while the drive's voltage is inside the dead zone
+    double hold_V = 0.0;      ///< force held at rest in excess of g
+    double stribeck_V = 0.0;  ///< excess over Coulomb friction at rest
     double stribeck_mm_per_s = 1.0;
-    double stribeck_exponent = 1.0;  ///< n: 1 an exponential, 2 a bell
+    double stribeck_exponent = 1.0;  ///< n: 1 an exponential, 2 a Gaussian
     RailPatch patch{};
-    double creep_mm_per_s = 0.0;    ///< vc; 0: none, friction holds at rest
-    double right_V_s_per_mm = 0.0;  ///< viscous, on motion to the right
+    double creep_mm_per_s = 0.0;    ///< vc; 0: friction holds at rest
+    double right_V_s_per_mm = 0.0;  ///< viscous coefficient for motion to the right
     double left_V_s_per_mm = 0.0;
     double bristle_mm = 0.0;  ///< d; 0: rigid
     double bristle_damping_V_s_per_mm = 0.0;
-    bool bristles_are_springs = false;  ///< until they slide
+    bool bristles_are_springs = false;  ///< bristles are elastic until they slide, instead of LuGre's law
 };
 
-/// Whether g can be other than 0.
+/// Whether there is dry friction: g can be other than 0.
 inline bool is_dry(const Friction& friction) {
     return friction.coulomb_V != 0.0 || friction.coasting_V != 0.0 || friction.stribeck_V != 0.0 ||
            friction.patch.level_V != 0.0;
 }
 
-/// Bristles without Coulomb friction would have no stiffness.
+/// Whether bristles act. Without Coulomb friction they would have no stiffness.
 inline bool has_bristles(const Friction& friction) {
     return friction.bristle_mm > 0.0 && friction.coulomb_V > 0.0;
 }
@@ -83,7 +84,7 @@ inline bool acts(const Friction& friction) {
     return is_dry(friction) || friction.right_V_s_per_mm != 0.0 || friction.left_V_s_per_mm != 0.0;
 }
 
-/// Fs exp(-(|v| / vs)^n) in V.
+/// The Stribeck term Fs exp(-(|v| / vs)^n), V.
 inline double stribeck_friction_V(const Friction& friction, double speed_mm_per_s) {
     const double share = speed_mm_per_s / friction.stribeck_mm_per_s;
     const double n = friction.stribeck_exponent;
@@ -92,8 +93,8 @@ inline double stribeck_friction_V(const Friction& friction, double speed_mm_per_
     return power > next_to_nothing ? 0.0 : friction.stribeck_V * std::exp(-power);
 }
 
-/// g(|v|, y) in V.
-/// @param coasts  whether the drive has no voltage for motion
+/// Dry friction g(|v|, y), V.
+/// @param coasts  whether the drive's voltage is inside the dead zone
 inline double dry_friction_V(const Friction& friction, double speed_mm_per_s, double position_mm,
                              bool coasts) {
     double level_V = friction.coulomb_V;
@@ -103,15 +104,16 @@ inline double dry_friction_V(const Friction& friction, double speed_mm_per_s, do
     return level_V;
 }
 
-/// What dry friction holds at rest, in V: without bristles, which always give way a little.
-/// @param coasts  whether the drive has no voltage for motion: a belt may pull all the same
+/// The force that dry friction holds at rest, V, for friction without bristles (bristles always yield a
+/// little).
+/// @param coasts  whether the drive's voltage is inside the dead zone; a belt may still pull then
 inline double breakaway_V(const Friction& friction, double position_mm, bool coasts) {
     return friction.creep_mm_per_s > 0.0
                ? 0.0
                : friction.hold_V + dry_friction_V(friction, 0.0, position_mm, coasts);
 }
 
-/// F without bristles, in V, of a motion in a direction (+1 right, -1 left) where g is dry_V.
+/// Friction F without bristles, V, for motion in a direction (+1 right, -1 left) where dry friction is dry_V.
 inline double sliding_friction_V(const Friction& friction, double velocity_mm_per_s, double direction,
                                  double dry_V) {
     const double viscous = direction > 0.0 ? friction.right_V_s_per_mm : friction.left_V_s_per_mm;
@@ -120,7 +122,7 @@ inline double sliding_friction_V(const Friction& friction, double velocity_mm_pe
     return sign * dry_V + viscous * velocity_mm_per_s;
 }
 
-/// Whether it slides as friction does that does not creep, to the last digit.
+/// Whether at this speed creeping friction equals sliding friction to the last digit.
 inline bool slides(const Friction& friction, double speed_mm_per_s) {
     constexpr double tanh_is_one = 19.1;
     return speed_mm_per_s >= tanh_is_one * friction.creep_mm_per_s;
@@ -128,11 +130,12 @@ inline bool slides(const Friction& friction, double speed_mm_per_s) {
 
 struct Creep {
     double velocity_mm_per_s;
-    double slope_V_s_per_mm;  ///< of friction, the least between the velocity now and then
+    /// Least slope of friction over velocity between the present velocity and the balanced one.
+    double slope_V_s_per_mm;
 };
 
-/// The velocity at which friction that creeps balances what pulls; nothing where that is near what would let
-/// it slide.
+/// The velocity at which creeping friction balances the pull; empty where the pull is near the force at which
+/// the carriage would slide.
 inline std::optional<Creep> balanced_creep(const Friction& friction, double velocity_mm_per_s,
                                            double position_mm, bool coasts, double pull_V) {
     constexpr double far_below = 0.9;
@@ -143,20 +146,21 @@ inline std::optional<Creep> balanced_creep(const Friction& friction, double velo
     return Creep{friction.creep_mm_per_s * std::atanh(balance), dry_V * slope / friction.creep_mm_per_s};
 }
 
-/// Bristles that lack less than this of the bend at which they slide, do.
+/// Bristles whose bend is within this of the bend at which they slide count as sliding.
 inline constexpr double fully_bent_within = 1e-8;
 
 struct BristleBend {
     double bend;     ///< z
-    double bending;  ///< d dz/dy, of a motion in its direction: 1 of unbent bristles, 0 of those that slide
+    double bending;  ///< d dz/dy for motion in its direction: 1 for unbent bristles, 0 for sliding ones
 };
 
-/// z after a way in one direction, on which g goes from before_V to dry_V.
+/// z after a path in one direction, on which g changes from before_V to dry_V.
 inline BristleBend bristle_bend(const Friction& friction, double bend, double way_mm, double direction,
                                 double before_V, double dry_V) {
     const double half = 0.5, straight = 1e-3;
     if (friction.bristles_are_springs) {
-        // Up to what slides now; further bent by a friction that was larger they give way.
+        // Bristles bend up to where they slide at the present g; if they are bent further, by a friction that
+        // was larger, they straighten.
         const double most = dry_V / friction.coulomb_V, before = direction * bend;
         const double sign = before <= most ? 1.0 : -1.0;
         const double bent = before + sign * direction * way_mm / friction.bristle_mm;
@@ -174,7 +178,7 @@ inline BristleBend bristle_bend(const Friction& friction, double bend, double wa
     return {bent, 1.0 - direction * friction.coulomb_V * bent / dry_V};
 }
 
-/// F with bristles, in V.
+/// Friction F with bristles, V.
 inline double bristle_friction_V(const Friction& friction, double velocity_mm_per_s, double direction,
                                  const BristleBend& bristles) {
     const double viscous = direction > 0.0 ? friction.right_V_s_per_mm : friction.left_V_s_per_mm;

@@ -7,7 +7,7 @@
 
 namespace fidservo::plant {
 
-/// Parameters and what follows from them. Immutable.
+/// The sensor's parameters and constants that follow from them. Immutable.
 struct HallSensor {
     HallParameters parameters;
     double lsb_per_V;
@@ -16,10 +16,10 @@ struct HallSensor {
 
 HallSensor make_hall_sensor(const HallParameters& parameters);
 
-/// The reading without noise and rounding, in LSB, at a platform position in mm.
+/// The reading before noise and rounding, in LSB, at a platform position in mm.
 double mean_reading_lsb(const HallSensor& sensor, double position_mm);
 
-/// One reading. Draws once from the noise, whatever the parameters are.
+/// One reading. Takes one draw from the noise stream, whatever the parameters are.
 /// @param disturbance_V  added to the curve's voltage
 int sample(const HallSensor& sensor, NoiseStream& noise, double position_mm, double disturbance_V = 0.0);
 

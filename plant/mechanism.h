@@ -6,12 +6,12 @@
 //     w = drive + f(y),  V = V(w)       standing forces (plant/standing_force.h), dead zone
 //     tau dv/dt = K (V - F) - v         friction (plant/friction.h); belt: plant/transmission.h
 //
-// Between events the right-hand side is smooth, and an embedded Runge-Kutta pair integrates it, its steps
-// kept to the tolerances in plant/motion.h; where all forces are straight lines, a whole step without an
+// Between events the right-hand side is smooth, and an embedded Runge-Kutta pair integrates it, with steps
+// controlled to the tolerances in plant/motion_error.h; where all forces are linear, a whole step without an
 // event has an exact solution (plant/affine_step.h), and where all but those by position are, the motion is a
 // power series (plant/motion_series.h). Events are located within the tick: the velocity's zero (turn, stop)
-// where friction or play makes it one, an edge of the dead zone, an end of travel, break-away. What is held
-// stays exactly where it is; nothing chatters.
+// where friction or play makes it one, an edge of the dead zone, an end of travel, break-away. A carriage
+// held by friction stays exactly where it is, without chattering.
 #include "plant/affine_step.h"
 
 #include <array>
@@ -21,29 +21,28 @@ namespace fidservo::plant {
 struct MacroAxis;
 struct MacroAxisState;
 
-/// What effects add to the state of the carriage: all zero where there are none.
+/// What effects add to the state of the carriage; all zero without effects.
 struct MechanismState {
-    double play_mm = 0.0;              ///< carriage minus what drives it
-    double driven_mm_per_s = 0.0;      ///< velocity of what drives it, where there is play
-    double stretch_mm = 0.0;           ///< of the belt: motor minus carriage
-    double stretching_mm_per_s = 0.0;  ///< its rate
+    double play_mm = 0.0;              ///< position of the carriage minus that of the driving part
+    double driven_mm_per_s = 0.0;      ///< velocity of the driving part, where there is play
+    double stretch_mm = 0.0;           ///< stretch of the belt: motor minus carriage
+    double stretching_mm_per_s = 0.0;  ///< rate of the belt's stretch
     double bristle_bend = 0.0;         ///< z of plant/friction.h, -1 .. 1
 };
 
-/// G of a whole step for each way in which an axis can move: by branch of the dead zone, direction, and
-/// whether friction holds the carriage. Of 2 states the upper left
-/// corner counts.
+/// The matrix G of a whole step for each mode in which an axis can move: by branch of the dead zone,
+/// direction, and whether friction holds the carriage. With 2 states only the upper left corner is used.
 struct WholeSteps {
-    double duration_s = 0.0;  ///< 0: forces are nowhere straight lines
+    double duration_s = 0.0;  ///< 0: forces are nowhere linear, so there are no matrices
     std::array<SquareMatrix<4>, 12> of_way{};
 };
 
-/// Of an axis that is otherwise made.
+/// The matrices for an axis of which everything else has been made.
 WholeSteps whole_steps(const MacroAxis& axis);
 
-/// What it took to move.
+/// The number of steps that a motion took.
 struct StepCount {
-    int integrated = 0;  ///< those that were given up included
+    int integrated = 0;  ///< Runge-Kutta steps, rejected ones included
     int in_series = 0;
 
     StepCount& operator+=(const StepCount& more) {
@@ -53,14 +52,16 @@ struct StepCount {
     }
 };
 
-/// Whether motion is a power series where dry friction does not change.
+/// Whether the motion is a power series wherever dry friction is constant.
 bool has_series(const MacroAxis& axis);
 
-/// So that a thousand ticks, a window of what is predicted, take a second at most: a step takes 0.2 us.
+/// Limit that keeps a thousand ticks, the length of a prediction window, to a second of computing: a step
+/// takes 0.2 us.
 inline constexpr int most_steps_a_tick = 5000;
 
 /// Moves the carriage under a held voltage of the drive, before standing forces and dead zone. Does not
-/// allocate. Throws InputError where forces are so stiff that it would take more than most_steps_a_tick.
+/// allocate. Throws InputError where forces are so stiff that more than most_steps_a_tick steps would be
+/// needed.
 StepCount move(const MacroAxis& axis, MacroAxisState& state, double drive_V, double duration_s);
 
 }  // namespace fidservo::plant

@@ -26,14 +26,14 @@ struct Rig;
 
 namespace fidservo::plant {
 
-/// What comes to the Hall sensor's voltage beside the platform's position.
+/// What adds to the Hall sensor's voltage besides the platform's position.
 struct HallDisturbance {
-    double drift_V_per_s = 0.0;   ///< of the zero, at first
-    double settling_per_s = 0.0;  ///< rate at which that settles; 0: never
-    double leak_V_per_V = 0.0;    ///< of the macro drive
-    double leak_lag_s = 0.0;      ///< time constant with which it follows the drive
+    double drift_V_per_s = 0.0;   ///< initial drift rate of the zero
+    double settling_per_s = 0.0;  ///< rate at which the drift settles; 0: it never does
+    double leak_V_per_V = 0.0;    ///< crosstalk from the macro drive's voltage
+    double leak_lag_s = 0.0;      ///< time constant of the crosstalk's low-pass
 
-    /// Rate t, or rate (1 - exp(-settling t)) / settling; 1 V at most.
+    /// The drift at a time: rate t, or rate (1 - exp(-settling t)) / settling, in either case limited to 1 V.
     double drift_V(double time_s) const {
         constexpr double limit_V = 1.0;
         const double grown_s =
@@ -41,45 +41,46 @@ struct HallDisturbance {
         return std::clamp(drift_V_per_s * grown_s, -limit_V, limit_V);
     }
 
-    /// Of the way to a held voltage, what is gone in a time.
+    /// The fraction of a step of the drive's voltage that has passed the crosstalk's low-pass after a time.
     double leak_share(double time_s) const {
         return leak_lag_s == 0.0 ? 1.0 : -std::expm1(-time_s / leak_lag_s);
     }
 
-    /// Whether nothing comes to the voltage.
+    /// Whether nothing adds to the voltage.
     bool is_none() const { return drift_V_per_s == 0.0 && leak_V_per_V == 0.0; }
 };
 
-/// All numbers of the micro stage, open to changes by effects.
+/// The parameters of the micro stage, which effects change.
 struct MicroStageParameters {
-    HeaterParameters heater;                ///< of the wire
-    SecondMass mass = {};                   ///< what the wire warms besides itself
-    double heater_delay_s = 0.0;            ///< from a command to its effect
-    std::shared_ptr<const FodTable> fod;    ///< the wire's hysteresis
-    double table_shift_degC = 0.0;          ///< of the transformation temperatures against the table
-    double table_shift_degC_per_mm = 0.0;   ///< and by this much more with the wire's contraction
-    double stroke_factor = 1.0;             ///< contraction per contraction of the table
-    SwingParameters swing = {};             ///< of the platform about the wire
-    HallParameters hall;                    ///< the platform's sensor
-    HallDisturbance hall_disturbance = {};  ///< what comes to its voltage
-    Formulas formulas = {};                 ///< at the ports of the micro stage
+    HeaterParameters heater;              ///< of the wire
+    SecondMass mass = {};                 ///< thermal mass that the wire heats
+    double heater_delay_s = 0.0;          ///< time from a command to its effect
+    std::shared_ptr<const FodTable> fod;  ///< the wire's hysteresis
+    double table_shift_degC = 0.0;        ///< rise of the transformation temperatures over those of the table
+    double table_shift_degC_per_mm = 0.0;  ///< further rise per mm of the wire's contraction
+    double stroke_factor = 1.0;            ///< factor on the table's contraction
+    SwingParameters swing = {};  ///< oscillation of the platform about the place where the wire holds it
+    HallParameters hall;         ///< the platform's sensor
+    HallDisturbance hall_disturbance = {};  ///< what adds to the Hall sensor's voltage
+    Formulas formulas = {};                 ///< formulas at the ports of the micro stage
 };
 
-/// Immutable.
+/// The micro stage ready to tick. Immutable.
 struct MicroStage {
     Heater heater;                        ///< ready to tick
     std::shared_ptr<const FodTable> fod;  ///< the wire's hysteresis
-    /// As in the parameters.
+    /// As in MicroStageParameters.
     double table_shift_degC, table_shift_degC_per_mm;
-    double stroke_factor;                ///< contraction per contraction of the table
-    std::optional<PlatformSwing> swing;  ///< empty: none
+    double stroke_factor;                ///< factor on the table's contraction
+    std::optional<PlatformSwing> swing;  ///< empty: the platform does not oscillate
     HallSensor hall;                     ///< ready to tick
-    HallDisturbance hall_disturbance;    ///< what comes to its voltage
-    double leak_share;  ///< of the way to the drive's voltage that what leaks of it goes in a tick
+    HallDisturbance hall_disturbance;    ///< what adds to the Hall sensor's voltage
+    /// Fraction of a step of the drive's voltage that passes the crosstalk's low-pass in a tick.
+    double leak_share;
     TimeNs tick_ns;     ///< time between ticks
-    Formulas formulas;  ///< at the ports of the micro stage
+    Formulas formulas;  ///< formulas at the ports of the micro stage
 
-    /// Whether a tick depends on what the carriage does.
+    /// Whether the micro stage depends on the carriage's motion or drive.
     bool feels_carriage() const {
         using namespace micro_variable;
         return swing || hall_disturbance.leak_V_per_V != 0.0 || formulas.use(place) || formulas.use(speed) ||
@@ -89,30 +90,30 @@ struct MicroStage {
 
 /// What the carriage does to the platform on it during a tick.
 struct CarriageInfluence {
-    Shaking shaking = {};                         ///< acceleration that makes the platform swing
+    Shaking shaking = {};                         ///< acceleration that excites the platform's oscillation
     double drive_V = 0.0;                         ///< voltage of the macro drive
-    double place_mm = 0.0, speed_mm_per_s = 0.0;  ///< of the carriage, at the tick's end
+    double place_mm = 0.0, speed_mm_per_s = 0.0;  ///< of the carriage, at the end of the tick
 };
 
-/// What formulas see of the micro stage beside its state, and what they remember.
+/// What formulas see of the micro stage besides its state, and their memories.
 struct MicroFormulaState {
-    double command_V = 0.0;             ///< of the last tick
-    double wire_mm = 0.0;               ///< contraction, of the wire alone
-    double contraction_mm_per_s = 0.0;  ///< its rate over the last tick
-    double beside_mm = 0.0;             ///< what formulas add to the platform's place, contained in it
-    CarriageInfluence carriage = {};    ///< of the last tick
-    FormulaMemory memory = {};          ///< what formulas remember
+    double command_V = 0.0;             ///< command of the last tick
+    double wire_mm = 0.0;               ///< contraction of the wire alone
+    double contraction_mm_per_s = 0.0;  ///< rate of the contraction over the last tick
+    double beside_mm = 0.0;  ///< what formulas add to the platform's position; position_mm contains it
+    CarriageInfluence carriage = {};  ///< the carriage's influence in the last tick
+    FormulaMemory memory = {};        ///< the formulas' memories
 };
 
-/// All that a run changes.
+/// All that changes in a run.
 struct MicroStageState {
     HeaterState heater;      ///< the wire's temperature
-    PreisachMemory wire;     ///< what the wire remembers
-    double position_mm;      ///< of the platform, 0 where the wire is fully extended
-    NoiseStream hall_noise;  ///< of the Hall sensor
-    SwingState swing = {};   ///< contained in position_mm
+    PreisachMemory wire;     ///< the wire's Preisach memory
+    double position_mm;      ///< position of the platform, 0 where the wire is fully extended
+    NoiseStream hall_noise;  ///< noise stream of the Hall sensor
+    SwingState swing = {};   ///< the platform's oscillation; position_mm contains it
     TimeNs time_ns = 0;      ///< since the start
-    double drive_V = 0.0;    ///< the macro drive's voltage in the last tick, filtered as what leaks of it
+    double drive_V = 0.0;    ///< the macro drive's voltage in the last tick, behind the crosstalk's low-pass
     MicroFormulaState formulas = {};  ///< what formulas see and remember
 };
 
@@ -122,18 +123,18 @@ std::optional<MicroStageParameters> micro_stage_parameters(const Rig& rig);
 /// A stage ready to tick, and what follows from its numbers for one tick.
 MicroStage make_micro_stage(const MicroStageParameters& parameters, double tick_s);
 
-/// A wire that was not heated for long: at ambient temperature, or where formulas of its heat leave it then,
-/// fully extended.
+/// The state of a stage whose wire has not been heated for a long time: fully extended, at ambient
+/// temperature or where formulas of its heat bring it.
 MicroStageState start(const MicroStage& stage, std::uint64_t seed);
 
-/// The temperature that the wire's table is read at: the wire's, less what its load shifts the transformation
-/// by, degC. The load is that of the last tick's contraction.
+/// The temperature at which the wire's table is read, degC: the wire's temperature less the shift of the
+/// transformation by the load. The load follows the contraction of the last tick.
 double table_degC(const MicroStage& stage, const MicroStageState& state);
 
-/// Where the wire holds the platform at what it remembers now, with what formulas add, mm.
+/// The place where the wire, with its present memory, holds the platform, formulas included, mm.
 double held_mm(const MicroStage& stage, const MicroStageState& state);
 
-/// What formulas of the Hall sensor know.
+/// What formulas see at the Hall sensor.
 struct HallSight {
     double time_s = 0.0, platform_mm = 0.0;
     double wire_degC = 0.0, room_degC = 0.0;

@@ -25,7 +25,7 @@ class Motion {
     static constexpr bool has_belt = size == 4;
     static constexpr std::size_t place = 0, speed = 1, stretch = 2, motor = 3;  ///< mm, mm/s, mm, mm/s
 
-    /// @param seen  what formulas see beside the motion; outlives this
+    /// @param seen  what formulas see besides the motion; must outlive this object
     Motion(const MacroAxis& axis, double drive_V, const State& start, double bend,
            const CarriageFormulaState& seen)
         : axis_(axis),
@@ -103,7 +103,7 @@ class Motion {
              {DeadZoneBranch::left, DeadZoneBranch::inside, DeadZoneBranch::right})
             for (const double direction : {-1.0, 1.0})
                 for (const bool held : {false, true}) {
-                    const CarriageFormulaState unseen;  // there are no formulas
+                    const CarriageFormulaState unseen;  // there are no formulas here
                     Motion motion(axis, 0.0, State{}, direction, unseen);
                     motion.branch_ = branch;
                     motion.direction_ = direction;
@@ -117,7 +117,7 @@ class Motion {
     }
 
   private:
-    /// Slower than this, and pulled less than would keep it at this, is at rest.
+    /// Slower than this, under a pull that would sustain no more than this, counts as at rest.
     static constexpr double rest_mm_per_s = 1e-9;
 
     struct Step : RungeKuttaStep<size> {
@@ -129,13 +129,13 @@ class Motion {
         double duration_s;
     };
 
-    /// The way in which it moves, until the next event.
+    /// The index of its mode in WholeSteps, which holds until the next event.
     std::size_t way() const {
         const int branch = static_cast<int>(branch_) + 1;
         return 4 * static_cast<std::size_t>(branch) + (direction_ < 0.0 ? 0U : 2U) + (held_ ? 1U : 0U);
     }
 
-    /// A of x' = A x + b, where forces are straight lines.
+    /// A of x' = A x + b, where forces are linear.
     SquareMatrix<size> rates() const {
         SquareMatrix<size> rates;
         const State at_zero = rate(State{});
@@ -154,8 +154,8 @@ class Motion {
         return whole_s > 0.0 && std::abs(duration_s - whole_s) < rounding_s;
     }
 
-    /// Whether forces change by straight lines there: bristles have bent as far as they do, a patch is far,
-    /// and what creeps slides or is nothing.
+    /// Whether forces are linear there: bristles slide, a patch is out of reach, and creeping friction slides
+    /// or is absent.
     bool is_straight(const State& x) const {
         const Friction& friction = p_.friction;
         return (!axis_.has_bristles || (bend_ == direction_ && friction.coasting_V == 0.0)) &&
@@ -164,7 +164,7 @@ class Motion {
                 slides(friction, std::max(0.0, direction_ * x[speed])));
     }
 
-    /// Moves on by a duration, where friction that creeps is stiff to follow.
+    /// Moves on by a duration where creeping friction makes the equations stiff.
     bool creeps_evenly(double duration_s) {
         if (has_belt || p_.friction.creep_mm_per_s == 0.0 || axis_.has_bristles || axis_.has_friction_formula)
             return false;
@@ -180,7 +180,7 @@ class Motion {
         return true;
     }
 
-    /// Nothing where the motion is no power series, or dry friction changes. Without a belt.
+    /// Empty where the motion is no power series, or dry friction changes. Only without a belt.
     std::optional<double> advance_in_series(double longest_s) {
         if (!axis_.has_series || !is_straight(x_)) return std::nullopt;
         const MotionSeries series = series_of(longest_s);
@@ -197,7 +197,7 @@ class Motion {
         return there.duration_s;
     }
 
-    /// Nothing but where bristles that are springs bend. Without a belt.
+    /// Empty unless elastic bristles are bending. Only without a belt.
     std::optional<double> advance_on_springs(double longest_s) {
         const Friction& friction = p_.friction;
         if (!axis_.has_bristles || !friction.bristles_are_springs || !dry_is_coulomb_ ||
@@ -225,7 +225,7 @@ class Motion {
         return there.duration_s;
     }
 
-    /// Whether nothing changes where it turns, which stiff springs let it do many times a tick.
+    /// Whether no force changes at its reversals, of which stiff springs may cause many in a tick.
     bool swings_freely(const SpringMotion& motion) const {
         const Friction& friction = p_.friction;
         const double unbent_mm = x_[place] - friction.bristle_mm * bend_;
@@ -271,7 +271,7 @@ class Motion {
         return standing_.volts(x[place]) + by_formula_V;
     }
 
-    /// Of a carriage that goes in a direction; trial steps beyond a turn count as before it.
+    /// The formulas' value at a port; in trial steps past a reversal the direction before it applies.
     double formula_V(Port port, const State& x, double direction, double voltage_V) const {
         double v = x[speed];
         if (axis_.turns_matter) v = direction * std::max(rest_mm_per_s, direction * v);
@@ -284,7 +284,7 @@ class Motion {
                    : voltage_V_;
     }
 
-    /// What acts on the carriage besides its friction, as the velocity that it would sustain.
+    /// The force on the carriage without friction, as the velocity that it would sustain.
     double pull_mm_per_s(const State& x) const {
         if constexpr (has_belt)
             return axis_.belt.per_mm * x[stretch] + axis_.belt.per_mm_per_s * (x[motor] - x[speed]);
@@ -302,7 +302,7 @@ class Motion {
                    : listed_V;
     }
 
-    /// A velocity against the direction, as trial steps beyond a turn have, counts as 0.
+    /// A velocity against the direction, as in trial steps past a reversal, counts as 0.
     double dry_V_at(const State& x) const {
         return dry_friction_V(p_.friction, std::max(0.0, direction_ * x[speed]), x[place], coasts());
     }
@@ -327,7 +327,7 @@ class Motion {
         }
     }
 
-    /// Between which pulls a carriage at rest stays so. Beyond an end of travel it cannot be pulled.
+    /// The range of pulls under which a carriage at rest stays; unbounded towards an end of travel.
     void find_hold_range() {
         const double gain = p_.velocity_gain_mm_per_s_per_V;
         const double bent = axis_.has_bristles ? gain * p_.friction.coulomb_V * bend_ : 0.0;
@@ -351,7 +351,7 @@ class Motion {
         return true;
     }
 
-    /// How far it is from the nearest event; negative beyond it.
+    /// Distance to the nearest event; negative past it.
     double slack(const State& x) const {
         if (held_) {
             const double pull = pull_mm_per_s(x);
@@ -364,7 +364,7 @@ class Motion {
         return least;
     }
 
-    /// Takes over the end of a step, put right where an event has just been passed.
+    /// Takes over the end of a step, corrected where an event has just been passed.
     void settle(const State& end) {
         if (axis_.has_bristles && !held_) {
             bend_ = bend_at(end, dry_V_at(end)).bend;
@@ -389,9 +389,9 @@ class Motion {
     double drive_V_;
     State x_;
     double bend_, start_dry_V_ = 0.0;                           ///< at x_, where there are bristles
-    double trial_s_ = std::numeric_limits<double>::infinity();  ///< step to try next
+    double trial_s_ = std::numeric_limits<double>::infinity();  ///< step size to try next
     StepCount steps_;
-    // What stays as it is until the next event.
+    // Constant until the next event.
     DeadZoneBranch branch_ = DeadZoneBranch::inside;
     bool held_ = false;
     double direction_ = 1.0, voltage_V_ = 0.0, hold_low_ = 0.0, hold_high_ = 0.0;

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How exactly a carriage's motion is integrated.
+// Error tolerances for the integration of a carriage's motion.
 #include "plant/dormand_prince.h"
 
 #include <cmath>
 
 namespace fidservo::plant {
 
-/// Error of one step. With a thousand steps a second it adds up to less than 0.001 counts of 50 um a second.
+/// Tolerated error of one step. At a thousand steps a second the errors add up to less than 0.001 counts per
+/// second (a count is 50 um).
 inline constexpr double step_place_tolerance_mm = 1e-8, step_speed_tolerance_mm_per_s = 1e-6;
 
-/// Of a step of places and speeds in turn, the largest error over its tolerance; NaN where one is.
+/// The largest error of a step in units of its tolerance; NaN if any error is NaN. Positions and speeds
+/// alternate.
 template <std::size_t size>
 double error_of(const RungeKuttaStep<size>& step) {
     double worst = 0.0;

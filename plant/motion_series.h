@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The carriage under a force by position, as a power series of time: all else that acts on it is a straight
-// line of its velocity,
+// The carriage's motion under a force by position, as a power series of time; all other forces are linear in
+// its velocity:
 //
 //     y' = v,    v' = a + b f(y) - c v          f: plant/standing_force.h
 //
-// Of the share u = t / h of a duration, with y = sum Y_n u^n and so on,
+// With u = t / h, the fraction of a duration h, and y = sum Y_n u^n and so on,
 //
 //     (n + 1) Y_n+1 = h V_n,    (n + 1) V_n+1 = h (a [n = 0] + b F_n - c V_n).
 //
-// Sine and cosine of an angle A, itself a series, are the series  n S_n = sum j A_j C_n-j,
-// n C_n = -sum j A_j S_n-j  over j = 1 .. n  (Moore, Interval Analysis, 1966, ch. 11), and what is a product
-// of series is their convolution. A shorter duration is a smaller share, which costs nothing but the sums.
+// Sine and cosine of an angle A, itself a series, are the series  n S_n = sum j A_j C_n-j, n C_n = -sum j A_j
+// S_n-j  over j = 1 .. n  (Moore, Interval Analysis, 1966, ch. 11), and a product of series is their
+// convolution. A shorter duration is a smaller u, which needs only the sums again.
 #include "plant/standing_force.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 
 namespace fidservo::plant {
 
-/// a, b and c.
+/// The coefficients a, b and c.
 struct ForcesOnMotion {
     double constant_mm_per_s2;
     double standing_mm_per_s2_per_V;
@@ -47,9 +47,10 @@ class MotionSeries {
         }
     }
 
-    /// The share of the duration, 1 at most, at which what the series leaves out is below both tolerances.
+    /// The largest fraction of the duration, at most 1, at which the truncation error is within both
+    /// tolerances.
     double trusted_share(double place_tolerance_mm, double speed_tolerance_mm_per_s) const {
-        constexpr double of_next = 0.1;  // the last term may be 0 by chance
+        constexpr double of_next = 0.1;  // factor for the term before, as the last term may be 0 by chance
         const auto in_tolerances = [&](std::size_t n) {
             return std::max(std::abs(place_[n]) / place_tolerance_mm,
                             std::abs(speed_[n]) / speed_tolerance_mm_per_s);
@@ -58,7 +59,7 @@ class MotionSeries {
         return last <= 1.0 ? 1.0 : std::pow(last, -1.0 / (order - 1));
     }
 
-    /// Place in mm and velocity in mm/s at a share of the duration.
+    /// Position in mm and velocity in mm/s at a fraction of the duration.
     std::array<double, 2> at(double share) const {
         std::array<double, 2> sum{};
         for (std::size_t n = order + 1; n-- > 0;) {
@@ -78,7 +79,7 @@ class MotionSeries {
         return sum;
     }
 
-    /// F_n, from terms up to n of all else.
+    /// F_n, from the terms up to n of all other series.
     double force_V(const StandingForce& force, std::size_t n) {
         return (force.cogging_V == 0.0 ? 0.0 : wave_V(force, n)) - cable_V(force, n);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A motion against a spring, from where it begins:
+// A motion against a spring; y is counted from where the motion begins:
 //
 //     v' = a - k y - b v,     y' = v,     y(0) = 0
 //
@@ -8,8 +8,8 @@
 //
 //     y = a / k + exp(-c t) (-a / k C + (v0 - c a / k) S),     v = exp(-c t) (v0 C + (a - c v0) S)
 //
-// The energy v^2 / 2 + k (y - a / k)^2 / 2 never grows, so that y stays within
-// a / k +- sqrt((a / k)^2 + v0^2 / k).
+// The energy v^2 / 2 + k (y - a / k)^2 / 2 never grows, so that y stays within a / k +- sqrt((a / k)^2 + v0^2
+// / k).
 #include "plant/friction.h"
 
 #include <cmath>
@@ -42,13 +42,13 @@ struct SpringMotion {
                 decay * (start_mm_per_s * cosine + (start_mm_per_s2 - c * start_mm_per_s) * sine)};
     }
 
-    /// It turns round at most once in such a time, in s: half a period.
+    /// Time in s within which the motion reverses at most once: half a period.
     double until_second_turn_s() const {
         const double c = 0.5 * damping_per_s, s = c * c - stiffness_per_s2;
         return s < 0.0 ? std::numbers::pi / std::sqrt(-s) : std::numeric_limits<double>::infinity();
     }
 
-    /// Between which y, in mm, it stays for ever.
+    /// The range within which y, in mm, stays for ever.
     std::pair<double, double> range_mm() const {
         const double rest_mm = start_mm_per_s2 / stiffness_per_s2;
         const double farthest_mm = std::hypot(rest_mm, start_mm_per_s / std::sqrt(stiffness_per_s2));
@@ -56,7 +56,7 @@ struct SpringMotion {
     }
 };
 
-/// Of a carriage under a held voltage whose bristles are springs (plant/friction.h), bent by `bend`.
+/// The motion of a carriage under a held voltage with elastic bristles (plant/friction.h) bent by `bend`.
 inline SpringMotion bristle_motion(const Friction& friction, double tau_s, double gain_mm_per_s_per_V,
                                    double direction, double voltage_V, double bend,
                                    double velocity_mm_per_s) {

@@ -11,7 +11,8 @@
 //         advance(plant, state, macro_V, micro_V);
 //     }
 //
-// The state is the truth. It never leaves plant and tests: what runs on the rig sees readings only.
+// The state is the ground truth. Only the simulator and tests see it; what runs on the rig sees readings
+// only.
 #include "plant/camera.h"
 #include "plant/encoder.h"
 #include "plant/macro_axis.h"
@@ -26,41 +27,41 @@ struct Rig;
 
 namespace fidservo::plant {
 
-/// All numbers of the physics, open to changes by effects. Parts that the rig does not have are empty.
+/// The parameters of the physics, which effects change. Parts that the rig does not have are empty.
 struct PlantParameters {
     double tick_s = 0.0;                        ///< T
     MacroAxisParameters axis;                   ///< the macro stage
-    Encoder encoder{};                          ///< of the carriage
+    Encoder encoder{};                          ///< the carriage's encoder
     std::optional<MicroStageParameters> micro;  ///< the platform, its wire and its sensor
-    std::optional<CameraDeviation> camera;      ///< how the camera differs from what the file says
+    std::optional<CameraDeviation> camera;      ///< how the camera deviates from what the file says
 };
 
 /// The rig as its file describes it, ready to tick. Immutable.
 struct StagePlant {
     double tick_s = 0.0;                    ///< T
     MacroAxis axis;                         ///< the macro stage
-    Encoder encoder{};                      ///< of the carriage
+    Encoder encoder{};                      ///< the carriage's encoder
     std::optional<MicroStage> micro;        ///< the platform, its wire and its sensor
-    std::optional<CameraDeviation> camera;  ///< how the camera differs from what the file says
+    std::optional<CameraDeviation> camera;  ///< how the camera deviates from what the file says
 };
 
-/// All that a run changes. A plain value: a copy is a snapshot.
+/// All that changes in a run. A plain value: a copy is a snapshot.
 struct StageState {
-    MacroAxisState axis;                   ///< of the carriage
-    EncoderState encoder;                  ///< what it has counted from
-    std::optional<MicroStageState> micro;  ///< of the platform and its wire
+    MacroAxisState axis;                   ///< state of the carriage
+    EncoderState encoder;                  ///< the encoder's zero
+    std::optional<MicroStageState> micro;  ///< state of the platform and its wire
 };
 
 /// What the board samples at a tick. Without a micro stage hall_adc is 0.
 struct StageReading {
-    std::int64_t encoder_count = 0;  ///< since power came on
+    std::int64_t encoder_count = 0;  ///< counts since power came on
     int hall_adc = 0;                ///< of the platform's sensor, LSB
 };
 
 /// The parameters of a rig as its file describes it, with the effects that the file states.
 PlantParameters plant_parameters(const Rig& rig);
 
-/// A rig of these numbers, ready to tick.
+/// A plant with these parameters, ready to tick.
 StagePlant make_stage_plant(const PlantParameters& parameters);
 /// The rig as its file describes it, ready to tick.
 StagePlant make_stage_plant(const Rig& rig);
@@ -69,7 +70,7 @@ StagePlant make_stage_plant(const Rig& rig);
 StageState start(const StagePlant& plant, double carriage_mm, std::uint64_t seed,
                  EncoderOrigin origin = EncoderOrigin::power_up);
 
-/// Samples the sensors. Draws from the sensors' noise, nothing else of the state changes.
+/// Samples the sensors. Of the state only the sensors' noise streams change.
 StageReading sample(const StagePlant& plant, StageState& state);
 
 /// One tick under held commands in V. Does not allocate.

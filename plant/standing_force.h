@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Forces by position that a carriage at rest feels too, in volts to the right. They add to the drive's
-// voltage before the dead zone, so that friction holds them while the carriage stands.
+// Forces by position, which act on a carriage at rest too, in volts to the right. They add to the drive's
+// voltage before the dead zone, so that friction holds against them while the carriage stands.
 //
 //     f(y) = A (sin a + g sin 2a + h cos 2a) - k d (1 + c (d / 100 mm)^2),   a = 2 pi y / p + phase,  d = y -
 //     y0
 //
-// cogging, with a second harmonic, and the spring of the cable harness, which may harden (Duffing).
+// The first term is cogging, with a second harmonic; the second one is the spring of the cable harness, which
+// may harden (Duffing).
 #include <array>
 #include <cmath>
 #include <limits>
@@ -31,19 +32,19 @@ inline bool acts(const StandingForce& force) {
     return force.cogging_V != 0.0 || force.cable_V_per_mm != 0.0;
 }
 
-/// Whether it is a straight line over the place.
+/// Whether the force is a linear function of the position.
 inline bool is_straight(const StandingForce& force) {
     return force.cogging_V == 0.0 && force.cable_hardening == 0.0;
 }
 
-/// f(y) in V, to the right, for places that follow each other closely: near a place whose sine and cosine are
-/// known those of another one follow from a few terms of their series.
+/// f(y) in V, to the right, for positions that follow each other closely: near a position whose sine and
+/// cosine are known those of another one follow from a few terms of their series.
 class StandingForceNearby {
   public:
     explicit StandingForceNearby(const StandingForce& force)
         : force_(force), rad_per_mm_(2.0 * std::numbers::pi / force.cogging_period_mm) {}
 
-    /// Places near this one are asked for next.
+    /// Announces that positions near this one are asked for next.
     void go_to(double position_mm) {
         if (force_.cogging_V == 0.0 || std::abs(rad_per_mm_ * (position_mm - here_mm_)) <= near_rad) return;
         here_mm_ = position_mm;
@@ -58,13 +59,13 @@ class StandingForceNearby {
         return force_.cogging_V == 0.0 ? cable_V : cable_V + force_.cogging_V * wave(position_mm);
     }
 
-    /// Of the wave's angle.
+    /// Sine and cosine of the cogging wave's angle a.
     std::pair<double, double> sine_and_cosine(double position_mm) const {
         const double on_rad = rad_per_mm_ * (position_mm - here_mm_);
         if (!(std::abs(on_rad) <= near_rad))
             return {std::sin(phase_rad(position_mm)), std::cos(phase_rad(position_mm))};
         if (on_rad == 0.0) return {sine_, cosine_};
-        // Their series, Horner's way; what is left out is below 1e-17.
+        // Their Taylor series, by Horner's scheme; the truncation error is below 1e-17.
         constexpr std::array sine_terms{-1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6, 1.0};
         constexpr std::array cosine_terms{1.0 / 479001600, -1.0 / 3628800, 1.0 / 40320, -1.0 / 720,
                                           1.0 / 24,        -1.0 / 2,       1.0};

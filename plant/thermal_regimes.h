@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A wire that heats with one time constant and cools with another one, and what it shares its heat with:
-// linear within a regime, which may change within a tick.
+// A wire that heats with one time constant and cools with another one, together with what it exchanges heat
+// with. The equations are linear within a regime (heating or cooling), which may change within a tick.
 #include <optional>
 
 #include <Eigen/Core>
 
 namespace fidservo::plant {
 
-/// One regime, over ticks of one length: dy/dt = A (y - phi e), y what rises above ambient, the wire first.
+/// One regime, over ticks of one length: dy/dt = A (y - phi e), y the temperatures above ambient, the wire's
+/// first.
 template <int size>
 struct ThermalRegime {
     using Rise = Eigen::Matrix<double, size, 1>;
     using Matrix = Eigen::Matrix<double, size, size>;
 
     Matrix rates_per_s;  ///< A
-    Rise at_last;        ///< e
+    Rise at_last;        ///< e: equilibrium per unit of phi
     Matrix tick_decay;   ///< exp(A tick)
-    Rise
-        turning_per_s;  ///< how fast the wire's rise above its surroundings changes, per deviation from phi e
+    /// How fast the wire's rise above its surroundings changes, per unit of deviation from phi e.
+    Rise turning_per_s;
 };
 
-/// @param surrounding  s: the wire's surroundings rise by s times the second value
+/// @param surrounding  s: the wire's surroundings rise by s times the second temperature
 /// @param decay        exp(A tick)
 template <int size>
 ThermalRegime<size> thermal_regime(const Eigen::Matrix<double, size, size>& rates_per_s,
@@ -30,7 +31,7 @@ ThermalRegime<size> thermal_regime(const Eigen::Matrix<double, size, size>& rate
     return {rates_per_s, at_last, decay, (rates_per_s.row(0) - surrounding * rates_per_s.row(1)).transpose()};
 }
 
-/// When a condition that holds at first and not at the end ceases to hold: bisection.
+/// The time at which a condition that holds at first and not at the end ceases to hold, by bisection.
 template <class Condition>
 double end_of(const Condition& holds, double end_s) {
     constexpr double resolution = 1e-15;
@@ -42,7 +43,7 @@ double end_of(const Condition& holds, double end_s) {
     return after_s;
 }
 
-/// What rises above ambient, degC, after a time under a constant phi, however long.
+/// The temperatures above ambient, degC, after any time under a constant phi.
 /// @param model  .surrounding(), .regime(heating), and .decayed(regime, deviation, time_s): what is left of a
 ///               deviation from the regime's equilibrium
 template <class Model, class Rise>
@@ -62,7 +63,8 @@ Rise through_regimes(const Model& model, Rise rise_degC, double phi_degC, double
             return heats(equilibrium_degC + deviation_degC) == heating;
         };
         const Rise left_degC = after(time_s);
-        // The regime may come back before the end: the wire's rise above its surroundings turns at most once.
+        // The regime may change and come back before the end: the wire's rise above its surroundings reverses
+        // at most once.
         const bool rises_first = rises(start_degC), turns = rises(left_degC) != rises_first;
         if (!turns && keeps_side(left_degC)) return equilibrium_degC + left_degC;
         const double turn_s =
@@ -77,7 +79,7 @@ Rise through_regimes(const Model& model, Rise rise_degC, double phi_degC, double
     }
 }
 
-/// The same after a tick.
+/// The temperatures above ambient, degC, after a tick under a constant phi.
 template <class Model, class Rise>
 Rise through_tick(const Model& model, const Rise& rise_degC, double phi_degC, double tick_s) {
     const double s = model.surrounding();

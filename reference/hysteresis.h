@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// From the wire's temperature to its contraction, by the law chosen.
+// The wire's contraction as a function of its temperature, by one of two laws of hysteresis.
 #include "reference/departures.h"
 #include "reference/duhem.h"
 #include "reference/preisach_plane.h"
@@ -9,8 +9,9 @@
 
 namespace fidservo::reference {
 
-/// A load moves the transformation temperatures: the law sees temperature - shift, of which a part may go
-/// with the contraction x. What it gives is multiplied by 1 + (stroke - 1) (1 - fading x). Immutable.
+/// A load raises the transformation temperatures: the law is evaluated at temperature - shift, part of which
+/// may depend on the contraction x. The law's contraction is multiplied by 1 + (stroke - 1) (1 - fading x).
+/// Immutable.
 struct HysteresisModel {
     std::variant<PreisachPlane, DuhemLaw> law;
     double shift_degC;

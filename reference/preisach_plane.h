@@ -7,15 +7,14 @@
 // masses: f(a, b) is the mass of the relays with a' <= a and b' <= b. So a cell of the grid off the diagonal
 // holds the mixed second difference of its four nodes, spread evenly (f bilinear); a cell on the diagonal,
 // where f is linear on its lower triangle, holds its mass on the diagonal line itself, relays without
-// hysteresis; and relays that are on already at the table's lowest b lie on that edge.
+// hysteresis; and relays that are already on at the table's lowest b lie on that edge.
 //
 // The relays that are on lie below a staircase of the remembered extrema, outermost first:
 //
 //     step k:  peak_{k+1} < a <= peak_k,  b <= valley_k
 //
-// and the contraction is the sum of the masses of its strips.
-// Source: Mayergoyz, "Mathematical Models of Hysteresis", Springer, 1991, chapter 1 (geometric
-// interpretation).
+// and the contraction is the sum of the masses of its strips. Source: Mayergoyz, "Mathematical Models of
+// Hysteresis", Springer, 1991, chapter 1 (geometric interpretation).
 #include "core/preisach.h"
 
 #include <cstddef>
@@ -23,7 +22,7 @@
 
 namespace fidservo::reference {
 
-/// The relays' masses in mm on a regular grid. Immutable.
+/// The mass of the relays in mm of contraction, on a regular grid. Immutable.
 class PreisachPlane {
   public:
     explicit PreisachPlane(const FodTable& table);
@@ -47,14 +46,14 @@ class PreisachPlane {
     std::vector<double> diagonal_mass_mm_;
 };
 
-/// A stair: the relays with a up to peak (down to the next stair's peak) are on if b <= valley.
+/// One stair: the relays with a between the next stair's peak and this one's are on if b <= valley.
 struct Stair {
     double peak_degC;
     double valley_degC;
-    double outer_mm;  ///< mass of the strips above this stair; not kept for the last one
+    double outer_mm;  ///< mass of the strips of all outer stairs; not kept for the last one
 };
 
-/// What the relays remember. The last stair's valley is the present temperature; while heating its peak is
+/// What the relays remember. The last stair's valley is the present temperature; while heating, its peak is,
 /// too.
 struct Staircase {
     std::vector<Stair> stairs;
@@ -63,7 +62,7 @@ struct Staircase {
 /// Relays after heating from negative saturation.
 Staircase heated_to(const PreisachPlane& plane, double temp_degC);
 
-/// Moves the temperature, clamped to the grid, monotonically.
+/// Moves monotonically to a temperature, which is clamped to the grid.
 void move_to(const PreisachPlane& plane, Staircase& staircase, double temp_degC);
 
 /// Mass in mm of the relays that are on.

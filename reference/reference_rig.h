@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An independent model of a rig, for checking what identifies and diagnoses rigs. It shares no formula with
-// plant/: forces in balance, time continuous and integrated by Runge-Kutta in sub-steps, events located in
-// time, hysteresis by areas of the Preisach plane.
+// An independent model of a rig, for checking identification and diagnosis. It shares no formula with plant/:
+// forces in balance, time continuous and integrated by Runge-Kutta in sub-steps, events located in time,
+// hysteresis by areas of the Preisach plane.
 //
 //     const RigModel model = make_rig_model(rig);
 //     State state = start(model, 100.0, seed);
@@ -42,7 +42,7 @@ struct PlatformModel {
 /// The rig ready to tick. Parts that it does not have are empty. Immutable.
 struct RigModel {
     double tick_s = 0.0;
-    int substeps = default_substeps;  ///< a tick
+    int substeps = default_substeps;  ///< integration steps per tick
     double encoder_resolution_mm = 0.0;
     Departures departures = {};
     CarriageModel carriage = {};
@@ -62,11 +62,11 @@ struct CameraState {
     NoiseStream noise;
 };
 
-/// All that a run changes. A plain value: a copy is a snapshot.
+/// All that changes in a run. A plain value: a copy is a snapshot.
 struct State {
     std::int64_t tick = 0;
-    double macro_V = 0.0;   ///< the command in force
-    double leaked_V = 0.0;  ///< what the Hall sensor's line has of it
+    double macro_V = 0.0;   ///< the motor command in force
+    double leaked_V = 0.0;  ///< the motor command as filtered on its way to the Hall sensor's voltage
     CarriageState carriage = {};
     DelayLine macro_commands = {};
     std::optional<PlatformState> platform = {};
@@ -78,25 +78,25 @@ struct Reading {
     int hall_adc = 0;  ///< 0 without a micro stage
 };
 
-/// What no sensor tells.
+/// True values that no sensor shows.
 struct Truth {
     double carriage_mm;
     double carriage_mm_per_s;
     double wire_degC;    ///< 0 without a micro stage
-    double platform_mm;  ///< likewise
+    double platform_mm;  ///< 0 without a micro stage
 };
 
-/// @param substeps  of the integration a tick, >= 1
+/// @param substeps  integration steps per tick, >= 1
 RigModel make_rig_model(const Rig& rig, const Departures& departures = {}, int substeps = default_substeps);
 
-/// A rig at rest with a cold wire; counts are from the lower end of travel.
+/// A rig at rest with a cold wire; the encoder counts from the lower end of travel.
 State start(const RigModel& model, double carriage_mm, std::uint64_t seed);
 
-/// Samples the sensors. Draws from the Hall sensor's noise, nothing else of the state changes.
+/// Samples the sensors. Of the state only the Hall sensor's noise stream changes.
 Reading sample(const RigModel& model, State& state);
 
-/// What the camera sees in the tick that begins, under the commands given: appends to `detections`. Nothing
-/// of the state but the camera's changes.
+/// The camera's frames of the tick that begins, under the commands given: the detections are appended to
+/// `detections`. Of the state only the camera's part changes.
 void look(const RigModel& model, State& state, double macro_V, double micro_V,
           std::vector<TagDetection>& detections);
 

@@ -7,14 +7,15 @@
 //     R = paper + (ink - paper) sum over black cells (i, j) of A_i(u, t) B_j(v),   t_v = readout (v / (h - 1)
 //     - 1/2)
 //
-// A_i is the light of column i of the tag in pixel u, as it is seen at time t, B_j that of row j in pixel v.
-// For a tag parallel to the pixels they are exact: the lens is a Gaussian of deviation s, so that an edge at
-// e gives pixel u
+// A_i is the fraction of pixel u covered by column i of the tag, as seen at time t; B_j that of pixel v
+// covered by row j. For a tag parallel to the pixels they are exact: the lens is a Gaussian of deviation s,
+// so that an edge at e gives pixel u
 //
 //     G(u + 1/2 - e) - G(u - 1/2 - e),   G(z) = z Phi(z / s) + s phi(z / s)
 //
-// and a column the difference of its two edges. Out of focus, s grows, or a disc of light follows. Then come
-// the lamp's light, and what the sensor adds: shot noise, read noise, unequal gains, rounding to 8 bit.
+// and a column the difference of its two edges. Out of focus, s is larger, or a convolution with a disc
+// follows. Then come the illumination and the sensor: shot noise, read noise, unequal gains, rounding to 8
+// bit.
 #include "core/camera/camera_parameters.h"
 #include "core/fiducial_parameters.h"
 #include "core/random.h"
@@ -27,7 +28,7 @@
 
 namespace fidservo::reference {
 
-/// 1: black. Rows from the top of the image.
+/// The cells of a tag, 1 for black; rows from the top of the image.
 using TagCells = Eigen::Matrix<double, 8, 8>;
 
 struct PictureModel {
@@ -40,15 +41,15 @@ struct PictureModel {
 /// The camera's position at a time in s after the middle of the exposure, mm.
 using CameraWay = std::function<double(double after_s)>;
 
-/// Fixed gains of the pixels, CV_32F, of the image's size; empty where they are all 1.
+/// Fixed gains of the pixels, CV_32F, of the image's size; empty if all of them are 1.
 cv::Mat pixel_gains(const PictureModel& model, std::uint64_t seed);
 
 struct Picture {
-    cv::Mat image;       ///< CV_8UC1, of the camera's size; even grey away from the tag
-    cv::Rect region_px;  ///< what was drawn: the tag and white paper around it
+    cv::Mat image;       ///< CV_8UC1, of the camera's size; uniform grey outside region_px
+    cv::Rect region_px;  ///< the part that was rendered: the tag and white paper around it
 };
 
-/// Demands a camera that is neither turned nor tilted and does not distort.
+/// Demands a camera that is neither rotated nor tilted and has no distortion.
 Picture picture_of(const PictureModel& model, const CameraWay& s_mm, const cv::Mat& gains,
                    NoiseStream& noise);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The wire's temperature, integrated.
+// The wire's temperature, by integration of
 //
 //     dT/dt = (phi(c) - (T - Ta)) / tau - k (T - R_1),     tau by whether phi > T - Ta
 //
-// phi is the temperature rise that the driver's voltage c keeps up. Free convection divides the tau of
+// phi is the steady temperature rise under the heater driver's voltage c. Free convection divides the tau of
 // cooling by 1 + q ((T - Ta) / 60)^(1/4); a gain of the cold wire multiplies phi by 1 + g (1 - (T - Ta) /
 // 200), in degC. R_1..R_n are the temperatures of the mount: a rod in n equal volumes that conducts along and
 // loses heat to the room,
@@ -36,7 +36,7 @@ using WireState = std::array<double, 1 + mount_nodes>;
 
 WireModel make_wire(const HeaterParameters& heater, const HeaterDepartures& departures);
 
-/// Wire and mount at the temperature of the room.
+/// Wire and mount at room temperature.
 WireState cold_wire(const WireModel& model);
 
 /// Moves the temperatures on for h_s seconds under a held command in V.

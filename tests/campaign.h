@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The shared practice campaigns, and how far their readings scatter by noise and rounding alone.
+// The shared practice campaigns, and the scatter of their readings from noise and rounding alone.
 #include "src/files/recording/reader.h"
 
 #include <cmath>
@@ -36,8 +36,8 @@ struct SquareStatistics {
     double variance = 0.0;
 };
 
-/// Of Gaussian noise, then rounding. For a mean reading that is spread evenly over an LSB the mean is
-/// noise^2 + 1/12; a platform at rest has another, by where it rests.
+/// The statistics for Gaussian noise followed by rounding. If mean readings are uniform over an LSB the mean
+/// is noise^2 + 1/12; for a platform at rest it depends on where it rests.
 inline SquareStatistics rounded_gaussian(double mean_lsb, double noise_lsb) {
     constexpr int reach = 5;
     const auto below = [&](double level) {

@@ -4,8 +4,8 @@
 
 namespace fidservo {
 
-/// Time that this thread, or whatever else the clock is of, had on a core: what other programs do meanwhile
-/// does not count.
+/// Time that this thread, or whatever the clock measures, was running on a core; other programs' load does
+/// not count.
 inline double core_time_s(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
     timespec time{};
     ::clock_gettime(clock, &time);

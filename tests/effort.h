@@ -15,9 +15,9 @@ constexpr int cases([[maybe_unused]] int all, [[maybe_unused]] int under_sanitiz
 #endif
 }
 
-/// How many draws a scan makes: a guard's worth; all of them, for the figures that the documentation states,
-/// where the environment says FIDSERVO_DRAWS=all (./run test --all-draws). The guard's draws are the first of
-/// all.
+/// The number of random draws of a test: usually `guard`, the few that protect against regressions; `all`, on
+/// which the documentation's figures are based, where the environment has FIDSERVO_DRAWS=all (./run test
+/// --all-draws). The few are the first ones of all.
 inline int draws(int all, int guard) {
     const char* const asked = std::getenv("FIDSERVO_DRAWS");
     return asked != nullptr && std::string_view(asked) == "all" ? all : guard;

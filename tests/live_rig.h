@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A rig in real time: the simulated stage goes on by the wall clock, whoever asks and however late, and a
-// camera's frame can be had of any moment of the last second.
+// A rig in real time: the simulated stage advances by the wall clock, independent of when it is read, and a
+// camera's frame can be rendered for any time within the last second.
 #include "core/plate.h"
 #include "core/time.h"
 #include "plant/effects/catalogue.h"
@@ -22,19 +22,19 @@ struct Rig;
 class LiveRig {
   public:
     /// Begins now, on CLOCK_MONOTONIC.
-    /// @param effects  what the rig has that its file does not state; stamps and arrivals of frames, and a
-    ///                 camera's own clock, are not its business
+    /// @param effects  effects that the rig's file does not state; those of time stamps, arrival times and
+    /// the camera's clock are not simulated here
     LiveRig(const Rig& rig, const Plate& printed, double carriage_mm, std::uint64_t seed,
             std::span<const plant::EffectSetting> effects = {});
 
     /// The commands in force from the present tick on.
     void command(double macro_V, double micro_V);
-    /// What the sensors show at a time.
+    /// The sensors' readings at a time.
     plant::StageReading read(TimeNs now_ns);
-    /// What the sensors show at a time up to which these commands have been in force since the last look: for
-    /// one who looks at the commands now and then. A command then acts earlier than it was given by as much
-    /// as the reading that comes next is old, so that who gives it and reads at regular times sees no delay.
-    /// From the first look on, looks alone let time go by.
+    /// The sensors' readings at a time up to which these commands have been in force since the last call: for
+    /// a caller that reads the commands at intervals. A command then acts earlier than it was given, by the
+    /// age of the next reading, so that a program which commands and reads at regular times sees no delay.
+    /// From the first call on, time advances only by such calls.
     plant::StageReading follow(double macro_V, double micro_V, TimeNs now_ns);
     /// Where the camera's axis was at a time of the last second, mm.
     double camera_mm(TimeNs time_ns);

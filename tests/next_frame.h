@@ -42,7 +42,7 @@ inline Frame next_frame(Camera& camera) {
     return frame && *frame ? std::move(**frame) : Frame();
 }
 
-/// The failure that comes next, past the frames before it; no failure if none came.
+/// The next failure, with frames before it skipped; an ordinary result if none came.
 inline Result<std::optional<Frame>> failure_of(Camera& camera) {
     Result<std::optional<Frame>> got = std::optional<Frame>();
     wait_until([&] {

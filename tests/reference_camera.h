@@ -4,8 +4,8 @@
 
 namespace fidservo {
 
-/// The reference rig's camera, for tests and benchmarks that read no rig file. Its corner noise and speed
-/// limit, which only detections without images have, are zero.
+/// The reference rig's camera, for tests and benchmarks that read no rig file. Corner noise and speed limit,
+/// which only apply to detections without images, are zero.
 inline CameraParameters reference_camera() {
     return {.geometry = {1280, 960, 5000.0, {639.5, 479.5}, 20.0},
             .frame_rate_hz = 50.0,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Many inputs of one kind, drawn at random: each has to be measured right or refused, none silently wrong.
+// Tests with many random inputs of one kind: each must be measured right or refused, none silently wrong.
 #include <cstdint>
 #include <random>
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace fidservo {
 
-/// How the program took one input.
+/// What the program did with one input.
 struct Outcome {
     enum class End { right, refused, wrong };
     End end;
-    std::string text = {};  ///< of what is wrong, or of the refusal
+    std::string text = {};  ///< the error, or the refusal's message
 
     static Outcome right() { return {End::right}; }
-    /// In one line that tells what is the matter; anything else is wrong.
+    /// A refusal in one line that states the cause; anything else is wrong.
     static Outcome refused(const std::string& line) {
         const bool one_line = !line.empty() && line.find('\n') == std::string::npos;
         return {one_line ? End::refused : End::wrong, line};
@@ -25,11 +25,11 @@ struct Outcome {
     static Outcome wrong(const std::string& text) { return {End::wrong, text}; }
 };
 
-/// Draws `number` inputs of a kind, one a seed, and prints the kind's row of the table "kind, tried, right,
-/// refused, wrong". Every wrong one is printed with its seed; more of them than `most_wrong` fail the test,
-/// and so does a kind of which all are refused.
-/// @param trial  (std::mt19937_64&) -> Outcome: draws an input, has it read, judges
-/// @param most_wrong  0 but where a defect is known and said
+/// Draws `number` inputs of a kind, one for each seed, and prints the kind's row of the table "kind, tried,
+/// right, refused, wrong". Every wrong one is printed with its seed; more of them than `most_wrong` fail the
+/// test, and so does a kind of which all are refused.
+/// @param trial  (std::mt19937_64&) -> Outcome: draws an input, runs the program on it, judges the result
+/// @param most_wrong  0 unless a known defect is stated
 template <class Trial>
 void expect_right_or_refused(const std::string& kind, int number, Trial trial, int most_wrong = 0) {
     int right = 0, refused = 0, wrong = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// From a frame to where the camera is.
+// From the tags in a frame to the camera's position.
 #include "core/camera/camera_geometry.h"
 #include "core/detection.h"
 #include "core/plate.h"
@@ -15,15 +15,15 @@
 
 namespace fidservo::vision {
 
-/// Camera position with all that the fit says.
+/// A camera position with the quality of the fit.
 struct PositionFit {
-    CameraPosition position;  ///< by this tag
-    double y_std_mm;          ///< one standard deviation
-    double
-        rotation_rad;  ///< of the tag on the plate against its nominal angle, from x towards y: a diagnosis
-    double rotation_std_rad;  ///< one standard deviation
-    double residual_rms_px;   ///< of the eight corner coordinates against the tag so placed and turned
-    RefinedTag tag;           ///< what it was fitted to
+    CameraPosition position;  ///< the position by this tag
+    double y_std_mm;          ///< standard deviation of the position's y_mm
+    /// Rotation of the tag on the plate from its nominal angle, from x towards y; for diagnosis only.
+    double rotation_rad;
+    double rotation_std_rad;  ///< standard deviation of the rotation
+    double residual_rms_px;   ///< of the eight corner coordinates from those of the fitted tag
+    RefinedTag tag;           ///< the measured tag to which the position was fitted
 };
 
 /// Camera position s and offset y at which the image of the tag's centre c is the picture of its nominal
@@ -32,24 +32,25 @@ struct PositionFit {
 ///     back_project(c, s) + (0, y) = nominal centre,
 ///
 /// which is linear in both. Of a tag whose corners alone are known (its `explained` is 0), c is the image of
-/// the mean of the corners on the plate. Their standard deviations are propagated from the centre's
-/// covariance through the back projection; plate and geometry count as exact. The rotation is the least
-/// squares one between the corners, back-projected, and the nominal ones about the centre, and does not enter
-/// the position.
+/// the mean of the corners on the plate. The standard deviations of s and y are propagated from the centre's
+/// covariance through the back projection; the plate and the camera's geometry count as exact. The rotation
+/// is the least squares one between the corners, back-projected, and the nominal ones about the centre, and
+/// does not enter the position.
 PositionFit fit_position(const CameraGeometry& camera, const PlateTag& nominal, const RefinedTag& seen);
 
-/// What is known beforehand, and what counts as hidden.
+/// Prior knowledge for locating the camera, and thresholds for hidden and saturated tags.
 struct LocateOptions {
-    /// Where the stage believes the camera is, to within a third of a tag's cell. Only used to tell why the
-    /// expected tag is not found where no other tag tells where to look.
+    /// The stage's own estimate of the camera's position, good to a third of a tag's cell. It only serves to
+    /// find the reason for a failure: where the expected tag should be, if no other tag in the frame tells.
     std::optional<double> predicted_s_mm = {};
-    double least_explained = enough_to_measure;  ///< below: occluded
-    double most_saturated = 0.01;  ///< share of the tag's area at the grey level 255; above: glare
+    double least_explained = enough_to_measure;  ///< RefinedTag::explained below this: occluded
+    /// Glare if more than this fraction of the tag's area is at grey level 255.
+    double most_saturated = 0.01;
     GreyNoise noise = RefinementOptions{}.noise;  ///< of the camera
-    double moved_mm = 0.0;                        ///< by the stage during the exposure
+    double moved_mm = 0.0;                        ///< the stage's motion during the exposure
 };
 
-/// What refine_tag() should know of a picture of `tag` by this camera.
+/// The options of refine_tag() for a tag seen by this camera.
 RefinementOptions refinement_of(const CameraGeometry& camera, const PlateTag& tag, const TagDetection& found,
                                 const LocateOptions& options);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How far tags moved in the image since they were first seen, in um. Needs no rig: the tag's own side is the
-// scale.
+// How far tags moved in the image since they were first seen, in um. This needs no rig file: the tag's own
+// side gives the scale.
 #include "core/detection.h"
 #include "vision/tags/tag_refinement.h"
 
@@ -16,24 +16,25 @@ namespace fidservo::vision {
 struct Displacement {
     TimeNs time_ns;            ///< middle of the frame's exposure
     int tag_id;                ///< which tag
-    Eigen::Vector2d moved_um;  ///< from where it was first seen
-    Eigen::Vector2d std_um;    ///< of the two centres and, far from the start, of the scale
+    Eigen::Vector2d moved_um;  ///< displacement from where the tag was first seen
+    /// Standard deviation, from both centres and, over long distances, from the scale.
+    Eigen::Vector2d std_um;
 };
 
-/// What of a tag in a frame its displacement depends on.
+/// The properties of a tag in a frame from which its displacement follows.
 struct TagPlace {
     TimeNs time_ns;                ///< middle of the frame's exposure
     int tag_id;                    ///< which tag
     Eigen::Vector2d centre_px;     ///< in the image
     Eigen::Vector2d variance_px2;  ///< of the centre, along u and v
-    double side_px, side_std_px;   ///< mean length of its sides, one standard deviation of it
+    double side_px, side_std_px;   ///< mean length of its sides, and its standard deviation
 };
-/// Of a tag as it was measured.
+/// The place of a measured tag.
 TagPlace tag_place(const RefinedTag& tag);
 
 /// Turns detections, frame after frame, into displacements from the frame in which each tag was first seen.
-/// Scale: the tag's mean side in the first frame, mm per px. Valid for a camera that looks straight at
-/// the plate. A tag that is seen twice in one frame is left out there: nobody knows which one moved.
+/// Scale: the tag's mean side in the first frame, mm per px. Valid for a camera that looks straight at the
+/// plate. A tag id that is seen twice in one frame is left out in it, as it is ambiguous.
 class DisplacementTracker {
   public:
     /// @param tag_side_mm  edge of the black border square
@@ -41,7 +42,7 @@ class DisplacementTracker {
 
     /// @param frame  all tags of one frame
     std::vector<Displacement> add(const std::vector<RefinedTag>& frame);
-    /// The same of places that were kept.
+    /// The same for places that were computed before.
     std::vector<Displacement> add(const std::vector<TagPlace>& frame);
 
   private:

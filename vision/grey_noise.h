@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How much the grey level of one pixel scatters, from the camera's data sheet or its calibration.
+// The variance of a pixel's grey level, from the camera's data sheet or its calibration.
 
 #include "core/camera/camera_parameters.h"
 
@@ -22,10 +22,10 @@ struct GreyNoise {
     }
 };
 
-/// The grey level of a full pixel.
+/// The grey level of a saturated pixel.
 inline constexpr double white_grey = 255.0;
 
-/// The noise of a camera by its rig file.
+/// The noise of a camera with the parameters of its rig file.
 inline GreyNoise grey_noise(const CameraParameters& camera) {
     const double gain = white_grey / camera.full_well_e;
     return {gain, std::pow(gain * camera.read_noise_e, 2) + 1.0 / 12.0, camera.gain_spread};

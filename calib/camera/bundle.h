@@ -13,14 +13,14 @@
 
 namespace fidservo::calib {
 
-/// Rotation vector, shift in mm.
+/// A pose as a solver's block: rotation vector, rad, and shift in mm.
 using PoseBlock = std::array<double, 6>;
 using LensFlags = std::array<bool, lens_parameters>;
 
 PoseBlock block_of(const PlanePose& pose);
 PlanePose pose_of(const PoseBlock& block);
 
-/// What is adjusted.
+/// The adjusted quantities: a lens, and a pose for each view.
 struct BundleState {
     Lens lens;
     std::vector<PoseBlock> poses;
@@ -31,7 +31,7 @@ struct BundleCovariance {
     std::vector<Eigen::Matrix<double, 6, 6>> poses;
 };
 
-/// Tags in views with their weights; those that are switched off take no part.
+/// Tags in views with their weights; a tag can be excluded.
 class Bundle {
   public:
     Bundle(LensModel model, const std::vector<TargetView>& views, double extra_std_px);
@@ -40,19 +40,21 @@ class Bundle {
     /// solution.
     std::optional<double> adjust(BundleState& state, const LensFlags& fitted) const;
 
-    /// The same roughly, and unmoved by single tags that are far off (Huber's loss). Returns twice the loss.
+    /// A rough adjustment that is robust against single tags that are far off (Huber's loss). Returns twice
+    /// the loss.
     double approach(BundleState& state, const LensFlags& fitted) const;
 
     /// Adjusts one view's pose alone. Returns its chi^2.
     double adjust_pose(const Lens& lens, std::size_t view, PoseBlock& pose) const;
 
-    /// Empty if the Jacobian's rank is too low.
+    /// The covariance of all adjusted quantities; empty if the Jacobian is rank deficient.
     std::optional<BundleCovariance> covariance(BundleState state, const LensFlags& fitted) const;
 
-    /// Switches off what fits badly, and on again what no longer does; says whether that changed anything.
+    /// Excludes tags that fit badly and includes again those that no longer do; returns whether that changed
+    /// anything.
     bool sort_out(const BundleState& state);
 
-    /// Seen minus modelled corners of a tag, px.
+    /// Measured minus modelled corners of a tag, px.
     Eigen::Matrix<double, 8, 1> error_px(const BundleState& state, std::size_t view, std::size_t tag) const;
 
     bool uses(std::size_t view, std::size_t tag) const { return sights_[view][tag].used; }

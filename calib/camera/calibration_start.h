@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Where a camera's calibration begins: a lens and a pose of every view from nothing but corners.
+// Start values for a camera's calibration: a lens and a pose of every view, from the corners alone.
 #include "calib/camera/bundle.h"
 #include "calib/camera/camera_calibration.h"
 #include "calib/camera/target_view.h"
@@ -14,25 +14,25 @@ namespace fidservo::calib {
 /// A lens without coefficients, its principal point in the image's middle.
 CameraGeometry plain_lens(const CameraCalibrationOptions& options, double focal_px);
 
-/// Plain lenses to begin with. Of a plumb_bob lens one whose focal length is from the constraints that
-/// homographies have, which distortion can spoil, and one with the focal length and the barrel distortion of
-/// the best equidistant lens. Of either model, the best of focal lengths in steps of a quarter by
-/// rough_error_px(), from the one by which the outermost corner is seen in the direction straight behind: an
-/// equidistant lens's pictures of a plane are no homographies.
+/// Candidate lenses to start from. For plumb_bob: one whose focal length follows from the constraints on
+/// homographies, which distortion can spoil, and one with the focal length and the barrel distortion of the
+/// best equidistant lens. For either model: the focal length with the least rough_error_px(), in steps of a
+/// quarter from that at which the outermost corner would be seen straight behind the camera (an equidistant
+/// lens's pictures of a plane are no homographies).
 std::vector<CameraGeometry> start_lenses(const CameraCalibrationOptions& options,
                                          const std::vector<TargetView>& views);
 
-/// Median distance, px, of corners from where each view's pose by plane_pose() puts them: infinite if a view
-/// has none.
+/// Median distance, px, of the corners from where the poses by plane_pose() put them; infinite if a view has
+/// no pose.
 double rough_error_px(const CameraGeometry& lens, const std::vector<TargetView>& views);
 
-/// The poses by a lens, each the better of the two that look alike from afar. Fails with
-/// Reason::not_identifiable.
+/// The views' poses for a lens. Of the two poses that look alike from afar the better one is taken. Fails
+/// with Reason::not_identifiable.
 Result<BundleState> start_camera(const CameraGeometry& lens, const std::vector<TargetView>& views,
                                  const Bundle& bundle);
 
-/// Exchanges the poses that by the lens as it is now explain their view better the other way round. Says
-/// whether any was.
+/// Replaces poses by their mirrored twin where that explains the view better with the present lens. Returns
+/// whether any was replaced.
 bool turn_poses(BundleState& state, const std::vector<TargetView>& views, const Bundle& bundle);
 
 }  // namespace fidservo::calib

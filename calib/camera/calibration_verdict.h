@@ -13,7 +13,7 @@ namespace fidservo::calib {
 struct Coverage {
     static constexpr int columns = 8, rows = 6;
     std::vector<int> corners;  ///< in each cell
-    double share;              ///< of the cells that hold any
+    double share;              ///< fraction of the cells that hold any corner
 };
 
 Coverage coverage_of(const CameraCalibration& calibration);
@@ -21,27 +21,27 @@ Coverage coverage_of(const CameraCalibration& calibration);
 /// The largest angle between the target's normals in any two views, rad.
 double widest_tilt_rad(const CameraCalibration& calibration);
 
-/// How many views are not like another one: their directions differ by a degree, or their places by 2 % of
-/// the distance.
+/// How many views differ from all others: in direction by a degree, or in position by 2 % of the distance.
 int different_views(const CameraCalibration& calibration);
 
 struct CalibrationLimits {
     double most_rms_px = 0.5;       ///< reprojection error
-    double most_focal_std = 0.002;  ///< standard error of the focal length, as a share of it
-    double least_coverage = 0.5;    ///< share of the image's cells
-    int least_views = 5;            ///< that differ
+    double most_focal_std = 0.002;  ///< relative standard error of the focal length
+    double least_coverage = 0.5;    ///< fraction of the image's cells that hold corners
+    int least_views = 5;            ///< number of views that differ from each other
 };
 
-/// What is wrong, one sentence for people each, the cause of a bad fit first; none: the calibration is good.
-/// A cause is named only if it was tried (other_explanations.h) and explains the corners, an advice only if
-/// it was worked out what it would bring (predicted_errors.h); of numbers that a lens yields which does not
-/// explain the corners none is judged.
-/// @param target  all of its tags
+/// What is wrong with a calibration, one sentence each, the cause of a bad fit first; none: the calibration
+/// is good. A cause is named only if it was tried (other_explanations.h) and explains the corners; advice is
+/// given only if its benefit was computed (predicted_errors.h). Where the lens does not explain the corners,
+/// its numbers are not judged.
+/// @param target  all tags of the target
 std::vector<std::string> shortcomings(const CameraCalibration& calibration, const CalibrationLimits& limits,
                                       const std::vector<PlateTag>& target);
 
-/// What explains the corners of a good calibration better beyond chance, one sentence each: a lens of the
-/// other model; tags of another size, where that moves a number of the lens by more than its standard error.
+/// Alternatives that explain the corners of a good calibration significantly better, one sentence each: a
+/// lens of the other model; tags of another size, where that changes a number of the lens by more than its
+/// standard error.
 std::vector<std::string> notes_on(const CameraCalibration& calibration);
 
 }  // namespace fidservo::calib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The projection of core/camera/camera_geometry.h for solvers that differentiate it.
+// The projection of core/camera/camera_geometry.h as a template, for solvers that differentiate it
+// automatically.
 #include "core/camera/camera_geometry.h"
 #include "core/camera/lens_picture.h"
 
@@ -11,9 +12,9 @@
 
 namespace fidservo::calib {
 
-/// The lens's parameters as a solver's block: f, q, u0, v0, then the coefficients of both models; and the
-/// size of the target's tags about their middles, as a share of what is said of them, by which a target's
-/// description is checked.
+/// Indices of the lens's parameters in a solver's block: f, q, u0, v0, then the coefficients of both models.
+/// The last one is no parameter of the lens but the size of the target's tags, with their centres kept,
+/// relative to the stated size; it serves to check a target's description.
 enum LensParameter {
     focal,           ///< f, px
     focal_ratio,     ///< q
@@ -21,15 +22,15 @@ enum LensParameter {
     centre_v,        ///< v0, px
     k1,              ///< radial
     k2,              ///< radial
-    p1,              ///< tangential, of plumb_bob
-    p2,              ///< tangential, of plumb_bob
+    p1,              ///< tangential, of plumb_bob only
+    p2,              ///< tangential, of plumb_bob only
     k3,              ///< radial
-    k4,              ///< of equidistant
+    k4,              ///< of equidistant only
     tag_scale,       ///< of the target, not of the lens
-    lens_parameters  ///< how many they are
+    lens_parameters  ///< number of parameters
 };
 
-/// As rig files' provenance and reports name it.
+/// The name of a parameter in rig files' provenance and in reports.
 inline std::string_view name_of(LensParameter parameter) {
     constexpr std::array<std::string_view, lens_parameters> names{"focal_px",
                                                                   "focal_ratio",
@@ -72,7 +73,7 @@ inline Lens lens_of(const CameraGeometry& camera) {
             1.0};
 }
 
-/// The camera's model stays.
+/// Sets the lens's numbers; the lens model of the camera stays.
 inline void set_lens(CameraGeometry& camera, const Lens& lens) {
     camera.focal_px = lens[focal];
     camera.focal_ratio = lens[focal_ratio];
@@ -80,9 +81,9 @@ inline void set_lens(CameraGeometry& camera, const Lens& lens) {
     camera.distortion = {lens[k1], lens[k2], lens[p1], lens[p2], lens[k3], lens[k4], camera.distortion.model};
 }
 
-/// Image point in px of a point in the camera's frame; the equations of core/camera/camera_geometry.h, of an
-/// equidistant lens beyond its domain too. Such a lens has no p1 and p2 there; here they act on its picture,
-/// so that what their absence leaves open of the others can be told.
+/// Image point in px of a point in the camera's frame; the equations of core/camera/camera_geometry.h, for an
+/// equidistant lens also beyond its domain. That model has no p1 and p2; here they act on its picture, so
+/// that the uncertainty which their absence causes in the other parameters can be computed.
 template <class T>
 Eigen::Matrix<T, 2, 1> image_of(LensModel model, const T* lens, const Eigen::Matrix<T, 3, 1>& seen) {
     Eigen::Matrix<T, 2, 1> bent;

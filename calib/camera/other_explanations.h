@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What else would explain the views of a calibration: another lens model, tags of another size beside their
-// distances, a grid of another number of columns, all views but one. Each is tried, by a calibration of its
-// own on the same corners.
+// Alternative explanations for the views of a calibration: another lens model, tags of another size at the
+// same distances, a grid with another number of columns, one view left out. Each is tried by a calibration of
+// its own with the same corners.
 #include "calib/camera/camera_calibration.h"
 #include "core/plate.h"
 
@@ -13,25 +13,25 @@ namespace fidservo::calib {
 
 LensModel other_model(LensModel model);
 
-/// The corners that both explain, by which of two calibrations of the same views explains them better.
-/// Whether `other` does so beyond chance: were the model of `asked` true, all numbers of a lens together
-/// could gain more than this in one case of a thousand.
+/// Whether `other` explains the corners significantly better than `asked`, both being calibrations of the
+/// same views: over the corners that both use, it gains more than all numbers of a lens together could gain
+/// in one case of a thousand if the model of `asked` were true.
 bool explains_better(const CameraCalibration& other, const CameraCalibration& asked);
 
-/// Counts in the standard errors of the lens that it may be one of the other model: where that explains the
-/// corners nearly as well, what lenses of both models have (focal length, principal point, ratio) may be as
-/// it has them. With d the way to its numbers and w its weight by the data, odds exp((chi^2 of the lens -
-/// chi^2 of the other) / 2), the covariance grows by w d d^T. Source: Buckland, Burnham, Augustin, Model
-/// selection: an integral part of inference, Biometrics 53(2), 1997.
+/// Includes in the standard errors of the lens that the other lens model may be right. Where that model
+/// explains the corners nearly as well, the numbers that both models have (focal length, principal point,
+/// ratio) may have its values. With d the difference to its numbers and w its probability, from the odds
+/// exp((chi^2 of the lens - chi^2 of the other) / 2), the covariance grows by w d d^T. Source: Buckland,
+/// Burnham, Augustin, Model selection: an integral part of inference, Biometrics 53(2), 1997.
 void count_other_model(CameraCalibration& calibration);
 
-/// The views of a calibration as they were seen, with the model given. Empty: there is no solution.
+/// The calibration of the same views with a given lens model. Empty: there is no solution.
 std::optional<CameraCalibration> with_model(const CameraCalibration& asked, LensModel model);
 
-/// The same with the tags' size free: `tag_scale` is the share of what is said of them.
+/// The same with the tags' size fitted as well: `tag_scale` is the fitted size relative to the stated one.
 std::optional<CameraCalibration> with_free_tag_scale(const CameraCalibration& asked, LensModel model);
 
-/// The same where the tags are nearly as large as said.
+/// The calibration with the tags' size fitted as well, but kept near the stated size.
 std::optional<CameraCalibration> with_tag_scale_near(const CameraCalibration& asked, LensModel model);
 
 /// The number of columns of a grid whose ids count along its rows; empty: the target is no such grid.
@@ -42,7 +42,7 @@ struct OtherGrid {
     CameraCalibration calibration;
 };
 
-/// With the number of columns, of 1 to 40, that explains the views best.
+/// The calibration with the number of columns, from 1 to 40, that explains the views best.
 std::optional<OtherGrid> with_other_columns(const CameraCalibration& asked,
                                             const std::vector<PlateTag>& target, LensModel model);
 
@@ -51,7 +51,8 @@ struct WithoutView {
     CameraCalibration calibration;
 };
 
-/// Without the view whose corners are explained worst. Empty where two views would remain at most.
+/// The calibration without the view whose corners are explained worst. Empty where two views at most would
+/// remain.
 std::optional<WithoutView> without_worst_view(const CameraCalibration& asked, LensModel model);
 
 }  // namespace fidservo::calib

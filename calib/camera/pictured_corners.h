@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a refinement without a calibrated camera reports of a tag that a distorting lens shows.
+// The corners that a refinement without a calibrated camera reports for a tag seen through a distorting lens.
 //
-// Such a refinement lays a perspective picture of the tag over the image, by least squares along all edges of
-// its code. A lens bends those edges; the perspective picture nearest to them has corners that are not where
-// the corners are. With the tag's own coordinates p in [-1, 1]^2 and the lens' shift d(p) in px, in the tag's
+// Such a refinement fits a perspective picture of the tag to the image, by least squares along all edges of
+// its code. A lens bends those edges, so that the corners of the best perspective picture are not the imaged
+// corners. With the tag's own coordinates p in [-1, 1]^2 and the lens' shift d(p) in px, in the tag's
 // directions, the corners found are, to first order in the shift,
 //
 //     c_k + B(p_k) argmin_h sum_i w_i |B(p_i) h - d(p_i)|^2
@@ -21,8 +21,8 @@
 
 namespace fidservo::calib {
 
-/// Corners in px, in the order of detections, that are found of a tag seen from camera position s. Without
-/// distortion they are the projected corners.
+/// The corners in px, in the order of detections, that are reported for a tag seen from camera position s.
+/// Without distortion they are the projected corners.
 std::array<Eigen::Vector2d, 4> pictured_corners(const CameraGeometry& camera, const PlateTag& tag,
                                                 double s_mm);
 

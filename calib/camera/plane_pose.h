@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Where a camera is to a flat target.
+// The pose of a camera relative to a flat target.
 #include "calib/camera/target_view.h"
 #include "core/camera/camera_geometry.h"
 
@@ -10,7 +10,8 @@
 
 namespace fidservo::calib {
 
-/// Q = R P + t: from the target's frame (z = 0 on the target, away from the camera) to the camera's, mm.
+/// The pose Q = R P + t, from the target's frame (z = 0 on the target, z pointing away from the camera) to
+/// the camera's, mm.
 struct PlanePose {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();   ///< R: from the target's frame to the camera's
     Eigen::Vector3d shift_mm = Eigen::Vector3d::UnitZ();  ///< t: the target's origin in the camera's frame
@@ -24,17 +25,18 @@ struct PlanePose {
 /// Source: Hartley, Zisserman, Multiple View Geometry, 2nd ed., 2004, alg. 4.2.
 std::optional<Eigen::Matrix3d> target_homography(const CameraGeometry& lens, const TargetView& view);
 
-/// The pose that a homography of target_homography() stands for, R made a rotation in the least-squares
-/// sense. Source: Zhang, A flexible new technique for camera calibration, IEEE PAMI 22(11), 2000, sec. 3.1.
+/// The pose that corresponds to a homography of target_homography(), with R made a rotation in the
+/// least-squares sense. Source: Zhang, A flexible new technique for camera calibration, IEEE PAMI 22(11),
+/// 2000, sec. 3.1.
 PlanePose pose_of_homography(const CameraGeometry& lens, const Eigen::Matrix3d& homography);
 
-/// The pose of a view by the lens, to begin with: by its homography; of an equidistant lens by the same
-/// transform of its rays, r x H (X, Y, 1) = 0, which may come from behind the camera's centre. Empty if the
-/// corners do not determine it, or the lens pictures no ray at one of them.
+/// A start value for the pose of a view with a given lens: by its homography; for an equidistant lens by the
+/// same transform of its rays, r x H (X, Y, 1) = 0, which may come from behind the camera's centre. Empty if
+/// the corners do not determine it, or the lens images no ray at one of them.
 std::optional<PlanePose> plane_pose(const CameraGeometry& lens, const TargetView& view);
 
-/// The camera as it stands at a pose: rotation_rad, tilt_rad and distance_mm follow from the pose, the rest
-/// from the lens. The plate is shifted so that the camera's foot is at (s, y) = (0, 0).
+/// The camera at a pose: rotation_rad, tilt_rad and distance_mm follow from the pose, the rest from the lens.
+/// The plate's origin is shifted such that the camera's foot is at (s, y) = (0, 0).
 CameraGeometry camera_at(const CameraGeometry& lens, const PlanePose& pose);
 
 }  // namespace fidservo::calib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A camera's lens from images of a flat target.
+// Calibrates a camera's lens from images of a flat target.
 #include "calib/camera/camera_calibration.h"
 #include "calib/camera/target_view.h"
 #include "core/detection.h"
@@ -17,27 +17,27 @@ namespace fidservo::calib {
 
 /// An image with what the detector found in it.
 struct TargetImage {
-    std::string name;                 ///< for people: the image's file
+    std::string name;                 ///< the image's file, for messages
     cv::Mat grey;                     ///< CV_8UC1
-    std::vector<TagDetection> found;  ///< by the detector
+    std::vector<TagDetection> found;  ///< the detector's tags
 };
 
-/// The target's tags in an image, refined; those that cannot be refined, that the target does not have and
-/// that are there twice are left out. Tags too small for a refinement are taken as they were found.
+/// The target's tags in an image, refined; tags that cannot be refined, that the target does not have, or
+/// that are there twice are left out. Tags too small for a refinement are taken as they were detected.
 TargetView view_of(const TargetImage& image, const std::vector<PlateTag>& target,
                    const vision::RefinementOptions& options);
 
 /// How images are measured and the lens is fitted.
 struct ImageCalibrationOptions {
     CameraCalibrationOptions lens;  ///< of the fit
-    vision::GreyNoise noise =
-        vision::RefinementOptions{}.noise;  ///< of the camera, for the weights of pixels
+    /// The camera's noise, for the weights of pixels.
+    vision::GreyNoise noise = vision::RefinementOptions{}.noise;
 };
 
-/// Refinement and calibration in turn: first every tag with a perspective of its own; then, with each view's
-/// tilt and the lens's distortion known, tags are refined again by them, and the lens with what was measured
-/// then, until that changes the lens by less than a tenth of its standard errors. Views of fewer than two
-/// tags are left out. Fails as calibrate_camera() does.
+/// Alternates refinement and calibration: first every tag is refined with a perspective of its own; then tags
+/// are refined with each view's tilt and the lens's distortion from the last calibration, and the lens is
+/// calibrated again, until that changes the lens by less than a tenth of its standard errors. Views of fewer
+/// than two tags are left out. Fails as calibrate_camera() does.
 Result<CameraCalibration> calibrate_camera(const std::vector<TargetImage>& images,
                                            const std::vector<PlateTag>& target,
                                            const ImageCalibrationOptions& options);

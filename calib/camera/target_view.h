@@ -14,25 +14,25 @@ namespace fidservo::calib {
 
 /// A tag in a view. Lengths may be in any unit; that of `printed` is the unit of all results.
 struct TagSight {
-    PlateTag printed;         ///< as the target has it
-    vision::RefinedTag seen;  ///< as the image shows it
+    PlateTag printed;         ///< its place on the target
+    vision::RefinedTag seen;  ///< its corners in the image
 };
 
-/// What one image shows of the target.
+/// The measured part of a target in one image.
 struct TargetView {
-    std::string name;            ///< for people: the image's file
+    std::string name;            ///< the image's file, for messages
     std::vector<TagSight> tags;  ///< those that were measured
 };
 
-/// Weights of a tag's corners by what was measured of them: W with W C W^T = I on the directions that C
-/// knows. A tag refined with a calibrated camera has four of them (place, rotation, scale); along the other
-/// directions nothing was measured, and W is zero there.
+/// Weights of a tag's corners: W with W C W^T = I in the directions in which the covariance C is finite. A
+/// tag refined with a calibrated camera has four of them (place, rotation, scale); along the other directions
+/// nothing was measured, and W is zero there.
 struct CornerWeights {
     Eigen::Matrix<double, 8, 8> whiten;  ///< rows beyond the rank are zero
-    int rank;                            ///< how many rows count
+    int rank;                            ///< number of rows that count
 };
 
-/// @param extra_std_px  added in squares to every measured direction
+/// @param extra_std_px  standard deviation added in quadrature in every measured direction
 CornerWeights corner_weights(const vision::CornerCovariance& covariance_px2, double extra_std_px);
 
 }  // namespace fidservo::calib

@@ -4,9 +4,9 @@
 //
 //     V = mid + span s (1 + cubic (1 - s^2)),    s = (x - centre) / half_range
 //
-// is any rising cubic that flattens on both sides, written about its inflection: four numbers. half_range is
-// where the span is stated, a convention that is kept from the rig file. The cubic polynomial is fitted, and
-// turned into the four numbers:  V = p0 + p1 x + p2 x^2 + p3 x^3,
+// is a general increasing cubic that flattens towards both sides, written about its point of inflection: four
+// numbers. half_range, where the span is stated, is a convention and taken from the rig file. The cubic
+// polynomial is fitted, and turned into the four numbers:  V = p0 + p1 x + p2 x^2 + p3 x^3,
 //
 //     centre = -p2 / (3 p3),   a = p1 - p2^2 / (3 p3),   span = a h + p3 h^3,   cubic = -p3 h^3 / span
 #include "core/hall.h"
@@ -18,7 +18,7 @@
 
 namespace fidservo::calib {
 
-/// One reading beside a reference.
+/// A reading with the displacement by a reference.
 struct HallSample {
     double reference_mm;  ///< displacement by the reference
     double adc;           ///< the sensor's reading, LSB
@@ -28,23 +28,23 @@ struct HallSample {
 struct HallCurve {
     HallParameters hall;           ///< the curve
     double mid_std_V, span_std_V;  ///< standard errors of the voltages, V
-    /// Standard errors of what only data over the whole S determine. Without them centre and cubic are those
-    /// of the nominal curve, and `refused` says why.
+    /// Standard errors of centre and cubic, which only data over the whole S determine. Without such data
+    /// both are those of the nominal curve, and `refused` says why.
     double centre_std_mm, cubic_std;
-    std::optional<Failure> refused;  ///< empty if the data determine all
+    std::optional<Failure> refused;  ///< why centre and cubic are nominal; empty if the data determine them
     double residual_lsb;             ///< r.m.s. of reading minus curve
-    double low_mm, high_mm;          ///< of the references
-    double mean_um_per_bit;          ///< over the travel
+    double low_mm, high_mm;          ///< range of the reference's displacements
+    double mean_um_per_bit;          ///< mean over the travel
     double finest_um_per_bit;        ///< where the curve is steepest
     double coarsest_um_per_bit;      ///< where it is flattest
-    std::size_t samples;             ///< pairs that it was fitted to
-    std::size_t saturated;           ///< readings at an end of the converter's range, left out
+    std::size_t samples;             ///< number of samples to which it was fitted
+    std::size_t saturated;           ///< readings at an end of the converter's range, which were left out
 };
 
-/// Least squares over the readings; standard errors count correlated residuals once.
+/// Least squares over the readings; standard errors allow for the residuals' autocorrelation.
 /// @param nominal        half range and converter; the curve where the data do not determine it
-/// @param travel_low_mm  ends of the travel, in the references' frame, on which the curve will be used
-/// Fails with Reason::not_identifiable if not even mid and span are determined: fewer than 20 usable samples,
+/// @param travel_low_mm  ends of the travel, in the references' frame, on which the curve will be used Fails
+/// with Reason::not_identifiable if not even mid and span are determined: fewer than 20 usable samples,
 /// references over less than a twentieth of the travel, readings that do not rise with them.
 Result<HallCurve> fit_hall_curve(const HallParameters& nominal, std::span<const HallSample> samples,
                                  double travel_low_mm, double travel_high_mm);

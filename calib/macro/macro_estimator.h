@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Maximum likelihood of the macro stage's parameters by simulation: the model runs through each window under
-// the recorded commands from a state of its own, and is judged by the counts it should have shown.
+// Maximum likelihood of the macro stage's parameters by simulation: the model is simulated through each
+// window under the recorded commands, from an initial state that is fitted too, and its counts are compared
+// with the recorded ones.
 //
 // Nothing is differentiated and no reading is fed back, so neither rounding nor a closed loop biases the fit,
-// as both do a regression of accelerations on recorded velocities. Windows keep what the model does not know
-// from adding up, as it would without bound behind an integrator.
+// as both do a regression of accelerations on recorded velocities. Windows keep model errors from
+// accumulating, as they would without bound behind an integrator.
 #include "calib/batch_variance.h"
 #include "calib/macro/macro_motion.h"
 #include "calib/macro/macro_trace.h"
@@ -17,7 +18,7 @@
 
 namespace fidservo::calib {
 
-/// Where the parameters of MacroMotion that a fit may change stand in all vectors here.
+/// Indices of the parameters of MacroMotion in all vectors here.
 namespace macro_index {
 inline constexpr int speed = 0, slope = 1, friction = 2, offset = 3, log_time_constant = 4;
 }
@@ -27,63 +28,66 @@ using MacroVector = Eigen::Matrix<double, macro_parameter_count, 1>;
 using MacroMatrix = Eigen::Matrix<double, macro_parameter_count, macro_parameter_count>;
 
 MacroVector vector_of(const MacroMotion& motion);
-/// `motion` with the fitted parameters replaced; friction at least 0.
+/// `motion` with its parameters replaced; friction is at least 0.
 MacroMotion with_parameters(MacroMotion motion, const MacroVector& parameters);
 
-/// A model and the state in which it enters each window.
+/// A model with its initial state in each window.
 struct MacroPoint {
     MacroMotion motion;
     std::vector<MacroMotionState> starts;
     double noise_count = 1.0;
 };
 
-/// What the standard errors of a fit are made of.
+/// The contributions from which the standard errors of a fit are computed.
 struct MacroInfluences {
     MacroMatrix inverse = MacroMatrix::Zero();  ///< inverse information; zero for parameters not fitted
-    /// By recording, a column a block of 50 ms, longer where the reading stands still (the error of rounding
-    /// stays the same while the reading does): by how much the block moved each parameter.
+    /// For each recording, a column for each block of 50 ms (longer where the reading stands still, since the
+    /// rounding error stays the same while it does): the influence of the block on each parameter.
     std::vector<Eigen::Matrix<double, macro_parameter_count, Eigen::Dynamic>> blocks;
     std::size_t fitted = 0;  ///< number of active parameters
-    double ticks = 0.0;      ///< readings
-    double starts = 0.0;     ///< numbers fitted to them beside the parameters: two a window
+    double ticks = 0.0;      ///< number of readings
+    double starts = 0.0;     ///< number of fitted initial values: two per window
 };
 
-/// Variance of a figure with this gradient by the parameters: of batches of blocks (calib/batch_variance.h),
-/// at least what the likelihood claims. Each is larger by the share of the residual that what was fitted has
-/// taken up: in short windows of few readings their starts take up much.
+/// Variance of a figure with this gradient by the parameters, from batches of blocks
+/// (calib/batch_variance.h), but no less than by the likelihood. Both are corrected for the fraction of the
+/// residuals that the fit has absorbed: in short windows with few readings the initial states absorb much.
 BatchVariance variance_along(const MacroInfluences& influences, const MacroVector& gradient);
 
 class MacroEstimator {
   public:
-    /// @param windows  not empty; what they show must outlive the estimator
+    /// @param windows  not empty; the data that they refer to must outlive the estimator
     /// @param resolution_mm  of the encoder
     MacroEstimator(std::vector<MacroWindow> windows, double resolution_mm);
 
-    /// The windows entered where they were recorded, at the velocity of their first ticks.
+    /// The model with every window's initial state at its first recorded position, at the velocity of its
+    /// first ticks.
     MacroPoint start_at(const MacroMotion& motion) const;
 
-    /// -log likelihood, with priors so wide (ten times what the data show) that they weigh nothing where the
-    /// data speak; they only keep undetermined directions finite.
+    /// Negative log likelihood, with priors so wide (ten times the range of the data) that they have no
+    /// influence where the data determine a parameter; they only keep undetermined directions finite.
     double loss(const MacroPoint& point) const;
 
-    /// Levenberg-Marquardt on the active parameters and all window starts.
+    /// Levenberg-Marquardt on the active parameters and all initial states.
     void refine(MacroPoint& point, const MacroActive& active, int most_iterations) const;
 
     /// Root mean square of prediction minus reading, counts.
     double residual_count(const MacroPoint& point) const;
 
-    /// Standard deviation before rounding that explains the residual, at least a twentieth of a count.
+    /// Standard deviation of noise before rounding that explains the residual, at least a twentieth of a
+    /// count.
     double noise_count(const MacroPoint& point) const;
 
-    /// How the readings pull at the active parameters, and what the likelihood claims to know of them.
+    /// The influences of the readings on the active parameters, and their covariance by the likelihood.
     MacroInfluences influences(const MacroPoint& point, const MacroActive& active) const;
 
-    /// A window's prediction linearised: what lack-of-fit tests add columns to.
+    /// A window's linearised prediction, to which lack-of-fit tests add columns.
     struct Linearised {
         std::vector<double> prediction_count;
-        Eigen::VectorXd slopes, curvatures;  ///< of -log likelihood by the predicted place, per count
-        Eigen::MatrixXd own;     ///< derivative of the place by each parameter, the start having followed
-        Eigen::MatrixXd starts;  ///< derivative by the start's position and velocity
+        /// First and second derivative of -log likelihood by the predicted place, in counts.
+        Eigen::VectorXd slopes, curvatures;
+        Eigen::MatrixXd own;  ///< derivative of the place by each parameter, with the initial state refitted
+        Eigen::MatrixXd starts;  ///< derivative of the place by the initial position and velocity
         Eigen::Matrix2d start_information;
     };
     Linearised linearised(std::size_t window, const MacroPoint& point, const MacroActive& active) const;
@@ -119,7 +123,7 @@ class MacroEstimator {
     double resolution_mm_;
     double fastest_mm_per_s_ = 0.0;
     MacroVector prior_std_;
-    MacroVector difference_;  ///< steps of the numerical derivatives
+    MacroVector difference_;  ///< step sizes of the numerical derivatives
 };
 
 }  // namespace fidservo::calib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What people call the fitted speeds of a macro stage: K, tau, a0, delta, F, b, and what each is known to.
+// The usual parameters of a macro stage, K, tau, a0, delta, F and b, from the fitted speeds, and their
+// required accuracy.
 #include "calib/heterogeneity.h"
 #include "calib/macro/macro_fit.h"
 
@@ -18,8 +19,8 @@ MacroFigures figures_of(const MacroMotion& motion, double unit_V, double thresho
 /// Derivatives of the figures by the parameters, central differences.
 MacroFigureGradient figure_gradient(const MacroMotion& motion, double unit_V, double threshold_V);
 
-/// The standard errors beyond which a figure is no figure: a fifth of gain, time constant, slope and of 1 V
-/// at the threshold; friction and offset a fifth of what drives.
+/// The standard errors above which a figure is useless: a fifth of gain, time constant and slope; a fifth of
+/// 1 V for the effective voltage at the threshold; for friction and offset a fifth of the driving command.
 MacroFigures largest_useful_std(const MacroFigures& value, double fastest_mm_per_s, double drive_V);
 
 }  // namespace fidservo::calib

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Identification of the macro stage from recordings: gain, time constant, dead zone, friction, offset, each
-// with its standard error, or the reason why these data do not determine it.
+// Identification of the macro stage from recordings: gain, time constant, dead zone, friction and offset,
+// each with its standard error, or with the reason why the data do not determine it.
 #include "calib/macro/macro_motion.h"
 #include "calib/macro/macro_trace.h"
 #include "core/macro_parameters.h"
@@ -15,52 +15,53 @@
 
 namespace fidservo::calib {
 
-/// What is known of the rig beforehand: its build, not its dynamics.
+/// Prior knowledge of the rig: how it is built, not its dynamics.
 struct MacroBuild {
-    double resolution_mm;    ///< of the encoder
+    double resolution_mm;    ///< resolution of the encoder
     Travel travel;           ///< in the encoder's frame; infinite where the encoder's origin is unknown
-    double command_limit_V;  ///< larger recorded commands are taken as this
-    bool dead_zone;          ///< whether friction shows as a dead zone on the command
+    double command_limit_V;  ///< larger recorded commands are clipped to this
+    bool dead_zone;          ///< whether friction is modelled as a dead zone on the command
     double unit_V;           ///< the command at which the effective voltage is 1 V, which defines the gain
-    double threshold_V;      ///< the rig file's; used for a0 where the data leave the threshold open
+    double threshold_V;  ///< the rig file's threshold, for a0 where the data leave the threshold undetermined
 };
 
-/// From a rig file. The unit is where its dead zone lets 1 V pass: 4 V on the reference rig, (1 - a0) / delta
-/// above the threshold.
+/// From a rig file. unit_V is the command whose effective voltage behind the dead zone is 1 V: 4 V on the
+/// reference rig, (1 - a0) / delta above the threshold.
 MacroBuild macro_build(const MacroParameters& macro);
 
 /// A number with its standard error.
 struct MacroEstimate {
-    double value;                                              ///< in the unit of its name
-    double std;                                                ///< one standard error
-    double freedom = std::numeric_limits<double>::infinity();  ///< of Student's law for intervals
+    double value;  ///< in the unit that its name states
+    double std;    ///< one standard error
+    /// Degrees of freedom of Student's distribution for intervals.
+    double freedom = std::numeric_limits<double>::infinity();
 
-    /// How far off it may be besides, if what the model lacks goes with the figure as much as it does not:
-    /// the residual beyond noise as one coherent error (Cauchy and Schwarz). 0 where there is no such
+    /// Bound of the additional error from forces that the model lacks: the residual beyond noise taken as one
+    /// coherent error in the figure's direction (Cauchy-Schwarz inequality). 0 where there is no such
     /// residual.
     double systematic = 0.0;
 
-    /// Half the width of the interval that holds the truth with 95 %.
+    /// Half the width of the 95 % confidence interval.
     double reach_95() const;
 };
 
-/// Two recordings that contradict each other.
+/// Two recordings whose estimates of a figure contradict each other.
 struct MacroContradiction {
     std::string figure;  ///< "gain", "time constant", ...
-    double apart;        ///< in standard errors of the difference
-    /// The recordings that have the lowest and the highest value.
+    double apart;        ///< difference in its standard errors
+    /// The recordings with the lowest and with the highest value.
     std::string low_recording, high_recording;
-    /// What these recordings say.
+    /// The estimates from these recordings.
     MacroEstimate low, high;
 };
 
 /// A force that the recordings show and the model does not have.
 struct MacroMissing {
     std::string depends_on;  ///< what the force depends on: position, speed, ...
-    double share;            ///< of the residual's squares
+    double share;            ///< fraction of the residual's sum of squares that it explains
 };
 
-/// Each of these is determined or refused by itself (Reason::not_identifiable).
+/// The result. Each figure is either determined or refused (Reason::not_identifiable).
 struct MacroIdentification {
     Result<MacroEstimate> gain_mm_per_s_per_V;  ///< K: speed per effective volt, 1 V at unit_V
     Result<MacroEstimate> time_constant_s;      ///< tau
@@ -68,41 +69,42 @@ struct MacroIdentification {
     Result<MacroEstimate> zone_offset_V;        ///< a0: effective voltage at the threshold, eq. (7)
     Result<MacroEstimate> zone_slope;           ///< delta, eq. (7)
     Result<MacroEstimate> friction_V;           ///< Coulomb friction in effective volts
-    Result<MacroEstimate> drive_offset_V;       ///< a command that stands for a force on the carriage
-    bool threshold_assumed = false;             ///< a0 is for the rig file's threshold
-    bool friction_at_bound = false;             ///< friction came out at 0, below which it cannot be
+    Result<MacroEstimate> drive_offset_V;       ///< constant force on the carriage, as an equivalent command
+    /// a0 holds for the rig file's threshold, as the data did not determine one.
+    bool threshold_assumed = false;
+    bool friction_at_bound = false;  ///< friction was estimated at its lower bound of 0
 
-    /// Where gain and time constant cannot be told apart: their ratio, the acceleration that a volt gives.
+    /// Where gain and time constant cannot be separated: their ratio, the acceleration per volt.
     std::optional<MacroEstimate> acceleration_mm_per_s2_per_V;
-    std::vector<MacroContradiction> contradictions;  ///< where recordings contradict each other
-    std::vector<MacroMissing> missing;               ///< the largest share first
-    /// Of the force, integrated over windows: see missed_share() in macro_recordings.h.
+    std::vector<MacroContradiction> contradictions;  ///< figures on which recordings contradict each other
+    std::vector<MacroMissing> missing;               ///< those with the largest share first
+    /// Fraction of the force, integrated over windows, that the model misses: missed_share() in
+    /// macro_recordings.h.
     std::optional<double> missed_share;
-    double white_noise_mm;            ///< of the readings, as residuals show it from tick to tick
-    std::vector<MacroMotion> rivals;  ///< other minima that the data do not exclude
-    int reversals = 0;                ///< turns of direction that it was told by
-    double coasted_s = 0.0;           ///< time without drive that it was told by
+    double white_noise_mm;  ///< white noise of the readings, from the residuals' differences between ticks
+    std::vector<MacroMotion> rivals;  ///< other minima that are compatible with the data
+    int reversals = 0;                ///< reversals of the motion in the data, on which friction depends
+    double coasted_s = 0.0;           ///< time of motion without drive in the data
 
     MacroMotion motion;     ///< the fitted model
     double residual_count;  ///< r.m.s. of prediction minus reading over the windows
     double window_s;        ///< length of the windows that were predicted
-    int windows;            ///< how many they are
-    double used_s;          ///< recorded time that entered the fit
-    double left_out_s;      ///< at an end stop, or in pieces too short
+    int windows;            ///< number of those windows
+    double used_s;          ///< recorded time that was used in the fit
+    double left_out_s;      ///< recorded time at an end stop, or in pieces too short
 };
 
 /// Fits the model of macro_motion.h to all recordings together, closed or open loop.
 ///
-/// Windows last 1 s; where the model leaves more than a count unexplained in them, they are halved, down to
-/// 0.125 s, because an unmodelled force moves a prediction by the square of time while rounding does not
-/// grow. A Coulomb friction or offset that the data cannot tell from the rest is taken as zero and refused.
-/// Standard errors count what makes estimates scatter: errors correlated over time (calib/batch_variance.h),
-/// recordings that differ (calib/heterogeneity.h), and a force that the model lacks (macro_lack.h), by as
-/// much as the figure would move if the model had it. A figure is refused where the data leave it wider than
-/// a fifth, where recordings contradict each other (1 % over all figures) so that no common value is known to
-/// a fifth, or where another minimum is about as likely. Fails with Reason::not_identifiable if there are no
-/// usable data at all: too short, no command, no motion; with Reason::no_convergence if no finite model
-/// follows them.
+/// Windows last 1 s; where the residuals in them exceed a count, they are halved, down to 0.125 s, because
+/// the error from an unmodelled force grows with the square of time while rounding does not. A Coulomb
+/// friction or offset that the data cannot separate from the rest is taken as zero and refused. Standard
+/// errors include errors correlated over time (calib/batch_variance.h), differences between recordings
+/// (calib/heterogeneity.h), and forces that the model lacks (macro_lack.h), by as much as the figure would
+/// change if the model had them. A figure is refused where its uncertainty exceeds a fifth, where recordings
+/// contradict each other (1 % over all figures) so that no common value is known to a fifth, or where another
+/// minimum is about as likely. Fails with Reason::not_identifiable if there are no usable data at all: too
+/// short, no command, no motion; with Reason::no_convergence if no finite model fits them.
 /// @param traces  may be empty; commands and positions finite, as macro_traces gives them
 Result<MacroIdentification> identify_macro(std::span<const MacroTrace> traces, const MacroBuild& build);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How well each figure of the macro stage is known: errors correlated in time, recordings that differ, what
-// the model lacks, what was taken as zero.
+// The uncertainty of each figure of the macro stage, from errors correlated in time, differences between
+// recordings, forces that the model lacks, and parameters that were taken as zero.
 #include "calib/macro/macro_figures.h"
 #include "calib/macro/macro_identification.h"
 #include "calib/macro/macro_lack.h"
@@ -9,10 +9,10 @@
 
 namespace fidservo::calib {
 
-/// All that says how well each figure is known.
+/// The contributions to each figure's uncertainty.
 struct MacroKnowledge {
     MacroFigures value;
-    MacroFigures most_std;  ///< beyond it, a figure is no figure
+    MacroFigures most_std;  ///< standard error above which a figure is useless
     std::array<VarianceSum, macro_figure_count> variance;
     std::array<MacroAgreement, macro_figure_count> agreement;
     MacroLacks lacks;
@@ -20,7 +20,7 @@ struct MacroKnowledge {
     MacroFigures systematic;
 };
 
-/// @param threshold_V  of the dead zone, known to `threshold_std_V`
+/// @param threshold_V  of the dead zone, with standard error `threshold_std_V`
 MacroKnowledge knowledge_of(const MacroEstimator& estimator, const MacroFit& fit, const MacroBuild& build,
                             double threshold_V, double threshold_std_V);
 

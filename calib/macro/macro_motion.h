@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The macro stage as identification sees it: terminal speeds, a time constant, and two thresholds.
+// The model of the macro stage for identification: terminal speeds, a time constant, and two thresholds.
 //
 //     KV(u) = +(S + B (+(u + b) - c))  for  u >= forward threshold
 //             -(S + B (-(u + b) - c))  for -u >= backward threshold,  else 0
 //     tau dv/dt = KV(u) - C sgn(v) - v,   dy/dt = v
 //
 // S is the speed, in mm/s, that the drive would hold at c volts without friction, B its slope, b a constant
-// force in volts, C = K F the speed lost to Coulomb friction. At rest the carriage stays there while
-// |KV| <= C. A rig without dead zone has S = c = 0 and both thresholds 0, which leaves KV = B (u + b).
-// Speeds instead of (K, a0, delta) are what the data determine one by one: none of them changes with a
-// threshold that is known only between two command levels.
+// force in volts, C = K F the speed lost to Coulomb friction. At rest the carriage stays there while |KV| <=
+// C. A rig without dead zone has S = c = 0 and both thresholds 0, which leaves KV = B (u + b). The parameters
+// are speeds instead of (K, a0, delta) because the data determine each of them separately: none depends on
+// the threshold, which is known only to lie between two command levels.
 
 namespace fidservo::calib {
 
@@ -22,13 +22,13 @@ struct MacroMotion {
     double offset_V = 0.0;              ///< b
     double time_constant_s = 0.0;       ///< tau
     double forward_threshold_V = 0.0;   ///< smallest command to the right that drives
-    double backward_threshold_V = 0.0;  ///< its counterpart to the left, as a size
+    double backward_threshold_V = 0.0;  ///< smallest command to the left that drives, as a positive number
 };
 
 /// KV(u), in mm/s.
 double drive_speed_mm_per_s(const MacroMotion& motion, double command_V);
 
-/// Position to the right, in the encoder's frame.
+/// Position and velocity, positive to the right, in the encoder's frame.
 struct MacroMotionState {
     double position_mm = 0.0;
     double velocity_mm_per_s = 0.0;
@@ -43,13 +43,13 @@ class MacroPropagation {
     void advance(MacroMotionState& state, double command_V) const;
 
   private:
-    /// Motion without change of sign of the velocity, over less than a tick.
+    /// Motion in which the velocity does not change sign, over less than a tick.
     void glide(MacroMotionState& state, double terminal_mm_per_s, double duration_s) const;
 
     MacroMotion motion_;
     double tick_s_;
     double decay_;    ///< exp(-T / tau)
-    double glide_s_;  ///< tau (1 - decay): way per unit of velocity beyond the terminal one
+    double glide_s_;  ///< tau (1 - decay): distance per unit of velocity in excess of the terminal one
 };
 
 }  // namespace fidservo::calib

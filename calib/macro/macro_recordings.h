@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What each recording alone says of the macro stage, and whether they agree.
+// Estimates of the macro stage from each recording alone, and whether they agree.
 #include "calib/macro/macro_figures.h"
 
 #include <array>
@@ -9,40 +9,41 @@
 
 namespace fidservo::calib {
 
-/// One figure over the recordings that determine it by themselves.
+/// A figure's estimates from the recordings that determine it by themselves.
 struct MacroAgreement {
     std::vector<std::size_t> recordings;
     std::vector<RecordingEstimate> own;
     Heterogeneity scatter = {};
 };
 
-/// Each recording fitted by itself from the common solution on, the thresholds held. A recording is left out
-/// of a figure that it leaves useless (largest_useful_std) or, for the offset, if it drives to one side only.
+/// Fits each recording by itself, starting from the common solution, with the thresholds fixed. A figure of a
+/// recording is left out if its standard error makes it useless (largest_useful_std), and an offset also if
+/// the recording drives to one side only.
 std::array<MacroAgreement, macro_figure_count> macro_agreement(const MacroEstimator& estimator,
                                                                const MacroFit& fit, double unit_V,
                                                                double threshold_V);
 
-/// Squares of third differences of white noise that say as much of its variance as an independent one:
-/// 1 + 2 (15^2 + 6^2 + 1) / 20^2.
+/// Correction for the correlation of neighbouring third differences of white noise: so many of their squares
+/// are worth one independent square for the variance; 1 + 2 (15^2 + 6^2 + 1) / 20^2.
 inline constexpr double third_differences_correlated = 2.31;
 
-/// How much of the force the model misses, integrated twice, which neither rounding nor noise drowns: r.m.s.
-/// over held-out windows of prediction minus reading, over the r.m.s. of how far the drive moves the
-/// carriage, the windows' starts having followed. The variance of noise that is white from tick to tick, as
-/// third differences show it, and of rounding is taken out. The model is fitted to every other window and
-/// judged by the rest, then the other way round. The share is empty with less than two windows, or where the
-/// drive moves the carriage by no more than noise.
+/// The fraction of the force that the model misses, measured by its double integral so that neither rounding
+/// nor noise hides it: the r.m.s. of prediction minus reading over held-out windows, divided by the r.m.s. of
+/// the motion that the drive causes, with the windows' initial states refitted. The variances of rounding and
+/// of white noise, estimated from third differences, are subtracted. The model is fitted to every other
+/// window and tested on the rest, then the other way round. Empty with less than two windows, or where the
+/// motion that the drive causes is within noise.
 struct MacroMissed {
     std::optional<double> share;
-    double noise_count = 0.0;  ///< standard deviation of that noise
-    /// Share of the residual's squares that is beyond that noise, as far as that is significant at 1 %.
+    double noise_count = 0.0;  ///< standard deviation of the white noise
+    /// Fraction of the residual's sum of squares in excess of that noise, as far as it is significant at 1 %.
     double beyond_noise = 0.0;
 };
 MacroMissed missed_share(const MacroEstimator& estimator, const MacroFit& fit, double drive_squares_count2);
 
-/// How often the carriage turned round, by more than four counts and six standard deviations of the
-/// readings' noise each way, and how long it coasted: moved
-/// at a tenth of its largest speed or faster while nothing drove it.
+/// How often the carriage reversed, by more than four counts and six standard deviations of the readings'
+/// noise in each direction, and how long it coasted: moved at a tenth of its largest speed or faster without
+/// drive.
 struct MacroManoeuvres {
     int reversals = 0;
     double coasted_s = 0.0;

@@ -7,15 +7,16 @@
 
 namespace fidservo::calib {
 
-/// A minimum of the loss and how far it lies above that of the fit (below, if negative).
+/// A minimum of the loss, and its height above the minimum of the fit (negative: below it).
 struct MacroMinimum {
     MacroPoint point;
     double above;
 };
 
-/// The minima that searches from time constants between a tick and the recordings' length, with friction and
-/// without, end in, and that differ from the fit: a parameter by more than a fifth of its size and four
-/// standard errors. Searched on at most 60 windows spread over the recordings, then followed on all.
+/// The other minima that are found by searches from time constants between a tick and the recordings' length,
+/// with and without friction. A minimum counts if a parameter differs from the fit by more than a fifth of
+/// its size and four standard errors. The searches use at most 60 windows spread over the recordings; their
+/// results are then refined on all windows.
 std::vector<MacroMinimum> other_minima(const MacroEstimator& estimator, const MacroFit& fit);
 
 }  // namespace fidservo::calib

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Where the dead zone ends, per direction. The recorded commands take discrete values, so the data tell
-// between which two of them the threshold lies and cannot tell more.
+// The end of the dead zone in each direction. The recorded commands take discrete values, so the data only
+// show between which two of them a threshold lies.
 #include "calib/macro/macro_estimator.h"
 
 namespace fidservo::calib {
@@ -14,23 +14,24 @@ struct ThresholdInterval {
 
     bool bounded() const;
     double middle_V() const { return 0.5 * (above_V + most_V); }
-    double std_V() const;  ///< of a uniform law over the interval
+    double std_V() const;  ///< standard deviation of a uniform distribution over the interval
 };
 
-/// By what the carriage did from rest: the largest command that was held for 25 ms without a count, and the
-/// smallest that had been reached when the first count of a motion came. A first guess, from readings alone.
+/// The threshold from motions that start at rest: between the largest command that was held for 25 ms without
+/// a change of count, and the smallest that had been reached at the first count of a motion. A start value,
+/// from readings alone.
 /// @param side  +1 for commands to the right, -1 to the left
 ThresholdInterval threshold_from_rest(const std::vector<MacroWindow>& windows, double resolution_mm,
                                       double side);
 
-/// Moves both thresholds among the command levels to where the likelihood is greatest, the active parameters
-/// refitted at every move: speeds, starts and thresholds make up for each other. Steps of one direction and
-/// of both, from many levels down to one.
+/// Moves both thresholds among the command levels to the maximum of the likelihood. The active parameters are
+/// refitted for every trial, as speeds, initial states and thresholds can compensate for each other. Trials
+/// move one threshold or both, by many levels at first and by one at last.
 void search_thresholds(const MacroEstimator& estimator, MacroPoint& point, const MacroActive& active);
 
-/// The commands between which one direction's threshold lies: over which the loss, refitted, does not exceed
-/// its least by more than an allowance (2, for a likelihood of independent errors, is about two standard
-/// deviations).
+/// The interval of commands for one direction's threshold: where the loss, with everything else refitted,
+/// exceeds its minimum by at most `allowance` (2, for a likelihood of independent errors, is about two
+/// standard deviations).
 ThresholdInterval threshold_interval(const MacroEstimator& estimator, const MacroPoint& point,
                                      const MacroActive& active, double side, double allowance);
 

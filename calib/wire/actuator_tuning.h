@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The actuator as it is today: room temperature, stroke and heater, from one sweep of the platform over its
-// travel under known commands, seen by the calibrated Hall sensor.
+// The actuator's present state: room temperature, stroke and heater, from one sweep of the platform over its
+// travel under known commands, measured by the calibrated Hall sensor.
 #include "core/micro_model.h"
 #include "core/result.h"
 
@@ -12,7 +12,7 @@ namespace fidservo::calib {
 struct ActuatorTuning {
     HeaterParameters heater;
     double stroke_scale;
-    double residual_mm;  ///< r.m.s. of position, model minus sensor
+    double residual_mm;  ///< r.m.s. of the position, model minus sensor
 };
 
 /// Least squares over ambient temperature, stroke scale, heater gain and both time constants, each within

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How well the heater's numbers are known, and what is where they are not.
+// The uncertainty of the heater's parameters, and which combinations are determined where single ones are
+// not.
 #include "calib/wire/heater_residuals.h"
 
 #include <optional>
@@ -8,37 +9,40 @@
 
 namespace fidservo::calib {
 
-/// A fit that has converged.
+/// A converged fit.
 struct HeaterSolution {
     HeaterFit fit;
     HeaterVector x;
     HeaterFree is_free;
-    /// The solution before the first number was held, if one is: what the others are known to without it.
+    /// The solution before the first parameter was held fixed, if one was: it gives the uncertainty of the
+    /// others without that assumption.
     struct Freer {
         HeaterVector x;
         HeaterInfluences influences;
     };
     std::optional<Freer> freer = {};
-    /// By how much x moves, a run each, if the reading that its temperature starts at is off by as much as
-    /// readings are off, r.m.s.; none of runs whose start is given.
+    /// For each run, the change of x if the reading from which its start temperature is taken is off by the
+    /// readings' r.m.s. error; empty for runs whose start temperature is given.
     std::vector<HeaterVector> moved_by_starts = {};
 };
 
-/// Numbers that are useful only because another one is held are refused: they are as wrong as that one may
-/// be.
+/// Refuses parameters that are determined only because another one is held fixed: their errors depend on that
+/// one's.
 void refuse_what_hangs_on_others(HeaterSolution& solution);
 
-/// Standard errors of the common solution, with what the numbers that are held may do to the others: C + d^2
-/// of the solution that had them free, d the way from it; numbers on which runs contradict each other, 1 %
-/// over all numbers, and of which no common value is known to what makes it useful, are refused.
+/// Standard errors of the common solution, including the effect of parameters held fixed: C + d d^T with the
+/// C of the solution in which they were free and d the difference to it. Parameters on which runs contradict
+/// each other (1 % over all parameters), and of which no common value is known to the accuracy that makes it
+/// useful, are refused.
 HeaterFit with_errors(const std::vector<HeaterRun>& runs, const HeaterPredict& predict,
                       const HeaterScale& scale, const HeaterSolution& common);
 
-/// Mean of the commands that heat.
+/// Mean of the commands that heat the wire.
 double mean_heating_command(const std::vector<HeaterRun>& runs, const HeaterParameters& heater);
 
-/// Where a number is not determined: what is, of it and of the number that it is mistaken for.
-/// @param x  of residuals with all numbers free, which `influences` are of
+/// For a parameter that is not determined: adds the combination of it and the parameter with which it is
+/// confounded that is determined.
+/// @param x  solution of `residuals` with all parameters free, to which `influences` belong
 void add_combination(HeaterFit& fit, HeaterNumber number, const HeaterResiduals& residuals,
                      const HeaterScale& scale, const HeaterVector& x, const HeaterInfluences& influences,
                      double command);

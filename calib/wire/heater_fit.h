@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The wire's heater from recordings: commands, and what a thermometer or the Hall sensor read.
+// The wire's heater from recordings of commands and of the readings of a thermometer or of the Hall sensor.
 //
 //     phi(c) = gain (c - onset)  for c > onset, else 0;     dT/dt = (phi - (T - Ta)) / tau,
 //     tau = heating tau while phi > T - Ta, else cooling tau
 //
-// Output error: the model is run from each recording's start on its commands alone, through hysteresis and
-// Hall curve where the sensor is the Hall sensor, and its readings are fitted to those recorded.
+// Output error: the model is simulated from each recording's start with its commands alone, through
+// hysteresis and Hall curve where the sensor is the Hall sensor, and its readings are fitted to those
+// recorded.
 #include "calib/wire/heater_data.h"
 #include "core/result.h"
 
@@ -27,66 +28,68 @@ enum class HeaterNumber {
 };
 /// How many numbers a heater has.
 inline constexpr std::size_t heater_numbers = 5;
-/// As rig files name it.
+/// The parameter's name in rig files.
 std::string_view name_of(HeaterNumber number);
 
-/// A number that the runs do not determine, and why.
+/// A parameter that the runs do not determine, and why.
 struct HeaterRefusal {
-    HeaterNumber number;  ///< which
+    HeaterNumber number;  ///< the parameter
     std::string reason;   ///< in words
 };
 
-/// Two runs that, each by itself, say different things of a number.
+/// Two runs that by themselves give contradicting estimates of a parameter.
 struct HeaterContradiction {
-    HeaterNumber number;    ///< which number the runs contradict each other about
-    double apart;           ///< in standard errors of the difference
-    std::size_t low, high;  ///< of the runs
-    /// The two runs' values, with standard errors.
+    HeaterNumber number;    ///< the parameter
+    double apart;           ///< the difference in its standard errors
+    std::size_t low, high;  ///< indices of the runs with the lowest and the highest value
+    /// Those runs' estimates and their standard errors.
     double low_value, low_std, high_value, high_std;
 };
 
-/// What is determined of numbers that are not, each by itself.
+/// A combination of parameters that is determined although the single ones are not.
 struct HeaterCombination {
-    /// Of the combination, for people; its unit has per V, or per unit of the drive.
+    /// What it is, and its unit, which refers to V or to the unit of the drive.
     std::string name, unit;
     /// Its value and standard error.
     double value, std;
 };
 
-/// A heater as runs tell it.
+/// The result of a heater's fit.
 struct HeaterFit {
-    /// Numbers that the data do not determine are those of the model given.
+    /// Parameters that the data do not determine have the values of the model given.
     HeaterParameters heater;
-    /// Standard errors in the order of HeaterNumber; NaN for numbers that are not determined. They count
-    /// errors correlated over time (calib/batch_variance.h) and runs that differ (calib/heterogeneity.h).
+    /// Standard errors in the order of HeaterNumber; NaN for parameters that are not determined. They include
+    /// errors correlated over time (calib/batch_variance.h) and differences between runs
+    /// (calib/heterogeneity.h).
     std::array<double, heater_numbers> std;
-    std::array<double, heater_numbers> freedom;  ///< of Student's law for intervals
-    std::vector<HeaterRefusal> refused;          ///< what they do not determine
-    double residual_rms;                         ///< of the readings that have weight, in their unit
-    /// R.m.s. of the residual over that of the readings about their mean, both weighted.
+    /// Degrees of freedom of Student's distribution for intervals.
+    std::array<double, heater_numbers> freedom;
+    std::vector<HeaterRefusal> refused;  ///< parameters that are not determined
+    double residual_rms;  ///< r.m.s. of the residuals with non-zero weight, in the readings' unit
+    /// R.m.s. of the residuals over that of the readings about their mean, both weighted.
     double missed_share;
-    std::vector<HeaterContradiction> contradictions;  ///< where runs contradict each other
-    std::vector<HeaterCombination> combinations;      ///< what they determine only together
-    std::size_t samples;                              ///< that it was fitted to
+    std::vector<HeaterContradiction> contradictions;  ///< parameters on which runs contradict each other
+    std::vector<HeaterCombination> combinations;      ///< determined combinations of undetermined parameters
+    std::size_t samples;                              ///< number of samples to which it was fitted
 };
 
-/// What the Hall sensor shows. The start of the iteration is the heater fitted to the temperature that the
-/// inverse hysteresis infers, weighted by what a reading knows of it.
-/// @param model  hysteresis, Hall curve, and the heater as it is believed so far
+/// Fits the heater to readings of the Hall sensor. The iteration starts with the heater fitted to the
+/// temperature that the inverse hysteresis gives, weighted by each reading's sensitivity to it.
+/// @param model  hysteresis, Hall curve, and the present model of the heater
 /// Fails with Reason::not_identifiable if the runs are empty, not finite, or move the platform by less than a
 /// tenth of its stroke.
 Result<HeaterFit> fit_heater(const MicroModel& model, const std::vector<HeaterRun>& runs);
 
-/// What a thermometer shows. The ambient number is what the thermometer reads above the run's measured
-/// ambient, or the ambient temperature itself where that was not measured; the first reading is the start
-/// unless the run gives one. Fails with Reason::not_identifiable if the runs are empty, not finite, or the
-/// temperature or the command does not move.
+/// Fits the heater to readings of a thermometer. The parameter `ambient` then is the thermometer's excess
+/// over the run's measured ambient temperature, or the ambient temperature itself where none was measured;
+/// the first reading is the start temperature unless the run states one. Fails with Reason::not_identifiable
+/// if the runs are empty, not finite, or the temperature or the command is constant.
 Result<HeaterFit> fit_heater_to_temperature(const std::vector<HeaterRun>& runs);
 
-/// What the sensor would read under a run's commands.
+/// The Hall sensor's readings under a run's commands, by the model.
 std::vector<double> predict_hall(const MicroModel& model, const HeaterParameters& heater,
                                  const HeaterRun& run);
-/// The temperatures that a run's commands give by the model, degC, sample by sample.
+/// The temperatures under a run's commands by the model, degC, for each sample.
 std::vector<double> predict_temperature(const HeaterParameters& heater, const HeaterRun& run);
 
 }  // namespace fidservo::calib

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The pieces of the heater's fit: its numbers in units in which they can be compared, the residuals of runs,
-// their least squares, and what each reading adds to it.
+// The parts of the heater's fit: its parameters in comparable units, the residuals of runs, their least
+// squares, and each reading's influence.
 #include "calib/batch_variance.h"
 #include "calib/wire/heater_fit.h"
 
@@ -21,13 +21,13 @@ using HeaterPredict = std::function<std::vector<double>(const HeaterParameters&,
 
 using HeaterFree = std::array<bool, heater_numbers>;
 
-/// Numbers relative to a start, in units in which a standard error of one is useless: a fifth of gain and of
-/// time constants, a twentieth of the commands' range, 1 degC.
+/// The scaling of the parameters x, relative to a start value, in units in which a standard error of one is
+/// useless: a fifth of gain and of time constants, a twentieth of the commands' range, 1 degC.
 struct HeaterScale {
     HeaterParameters start;
     double command_range;
-    /// No rig file behind it: the onset is not below the start's, the third number is the heating tau over
-    /// the cooling tau, and gain and cooling tau cannot be held for want of a value.
+    /// There is no rig file: the onset is not below the start's, the third parameter is heating tau over
+    /// cooling tau, and gain and cooling tau cannot be held fixed, as there are no values for them.
     bool by_itself = false;
 
     HeaterParameters at(const double* x) const {
@@ -60,7 +60,7 @@ class HeaterResiduals {
 
     int count() const { return count_; }
 
-    /// A figure of x that is held at a value, by one more residual at the end.
+    /// A function of x that is held at a value, by an additional residual at the end.
     struct Pin {
         std::function<double(const HeaterVector&)> figure;
         double value, std;
@@ -92,7 +92,7 @@ class HeaterResiduals {
         return residual;
     }
 
-    /// Residuals of each run, in their order.
+    /// The number of residuals of each run, in the runs' order.
     std::vector<int> run_counts() const {
         std::vector<int> counts;
         for (const HeaterRun& run : runs_) {
@@ -103,7 +103,7 @@ class HeaterResiduals {
         return counts;
     }
 
-    /// Weighted squares of the readings about their weighted mean.
+    /// Weighted sum of squares of the readings about their weighted mean.
     double variation() const {
         double sum = 0.0, first = 0.0, second = 0.0;
         for (const HeaterRun& run : runs_)
@@ -137,14 +137,15 @@ class HeaterResiduals {
     std::optional<Pin> pin_ = {};
 };
 
-/// Least squares over the free numbers. @return false if it did not converge to something usable
+/// Least squares over the free parameters.
+/// @return false if it did not converge to a usable solution
 bool solve_heater(const HeaterResiduals& residuals, const HeaterFree& is_free, bool onset_bounded,
                   HeaterVector& x);
 
-/// By how much each reading moved x, a column a reading; rows of held numbers are 0.
+/// The influence of each reading on x, a column per reading; rows of fixed parameters are 0.
 struct HeaterInfluences {
     Eigen::Matrix<double, heater_count, Eigen::Dynamic> readings;
-    Eigen::Matrix<double, heater_count, heater_count> claimed;  ///< covariance if errors were independent
+    Eigen::Matrix<double, heater_count, heater_count> claimed;  ///< covariance of x for independent errors
     std::vector<int> run_counts;
     std::size_t fitted = 0;
 };
@@ -152,14 +153,14 @@ struct HeaterInfluences {
 HeaterInfluences influences_at(const HeaterResiduals& residuals, const HeaterFree& is_free,
                                const HeaterVector& x);
 
-/// Variance of what has this gradient by x: of batches of readings (calib/batch_variance.h), at least what
-/// least squares would claim.
+/// Variance of a quantity with this gradient by x, from batches of readings (calib/batch_variance.h), but no
+/// less than for independent errors.
 BatchVariance variance_along(const HeaterInfluences& influences, const HeaterVector& gradient);
 
 /// Standard errors of x.
 HeaterVector parameter_stds(const HeaterInfluences& influences);
 
-/// Derivative of a number by x.
+/// Derivative of a parameter in physical units by x.
 HeaterVector gradient_of(const HeaterScale& scale, const HeaterVector& x, int number);
 
 }  // namespace fidservo::calib

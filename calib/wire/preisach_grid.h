@@ -7,9 +7,9 @@
 //
 //     f(t_i, t_j) = sum over p < i, q < j of w_pq,        w_pq >= 0,  q <= p
 //
-// w_pq is spread evenly over the cell [t_p, t_p+1] x [t_q, t_q+1]; on the diagonal, where the table is linear
-// in its lower triangle, it lies on the line a = b: relays without width, the reversible part. The model's
-// output is then linear in the weights: the sum of w_pq times the share of the cell that is on.
+// w_pq is distributed uniformly over the cell [t_p, t_p+1] x [t_q, t_q+1]; on the diagonal, where the table
+// is linear in its lower triangle, it lies on the line a = b: relays without hysteresis, the reversible part.
+// The model's output is then linear in the weights: the sum of w_pq times the share of the cell that is on.
 #include "core/preisach.h"
 
 #include <cstddef>
@@ -33,29 +33,29 @@ inline std::size_t cell_count(const PreisachGrid& grid) {
     return (grid.nodes - 1) * grid.nodes / 2;
 }
 
-/// Cells in rows of equal upper switching input, q <= p.
+/// Index of a cell: rows of equal upper switching input p, and q <= p within a row.
 inline std::size_t cell_index(std::size_t p, std::size_t q) {
     return p * (p + 1) / 2 + q;
 }
 
-/// The table of the weights; f(low, low) = 0.
+/// The table that corresponds to the weights; f(low, low) = 0.
 FodTable table_of_density(const PreisachGrid& grid, std::span<const double> weights);
 
-/// Tracks an input from negative saturation on.
+/// Tracks which part of each cell an input has switched on, from negative saturation on.
 class SwitchedCells {
   public:
     SwitchedCells(const PreisachGrid& grid, double first_input);
 
     void move(double input);
 
-    /// Share of each cell that is on, 0..1.
+    /// The fraction of each cell that is on, 0..1.
     void shares(std::span<double> per_cell) const;
 
   private:
     void add(double peak, double from, double to, std::span<double> per_cell) const;
 
     PreisachGrid grid_;
-    FodTable frame_;  ///< without density: only its memory is of use
+    FodTable frame_;  ///< without density: only its memory is used
     PreisachMemory memory_;
 };
 

@@ -9,7 +9,7 @@
 
 namespace fidservo::calib {
 
-/// Sums over samples of weight, shares, output and their products.
+/// Sums over samples of weights, cell fractions (shares), output and their products.
 class PreisachMoments {
   public:
     explicit PreisachMoments(std::size_t cells);
@@ -21,11 +21,11 @@ class PreisachMoments {
     double samples() const { return samples_; }
     double mean_output() const { return samples_ > 0.0 ? output_sum_ / samples_ : 0.0; }
 
-    /// Covariances about the mean, which is what a free offset leaves: n x n row by row, and n.
+    /// Covariances about the mean, for a fit with a free offset: n x n row by row, and n.
     std::vector<double> centred_matrix() const;
     std::vector<double> centred_rhs() const;
 
-    /// Offset that fits the weights best.
+    /// The offset that fits best with these weights.
     double offset(std::span<const double> weights) const;
 
     /// Sum of squares of output - offset - shares * weights.
@@ -36,31 +36,34 @@ class PreisachMoments {
 
     double samples_ = 0.0, output_sum_ = 0.0, output_squares_ = 0.0;
     std::vector<double> share_sum_, product_sum_;
-    mutable std::vector<double> matrix_;   ///< sum of shares shares', row by row
-    mutable std::vector<double> pending_;  ///< rows not yet in the matrix: many at once are cheaper
+    mutable std::vector<double> matrix_;  ///< sum over samples of shares shares^T, row by row
+    /// Rows not yet added to the matrix: adding many at once is cheaper.
+    mutable std::vector<double> pending_;
 };
 
-/// Differences of neighbouring cells, squared: D'D, n x n row by row. Off the diagonal between neighbours in
-/// either direction, on the diagonal along it; scaled to a mean of one on its diagonal.
+/// The roughness matrix D^T D of differences between neighbouring cells, n x n row by row. Off the diagonal
+/// of the Preisach plane cells have neighbours in either direction, on the diagonal along it. It is scaled to
+/// a mean of one on its own diagonal.
 std::vector<double> roughness(const PreisachGrid& grid);
 
-/// The information matrix that a penalty relative to the mean information of a cell makes of the moments.
-/// A ridge of 1e-9 keeps cells that never switched at zero.
+/// The information matrix with the roughness penalty added, which is relative to the mean information of a
+/// cell. A ridge of 1e-9 keeps cells that never switched at zero.
 std::vector<double> penalised_matrix(const PreisachMoments& moments, std::span<const double> rough,
                                      double penalty);
 
-/// The weights, none negative.
+/// The weights of the cells, none negative.
 Result<std::vector<double>> fit_density(const PreisachMoments& moments, std::span<const double> rough,
                                         double penalty);
 
-/// Standard errors of the table's nodes (lower triangle, row by row) for residuals of a variance: of the
-/// unconstrained fit with a prior of zero mean on each cell, as wide as the weights of the cells that carry
-/// any are large. Neither the penalty nor the bound enters: what only they determine is not known.
+/// Standard errors of the table's nodes (lower triangle, row by row) for residuals of a given variance. They
+/// are those of the unconstrained fit with a zero-mean prior on each cell, as wide as the typical weight of
+/// the cells that have any. Penalty and non-negativity are not used: what only they determine counts as
+/// unknown.
 std::vector<double> node_standard_errors(const PreisachGrid& grid, const PreisachMoments& moments,
                                          std::span<const double> weights, double variance);
 
-/// Which nodes the data determine: all cells in a node's sum were seen to switch (least and most share of
-/// each cell over the data), and its standard error is below 5 % of the stroke.
+/// Which nodes the data determine: all cells in a node's sum were seen to switch (by their least and largest
+/// fraction over the data), and its standard error is below 5 % of the stroke.
 std::vector<bool> determined_nodes(const PreisachGrid& grid, std::span<const double> least_share,
                                    std::span<const double> most_share, std::span<const double> node_std,
                                    double stroke);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The boundary to a data acquisition board: what Comedi says and does, one channel at a time. The real one is
+// The boundary to a data acquisition board, in Comedi's terms: subdevices, channels, ranges. The real one is
 // libcomedi (libcomedi_link.h); tests put a board of their own in its place.
 #include <cstdint>
 #include <string>
@@ -20,7 +20,7 @@ enum class SubdeviceKind : std::uint8_t {
     other
 };
 
-/// "analogue input" and so on.
+/// The kind in words: "analogue input" and so on.
 std::string_view name_of(SubdeviceKind kind);
 
 struct VoltageRange {
@@ -43,18 +43,19 @@ class BoardLink {
     BoardLink& operator=(const BoardLink&) = delete;
     virtual ~BoardLink() = default;
 
-    /// "multiq3 (driver multiq3)".
+    /// Name of the board and of its driver: "multiq3 (driver multiq3)".
     virtual std::string name() const = 0;
     virtual SubdeviceKind kind(int subdevice) const = 0;
     virtual int channels(int subdevice) const = 0;
-    /// The greatest number that the channel reads or takes.
+    /// The largest value that the channel's converter or counter takes on.
     virtual std::uint32_t max_value(int subdevice, int channel) const = 0;
-    /// Those in volts have their place in the list; another one (mA, none) is empty: low_V = high_V.
+    /// All ranges of a channel, by their Comedi index. A range that is not in volts (mA, or without unit) is
+    /// empty: low_V = high_V.
     virtual std::vector<VoltageRange> ranges(int subdevice, int channel) const = 0;
 
-    /// Makes a line that goes both ways an output. False if the device refused.
+    /// Configures a bidirectional digital line as an output. False if the device refused.
     [[nodiscard]] virtual bool make_output(int subdevice, int channel) noexcept = 0;
-    /// False if the device refused. Neither waits nor allocates.
+    /// Reads or writes a channel's raw value. False if the device refused. Neither call waits or allocates.
     [[nodiscard]] virtual bool read(const Address& at, std::uint32_t& value) noexcept = 0;
     [[nodiscard]] virtual bool write(const Address& at, std::uint32_t value) noexcept = 0;
 };

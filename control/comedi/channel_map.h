@@ -10,17 +10,18 @@ namespace fidservo::control::comedi {
 struct ChannelChoice {
     int subdevice = 0;
     int channel = 0;
-    std::optional<VoltageRange> range;  ///< empty: the narrowest of the board's that suffices
+    std::optional<VoltageRange> range;  ///< empty: the narrowest of the board's ranges that suffices
 };
 
 struct MacroChannel {
     ChannelChoice output;
     bool reversed = false;  ///< a positive voltage drives the carriage towards lower positions
-    /// A line that gives the direction: high for a positive command. The output then has the amount only.
+    /// A digital line for the direction, high for a positive command. The analogue output then carries the
+    /// absolute value only.
     std::optional<ChannelChoice> direction;
 };
 
-/// A counter; or, with mm_per_V, an analogue input that shows the position.
+/// A counter input; or, with mm_per_V, an analogue input whose voltage is proportional to the position.
 struct EncoderChannel {
     ChannelChoice input;
     bool reversed = false;  ///< counts fall where the position rises
@@ -29,7 +30,7 @@ struct EncoderChannel {
 
 struct ChannelMap {
     MacroChannel macro;
-    ChannelChoice micro;  ///< CTRL of the wire's driver
+    ChannelChoice micro;  ///< control voltage of the wire's heater driver
     ChannelChoice hall;
     EncoderChannel encoder;
 };

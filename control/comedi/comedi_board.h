@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The stage on a Comedi board. The guardian process has the outputs, the program's loop the inputs: each
-// opens the board for itself.
+// The stage on a Comedi board. The guardian process writes the outputs, the program's loop reads the inputs;
+// each opens the board for itself.
 #include "control/comedi/wiring.h"
 #include "control/guardian.h"
 #include "control/output_board.h"
@@ -12,13 +12,13 @@
 
 namespace fidservo::control::comedi {
 
-/// Macro command with its direction, and micro command.
+/// The board's outputs: the macro command, with its direction line where there is one, and the micro command.
 class ComediOutputs final : public OutputBoard {
   public:
-    /// Throws RunFault if the direction's line cannot be made an output.
+    /// Throws RunFault if the direction line cannot be made an output.
     ComediOutputs(std::unique_ptr<BoardLink> board, const Wiring& wiring);
 
-    /// Where a line gives the direction, the amount is zero while it changes.
+    /// Where there is a direction line, the amount is set to zero while the line changes.
     bool write(const StageCommand& command) noexcept override;
 
   private:
@@ -29,12 +29,13 @@ class ComediOutputs final : public OutputBoard {
     bool forward_ = true;
 };
 
-/// Follows a counter of n bits beyond its range.
+/// Extends a counter of n bits beyond its range by counting its overflows.
 class Unwrapped {
   public:
     explicit Unwrapped(std::uint32_t max_value) : max_value_(max_value) {}
 
-    /// Counts since the first reading. Right as long as less than half a range lies between two readings.
+    /// Counts since the first reading. Right as long as the counter moves by less than half its range between
+    /// two readings.
     std::int64_t follow(std::uint32_t reading) noexcept;
 
   private:
@@ -43,7 +44,8 @@ class Unwrapped {
     std::int64_t count_ = 0;
 };
 
-/// Reads encoder and Hall sensor; commands go to the guardian. Samples are of the time of read().
+/// The board's inputs: encoder and Hall sensor, with the time of read() as the sampling time; commands are
+/// passed to the guardian.
 class ComediStage final : public Stage {
   public:
     ComediStage(std::unique_ptr<BoardLink> board, const Wiring& wiring, std::shared_ptr<Guardian> guardian);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A channel map checked against the board that is there: what is needed to turn volts into its numbers.
+// A channel map checked against the board: what the conversion between volts and the board's raw values
+// needs.
 #include "control/comedi/channel_map.h"
 
 namespace fidservo {
@@ -9,14 +10,14 @@ struct Rig;
 
 namespace fidservo::control::comedi {
 
-/// A channel as it is used.
+/// A channel with the range it is used in.
 struct Terminal {
     Address at;
     VoltageRange range{};
     std::uint32_t max_value = 0;
 };
 
-/// The number that stands for a voltage, V, clipped to the range: 0 is range.low_V, max_value range.high_V.
+/// The raw value for a voltage in V, clipped to the range: 0 is range.low_V, max_value is range.high_V.
 std::uint32_t number_of(const Terminal& terminal, double volts);
 double volts_of(const Terminal& terminal, std::uint32_t number);
 
@@ -26,10 +27,11 @@ struct Wiring {
     std::optional<Terminal> direction;
     Terminal micro;
     Terminal hall;
-    double hall_lsb_V = 0.0;  ///< one count of StageSample::hall_adc
+    double hall_lsb_V = 0.0;  ///< voltage of one count of StageSample::hall_adc
     Terminal encoder;
     bool encoder_reversed = false;
-    std::optional<double> counts_per_V;  ///< of a position on an analogue input; empty: a counter
+    /// Counts per volt of a position on an analogue input; empty: the encoder is on a counter.
+    std::optional<double> counts_per_V;
 };
 
 /// Throws InputError "stage.comedi.KEY: VALUE: message" where the board does not have a channel, where it is

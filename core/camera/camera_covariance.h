@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How far a calibrated camera may be from what its calibration says, and what that makes of a length that it
-// measures.
+// The uncertainty of a camera's calibration, and the uncertainty of a length measured with the camera that
+// follows from it.
 //
 // The numbers p of core/camera/camera_geometry.h that the calibration against the stage finds have the
-// covariance C. What lies between two image points, seen from one camera position,
+// covariance C. The vector on the plate between two image points, seen from one camera position,
 //
 //     d = back_project(to) - back_project(from),
 //
@@ -20,48 +20,50 @@
 
 namespace fidservo {
 
-/// The numbers, in the order of their covariance.
+/// The calibrated numbers p of a camera, in the order of rows and columns of their covariance.
 enum CameraNumber : int {
-    camera_distance,  ///< mm
+    camera_distance,  ///< Z, mm
     camera_rotation,  ///< rad
-    camera_tilt_u,    ///< rad
-    camera_tilt_v,    ///< rad
-    camera_axis_y,    ///< rad
-    camera_axis_z,    ///< rad
-    camera_k1         ///< of the lens
+    camera_tilt_u,    ///< rotation vector's part along u, rad
+    camera_tilt_v,    ///< rotation vector's part along v, rad
+    camera_axis_y,    ///< the stage axis's slope towards plate y, rad
+    camera_axis_z,    ///< the stage axis's slope towards plate z, rad
+    camera_k1         ///< the lens's first radial coefficient
 };
-/// How many numbers of a camera's geometry a calibration may leave open.
+/// How many numbers of a camera's geometry have a covariance.
 inline constexpr int camera_numbers = 7;
 
-/// These numbers, in the order of the rig file's geometry_covariance.
+/// The calibrated numbers p of a camera, in the order of CameraNumber.
 using CameraNumbers = Eigen::Matrix<double, camera_numbers, 1>;
-/// Their covariance, in the numbers' own units.
+/// The covariance C of the numbers p, in their own units (mm, rad, 1).
 using CameraCovariance = Eigen::Matrix<double, camera_numbers, camera_numbers>;
 
-/// The numbers of a camera.
+/// The calibrated numbers p of a camera.
 CameraNumbers numbers_of(const CameraGeometry& camera);
-/// The camera that has these numbers, and all else of the one given.
+/// A camera with these numbers p; all else is as in the camera given.
 CameraGeometry with_numbers(CameraGeometry camera, const CameraNumbers& numbers);
 
-/// Whether a symmetric matrix is one: no variance negative, no direction's below rounding.
+/// Whether a symmetric matrix is a covariance: no variance on its diagonal is negative, and no eigenvalue is
+/// negative beyond rounding.
 bool is_covariance(const CameraCovariance& matrix);
 
-/// The numbers that say a symmetric matrix: its lower triangle, row by row.
+/// How many numbers the lower triangle of a camera's covariance has.
 inline constexpr int camera_triangle_numbers = camera_numbers * (camera_numbers + 1) / 2;
 /// The lower triangle of a symmetric matrix, row by row.
 std::vector<double> lower_triangle(const CameraCovariance& matrix);
 /// The symmetric matrix that has this lower triangle.
 CameraCovariance from_lower_triangle(std::span<const double, camera_triangle_numbers> numbers);
 
-/// J: rows plate x and y, a column for each number; mm per mm, rad or 1.
+/// J = d d / d p: two rows for the vector's plate x and y, a column for each of the numbers p; mm per mm, per
+/// rad or per unit of k1.
 using VectorByCamera = Eigen::Matrix<double, 2, camera_numbers>;
 /// J of the vector on the plate between two points of an image, seen from position s.
 VectorByCamera vector_by_camera(const CameraGeometry& camera, const Eigen::Vector2d& from_px,
                                 const Eigen::Vector2d& to_px, double s_mm);
 
-/// J C J^T, mm^2; no variance is below zero, whatever rounding makes of it.
+/// J C J^T, mm^2. Variances that rounding makes negative are set to zero.
 Eigen::Matrix2d vector_covariance_mm2(const VectorByCamera& slopes, const CameraCovariance& covariance);
-/// The same of the vector between two points of an image, seen from position s.
+/// J C J^T, mm^2, of the vector on the plate between two points of an image, seen from position s.
 Eigen::Matrix2d vector_covariance_mm2(const CameraGeometry& camera, const CameraCovariance& covariance,
                                       const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px,
                                       double s_mm);

@@ -27,7 +27,7 @@ struct CameraGeometry {
     double focal_px;                     ///< f: focal length over a pixel's width
     Eigen::Vector2d principal_point_px;  ///< (u0, v0)
     double distance_mm;                  ///< Z: from the camera's centre to the plate
-    double focal_ratio = 1.0;            ///< q: height of a square pixel's picture to its width, f_y / f_x
+    double focal_ratio = 1.0;            ///< q = f_y / f_x: a square's height over its width in the image
     LensDistortion distortion = {};      ///< of the lens
     double rotation_rad = 0.0;           ///< of R_z, from u towards v
     Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();  ///< rotation vector's parts along u and v
@@ -35,12 +35,14 @@ struct CameraGeometry {
     Eigen::Vector2d axis_rad = Eigen::Vector2d::Zero();
 };
 
-/// At the optical axis of a camera that looks straight down; a tilted one has it there to second order.
+/// Length on the plate of a pixel at the optical axis. Exact for a camera that looks straight down, to second
+/// order in the tilt for another one.
 inline double mm_per_px(const CameraGeometry& camera) {
     return camera.distance_mm / camera.focal_px;
 }
 
-/// The pinhole alone: no rotation, tilt, distortion, oblique axis.
+/// Whether the camera is a pinhole that looks straight down: no rotation, tilt, distortion, unequal focal
+/// lengths or oblique axis.
 bool looks_straight(const CameraGeometry& camera);
 
 /// R_tilt R_z: from the plate's frame to the camera's.
@@ -51,7 +53,7 @@ Eigen::Matrix3d camera_from_plate(const CameraGeometry& camera);
 Eigen::Vector2d project(const CameraGeometry& camera, const Eigen::Vector2d& plate_mm, double s_mm);
 
 /// Plate point in mm of an image point in px, seen from camera position s. NaN where the image shows nothing
-/// of the plate: no ray of the lens ends there, or it leads away from the plate.
+/// of the plate: the lens images no ray there, or the ray leads away from the plate.
 Eigen::Vector2d back_project(const CameraGeometry& camera, const Eigen::Vector2d& image_px, double s_mm);
 
 }  // namespace fidservo

@@ -8,17 +8,18 @@ namespace fidservo {
 
 /// A camera as its rig file describes it.
 struct CameraParameters {
-    CameraGeometry geometry;    ///< where it pictures a point of the plate
-    double frame_rate_hz;       ///< frames a second
-    double exposure_s;          ///< time that a pixel gathers light
-    double full_well_e;         ///< electrons that make a pixel white
-    double read_noise_e;        ///< standard deviation, electrons
-    double blur_px;             ///< standard deviation of the optical blur
-    double latency_s;           ///< from the middle of the exposure to the frame's arrival
-    double corner_noise_px;     ///< of recorded detections that were not made from images
-    double max_speed_mm_per_s;  ///< likewise: no tag is seen above it
+    CameraGeometry geometry;  ///< where it pictures a point of the plate
+    double frame_rate_hz;     ///< frames a second
+    double exposure_s;        ///< time that a pixel gathers light
+    double full_well_e;       ///< electrons that make a pixel white
+    double read_noise_e;      ///< standard deviation of a pixel's read noise, electrons
+    double blur_px;           ///< standard deviation of the optical blur
+    double latency_s;         ///< from the middle of the exposure to the frame's arrival
+    /// Standard deviation of the corners in simulated detections that are not made from rendered images.
+    double corner_noise_px;
+    double max_speed_mm_per_s;  ///< in simulated detections no tag is seen above this speed
     double gain_spread = 0.0;   ///< standard deviation of the pixels' gains: a fixed pattern of noise
-    /// Of the geometry, as its calibration states it; zero: known to be exact, or not stated.
+    /// Covariance of the geometry, as its calibration states it; zero: known exactly, or not stated.
     CameraCovariance geometry_covariance = CameraCovariance::Zero();
 };
 

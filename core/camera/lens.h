@@ -15,7 +15,7 @@
 //     (x', y') = theta_d / r (Q_x, Q_y),   theta_d = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4
 //     theta^8)
 //
-// It pictures each direction once as far as theta_d rises from theta = 0: that is its domain.
+// The model's domain is theta from 0 to where theta_d ceases to rise: there it is one-to-one.
 //
 // Sources: Brown, Close-range camera calibration, Photogrammetric Engineering 37(8), 1971, as OpenCV and ROS
 // ("plumb_bob") write it; Kannala, Brandt, A generic camera model and calibration method for conventional,
@@ -31,7 +31,7 @@ namespace fidservo {
 /// Which formula pictures a direction.
 enum class LensModel {
     plumb_bob,    ///< Brown's: radial and tangential
-    equidistant,  ///< Kannala and Brandt's: of fisheyes
+    equidistant,  ///< Kannala and Brandt's, for fisheye lenses
 };
 /// All of them.
 inline constexpr std::array lens_models{LensModel::plumb_bob, LensModel::equidistant};
@@ -43,10 +43,10 @@ std::string_view name_of(LensModel model);
 struct LensDistortion {
     /// Radial k1, k2, k3 and tangential p1, p2; an equidistant lens has k1 to k4 only.
     double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
-    double k4 = 0.0;                         ///< of equidistant
-    LensModel model = LensModel::plumb_bob;  ///< which formula they belong to
+    double k4 = 0.0;                         ///< of an equidistant lens only
+    LensModel model = LensModel::plumb_bob;  ///< which formula the coefficients belong to
 
-    /// A pinhole.
+    /// Whether the lens is a pinhole: plumb_bob with all coefficients 0.
     bool is_none() const {
         return model == LensModel::plumb_bob && k1 == 0.0 && k2 == 0.0 && p1 == 0.0 && p2 == 0.0 && k3 == 0.0;
     }
@@ -59,15 +59,15 @@ std::size_t coefficients_of(LensModel model);
 /// k4.
 std::vector<double> numbers_of(const LensDistortion& lens);
 
-/// @param numbers  coefficients_of(model) of them
+/// @param numbers  the coefficients in the same order, coefficients_of(model) of them
 LensDistortion distortion_of(LensModel model, const std::vector<double>& numbers);
 
 /// (x', y') of a direction of any length. NaN beyond the domain of an equidistant lens.
 Eigen::Vector2d picture_of(const LensDistortion& lens, const Eigen::Vector3d& direction);
 
-/// A direction of which (x', y') is the picture, by Newton's method to rounding: (x, y, 1) of a plumb_bob
-/// lens, valid where it makes a one-to-one picture; of length 1 of an equidistant one, NaN where it pictures
-/// no direction of its domain.
+/// The direction whose picture is (x', y'), by Newton's method to rounding. Of a plumb_bob lens it is (x, y,
+/// 1), valid where the picture is one-to-one; of an equidistant one it has length 1, and is NaN where no
+/// direction of the domain has this picture.
 Eigen::Vector3d ray_of(const LensDistortion& lens, const Eigen::Vector2d& pictured);
 
 /// d ray_of() / d (x', y'), at a direction that ray_of() gave.
@@ -76,13 +76,13 @@ Eigen::Matrix<double, 3, 2> ray_slope(const LensDistortion& lens, const Eigen::V
 /// (x', y') of (x, y), the direction (x, y, 1).
 Eigen::Vector2d distort(const LensDistortion& lens, const Eigen::Vector2d& ideal);
 
-/// (x, y) of (x', y'); NaN where ray_of() is or does not point ahead.
+/// (x, y) of (x', y'); NaN where ray_of() is NaN or does not point ahead.
 Eigen::Vector2d undistort(const LensDistortion& lens, const Eigen::Vector2d& distorted);
 
 /// d (x', y') / d (x, y).
 Eigen::Matrix2d distortion_slope(const LensDistortion& lens, const Eigen::Vector2d& ideal);
 
-/// The largest theta, rad, up to which theta_d of an equidistant lens rises; at most pi.
+/// The largest theta, rad, of an equidistant lens's domain, up to which theta_d rises; at most pi.
 double domain_rad(const LensDistortion& lens);
 
 }  // namespace fidservo

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The models of core/camera/lens.h for any kind of number, those of solvers that differentiate included.
+// The models of core/camera/lens.h as templates over the number type, so that solvers can differentiate
+// them automatically.
 #include "core/camera/lens.h"
 
 #include <cmath>
@@ -9,8 +10,8 @@
 
 namespace fidservo {
 
-/// What a lens whose parts are not on one axis adds to a picture: 2 p1 x y + p2 (r2 + 2 x^2) and p1 (r2 + 2
-/// y^2) + 2 p2 x y, at (x, y).
+/// A picture with Brown's decentring (tangential) terms added: 2 p1 x y + p2 (r2 + 2 x^2) and p1 (r2 + 2 y^2)
+/// + 2 p2 x y, at (x, y).
 template <class T>
 Eigen::Matrix<T, 2, 1> decentred(const Eigen::Matrix<T, 2, 1>& picture, const T& p1, const T& p2,
                                  const Eigen::Matrix<T, 2, 1>& at) {
@@ -37,8 +38,8 @@ T angle_growth(const T& k1, const T& k2, const T& k3, const T& k4, const T& thet
     return 1.0 + square * (k1 + square * (k2 + square * (k3 + square * k4)));
 }
 
-/// (x', y') of a direction by an equidistant lens, wherever it is. Straight behind the camera, where it has
-/// no derivative, the picture is that of straight ahead, mirrored.
+/// (x', y') of a direction by an equidistant lens, not limited to its domain. Straight behind the camera,
+/// where there is no derivative, the picture is that of straight ahead, mirrored.
 template <class T>
 Eigen::Matrix<T, 2, 1> fisheye_picture(const T& k1, const T& k2, const T& k3, const T& k4,
                                        const Eigen::Matrix<T, 3, 1>& direction) {

@@ -8,11 +8,11 @@
 
 namespace fidservo::gap {
 
-/// Fits settings that act beside what is known, in standard deviations of their own balance. What it is made
-/// of has to outlive it.
+/// Fits effects' settings, in addition to a base hypothesis, to the balance of forces, with residuals in
+/// standard deviations under the settings themselves. Its arguments must outlive it.
 class BalanceFit {
   public:
-    /// @param wanted  windows that count, as in gap/fit/score.h
+    /// @param wanted  the windows to be used, as in gap/fit/score.h
     BalanceFit(const ForceBalance& balance, std::span<const Window> windows, const Wanted& wanted,
                const Hypothesis& base);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A spring along the rail that balances a carriage's forces best.
+// The spring force along the rail that balances a carriage's forces best.
 #include "gap/balance/force_balance.h"
 #include "gap/candidates/candidate.h"
 
@@ -8,14 +8,15 @@
 
 namespace fidservo::gap {
 
-/// Whether an effect pulls in proportion to a way along the rail.
+/// Whether an effect is a spring: a force in proportion to the position on the rail.
 bool is_spring(const plant::Effect& effect);
 
-/// As it is without the parameters that it may be without, and with one of them: where friction lets a
-/// carriage go by jumps, no slope leads from one that does not harden to one that does.
-/// @param wanted  windows of the encoder that are looked at
-/// @param base    what is known of the rig
-/// @param candidate  a spring; what is none has none
+/// The best settings of a spring without its optional parameters, and with one of them. Both are needed:
+/// where stick-slip makes a carriage move in jumps, a fit does not get by gradients from a linear spring to
+/// one that hardens.
+/// @param wanted  windows of the encoder to be used
+/// @param base    the known effects
+/// @param candidate  a spring; for other effects the result is empty
 std::vector<plant::EffectSetting> balanced_springs(const Evidence& evidence, const Wanted& wanted,
                                                    const Hypothesis& base, const Candidate& candidate);
 

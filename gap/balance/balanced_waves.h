@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Waves of a force along the rail: as periods in the readings show them, and as they balance a carriage's
-// forces best.
+// Periodic forces along the rail: start values from the periods in the readings, and from the balance of a
+// carriage's forces.
 #include "gap/balance/period_search.h"
 #include "gap/candidates/candidate.h"
 
@@ -10,21 +10,22 @@
 
 namespace fidservo::gap {
 
-/// Periods that were found by counts of the nominal length, as a hypothesis has them on the rail, where a
-/// count may have another length.
+/// Converts periods that were found by counts of the nominal resolution to periods on the rail under a
+/// hypothesis, which may have another resolution.
 std::vector<PositionPeriod> on_the_rail(std::vector<PositionPeriod> periods, const Rig& rig,
                                         const Hypothesis& hypothesis);
 
-/// The candidate as the wave that a period's errors show.
+/// The candidate's setting for the wave at a period.
 plant::EffectSetting wave_at(const Candidate& candidate, const PositionPeriod& period);
 
-/// From the strongest periods in all parameters of the wave, without and with those that it may be without,
-/// its harmonic: a weak one the balance hardly shows, though it decides which way a carriage goes.
-/// @param wanted  windows of the encoder that are looked at
-/// @param base    what is known of the rig
-/// @param candidate  a wave; one that is no force has none
+/// The best settings of a wave, fitted from the strongest periods, without and with its optional parameters,
+/// its harmonic: the balance hardly shows a weak harmonic, although it may decide into which well of the
+/// force a carriage goes.
+/// @param wanted  windows of the encoder to be used
+/// @param base    the known effects
+/// @param candidate  a wave; for one that is no force the result is empty
 /// @param periods  strongest first
-/// @return at most two of either, best first
+/// @return at most two without and two with the optional parameters, best first
 std::vector<plant::EffectSetting> balanced_waves(const Evidence& evidence, const Wanted& wanted,
                                                  const Hypothesis& base, const Candidate& candidate,
                                                  std::span<const PositionPeriod> periods);

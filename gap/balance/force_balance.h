@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Whether the forces of a hypothesis balance along the way that a carriage was recorded to go, without
-// following it.
+// The balance of the forces of a hypothesis along a carriage's recorded motion, without simulating the
+// carriage.
 //
 //     V(w(u, y)) - F(v, y) - (tau dv/dt + v) / K = 0
 //
-// and where a belt pulls the carriage (plant/transmission.h), whose motor follows from V and that way,
+// and where a belt pulls the carriage (plant/transmission.h), with a motor whose motion follows from V and
+// that of the carriage,
 //
 //     q / K - F(v, y) - (1 - m) tau dv/dt / K = 0
 //
-// under the truth, with place and velocity from the readings, as a mean over short supports
-// (gap/balance/carriage_forces.h). Every force is in it as it is: what two causes do adds up, and no start in
-// time leads a fit astray, as it does where friction lets a carriage go by jumps. Not seen are play, how far
-// bristles are bent, and all that shows only where the carriage stands.
+// holds for the true forces, with position and velocity from the readings, as a mean over short supports
+// (gap/balance/carriage_forces.h). Forces enter linearly: those of two causes add up, and fits have no local
+// minima as simulations have where stick-slip makes a carriage move in jumps. Play, the bend of bristles, and
+// effects that show only at rest are not detected.
 #include "gap/balance/carriage_forces.h"
 #include "plant/stage_plant.h"
 
@@ -22,27 +23,27 @@ namespace fidservo::gap {
 
 class ForceBalance {
   public:
-    /// Standard deviations that excess forces are told in: what rounding leaves counts for little then.
+    /// Excess forces are given in units of this many standard deviations, so that rounding has little weight.
     static constexpr double deviations = 2.5;
 
-    /// @param wanted  windows of the encoder that are looked at
-    /// @param half_support  as of CarriageForces
+    /// @param wanted  windows of the encoder to be used
+    /// @param half_support  as in CarriageForces
     ForceBalance(const Evidence& evidence, const Wanted& wanted,
                  std::size_t half_support = short_half_support);
 
-    /// The force that each support has in excess, over `deviations` standard ones by the floor of the
-    /// readings under the rig file; laid out like Errors, at the value of the support's middle row, NaN
-    /// elsewhere.
+    /// The force in excess in each support, over `deviations` standard deviations from the readings' noise
+    /// floor under the rig file. The layout is that of Errors, with the value at the support's middle row and
+    /// NaN elsewhere.
     Errors excess(const Hypothesis& hypothesis) const;
 
-    /// The same over those under the hypothesis: on the readings' acceleration acts what
-    /// mass it leaves the carriage.
+    /// The same in standard deviations under the hypothesis, whose moving mass multiplies the noise of the
+    /// acceleration.
     Errors excess_in_own_deviations(const Hypothesis& hypothesis) const;
 
-    /// How far the places are apart at which the carriage slides, mm.
+    /// Length of the rail, mm, on which the carriage slides.
     double way_mm() const;
 
-    /// The middles of the supports in Errors.
+    /// The supports' middle rows in Errors.
     const std::vector<CarriageForces::Support>& supports() const { return forces_.supports(); }
 
   private:
@@ -51,10 +52,10 @@ class ForceBalance {
     const Evidence& evidence_;
     CarriageForces forces_;
     Column velocity_, acceleration_;
-    std::vector<std::vector<double>> readings_mm_;  ///< of each run
+    std::vector<std::vector<double>> readings_mm_;  ///< for each run
 };
 
-/// Whether an effect changes forces of the carriage, not just how they reach it.
+/// Whether an effect changes the forces on the carriage, and not only their delay or transmission.
 bool shows_in_balance(const plant::Effect& effect);
 
 }  // namespace fidservo::gap

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which effects of a carriage balance its forces together, without following it: orthogonal forward
-// regression (Chen, Billings, Luo, Int. J. Control 50, 1989).
+// The combination of effects that balances a carriage's forces, without simulating the carriage: orthogonal
+// forward regression (Chen, Billings, Luo, Int. J. Control 50, 1989).
 //
-// A candidate at a point of its grid is a group of columns: what a small share of each of its typical sizes
-// adds to the excess of all supports (gap/balance/force_balance.h). Taken in next is the group that takes
-// away most of what those before it leave, in squares weighted by 1 / (1 + (r / s)^2), with s twice the
-// median residual or the noise; as long as what is predicted by sizes fitted on the other half is likelier by
-// more than n / alpha times, of n groups. Of data that have no such effect a ratio of likelihoods is 1 in the
-// mean, so that it exceeds that by chance once in n / alpha at most (Markov).
+// A candidate at a point of its grid is a group of columns: the change of the excess in all supports
+// (gap/balance/force_balance.h) for a small fraction of each of its typical sizes. The next group added is
+// the one that reduces the residual most, in squares weighted by 1 / (1 + (r / s)^2), with s twice the median
+// residual or the noise. Groups are added as long as the prediction with sizes fitted on the other half of
+// the data has a likelihood ratio above n / alpha, of n groups. For data without such an effect the
+// expectation of the likelihood ratio is 1, so that it exceeds n / alpha with a probability of at most alpha
+// / n (Markov).
 #include "gap/balance/force_balance.h"
 #include "gap/candidates/candidate.h"
 
@@ -20,19 +21,19 @@ namespace fidservo::gap {
 
 struct BalancedModel {
     std::vector<const Candidate*> candidates;
-    Hypothesis settings;  ///< of each
+    Hypothesis settings;  ///< the setting of each candidate
 };
 
-/// Whether what an effect does to a carriage at a row follows from that row, as a force does; what a belt or
-/// a delay does follows from rows before, and noise of the readings would count for it.
+/// Whether what an effect does to a carriage at a row follows from that row alone, as for a force. The effect
+/// of a belt or a delay depends on earlier rows, and fits of it would absorb noise of the readings.
 bool is_force(const Rig& rig, const Candidate& candidate);
 
-/// The models of one effect, of two, and so on, refined by the balance of one half
+/// The models of one effect, of two, and so on, refined by the balance on one half of the data
 /// (gap/balance/balance_fit.h).
 /// @param halves  of every window (gap/evidence/halves.h); the first one is fitted
-/// @param base    what is known of the rig
-/// @param candidates  those that are forces and not known are tried, one of a class
-/// @param tail  of taking in anything where there is nothing
+/// @param base    the known effects
+/// @param candidates  tried are those that are forces and not in the base, one of each class
+/// @param tail  probability of adding any effect where there is none
 std::vector<BalancedModel> balanced_models(const Evidence& evidence, std::span<const std::uint8_t> halves,
                                            const Hypothesis& base,
                                            std::span<const Candidate* const> candidates, double tail);

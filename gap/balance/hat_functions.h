@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Piecewise linear functions over knots, one for each knot: 1 there, 0 at all others.
+// Piecewise linear basis functions over knots: each is 1 at its knot and 0 at all others.
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
 namespace fidservo::gap {
 
-/// Knots with the same number of values between any two. @param values  sorted here
+/// Knots at quantiles, with equally many values between neighbours.
+/// @param values  sorted here
 inline std::vector<double> knots_by_share(std::vector<float> values, std::size_t count) {
     std::vector<double> knots;
     if (values.empty()) return knots;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Where on its rail a carriage has slid most: where what depends on the place is looked for.
+// The stretch of its rail on which a carriage has slid most, where position-dependent effects are searched
+// for.
 //
-// A motor that turns on and on goes so far that as many places and periods would have to be tried as there
-// are rows; it shows what depends on the place on any part of its way.
+// A motor that turns continuously covers so long a way that as many places and periods would have to be tried
+// as there are rows; any part of the way shows what depends on the position.
 #include "gap/balance/carriage_forces.h"
 
 #include <span>
@@ -18,8 +19,8 @@ struct RailStretch {
     }
 };
 
-/// All of the rows' way up to 400 mm, which is eight of the longest periods that are looked for; of a longer
-/// way the 400 mm in which most rows lie. Demands a row.
+/// The whole range of the rows' positions up to 400 mm, which is eight of the longest periods searched for;
+/// of a longer range the 400 mm with the most rows. Demands at least one row.
 RailStretch most_visited(std::span<const SlidingRow> rows);
 
 }  // namespace fidservo::gap

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A wave in any quantity that the forces lacking on a carriage show: of the command, as steps of a converter
-// make it, or of the place while the drive pushes, as a pulley makes it that runs out of true.
+// A periodic dependence of the lacking forces on any quantity: on the command, as from the steps of a
+// converter, or on the position while the drive pushes, as from an eccentric pulley.
 #include "gap/balance/carriage_forces.h"
 
 #include <functional>
 
 namespace fidservo::gap {
 
-/// In the unit of the quantity.
+/// A period in the unit of the quantity.
 struct WaveOfForce {
     double period = 0.0;
-    double share = 0.0;  ///< of the weighted squares of the forces lacking, 0 .. 1
+    double share = 0.0;  ///< fraction of the weighted squares of the lacking forces that it explains, 0 .. 1
 };
 
-/// The period of a quantity whose sine and cosine, times a factor in V, take most of what is lacking (linear
-/// periodogram, a support of l floors weighted 1 / (1 + l^2)); none where the quantity spans less than two of
-/// the shortest.
+/// The period of a quantity whose sine and cosine, times a factor in V, explain most of the lacking forces
+/// (linear periodogram; a support with a force of l floors has the weight 1 / (1 + l^2)); none where the
+/// quantity spans less than two of the shortest periods.
 WaveOfForce strongest_wave(const CarriageForces& forces,
                            const std::function<double(const SlidingRow&)>& quantity,
                            const std::function<double(const SlidingRow&)>& factor_V, double shortest,

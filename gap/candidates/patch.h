@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Effects that are raised friction around a place on the rail.
+// Effects that are raised friction around a place on the rail (a patch).
 #include "plant/effects/effect.h"
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace fidservo::gap {
 
-/// Which parameters of an effect are a patch's.
+/// Indices of an effect's parameters for the patch.
 struct PatchParameters {
     std::size_t level, centre, width;
 };
 
-/// Of an effect that has a width along the rail, and with it a size and a place.
+/// The indices, for an effect with a width along the rail, a size and a place; else empty.
 std::optional<PatchParameters> patch_of(const plant::Effect& effect);
 
 }  // namespace fidservo::gap

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Parameters of a hypothesis in lengths over which they matter, as fits change them.
+// The parameters of a hypothesis in scales suitable for fits.
 #include "gap/evidence.h"
 
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace fidservo::gap {
 
-/// All parameters of a hypothesis, in order, in scales. A scale is what separates the typical value from the
-/// vanishing one; for a shape a share of its typical value or of its range; for the period of a wave what
-/// puts it out of step by a radian over the reach of the rail.
+/// All parameters of a hypothesis, in order, scaled. The scale of a size is the difference between its
+/// typical and its vanishing value; that of a shape a fraction of its typical value or of its range; that of
+/// a wave's period the change that makes a phase difference of one radian over the length of the rail.
 class ScaledParameters {
   public:
     explicit ScaledParameters(const Hypothesis& start);
@@ -21,28 +21,29 @@ class ScaledParameters {
     double high(std::size_t k) const { return all_[k]->high / scale(k); }
     bool at_bound(std::size_t k) const { return values[k] <= low(k) || values[k] >= high(k); }
 
-    /// Whether nothing changes with it there: an effect is without it, or it is a choice.
+    /// Whether the loss does not depend on the parameter locally: an optional one that is negligible, or a
+    /// choice.
     bool is_level(std::size_t k) const {
         return all_[k]->is_choice() || all_[k]->is_negligible(values[k] * scale(k));
     }
 
-    /// Whether it says how large an effect is.
+    /// Whether the parameter is a size.
     bool is_size(std::size_t k) const { return all_[k]->is_size(); }
 
-    /// Where its effect is without it.
+    /// The scaled value at which its effect vanishes.
     double vanishing(std::size_t k) const { return all_[k]->vanishing / scale(k); }
 
-    /// Whether two are the same parameter of one effect.
+    /// Whether a parameter of other hypotheses is the same parameter of the same effect.
     bool is_same(std::size_t k, const ScaledParameters& others, std::size_t other) const {
         return all_[k] == others.all_[other];
     }
 
-    /// By how many typical sizes a value is from where its effect vanishes; 0 of what is no size.
+    /// The distance from the vanishing value in typical sizes; 0 for parameters that are no sizes.
     double typical_sizes(std::size_t k, double scaled) const {
         return is_size(k) ? scaled - vanishing(k) : 0.0;
     }
 
-    /// A value beyond a bound counts as at it.
+    /// The hypothesis with these values; values beyond a bound are set to it.
     Hypothesis at(std::span<const double> scaled) const;
 
     std::vector<double> values;

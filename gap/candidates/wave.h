@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Effects that are waves along the rail, A sin(2 pi y / p + phase) of the place y.
+// Effects that are periodic along the rail, A sin(2 pi y / p + phase) of the position y.
 #include "plant/effects/effect.h"
 
 #include <cstddef>
@@ -8,20 +8,21 @@
 
 namespace fidservo::gap {
 
-/// The shortest period of a force along the rail that is looked for: a belt's teeth are 2 mm apart at least.
+/// The shortest period of a force along the rail that is searched for; a belt's teeth are at least 2 mm
+/// apart.
 inline constexpr double shortest_wave_mm = 1.9;
 
-/// Which parameters of an effect are a wave's.
+/// Indices of an effect's parameters for the wave.
 struct WaveParameters {
     std::size_t amplitude, period, phase;
-    bool is_force;  ///< else a reading is off
+    bool is_force;  ///< it is a force; false: an error of the reading
 };
 
-/// Of an effect that has a period, and with it a size and a phase.
+/// The indices, for an effect with a period, a size and a phase; else empty.
 std::optional<WaveParameters> wave_of(const plant::Effect& effect);
 
-/// The phase with which a wave of another period is in step with the first in the middle of the rail: along
-/// the ends period and phase have to be changed together.
+/// The phase with which a wave of another period agrees with the first one in the middle of the rail: a
+/// change of period needs a change of phase (at the rail's left end).
 double phase_in_step(double phase_rad, double from_period_mm, double to_period_mm);
 
 }  // namespace fidservo::gap

@@ -2,10 +2,10 @@
 #pragma once
 // An equation for what no named effect explains: a formula at a port of the machine, found in the recordings.
 //
-// For every port of the stage that is accused, terms are screened (gap/equation/screening.h); what they come
-// to is written as a formula effect, and its coefficients and shapes are fitted in the simulator together on
-// each half of the windows, and judged on the other. Of the ports' formulas the best is kept, then shortened
-// as long as it is as good.
+// For every port of the accused stage, terms are screened (gap/equation/screening.h). The terms selected are
+// written as a formula effect, whose coefficients and shapes are fitted together in the simulator on each
+// half of the windows, and tested on the other half. The best of the ports' formulas is kept, and shortened
+// as long as it remains as good.
 #include "gap/diagnosis.h"
 #include "gap/equation/equation_search.h"
 #include "gap/fit/cross_fit.h"
@@ -15,20 +15,21 @@
 
 namespace fidservo::gap {
 
-/// An equation with the cross fit of which it is the last setting.
+/// An equation, and the cross fit of which it is the last setting.
 struct ProposedEquation {
     Equation equation;
     CrossFit fitted;
-    Fit of_all;  ///< names and equation together, fitted to all windows
+    Fit of_all;  ///< named effects and equation fitted together to all windows
 };
 
-/// @param base  the explanation beside which it is looked for
-/// @param before  mean squares of the windows without it, beside which its gap_removed is told
-/// @param number  of the effect's name, unnamed_1
-/// @param tail  of proposing anything where there is nothing, over the whole search
-/// @param rival  another explanation of the same: formulas that promise less are given up
-/// @return none where no formula predicts better beyond chance and removes some of the gap for sure (95 %).
-/// Throws BudgetEnded where nothing was found by then.
+/// Searches for an equation.
+/// @param base  the explanation to which it is added
+/// @param before  mean squares of the windows without it, relative to which its gap_removed is stated
+/// @param number  in the effect's name, as in unnamed_1
+/// @param tail  probability of proposing anything where there is nothing, over the whole search
+/// @param rival  another explanation of the same gap: less promising formulas are dropped
+/// @return empty where no formula predicts significantly better and certainly (95 %) removes some of the gap.
+/// Throws BudgetEnded if the budget ends before anything was found.
 std::optional<ProposedEquation> equation_of(const Evidence& evidence, const CrossFit& base,
                                             const Remainder& remainder, int number, double tail,
                                             const std::optional<Rival>& rival = {});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The search for an equation: terms of the ports of a stage, fitted in the simulator and judged on the other
-// half of the windows.
+// The search for an equation: terms of the ports of a stage, fitted in the simulator on one half of the
+// windows and tested on the other.
 #include "gap/equation/sketch.h"
 #include "gap/fit/cross_fit.h"
 
@@ -11,29 +11,28 @@
 
 namespace fidservo::gap {
 
-/// A sketch in the simulator.
+/// A sketch after its fit in the simulator.
 struct FittedSketch {
     Sketch sketch;
     const plant::Effect* effect;
-    CrossFit fitted;  ///< the effect last
+    CrossFit fitted;  ///< cross fit; the effect is its last setting
 };
 
-/// Another explanation of what a base leaves, than which a formula has to promise more.
+/// Another explanation of what a base leaves unexplained; a formula has to be more promising.
 struct Rival {
     const CrossFit& explanation;
-    bool is_credible;  ///< then only the accused block's own ports are tried against it
+    bool is_credible;  ///< if it is, only the accused block's own ports are tried against it
 };
 
-/// The formula that predicts best beside an explanation, grown and shortened; none where no formula of the
-/// stage's ports predicts better beyond chance.
-/// @param base  beside which it is looked for
-/// @param block  that is accused: its ports come first, and the others only where these leave something
+/// The formula that predicts best when added to an explanation, extended and shortened; empty where no
+/// formula of the stage's ports predicts significantly better.
+/// @param base  the explanation to which it is added
+/// @param block  the accused block: its ports come first, and others only if these do not explain everything
 /// @param name  of the effect
-/// @param tail  of proposing anything where there is nothing, over the whole search
-/// @param rival  a formula that predicts what it was not fitted to worse than it is given up; if it is
-/// credible,
-///               also one that predicts no better than rival and formula together
-/// Throws BudgetEnded where nothing was found by then.
+/// @param tail  probability of proposing anything where there is nothing, over the whole search
+/// @param rival  a formula that predicts held-out data worse than it is dropped; if it is credible, also one
+/// that predicts no better than rival and formula together
+/// Throws BudgetEnded if the budget ends before anything was found.
 std::optional<FittedSketch> search_equation(const Evidence& evidence, const CrossFit& base,
                                             std::string_view block, const std::string& name, double tail,
                                             const std::optional<Rival>& rival = {});

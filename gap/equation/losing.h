@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The recordings in which an explanation loses most: what is looked for shows there.
+// The recordings in which an explanation's loss is largest, where missing effects show best.
 #include "gap/evidence.h"
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace fidservo::gap {
 
-/// A signal's windows in the fewest recordings that together hold a share of its loss, but in `least` where
-/// there are so many, and in `most` at most.
+/// The windows of a signal in the smallest number of recordings that together hold a fraction `share` of its
+/// loss, but in at least `least` (if there are so many) and at most `most` recordings.
 /// @param mean_squares  of all windows; NaN: not judged
 Wanted where_most_is_lost(const Evidence& evidence, Signal signal, std::span<const double> mean_squares,
                           double share, std::size_t least, std::size_t most);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which terms of a port help most in a larger amount: what shifts a hysteresis is not linear in its amount,
-// and sparse regression (gap/equation/screening.h) may not see it.
+// Trials of single terms of a port with larger coefficients. Some effects, such as shifts of a hysteresis,
+// are not linear in their coefficient, so that sparse regression (gap/equation/screening.h) may miss them.
 #include "gap/equation/sketch.h"
 #include "gap/fit/cross_fit.h"
 
@@ -10,9 +10,9 @@
 
 namespace fidservo::gap {
 
-/// Sketches of one term each, the best of a few amounts, by the recordings that lose most; best first. None
-/// of the carriage and the encoder.
-/// @param beside  the explanation that they are tried beside
+/// Sketches of one term each, with the best of a few coefficients, judged on the recordings with the largest
+/// loss; best first. Empty for ports of the carriage and the encoder.
+/// @param beside  the explanation to which the terms are added
 std::vector<Sketch> scanned(const Evidence& evidence, const CrossFit& beside, plant::Port port,
                             const std::vector<Term>& terms, std::size_t count);
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which terms of a port predict what an explanation leaves: sparse regression.
+// Selects the terms of a port that predict the residuals of an explanation, by sparse regression.
 //
-// What a term does to the prediction is linear in its coefficient while that is small. Of the carriage it is
-// the mean of the force over short supports, in the weak form (gap/balance/carriage_forces.h), for which
-// nothing has to be followed; elsewhere it is by how much the prediction changes with a little of the term.
-// Terms are taken in one after the other while held-out errors get smaller beyond chance
-// (gap/fit/regression.h), and kept where they are taken in again, with the same sign, on most random halves
-// of the recordings (stability selection: Meinshausen, Buehlmann, J. Royal Statistical Society B 72, 2010).
+// The effect of a term on the prediction is linear in its coefficient while that is small. For the carriage
+// its column is the mean force over short supports, in the weak form (gap/balance/carriage_forces.h), which
+// needs no simulation; elsewhere it is the change of the prediction for a small coefficient. Terms are added
+// one after the other as long as held-out errors decrease significantly (gap/fit/regression.h), and kept if
+// they are selected again, with the same sign, on most random halves of the recordings (stability selection:
+// Meinshausen, Buehlmann, J. Royal Statistical Society B 72, 2010).
 #include "gap/equation/sketch.h"
 #include "gap/evidence.h"
 
@@ -18,26 +18,27 @@
 
 namespace fidservo::gap {
 
-/// Share of the random halves in which a term has to be taken in again.
+/// Fraction of the random halves in which a term has to be selected.
 inline constexpr double least_share_of_halves = 0.8;
 
-/// A port's terms beside an explanation: what each does to the predictions is worked out once.
+/// The terms of a port as additions to an explanation; each term's effect on the predictions is computed
+/// once.
 class PortScreening {
   public:
-    /// @param base  explains all but what is looked for
+    /// @param base  the explanation to which terms are added
     /// @param errors  of the base; NaN where they are not judged
     PortScreening(const Evidence& evidence, const Hypothesis& base, const Errors& errors, plant::Port port,
                   std::vector<Term> terms);
     ~PortScreening();
     PortScreening(PortScreening&&) noexcept;
 
-    /// The terms that predict what was not fitted, beyond chance and on most random halves; none where none
-    /// does.
-    /// @param tail  of taking in anything where there is nothing
+    /// The terms that predict held-out data significantly and are selected on most random halves; empty if
+    /// there are none.
+    /// @param tail  probability of selecting anything where there is nothing
     std::optional<Sketch> sketch(double tail) const;
 
-    /// The terms that promise most alone, best first: where an effect is large, what is linear of it may say
-    /// little.
+    /// The single terms that are most promising, best first. They help where an effect is so large that its
+    /// linear part says little.
     std::vector<Sketch> leading(std::size_t count) const;
 
   private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A formula on its way: terms of a port with values of their coefficients.
+// A draft of a formula: terms of a port with values of their coefficients.
 #include "core/formula_effect.h"
 #include "gap/equation/terms.h"
 
@@ -12,7 +12,7 @@
 
 namespace fidservo::gap {
 
-/// Terms of a port in the order in which they were taken in, with first values of their coefficients: one for
+/// Terms of a port in the order in which they were selected, with start values of their coefficients: one for
 /// each of Term::texts, one term after the other.
 struct Sketch {
     plant::Port port = plant::Port::force;
@@ -22,22 +22,23 @@ struct Sketch {
     std::size_t shapes() const;
 };
 
-/// The most that an equation has.
+/// The largest numbers of coefficients and shapes in an equation.
 inline constexpr std::size_t most_coefficients = 4, most_equation_shapes = 2;
 
-/// As a formula effect: coefficients a, b, c, d; shapes p, q; what it remembers m, n. It is of the block
-/// where the port allows that.
+/// The sketch as a formula effect, with coefficients a, b, c, d, shapes p, q and memories m, n. It is
+/// assigned to the block if the port allows that.
 FormulaEffect formula_of(const Sketch& sketch, std::string_view block, const std::string& name);
 
-/// One of a term's expressions alone.
+/// A sketch of a single expression of a term.
 Sketch one_text_of(plant::Port port, const Term& term, std::size_t text, double coefficient);
+/// The sketch with other values.
 /// @param values  of all coefficients and shapes, in the order of formula_of's parameters
 Sketch with_values(Sketch sketch, std::span<const double> values);
-/// The first term alone.
+/// The sketch with its first term only.
 Sketch first_of(const Sketch& sketch);
-/// All terms but one.
+/// The sketch without one of its terms.
 Sketch without(const Sketch& sketch, std::size_t term);
-/// Both; none where that is more than an equation has, or has a term twice.
+/// A sketch with the terms of both; empty where those are too many for an equation, or a term is in both.
 std::optional<Sketch> joined(Sketch sketch, const Sketch& more);
 
 }  // namespace fidservo::gap

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What an explanation leaves, and what that depends on.
+// The errors that remain under an explanation, and the quantity on which they depend.
 #include "gap/diagnosis.h"
 #include "gap/search/selection.h"
 
@@ -8,11 +8,10 @@
 
 namespace fidservo::gap {
 
-/// A flexible model of what is left of each signal (surrogate.h), fitted on one half of the windows and
-/// judged on the other. Empty where it predicts
-/// nothing beyond chance, unless what is left is more than 1.25 floors: a gap whose cause depends on
-/// something else.
-/// @param matters  signals whose discrepancy is no larger are passed over
+/// Fits a flexible model of each signal's remaining errors (surrogate.h) to one half of the windows and tests
+/// it on the other. Empty where it predicts nothing significantly, unless more than 1.25 floors remain: then
+/// the cause depends on a quantity that is not tried.
+/// @param matters  signals whose discrepancy is no larger are ignored
 std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail,
                                       const SignalLimits& matters = {});
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Flexible models of what may be wrong with a stretch of the signal chain, without a name for it: any
-// function of velocity, any function of position, any periodic function of position, and so on, each a group
-// of columns for gap/fit/regression.h. What acts on the carriage is compared with the forces that its
-// prediction lacks (gap/balance/carriage_forces.h). What acts on the image is a pattern of corners.
+// Flexible models of errors in a part of the signal chain, without naming an effect: any function of
+// velocity, any function of position, any periodic function of position, and so on, each a group of columns
+// for gap/fit/regression.h. For the carriage they are compared with the forces that its prediction lacks
+// (gap/balance/carriage_forces.h); for the image they are displacements of corners.
 #include "gap/balance/period_search.h"
 #include "gap/evidence.h"
 #include "gap/fit/regression.h"
@@ -13,77 +13,79 @@
 
 namespace fidservo::gap {
 
-/// What a remainder may depend on.
+/// A quantity on which the remaining errors may depend.
 enum class Dependence : std::uint8_t {
     velocity,
     direction,
     position,
-    position_period,  ///< of a force
-    reading_period,   ///< of the reading itself
+    position_period,  ///< period of a force along the rail
+    reading_period,   ///< period of the reading itself along the rail
     acceleration,
     command,
-    command_change,  ///< what came before the command that is in force
-    command_period,  ///< the steps of a converter
-    nothing,         ///< a constant
+    command_change,  ///< the change from the command before to the present one
+    command_period,  ///< period in the command, as from a converter's steps
+    nothing,         ///< constant errors
     time,
     temperature,
-    temperature_before,  ///< as bodies of some time constants remember it
-    minor_loops,         ///< between the wire's end states: gap/residuals/minor_loops.h
-    contraction,         ///< of the platform, in proportion to it; of tags, any function of it
-    contraction_before,  ///< the wire follows itself with a lag
-    platform_place,      ///< any function of it, the same for heating and cooling
-    turns_of_wire,       ///< the way since the wire turned
+    temperature_before,  ///< temperature behind lags of some time constants
+    minor_loops,         ///< on minor loops only: gap/residuals/minor_loops.h
+    contraction,         ///< in proportion to the platform's contraction; for tags, any function of it
+    contraction_before,  ///< contraction behind a lag of the wire
+    platform_place,      ///< any function of the platform's position, the same for heating and cooling
+    turns_of_wire,       ///< the contraction since the wire's last reversal
     macro_command,
-    position_friction,  ///< a friction that depends on the place
-    position_drive,     ///< a periodic share of what the drive pushes with
-    way_friction,       ///< a friction that depends on the way gone so far
-    standing,           ///< gap/residuals/held_carriage.h
+    position_friction,  ///< a friction that depends on the position
+    position_drive,     ///< a periodic part of the drive's force
+    way_friction,       ///< a friction that depends on the distance covered so far
+    standing,           ///< only where the carriage stands: gap/residuals/held_carriage.h
     image_place,
     plate_place,
-    plate_turn,  ///< a displacement across the motion in proportion to the place on the plate
+    plate_turn,  ///< a displacement across the motion in proportion to the position on the plate
     tag_size,
-    tag_itself,        ///< a displacement of its own for each tag
-    motion_by_row,     ///< of a tag in the image: gap/residuals/sheared_tags.h
-    velocity_share,    ///< in proportion to it, where any function of it has too much freedom to be seen
-    command_share,     ///< likewise
-    position_share,    ///< likewise
-    image_share,       ///< likewise of the place in the image, from its middle
-    warmth_over_time,  ///< what the wire does with a warmth that changes in time
+    tag_itself,     ///< a constant displacement of its own for each tag
+    motion_by_row,  ///< a tag's motion in the image, by row: gap/residuals/sheared_tags.h
+    /// in proportion to velocity, which has fewer degrees of freedom than any function of it.
+    velocity_share,
+    command_share,     ///< in proportion to the command
+    position_share,    ///< in proportion to the position
+    image_share,       ///< in proportion to the place in the image, from its middle
+    warmth_over_time,  ///< the wire's response to heat that changes over time
 };
 
-/// Those in proportion to a quantity have the name of any function of it.
+/// The quantity's name. A dependence in proportion to a quantity has the same name as any function of it.
 std::string_view name_of(Dependence dependence);
 
 struct Surrogate {
     Signal signal;
-    std::vector<Column> columns;    ///< group: a Dependence
-    std::vector<Column> nuisances;  ///< of the state at a window's start
-    Errors errors{};                ///< that the columns are to explain, where they are not the signal's
-    double period_mm = 0.0;         ///< of Dependence::position_period and reading_period
-    /// Groups that add this share of what the best one adds, whose lead may be chance, are as good, and of
-    /// those the one of fewest columns is preferred.
+    std::vector<Column> columns;    ///< the columns' groups are values of Dependence
+    std::vector<Column> nuisances;  ///< columns for the initial state of each window
+    Errors errors{};                ///< the errors to be explained, where they are not the signal's
+    double period_mm = 0.0;         ///< period of Dependence::position_period and reading_period
+    /// Groups that explain at least this fraction of what the best one explains count as equally good, as its
+    /// lead may be chance; of those the one with the fewest columns is preferred.
     double as_good = 0.8;
 };
 
-/// Whether each recording may count places from a zero of its own, as where positions were recorded in place
-/// of counts from an end stop.
+/// Whether each recording may count positions from a zero of its own, as recordings of positions do that have
+/// no counts from an end stop.
 bool has_own_zeros(const Evidence& evidence);
 
-/// Way gone from a recording's first row on, row by row of every recording, mm.
+/// The distance covered since a recording's first row, for each row of every recording, mm.
 std::vector<std::vector<double>> ways_gone_mm(const Evidence& evidence);
 
-/// Of the forces that the encoder's errors lack. Waves have a phase in each recording where zeros differ: a
-/// half must then have stretches of each run.
-/// @param edge_V  gap/balance/carriage_forces.h
-/// @param period  that position may have; of 0 mm: none
+/// The surrogate for the forces that the encoder's errors lack. Where recordings have different zeros, waves
+/// have a phase of their own in each: both halves must then have parts of each recording.
+/// @param edge_V  as in gap/balance/carriage_forces.h
+/// @param period  a possible period of the position; 0 mm: none
 Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, double edge_V,
                              const PositionPeriod& period);
 
-/// Of the Hall reading's errors.
+/// The surrogate for the Hall reading's errors.
 Surrogate platform_surrogate(const Evidence& evidence);
 
-/// Of the tags' errors. What has no room of its own here shifts them along the stage's motion; each window's
-/// mean along it is a nuisance. @param errors  that the period is looked for in
+/// The surrogate for the tags' errors. Dependences without a direction of their own shift tags along the
+/// stage's motion; each window's mean along it is a nuisance parameter.
+/// @param errors  in which the period is searched for
 Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors);
 
 }  // namespace fidservo::gap

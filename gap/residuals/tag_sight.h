@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A detection of a tag, with what the stages did while it was seen.
+// A detection of a tag with the stages' motion at that time.
 #include "gap/evidence.h"
 #include "gap/links/tag_link.h"
 
@@ -14,10 +14,11 @@ struct TagSight {
     double position_mm;        ///< of the carriage
     double velocity_mm_per_s;  ///< of carriage and platform together
     double contraction_mm, time_s;
-    bool has_stood;  ///< whether nothing has moved for 100 ms, some frames
+    bool has_stood;  ///< whether nothing has moved for 100 ms, which are some frames
 };
 
-/// By the readings. @param detection  of a recording, as in Window::first_detection
+/// The motion is taken from the readings.
+/// @param detection  index in the recording, as in Window::first_detection
 TagSight sight_of(const Evidence& evidence, std::size_t run, std::size_t detection);
 
 }  // namespace fidservo::gap

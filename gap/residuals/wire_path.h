@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the wire of a rig file does at the temperatures of a recording, and what the platform makes of it.
+// The contraction of a rig file's wire at the temperatures of a recording, and its effect on the platform.
 #include "gap/evidence.h"
 
 #include <cmath>
@@ -8,15 +8,15 @@
 
 namespace fidservo::gap {
 
-/// Contraction by the rig file's table at the temperatures of Course, row by row, mm; what was before where a
-/// temperature is missing. Demands a micro stage.
+/// Contraction by the rig file's table at the temperatures of Course, row by row, mm; where a temperature is
+/// missing, the value before. Demands a micro stage.
 std::vector<float> wire_path_mm(const Evidence& evidence, std::size_t run);
 
-/// The same path behind a play of some width: it follows where it is pushed, and stays after a turn until the
-/// play is used up.
+/// The path behind a play operator of some width: it follows only while it is pushed, so that it rests after
+/// a reversal until the play is crossed.
 std::vector<float> behind_play(std::vector<float> path_mm, double width_mm);
 
-/// The same values behind a lag of first order. Values that are not finite do not count.
+/// The values behind a first-order lag. Values that are not finite are skipped.
 template <class Value>
 std::vector<Value> behind_lag(std::vector<Value> values, double tau_s, double tick_s) {
     const double share = -std::expm1(-tick_s / tau_s);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How probable it is that a named effect is there.
+// The probability that a named effect is present.
 //
-// What speaks for a name is a few numbers that anybody can check (gap/diagnosis.h: Support). A logistic
-// regression makes one probability of them that may only rise with each:
+// The evidence for a named effect is a few numbers that anybody can check (Support in gap/diagnosis.h). A
+// logistic regression turns them into a probability, which increases or stays the same with each:
 //
 //     p = 1 / (1 + exp(-(c_0 + sum_k c_k x_k))),   c_k >= 0 for k > 0
 //
-// Its coefficients come from self-checks of their own seeds (gap/verdict/calibration.h).
+// Its coefficients were fitted to self-checks with seeds of their own (gap/verdict/calibration.h).
 #include "gap/diagnosis.h"
 #include "gap/search/selection.h"
 #include "gap/verdict/model_weights.h"
@@ -19,33 +19,32 @@
 
 namespace fidservo::gap {
 
-/// What the regression is linear in.
+/// The regression's features, by name.
 inline constexpr std::array<std::string_view, 7> feature_names{
     "weight_logit", "log_discrepancy", "log_gain", "log_gap_left", "log_names", "halves_agree", "agreement"};
 using Features = std::array<double, feature_names.size()>;
 
-/// x_k of a name, each larger the more speaks for it; logarithms natural:
-///   weight_logit   log(w / (1 - w)) of the weight, -7 .. 7
-///   log_discrepancy  -log of what the whole gap that is left exceeds the floor by, sqrt(g^2 - 1), 0.15 to 3
-///                  floors: how much further off a machine stays says no more, as the floor is its sensors'
-///                  and not its model's
-///   log_gain       log of the floors without it over those left, in the signals that teach it
-///   log_gap_left   -log of the share of the whole gap that is left, 1e-4 at least
-///   log_names      log of how many are named: many small ones stand in for another one less often
-///   halves_agree   -log of how far its size differs between halves, 1e-3 at least
+/// The features x_k of a named effect, each larger the stronger the evidence; logarithms are natural:
+///   weight_logit   log(w / (1 - w)) of the weight w, -7 .. 7
+///   log_discrepancy  -log of the total gap that remains in excess of the floor, sqrt(g^2 - 1), 0.15 to 3
+///                  floors: larger gaps say no more, as the floor is that of the sensors, not of the model
+///   log_gain       log of the error without the effect over that with it, in the signals that determine it
+///   log_gap_left   -log of the fraction of the total gap that remains, 1e-4 at least
+///   log_names      log of the number of named effects: many small ones less often stand in for another one
+///   halves_agree   -log of the relative difference of its size between the halves, 1e-3 at least
 ///   agreement      0.5 or 1
 Features features_of(const Support& support);
 
-/// Of a regression with such an offset and coefficients.
+/// The probability by a regression with this offset and these coefficients.
 double logistic_probability(const Features& features, double offset, const Features& coefficients);
 
-/// The calibrated regression's, or half of it where there is another account of the same data beside the
-/// name: where the analysis without names contradicts it, or where the data want more of it than a rig can
-/// have. Such names are too few in self-checks for the regression to learn what they are worth.
+/// The probability by the calibrated regression, or half of it where another explanation of the same data
+/// stands beside the named effect: where the analysis without names contradicts it, or where a parameter is
+/// at its bound. Such cases are too rare in self-checks for the regression to learn from them.
 double calibrated_probability(const Support& support);
 
-/// Of each choice of a selection.
-/// @param whole  what the gap depends on where nothing is named; none where that is not known
+/// The evidence for each choice of a selection.
+/// @param whole  the quantity on which the gap depends where nothing is named; empty where that is unknown
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
                               const std::vector<ChoiceWeights>& weights,
                               const std::optional<Remainder>& whole);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What recordings cannot decide, and why, in words for people.
+// What the recordings cannot decide, and why, in sentences for the user.
 #include "gap/candidates/candidate.h"
 #include "gap/search/selection.h"
 
@@ -25,8 +25,8 @@ namespace fidservo::gap {
 std::vector<std::string> undecided(const Evidence& evidence, std::span<const Candidate> tried,
                                    const Selection& selection);
 
-/// Of a gap that nothing was accepted for, why not, where it is for want of data: the effect that would
-/// remove most of it, half at least, with its values, or that there are few windows. Empty otherwise.
+/// Where a gap was found but no effect was accepted for lack of data, the reason: the effect that would
+/// remove most of the gap, at least half, with its values, or that there are few windows. Empty otherwise.
 std::string what_is_wanting(const Evidence& evidence, const Selection& selection);
 
 }  // namespace fidservo::gap

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Windows in which nobody can say where the carriage goes.
+// Windows in which the carriage's motion cannot be predicted.
 #include "gap/fit/cross_fit.h"
 
 #include <vector>
 
 namespace fidservo::gap {
 
-/// Whether the error of a window of the encoder, above its floor, is as small as what its prediction, by what
-/// was fitted on the other half, changes by where in a count the window begins. Counts do not tell that; over
-/// a force along the rail that alone may decide which way the carriage goes. So are the tags seen meanwhile.
+/// For each window of the encoder, whether its error above the floor is no larger than the change of its
+/// prediction (by the fit to the other half) with the window's initial position within a count. Counts do not
+/// show that position, and over a periodic force it may decide into which direction the carriage goes. The
+/// tags that are seen meanwhile are unpredictable, too.
 std::vector<bool> unpredictable_windows(const Evidence& evidence, const CrossFit& fitted);
 
 }  // namespace fidservo::gap

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The effects that there are, by name, and how they are put into a plant.
+// The catalogue of effects, by name, and how they are put into a plant.
 #include "plant/effects/effect.h"
 
 #include <span>
@@ -12,18 +12,18 @@ struct StatedEffect;
 
 namespace fidservo::plant {
 
-/// All effects, in the order of the signal's way through the rig.
+/// All effects, in the order in which a signal passes through the parts of the rig.
 std::span<const Effect* const> effect_catalogue();
 
-/// The effect of a name, or nullptr.
+/// The effect with a name, or nullptr.
 const Effect* find_effect(std::string_view name);
 
-/// The effect of a name among listed ones and others, or nullptr.
+/// The effect with a name, in the catalogue or among others, or nullptr.
 const Effect* find_effect(std::string_view name, std::span<const Effect* const> others);
 
 /// Reads "NAME" or "NAME:PARAMETER=VALUE,...", as the option --effect takes it. Parameters that are not given
-/// have their typical values. Throws InputError on an unknown effect or parameter, one given twice, a value
-/// that is no number or out of bounds.
+/// have their typical values. Throws InputError on an unknown effect or parameter, a parameter given twice,
+/// and a value that is no number or out of bounds.
 /// @param others  effects that are known beside those of the catalogue
 EffectSetting parse_effect(std::string_view text, std::span<const Effect* const> others = {});
 
@@ -41,7 +41,7 @@ EffectSetting vanishing_setting(const Effect& effect);
 /// twice, or if the rig lacks the part that it acts on.
 void apply_effects(PlantParameters& plant, std::span<const EffectSetting> effects);
 
-/// A rig with effects that its file does not state.
+/// The plant of a rig, with effects that its file does not state.
 StagePlant make_stage_plant(const Rig& rig, std::span<const EffectSetting> effects);
 
 }  // namespace fidservo::plant

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The parts of the rig, by what shows an effect on them.
+// The parts of the rig, divided by the signals in which an effect on them shows.
 
 namespace fidservo::plant {
 
-/// The part of the rig that an effect changes. By it a diagnosis knows which signals show the effect.
+/// The part of the rig that an effect changes. From it a diagnosis knows in which signals the effect shows.
 enum class Part {
-    carriage,  ///< how it moves: drive, friction, mechanics
-    encoder,   ///< how the carriage is read
+    carriage,  ///< the carriage's motion: drive, friction, mechanics
+    encoder,   ///< the reading of the carriage's position
     wire,      ///< heater and hysteresis
-    platform,  ///< how it swings on its flexure
-    hall,      ///< how the platform is read
-    view,      ///< where the camera sees what, and when
-    shutter,   ///< when it sees each row: the shape of a tag that moves
-    exposure,  ///< over how long: where a tag that moves is seen, and its looks
-    image,     ///< the looks alone
+    platform,  ///< the platform's oscillation on its flexure
+    hall,      ///< the reading of the platform's position
+    view,      ///< where and when the camera sees a point
+    shutter,   ///< when each row is exposed, which shears a moving tag
+    exposure,  ///< the exposure time: it shifts and blurs a moving tag
+    image,     ///< the brightness and sharpness of images only
 };
 
 constexpr bool is_of_platform(Part part) {
     return part == Part::wire || part == Part::platform || part == Part::hall;
 }
 
-/// Whether only who has the frames themselves can see it.
+/// Whether an effect shows only in the frames themselves, not in the tags' positions alone.
 constexpr bool is_of_frames(Part part) {
     return part == Part::shutter || part == Part::exposure || part == Part::image;
 }

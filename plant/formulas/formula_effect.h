@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Formula effects as effects: known by name, tried, fitted and stated like those that are listed.
+// Formulas as effects: found by name, tried, fitted and stated like those of the catalogue.
 #include "core/formula_effect.h"
 #include "plant/effects/effect.h"
 
@@ -8,10 +8,10 @@
 
 namespace fidservo::plant {
 
-/// The effect of a text: the same one for the same text, there until the program ends. May be called from
-/// several threads. Throws InputError "NAME: KEY: what is wrong; what is allowed": an unknown port, a block
-/// that is not the port's, names that are not known there, values out of order, a name that a listed effect
-/// has.
+/// The effect of a formula's text: for the same text the same effect, which lives until the program ends. May
+/// be called from several threads. Throws InputError "NAME: KEY: what is wrong; what is allowed": an unknown
+/// port, a block that is not the port's, unknown names in expressions, values out of order, or the name of an
+/// effect of the catalogue.
 const Effect& effect_of(const FormulaEffect& text);
 
 /// Puts a formula into a plant's parameters.

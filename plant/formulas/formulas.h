@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The formulas that act at one site of a plant, with the values of their parameters, and what they remember.
+// The formulas that act at one site of a plant, with the values of their parameters and their memories.
 //
 // A site hands over its variables (plant/formulas/port.h); each port's value is the sum of its formulas.
-// Where none acts nothing is evaluated. Quantities that remember go on once a tick, T, at its beginning, from
-// what the site's variables x are then, and keep their values during it:
+// Where none acts nothing is evaluated. Memories are updated once a tick of length T, at its beginning, from
+// the site's variables x at that time, and keep their values during the tick:
 //
 //     state   z' = r(z, x), by the exponential Euler method, z += T r phi(T dr/dz), phi(a) = (e^a - 1) / a:
 //     exact
@@ -25,22 +25,23 @@ namespace fidservo::plant {
 struct FormulaTerm {
     const FormulaCode* code;
     std::vector<double> parameters;
-    std::size_t first_memory;  ///< of its own, among those of the site
+    std::size_t first_memory;  ///< index of its first memory among those of the site
 };
 
-/// What the formulas of a site remember. A plain value.
+/// The state of the memories of a site's formulas. A plain value.
 struct FormulaMemory {
-    std::array<double, most_memories> values{};  ///< during this tick
-    std::array<double, most_memories> next{};    ///< of states: at the beginning of the next one
-    std::vector<double> past;                    ///< of delays: a ring each, one after the other
-    std::size_t ticks = 0;                       ///< that were begun
-    double tick_s = 0.0;                         ///< for which the rings are made
+    std::array<double, most_memories> values{};  ///< values that hold during this tick
+    std::array<double, most_memories> next{};    ///< of states: values at the beginning of the next tick
+    std::vector<double> past;                    ///< of delays: a ring buffer for each, one after the other
+    std::size_t ticks = 0;                       ///< number of ticks begun
+    double tick_s = 0.0;                         ///< tick length for which the ring buffers were made
 };
 
 class Formulas {
   public:
-    /// Nothing is added where all sizes vanish. Throws InputError where there are too many that remember.
-    /// @param parameters  of the effect, in its order
+    /// Adds a formula. Nothing is added where all sizes vanish. Throws InputError where there are too many
+    /// memories.
+    /// @param parameters  those of the effect, in its order
     void add(const FormulaCode& code, std::span<const double> parameters);
 
     bool any() const { return !terms_.empty(); }
@@ -48,14 +49,14 @@ class Formulas {
     bool remember() const { return memories_ > 0; }
     bool use(std::size_t variable) const { return used_.test(variable); }
 
-    /// The sum at a port. Throws InputError where a formula gives no number, or more than any machine has
-    /// (PortDescription::limit).
+    /// The sum of the formulas at a port. Throws InputError where a formula yields NaN or infinity, or more
+    /// than any machine has (PortDescription::limit).
     double value(Port port, std::span<const double> variables, const FormulaMemory& memory) const;
 
-    /// What a machine remembers on which the variables have been what they are for long.
+    /// The memories' state after the variables have had the given values for a long time.
     FormulaMemory start(std::span<const double> variables, double tick_s) const;
-    /// Begins a tick. Does not allocate. In one of another length than at the start delays stay what they
-    /// are: so one looks at what is between ticks.
+    /// Begins a tick: updates the memories. Does not allocate. If the tick's length differs from that at the
+    /// start, delays are not updated: this serves looking at a time between ticks.
     void begin_tick(FormulaMemory& memory, std::span<const double> variables, double tick_s) const;
 
   private:

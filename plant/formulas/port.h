@@ -36,10 +36,11 @@ enum class Port : std::uint8_t {
 };
 inline constexpr std::size_t port_count = 19;
 
-/// The part of the machine whose equations a port is in. Its variables are evaluated together.
+/// The part of the machine in whose equations a port is. The ports of a site share its variables, which are
+/// evaluated together.
 enum class Site : std::uint8_t { carriage, encoder, micro, camera };
 
-/// Places of variables in what a site hands to its formulas.
+/// Indices of variables in the list that a site passes to its formulas.
 namespace carriage_variable {
 enum : std::size_t { time, command, voltage, place, speed, direction, way, count };
 }
@@ -70,11 +71,11 @@ inline constexpr std::size_t most_variables = 12;
 
 struct Variable {
     std::string_view name;
-    std::string_view unit;  ///< empty for a pure number
+    std::string_view unit;  ///< empty for a dimensionless number
     std::string_view meaning;
 };
 
-/// All that a site knows, in the order of its enumeration above.
+/// All variables of a site, in the order of its enumeration above.
 std::span<const Variable> variables_of(Site site);
 
 struct PortDescription {
@@ -82,17 +83,17 @@ struct PortDescription {
     std::string_view name;
     std::string_view unit;
     Site site;
-    Part part;                                 ///< by which a diagnosis knows what it shows in
-    std::span<const std::string_view> blocks;  ///< that its effects may be of
-    std::span<const std::size_t> variables;    ///< places in variables_of(site)
-    double limit;                              ///< in its unit: no machine has more
-    bool may_remember;                         ///< states, play and delays
+    Part part;  ///< part of the rig, from which a diagnosis knows the signals that it shows in
+    std::span<const std::string_view> blocks;  ///< blocks to which effects at this port may belong
+    std::span<const std::size_t> variables;    ///< indices in variables_of(site)
+    double limit;                              ///< largest value that any machine has, in the port's unit
+    bool may_remember;                         ///< whether formulas here may use states, play and delays
     std::string_view meaning;  ///< what a value does, with its equation and when it is evaluated
 };
 
 std::span<const PortDescription> ports();
 const PortDescription& describe(Port port);
-/// The port of a name, or nullptr.
+/// The port with a name, or nullptr.
 const PortDescription* find_port(std::string_view name);
 
 }  // namespace fidservo::plant

@@ -8,8 +8,8 @@
 
 namespace fidservo::plant::view {
 
-/// Coverage by a disc of any size, small against the blur included. It is radial; tabulated against the
-/// radius:
+/// The coverage of pixels by a disc of any size, also one that is small against the blur. It depends on the
+/// radius only, and is tabulated:
 ///     G(r) = int_{-R}^{R} N_sigma(r - x) erf(sqrt(R^2 - x^2) / (sigma sqrt 2)) dx,
 /// sigma = blur_with_pixel_px(blur).
 class Disc {
@@ -29,8 +29,8 @@ class Disc {
   private:
     float covered(double r_squared) const;
 
-    double inner_px_;  ///< full coverage within
-    double outer_px_;  ///< none beyond
+    double inner_px_;  ///< within this radius the coverage is 1
+    double outer_px_;  ///< beyond this radius it is 0
     std::vector<float> table_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How bright a perfect white would be at each pixel.
+// The grey level of a perfect white at each pixel.
 #include "plant/view/view_options.h"
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the camera's motion during the exposure does to the image: a convolution along u.
+// Motion blur: the camera's motion during the exposure as a convolution along u.
 #include <span>
 #include <vector>
 
@@ -9,8 +9,8 @@ namespace fidservo::plant::view {
 /// Motion of less than this widens an edge by less than 3e-5 of its width.
 inline constexpr double invisible_motion_px = 0.02;
 
-/// Time average over the exposure of the position, from samples evenly spaced over it, both ends included;
-/// linear in between.
+/// The time average of a position over the exposure, from samples evenly spaced over it, both ends included,
+/// with linear interpolation.
 double mean_position(std::span<const double> samples);
 
 /// Weights of the average over shifted copies of an image row. The shifts follow the motion, at steps of at
@@ -19,12 +19,12 @@ double mean_position(std::span<const double> samples);
 class MotionKernel {
   public:
     /// @param shifts_px  of the image relative to where it is painted, evenly spaced over the exposure, both
-    ///                   ends included. A kernel that would be narrower than can be seen is none.
+    /// ends included. A motion too small to be seen gives an identity.
     explicit MotionKernel(std::span<const double> shifts_px);
 
-    /// No motion: apply() is not needed.
+    /// Whether there is no motion, so that apply() need not be called.
     bool is_identity() const { return taps_.empty(); }
-    /// Pixels beyond which a place has no influence.
+    /// How many pixels to either side have an influence.
     int reach() const { return reach_; }
 
     /// blurred[i] = sum over k = 0 .. 2 reach of tap[k] sharp[i + k]: sharp begins reach() pixels before
@@ -33,7 +33,7 @@ class MotionKernel {
 
   private:
     int reach_ = 0;
-    std::vector<float> taps_;  ///< a multiple of 4
+    std::vector<float> taps_;  ///< the weights; their number is a multiple of 4
 };
 
 }  // namespace fidservo::plant::view

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What there is to see on a plate, ready to be painted: shapes in px, in the order in which they lie.
+// The things to be painted of a plate: shapes in px, in the order in which they overlap.
 #include "core/plate.h"
 #include "plant/view/cell_grid.h"
 #include "plant/view/disc.h"
@@ -24,7 +24,7 @@ struct Item {
     float reflectance;
 };
 
-/// Tags, then the features in their order, then the occluders; later ones lie over earlier ones. Throws
+/// Tags, then the features in their order, then the occluders; later ones cover earlier ones. Throws
 /// InputError for an unknown tag and for a shape without an area.
 std::vector<Item> scene_of(const Plate& plate, const std::vector<Feature>& occluders, double blur_px,
                            const ImageMap& map);

@@ -10,13 +10,13 @@
 
 namespace fidservo::plant::view {
 
-/// Unit normals, fast: xoshiro128+ (Blackman and Vigna 2018) in eight lanes; the four bytes of a draw are
-/// added, and the sum, of known distribution, is mapped to the normal quantile in its middle. 1021 values up
-/// to 6.2 sigma, 0.007 sigma apart around zero; variance 1.
+/// Fast unit normal numbers: xoshiro128+ (Blackman and Vigna 2018) in eight lanes. The four bytes of a draw
+/// are added, and the sum, whose distribution is known, is mapped to the normal quantile at its middle. 1021
+/// values up to 6.2 sigma, 0.007 sigma apart around zero; variance 1.
 class NormalRow {
   public:
     NormalRow();
-    /// Fills `normals` with independent draws. Takes the lanes' state from the stream, 16 of its draws.
+    /// Fills `normals` with independent draws. Seeds the lanes with 16 draws from the stream.
     void fill(NoiseStream& stream, std::span<float> normals) const;
     static constexpr int draws_from_stream = 16;
 

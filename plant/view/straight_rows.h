@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Rows of reflectance of a camera whose image is a similarity of the plate: things are painted row by row
-// where they are, and the motion during the exposure, if there is any, is a convolution along u: it must be.
+// Rendering of image rows for a camera whose image is a similarity of the plate: things are painted row by
+// row in place, and the motion during the exposure, if any, is a convolution along u. That requires that the
+// camera moves along u.
 #include "plant/view/image_map.h"
 #include "plant/view/motion_blur.h"
 #include "plant/view/scene.h"
@@ -14,7 +15,7 @@
 
 namespace fidservo::plant::view {
 
-/// All that a picture is painted of.
+/// Everything that an image is painted from.
 struct Picture {
     int width, height;
     float paper;
@@ -37,21 +38,21 @@ class StraightRows {
   public:
     explicit StraightRows(const Picture& picture) : picture_(picture) {}
 
-    /// For the rows that follow: the camera's positions over their exposure, evenly spaced, both ends
+    /// Sets the camera's positions over the exposure of the rows that follow, evenly spaced, both ends
     /// included.
     void expose(std::span<const double> s_mm);
     /// Mean reflectance of a row's pixels.
     void paint(int v, std::span<float> mean);
 
   private:
-    /// Something at its place, and the pixels it can reach.
+    /// A thing with its place, and the pixels that it can reach.
     struct Placed {
         const Shape* shape;
         float reflectance;
         Eigen::Vector2d centre_px;
         PixelSpan across, down;
     };
-    /// A reflection at its place: the product of a profile across and one down.
+    /// A reflection of the lamp with its place: the product of a profile across and one down.
     struct PlacedGlare {
         PixelSpan across, down;
         std::vector<float> profile_across, profile_down;
@@ -66,8 +67,7 @@ class StraightRows {
 
     const Picture& picture_;
     MotionKernel motion_{std::vector<double>{0.0}};
-    int margin_ = 0;  ///< pixels beyond both ends of the row, for what motion
-                      ///< carries into the image
+    int margin_ = 0;  ///< pixels beyond both ends of the row that motion may carry into the image
     std::vector<Placed> placed_;
     std::vector<PlacedGlare> glare_;
     PixelSpan painted_{};

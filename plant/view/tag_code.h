@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The picture of a fiducial as cells of ink.
+// A fiducial as cells of ink.
 #include "core/plate.h"
 #include "plant/view/cell_grid.h"
 
@@ -9,11 +9,11 @@ namespace fidservo::plant::view {
 /// What is printed of a tag, without the paper around it.
 struct PrintedTag {
     CellPattern pattern;
-    double side_mm;  ///< of all that is printed
+    double side_mm;  ///< side of all that is printed
 };
 
-/// An inverted tag is a sheet of ink, one cell wider all around than its border, with paper showing through.
-/// Throws InputError for an id that the family does not have.
+/// An inverted tag is a sheet of ink that extends one cell beyond its border on all sides, with white cells
+/// in it. Throws InputError for an id that the family does not have.
 PrintedTag printed_tag(const PlateTag& tag);
 
 }  // namespace fidservo::plant::view

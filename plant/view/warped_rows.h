@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Rows of reflectance of any camera: every pixel is painted for itself, at the place in the flat picture
-// where it looks, and the motion during the exposure is a mean over places along the way. The same as
+// Rendering of image rows for any camera: every pixel is painted by itself, at the place in the flat picture
+// that it sees, and the motion during the exposure is a mean over places along the path. Agrees with
 // straight_rows.h where both are valid.
 #include "plant/view/pixel_map.h"
 #include "plant/view/straight_rows.h"
@@ -15,27 +15,27 @@ class WarpedRows {
   public:
     WarpedRows(const Picture& picture, const PixelMap& pixels);
 
-    /// For the rows that follow: the camera's positions over their exposure, evenly spaced, both ends
-    /// included. They are refined to steps of half a pixel, up to 64 of them: a frame that is smeared over
-    /// more than 32 px shows rows of faint copies, in which nothing can be read as it is.
+    /// Sets the camera's positions over the exposure of the rows that follow, evenly spaced, both ends
+    /// included. They are refined to steps of half a pixel, up to 64 steps: a frame with more than 32 px of
+    /// motion blur shows rows of faint copies, and no code in it can be read.
     void expose(std::span<const double> s_mm);
     /// Mean reflectance of a row's pixels.
     void paint(int v, std::span<float> mean);
 
   private:
-    /// Something at its place in the flat picture, and half the size of the box that it can reach.
+    /// A thing with its place in the flat picture, and half the size of the box that it can reach.
     struct Placed {
-        const Item* item;  ///< or none,
+        const Item* item;  ///< either the item or the glare is set
         const Glare* glare;
         Eigen::Vector2d centre_px, half_px;
     };
     struct Place {
-        double growth;  ///< of all sizes
-        float weight;   ///< share of the exposure
+        double growth;  ///< factor on all sizes
+        float weight;   ///< fraction of the exposure
         std::vector<Placed> things;
     };
     void add_place(double s_mm, float weight);
-    /// Pixels first .. last - 1 of the row that can see it.
+    /// Pixels first .. last - 1 of the row that the thing can reach.
     PixelSpan pixels_of(const Placed& thing) const;
     static bool touches(const Placed& thing, PixelMap::Span rows);
     void paint_thing(const Placed& thing, double growth);
@@ -44,8 +44,8 @@ class WarpedRows {
     const Picture& picture_;
     const PixelMap& pixels_;
     std::vector<Place> places_;
-    std::vector<double> flat_u_, flat_v_;  ///< where the row's pixels look
-    std::vector<double> du_, dv_;          ///< the same, from a thing's centre
+    std::vector<double> flat_u_, flat_v_;  ///< the places that the row's pixels see
+    std::vector<double> du_, dv_;          ///< the same, relative to a thing's centre
     std::vector<float> row_, coverage_;
 };
 

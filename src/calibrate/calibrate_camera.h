@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The command `calibrate camera`, behind its options.
+// The implementation of the command `calibrate camera`.
 #include "calib/camera/calibration_verdict.h"
 #include "src/calibrate/camera_target.h"
 
@@ -27,8 +27,8 @@ struct CalibrateCameraOptions {
     std::filesystem::path report;
 };
 
-/// Calibrates and prints; the exit code. Only a good calibration is written to a rig file or a ROS file; the
-/// report is written whatever the verdict. Throws InputError, RunFault if the disk fails.
+/// Calibrates, prints the result and returns the exit code. Only a good calibration is written to a rig file
+/// or a ROS file; the report is written whatever the verdict. Throws InputError, RunFault if the disk fails.
 int calibrate_camera(const CalibrateCameraOptions& options);
 
 }  // namespace fidservo

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Pictures of a calibration in the image plane, as plain SVG.
+// Plots of a calibration over the image plane, as plain SVG.
 #include "calib/camera/calibration_verdict.h"
 #include "calib/camera/camera_calibration.h"
 
@@ -8,10 +8,10 @@
 
 namespace fidservo {
 
-/// Every corner that was seen, over the cells of the image; cells without any are marked.
+/// Every measured corner, over the cells of the image; cells without corners are marked.
 std::string coverage_svg(const calib::CameraCalibration& calibration, const calib::Coverage& coverage);
 
-/// Mean residual in each cell of the image as an arrow, magnified: what a lens model leaves shows as a
+/// Mean residual in each cell of the image as a magnified arrow: systematic errors of a lens model show as a
 /// pattern.
 std::string residual_field_svg(const calib::CameraCalibration& calibration);
 

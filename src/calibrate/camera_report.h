@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a camera's calibration found, for people: a page and lines of text.
+// The result of a camera's calibration as lines of text and as an HTML report.
 #include "calib/camera/calibration_verdict.h"
 #include "calib/camera/camera_calibration.h"
 #include "calib/camera/photon_transfer.h"
@@ -18,9 +18,9 @@ struct CameraAnswer {
     calib::CameraCalibration calibration;
     calib::Coverage coverage;
     std::vector<std::string> shortcomings;
-    std::vector<std::string> notes;  ///< where it is good: what would explain the corners better still
+    std::vector<std::string> notes;  ///< for a good calibration: what would explain the corners better still
     std::optional<calib::PhotonTransfer> noise;
-    std::string no_noise;  ///< why there is none, where it was asked for
+    std::string no_noise;  ///< why the noise could not be measured, where that was asked for
 };
 
 /// The values with their standard errors and the verdict.

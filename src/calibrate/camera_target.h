@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What is printed on a camera's calibration target.
+// The target of a camera's calibration.
 #include "core/fiducial_parameters.h"
 #include "core/plate.h"
 
@@ -12,14 +12,14 @@ namespace fidservo {
 
 struct CameraTarget {
     std::vector<PlateTag> tags;
-    std::string text;    ///< for people
-    bool is_rigs_plate;  ///< of a rig file
+    std::string text;    ///< description for messages
+    bool is_rigs_plate;  ///< the target is the plate of a rig file
     TagPrint print() const { return tags.front().print; }
 };
 
 /// A kalibr AprilGrid: tag36h11 with a border of two cells, tag `row * columns + column`, row 0 at the
 /// bottom.
-/// @param spacing  gap between tags as a share of their side
+/// @param spacing  gap between tags over their side
 CameraTarget april_grid(int columns, int rows, double tag_size_mm, double spacing);
 
 /// The same by a text like "6x6", columns x rows. Throws InputError.

@@ -24,23 +24,23 @@ enum class StageMove { growing, travel, extended, platform, fresh_travel, fresh_
 
 std::string_view name_of(StageMove move);
 
-/// What was seen and read at one stand.
+/// The measurements at one stand.
 struct StageShot {
     StageMove move;
     double time_s;
     calib::StageView tags;
-    double count;               ///< of the encoder
-    std::vector<int> hall_adc;  ///< readings around the exposure
+    double count;               ///< the encoder's count
+    std::vector<int> hall_adc;  ///< readings around the time of exposure
     cv::Mat image;              ///< for refining the tags again; may be empty
     double hall_mean() const;
 };
 
-/// Refines the tags of all shots again, with a camera that is known by now: the bend of their edges is then
-/// taken from it. A tag that does not look like itself any more is left out.
+/// Refines the tags of all shots again, with a camera whose distortion is known by now, so that their edges
+/// are modelled. A tag whose refinement fails is left out.
 void refine_again(const CameraParameters& rig_camera, const CameraGeometry& camera,
                   std::vector<StageShot>& shots);
 
-/// How many stands of each kind.
+/// The number of stands of each kind.
 struct StagePlan {
     bool growing = true;
     int travel = 28;
@@ -54,14 +54,14 @@ inline constexpr StagePlan quick_plan{false, 10, 6, 5, 0, 0};
 
 class StageSurvey {
   public:
-    /// @param pilot  homed
+    /// @param pilot  a homed one
     StageSurvey(Pilot& pilot, const StagePlan& plan);
 
     /// All moves, in the order above. Fails with Reason::no_tag if tags are missing at more than a third of
-    /// the stands over the travel, with what a motion or a device fails with.
+    /// the stands over the travel, or with the failure of a motion or a device.
     /// @param on_shot  called after each stand
     Result<std::vector<StageShot>> run(const std::function<void()>& on_shot);
-    /// Stands of a run, about.
+    /// Expected number of stands of a run.
     std::size_t expected_shots() const;
 
   private:
@@ -69,7 +69,7 @@ class StageSurvey {
         double low_mm, high_mm;
     };
 
-    /// Camera positions that keep the carriage off its end stops, whatever the encoder's scale.
+    /// The camera positions at which the carriage keeps clear of its end stops, whatever the encoder's scale.
     Way clear_way() const;
     Status tick();
     Status wait(double duration_s);

@@ -37,7 +37,7 @@ void add_fleet_report(CLI::App& fleet, int& exit_code);
 /// --rig RIG.yaml; the reference rig where it is not given.
 void add_rig_option(CLI::App& command, std::filesystem::path& rig_file);
 
-/// The example that ends a command's --help.
+/// Adds an example at the end of a command's --help.
 void add_example(CLI::App& command, const std::string& example);
 
 }  // namespace fidservo

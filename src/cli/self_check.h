@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// diagnose --self-check: the options that it adds to the command, and what it then does.
+// diagnose --self-check: its options and its run.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -22,8 +22,8 @@ struct SelfCheckRequest {
 
 void add_self_check_options(CLI::App& diagnose, SelfCheckRequest& request);
 
-/// Prints a line a case and the tally. @param json  new file; empty: none
-/// @return exit_answer_is_no where a figure misses its limit; of a run that was interrupted, too
+/// Prints a line for each case, and the statistics. @param json  new file; empty: none
+/// @return exit_answer_is_no where a figure misses its limit, also after an interrupt
 int run_self_check(const SelfCheckRequest& request, const std::filesystem::path& rig_file,
                    const std::vector<std::string>& only, const std::filesystem::path& json);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How the commands that look for tags in images that exist are told what to look for.
+// The options of commands that look for tags in existing images.
 #include "src/replay/tag_options.h"
 
 #include <CLI/App.hpp>

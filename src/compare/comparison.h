@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Before and after: what two sets of recordings of one rig say differently.
+// Comparison of two sets of recordings of one rig: what has changed between them.
 //
-// The rig is diagnosed by the first set. The names that this gives are fitted to each set, all parameters
-// together; then the second set is diagnosed against the rig file that states them with the second set's
-// values: what it still says is new. A parameter has changed where
+// The rig is diagnosed from the first set. The effects named are fitted to each set, all parameters together;
+// then the second set is diagnosed with these effects at the second set's values in the rig file, so that
+// what is named now is new. A parameter has changed where
 //
 //     z = (b - a) / sqrt(std_a^2 + std_b^2)
 //
-// is significant at 1 % over all parameters (Holm), and the second set is predicted by the first set's values
-// with errors that are larger by 1.1 or more than with its own, r.m.s. in floors: what is smaller is not
-// worth a finding (gap/fit/gap_size.h). Source: Holm, Scand. J. Stat. 6, 1979.
+// is significant at 1 % over all parameters (Holm), and the second set's prediction errors with the first
+// set's values exceed those with its own by a factor of 1.1 or more, r.m.s. in floors; less is not worth a
+// finding (gap/fit/gap_size.h). Source: Holm, Scand. J. Stat. 6, 1979.
 //
-// Its time is counted by effort (gap/budget.h): what has changed on a rig is no matter of how busy a computer
+// The time is counted by effort (gap/budget.h), so that the result does not depend on how busy the computer
 // is.
 #include "gap/diagnosis.h"
 #include "src/diagnose/read_recordings.h"
@@ -28,21 +28,22 @@ struct Rig;
 
 namespace fidservo::compare {
 
-/// A parameter in both sets.
+/// A parameter as fitted to both sets.
 struct ParameterPair {
-    std::string effect, block, parameter, unit;   ///< by the catalogue
+    std::string effect, block, parameter, unit;   ///< as in the catalogue
     double before, before_std, after, after_std;  ///< in its unit
-    double p = 1.0;                               ///< of no difference, two-sided, over all parameters
-    bool has_changed = false;                     ///< significantly, and by more than is worth a finding
+    double p = 1.0;            ///< two-sided p-value of no difference, corrected for all parameters
+    bool has_changed = false;  ///< significantly, and by more than is worth a finding
 };
 
-/// All of it.
+/// The whole result.
 struct Comparison {
-    gap::Diagnosis before;              ///< of the first set, by the rig file
-    std::vector<ParameterPair> shared;  ///< of what it names
-    gap::Diagnosis beyond;              ///< of the second set, beside that
+    gap::Diagnosis before;              ///< diagnosis of the first set with the rig file
+    std::vector<ParameterPair> shared;  ///< parameters of the effects named in it
+    gap::Diagnosis beyond;              ///< diagnosis of the second set with these effects in the rig file
     double gap_by_before = 1.0,
-           gap_by_own = 1.0;  ///< of the second set, with the first set's values, its own; floors
+           /// Prediction error of the second set with the first set's values, and with its own; floors.
+        gap_by_own = 1.0;
 
     bool has_changed() const;
 };
@@ -55,7 +56,7 @@ Comparison compare(const Rig& rig, diagnose::ReadRecordings before, diagnose::Re
                    const std::function<bool()>& interrupted,
                    const std::function<void(std::string_view)>& tell);
 
-/// For a terminal.
+/// The result as text for a terminal.
 std::string describe(const Comparison& comparison);
 
 /// The file of `diagnose --compare --json`: format fidservo-comparison/1 (docs/comparison.md).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An experiment as numbers that a search may change: pieces of voltage or setpoint for either stage.
+// An experiment as numbers that a search can change: pieces of voltage or setpoint for either stage.
 #include "src/simulation/experiments.h"
 #include "src/simulation/pieces.h"
 
@@ -14,7 +14,7 @@ struct Rig;
 
 namespace fidservo::design {
 
-/// No designed experiment lasts longer.
+/// Longest duration of a designed experiment.
 inline constexpr double longest_s = 30.0;
 
 enum class Shape : std::uint8_t { constant, ramp, sine };
@@ -24,43 +24,43 @@ struct DesignedPiece {
     Follows follows = Follows::voltage;
     Shape shape = Shape::constant;
     double duration_s = 0.0;
-    double value = 0.0;         ///< of a constant; where a ramp begins; about which a sine swings
-    double end = 0.0;           ///< of a ramp
-    double amplitude = 0.0;     ///< of a sine
-    double frequency_hz = 0.0;  ///< likewise
-    bool is_rest = false;       ///< its value is given, only its duration may change
+    double value = 0.0;         ///< value of a constant; a ramp's start; a sine's mean
+    double end = 0.0;           ///< end value of a ramp
+    double amplitude = 0.0;     ///< amplitude of a sine
+    double frequency_hz = 0.0;  ///< frequency of a sine
+    bool is_rest = false;       ///< its value is fixed; only its duration may change
 
     bool operator==(const DesignedPiece&) const = default;
 };
 
 struct Design {
-    double carriage_mm = 0.0;  ///< at the start
+    double carriage_mm = 0.0;  ///< carriage position at the start
     std::vector<DesignedPiece> macro, micro;
 
     bool operator==(const Design&) const = default;
 };
 
-/// The longer one of the two stages' sequences.
+/// Duration of the longer one of the two stages' sequences.
 double duration_s(const Design& design);
 
-/// With values and times as an experiment file states them: whole ticks, 0.1 mV, 1 um, 1 uHz; within what
-/// the stages can be told, and cut off after longest_s. Pieces that vanish are left out.
+/// The design with values and times rounded as in an experiment file: whole ticks, 0.1 mV, 1 um, 1 uHz;
+/// limited to the stages' ranges, and cut off after longest_s. Pieces without duration are left out.
 Design rounded(Design design, const Rig& rig);
 
 /// The text of an experiment file (docs/formats.md).
 /// @param design  rounded
 /// @param name    of letters, digits, -, _ and ., 60 at most
-/// @param remark  lines at its head, without the mark of a comment
+/// @param remark  comment lines at its head, without the comment sign
 std::string experiment_yaml(const Design& design, const std::string& name,
                             const std::vector<std::string>& remark = {});
 
-/// What the file says, read as `record` reads it. Throws InputError where it would be refused.
+/// The experiment that `record` reads from that file. Throws InputError where it would be refused.
 /// @param design  rounded
 Experiment experiment_of(const Design& design, const std::string& name, const Rig& rig);
 
-/// What may be changed, each as a share of what the rig allows, 0 to 1: where the carriage begins, how long
-/// each piece lasts (20 ms to 30 s) and how often a sine swings (0.05 to 10 Hz), both by their logarithms,
-/// and the values.
+/// The numbers that may be changed, each as a fraction of the rig's range, 0 to 1: where the carriage begins,
+/// the duration of each piece (20 ms to 30 s) and the frequency of each sine (0.05 to 10 Hz), both on a
+/// logarithmic scale, and the values.
 std::vector<double> numbers(const Design& design, const Rig& rig);
 
 /// The same pieces with other numbers; rounded.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The experiment that tells best what recordings leave open.
+// Finds the experiment that best decides what recordings leave open.
 #include "gap/budget.h"
 #include "src/design/design.h"
 #include "src/design/judge.h"
@@ -16,47 +16,49 @@
 
 namespace fidservo::design {
 
-/// Odds of a thousand to 1 in windows that count as one value each: with less, an experiment decides nothing.
+/// Odds of a thousand to 1, where each window counts as one value; with less, an experiment decides nothing.
 inline constexpr double least_log_odds = 7.0;
 
-/// An experiment, looked at closely.
+/// An experiment with its detailed judgement.
 struct Candidate {
-    std::string origin;  ///< an experiment of the list, "drawn" or "improved"
+    /// Where it comes from: the name of an experiment of the list, "drawn" or "improved".
+    std::string origin;
     Design design;
     Judgement judgement;
 };
 
 struct DesignEffort {
-    std::size_t drawn = 40;    ///< experiments drawn at random
-    std::size_t improved = 2;  ///< of all, the best, whose numbers are then improved
+    std::size_t drawn = 40;    ///< number of experiments drawn at random
+    std::size_t improved = 2;  ///< of all experiments, how many of the best have their numbers improved
     OptimiserEffort optimiser{30, 90};
 };
 
-/// For many designs in a row.
+/// Little effort, for many designs in a row.
 inline constexpr DesignEffort small_effort{20, 1, {12, 36}};
 
 struct DesignedExperiment {
-    std::optional<Candidate> best;  ///< nothing where the rig can do none
-    /// Of the question's duels, those that some experiment decides with odds of a thousand to 1, or would if
-    /// any did: the worst of these is what an experiment is judged by. An explanation that in no experiment
-    /// can be told from what another one does follows it whatever it does; only the other way counts.
+    std::optional<Candidate> best;  ///< empty where the rig can do no experiment
+    /// Which of the question's duels count: those that some experiment decides with odds of a thousand to 1,
+    /// or all if none does. An experiment is judged by the worst of these. Where one explanation can mimic
+    /// another one in every experiment, only the reverse duel counts.
     std::vector<bool> decidable;
-    gap::Ended ended = gap::Ended::finished;  ///< otherwise the best until then
+    gap::Ended ended = gap::Ended::finished;  ///< if not finished, the best experiment until then
 };
 
-/// How a search goes on, in words.
+/// Receives the search's progress, in words.
 using Tell = std::function<void(std::string_view)>;
 
-/// Experiments of the list and others that are drawn are looked at briefly, the best ones are improved, and
-/// what was best at each stage is looked at closely; the best of these is never worse than the best of the
-/// list. Deterministic where no time ends it.
+/// Judges experiments of the list and randomly drawn ones briefly, improves the best ones, and judges the
+/// best of each stage in detail. The result is never worse than the best of the list. Deterministic unless
+/// the time runs out.
 /// @param name    of the experiment
-/// @param budget  that the judge asks: its search part is for the search, the rest for looking closely
+/// @param budget  which the judge checks: its search part is for the search, the rest for the detailed
+/// judgement
 DesignedExperiment design_experiment(const Judge& judge, const std::string& name,
                                      const std::shared_ptr<const gap::Budget>& budget,
                                      const DesignEffort& effort = {}, const Tell& tell = {});
 
-/// The experiment of a rig's list, as it is commanded there, that is worth most; for comparison.
+/// The best experiment of the rig's list, unchanged; for comparison.
 /// @param decidable  the duels that count
 std::optional<Candidate> best_of_list(const Judge& judge, const std::vector<bool>& decidable);
 

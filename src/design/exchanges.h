@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The explanations that a diagnosis leaves open beside its own: one of its effects exchanged for a rival.
+// The alternatives that a diagnosis leaves open: its explanation with one effect replaced by a rival.
 #include "gap/diagnosis.h"
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 namespace fidservo::design {
 
 struct Exchange {
-    std::size_t place = 0;                 ///< of the effect, in Diagnosis::effects
-    const plant::Effect* rival = nullptr;  ///< that takes its place
-    gap::Hypothesis hypothesis;            ///< with the rival, as fitted, in the effect's place
+    std::size_t place = 0;                 ///< index of the effect in Diagnosis::effects
+    const plant::Effect* rival = nullptr;  ///< the effect that replaces it
+    gap::Hypothesis hypothesis;  ///< the explanation with the rival, as fitted, in place of the effect
 };
 
-/// One for each rival; none for a rival that in the end was found beside the other.
+/// An exchange for each rival; none for a rival that is itself in the explanation.
 std::vector<Exchange> exchanges(const gap::Diagnosis& diagnosis);
 
 }  // namespace fidservo::design

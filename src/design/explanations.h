@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What recordings leave open: explanations that do equally well, and how far their values may be off.
+// What recordings leave open: explanations that are equally good, and the uncertainty of their values.
 #include "gap/diagnosis.h"
 #include "src/design/unknown.h"
 
@@ -17,36 +17,37 @@ namespace fidservo::design {
 struct Explanation {
     std::string name;
     gap::Hypothesis hypothesis;
-    /// What its values may be off by, in their own units and in order: values + spread z with z normal, mean
-    /// 0 and variance 1. A column that is one-sided goes from a bound inwards, and takes |z|.
+    /// The uncertainty of its values, in their own units and order: values + spread z with independent
+    /// standard normal z. A one-sided column goes from a bound inwards and is multiplied by |z|.
     Eigen::MatrixXd spread;
     std::vector<bool> is_one_sided;
-    /// The values that fit best, and others drawn from the spread that the recordings do not contradict.
+    /// The best values, and others drawn from the spread that are compatible with the recordings.
     std::vector<gap::Hypothesis> draws;
 };
 
-/// The rig is as the one says; how well is it told from the other? Places among the explanations.
+/// A question for an experiment: if the rig is as explanation `truth` says, how well is it distinguished from
+/// the rival? Both are indices of explanations.
 struct Duel {
     std::size_t truth, rival;
 };
 
 struct OpenQuestion {
-    std::vector<Explanation> explanations;  ///< the diagnosis's own first
+    std::vector<Explanation> explanations;  ///< the diagnosis's own is first
     std::vector<Duel> duels;
-    std::optional<Unknown> unknown;      ///< what is unexplained, where no equation is proposed for it
-    std::vector<std::string> separates;  ///< effects, "equation" for the one proposed
+    std::optional<Unknown> unknown;      ///< the unexplained remainder, where no equation is proposed for it
+    std::vector<std::string> separates;  ///< names of effects, and "equation" for the proposed one
 
     bool is_open() const { return !duels.empty() || unknown; }
 };
 
-/// The hypothesis's values moved by spread z, within their bounds.
+/// The hypothesis with its values moved by spread z, limited to their bounds.
 gap::Hypothesis moved(const Explanation& explanation, const Eigen::VectorXd& z);
 
-/// The diagnosis's explanation against that with a rival in the place of one of its effects, both ways; where
-/// one contains the other as its plainer form (plant::Effect::plainer) only that way in which the richer one
-/// is the truth, as a richer one follows whatever its plainer form does and the diagnosis then names the
-/// plainer one. Against the proposed equation it stands with what the equation takes the place of, that way
-/// in which the equation is the truth. Throws BudgetEnded.
+/// The duels of the diagnosis's explanation against those with a rival in place of one effect, in both
+/// directions. Where one effect contains the other as its simpler form (plant::Effect::plainer), only the
+/// direction in which the richer one is true counts, as the richer one can mimic the simpler one and the
+/// diagnosis then names the simpler one. A proposed equation has a duel, as the truth, with the explanation
+/// that it would replace. Throws BudgetEnded.
 OpenQuestion open_question(const gap::Evidence& evidence, const gap::Diagnosis& diagnosis);
 
 }  // namespace fidservo::design

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What an experiment is worth before it is recorded.
+// The value of an experiment before it is recorded.
 #include "gap/budget.h"
 #include "src/design/explanations.h"
 #include "src/simulation/experiments.h"
@@ -17,30 +17,30 @@ struct Rig;
 
 namespace fidservo::design {
 
-/// How closely it is looked at.
+/// How detailed a judgement is.
 struct Depth {
-    std::size_t draws;  ///< of each explanation at most, the last ones first
-    int iterations;     ///< design::log_odds
+    std::size_t draws;  ///< largest number of draws of each explanation, the last ones first
+    int iterations;     ///< iterations of design::log_odds
 };
 
 struct Judgement {
-    /// The least of all below; below 0 where the rig cannot do it.
+    /// The least of all numbers below; negative where the rig cannot do the experiment.
     double value = -1.0;
-    std::vector<double> log_odds;       ///< of each duel, the mean over the draws of its truth
-    std::optional<double> information;  ///< about the unknown (src/design/unknown.h)
+    std::vector<double> log_odds;       ///< for each duel, the mean over the draws of its truth
+    std::optional<double> information;  ///< information about the unknown (src/design/unknown.h)
     std::optional<std::string> refused;
 };
 
 class Judge {
   public:
-    /// @param question  outlives it
-    /// @param wire_limit_degC  that `record` keeps; empty: none
+    /// @param question  must outlive the judge
+    /// @param wire_limit_degC  limit of `record` for the wire; empty: none
     Judge(const Rig& rig, const OpenQuestion& question, std::optional<double> wire_limit_degC,
           std::shared_ptr<const gap::Budget> budget)
         : rig_(rig), question_(question), wire_limit_degC_(wire_limit_degC), budget_(std::move(budget)) {}
 
-    /// In the simulator: `record`'s own look in advance (src/record/foresight.h), on the rig file and on
-    /// every draw of the explanations; then each draw's recording is judged by the rivals. Deterministic.
+    /// Judges by simulation: first `record`'s own check (src/record/foresight.h) with the rig file and with
+    /// every draw of the explanations; then each draw's recording is fitted by the rivals. Deterministic.
     /// Throws BudgetEnded.
     Judgement judge(const Experiment& experiment, const Depth& depth) const;
 

@@ -7,7 +7,7 @@
 namespace fidservo::design {
 
 struct OptimiserEffort {
-    int global = 0, local = 0;  ///< how often the function may be asked in each part
+    int global = 0, local = 0;  ///< number of evaluations of the function in each part
 };
 
 struct Optimum {
@@ -15,11 +15,11 @@ struct Optimum {
     double value;
 };
 
-/// Controlled random search with local mutation (Kaelo and Ali, J. Optim. Theory Appl. 130, 2006), the start
-/// among its population, then subplex (Rowan, 1990) from the best point; both of NLopt. Deterministic. What
-/// the function throws ends the search and is thrown again.
-/// @param start  in the box 0 to 1 in each coordinate; never is the result worse
-/// @param value  of the function there
+/// Controlled random search with local mutation (Kaelo and Ali, J. Optim. Theory Appl. 130, 2006), with the
+/// start in its population, then subplex (Rowan, 1990) from the best point; both from NLopt. Deterministic.
+/// An exception of the function ends the search and is passed on.
+/// @param start  a point of the unit box; the result is never worse than it
+/// @param value  the function's value at the start
 Optimum maximised(const std::function<double(const std::vector<double>&)>& function,
                   std::vector<double> start, double value, const OptimiserEffort& effort);
 

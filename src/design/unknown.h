@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How much an experiment teaches of what no named effect explains and no equation describes.
+// The information that an experiment gives about errors that neither a named effect nor an equation explains.
 #include "gap/diagnosis.h"
 
 #include <cstdint>
@@ -9,16 +9,18 @@
 
 namespace fidservo::design {
 
-/// What an unexplained error may be a function of, as far as commands can change it.
+/// Quantities on which an unexplained error may depend, as far as commands can change them.
 enum class Quantity : std::uint8_t { velocity, position, macro_command, temperature, contraction };
 
 struct Unknown {
     std::vector<Quantity> depends_on;
-    double excess = 0.0;  ///< mean square of what is left of the worst signal, over the floor's, less 1
+    /// Mean square of the worst signal's remaining errors over that of the floor, minus 1.
+    double excess = 0.0;
 };
 
-/// What depends on none of these is taken to depend on what moves in the accused block. Nothing where less
-/// is left than what a diagnosis calls a remainder (1.25 floors).
+/// The unexplained remainder of a diagnosis. If it depends on none of these quantities, it is assumed to
+/// depend on what moves in the accused block. Empty where less remains than a diagnosis calls a remainder
+/// (1.25 floors).
 std::optional<Unknown> unknown_of(const gap::Diagnosis& diagnosis);
 
 /// Information that a recording brings of any function of the quantities: each one's range on the rig in

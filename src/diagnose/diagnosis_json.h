@@ -9,13 +9,13 @@
 
 namespace fidservo {
 
-/// What speaks for a name: the numbers of docs/diagnosis.md.
+/// The evidence for a named effect: the numbers described in docs/diagnosis.md.
 nlohmann::ordered_json support_json(const gap::Support& support);
 
 /// The file of `diagnose --json`: format fidservo-diagnosis/1.
 std::string diagnosis_json(const gap::Diagnosis& diagnosis);
 
-/// What a terminal shows of a diagnosis.
+/// The result of a diagnosis as text for a terminal.
 std::string describe(const gap::Diagnosis& diagnosis);
 
 /// A copy of a rig file that states the diagnosed effects. Throws InputError if `file` exists.

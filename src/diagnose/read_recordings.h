@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a diagnosis begins with, whoever asks for it.
+// Reading the recordings for a diagnosis.
 #include "core/recording.h"
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace fidservo::diagnose {
 
-/// With what their frames show, and what of that is missing.
+/// Recordings with the appearances measured in their frames, and notes on what is missing.
 struct ReadRecordings {
     std::vector<Recording> recordings;
     std::vector<std::string> notes;
 };
 
 /// Recordings with their frames measured.
-/// @param folders  of each, where its frames are
+/// @param folders  of the recordings, where their frames are
 /// @param interrupted  whether the user wants an end at once; throws gap::BudgetEnded then
 ReadRecordings with_frames(std::vector<Recording> recordings,
                            const std::vector<std::filesystem::path>& folders,
@@ -28,7 +28,7 @@ ReadRecordings with_frames(std::vector<Recording> recordings,
 ReadRecordings read_recordings(const std::vector<std::filesystem::path>& paths,
                                const std::function<bool()>& interrupted = {});
 
-/// Has the process keep the memory that it was given: predictions take and give back the same few megabytes
+/// Makes the process keep memory that it has freed: predictions allocate and free the same few megabytes
 /// thousands of times.
 void keep_memory();
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a diagnosis tries, and how much of its time is gone, on stderr: one line that is written over on a
-// terminal, otherwise a line every few seconds.
+// Shows on stderr what a diagnosis tries, and how much of its time is spent: one line that is overwritten on
+// a terminal, otherwise a line every few seconds.
 #include <chrono>
 #include <mutex>
 #include <string>
@@ -11,7 +11,7 @@ namespace fidservo::diagnose {
 
 class SearchProgress {
   public:
-    /// @param at_most_s  what it may take
+    /// @param at_most_s  time limit of the diagnosis
     explicit SearchProgress(double at_most_s);
     /// Ends the line.
     ~SearchProgress();

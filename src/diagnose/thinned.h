@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Long recordings, as far as a diagnosis looks at them.
+// Reduces long recordings for a diagnosis.
 #include "core/recording.h"
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace fidservo::diagnose {
 
-/// Of recordings that last longer than ten minutes together, every n-th minute of each that is longer than
-/// two, as recordings of their own that begin in the middle: what an hour says ten minutes of it say, too,
-/// and a search needs many predictions.
-/// @param notes  is told what was left out
+/// If the recordings last longer than ten minutes in total, every n-th minute of each one longer than two
+/// minutes is kept, as a recording of its own: ten minutes of an hour are nearly as informative, and a search
+/// needs many predictions.
+/// @param notes  receives what was left out
 std::vector<Recording> thinned(std::vector<Recording> recordings, std::vector<std::string>& notes);
 
 }  // namespace fidservo::diagnose

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What an answer may take.
+// Time limits of a diagnosis.
 #include "core/recording.h"
 
 #include <vector>
@@ -8,14 +8,14 @@
 namespace fidservo::diagnose {
 
 struct TimeLimit {
-    double search_s;  ///< until what is tried must have ended
-    double whole_s;   ///< all together
-    /// Beyond it, where something is left for which an equation is looked for.
+    double search_s;  ///< time until the search must have ended
+    double whole_s;   ///< time for everything
+    /// Additional time for an equation, where something remains unexplained.
     double equation_s = 0.0;
 };
 
-/// Half a minute. What is found in two thirds of it is worked out in a second or two; an equation has what is
-/// then left.
+/// Half a minute. The search ends after two thirds of it, and its evaluation takes a second or two; the rest
+/// is for an equation.
 inline constexpr TimeLimit half_a_minute{19.0, 26.0, 1.5};
 
 /// Half a minute, and where recordings are longer than ten minutes, 84 s more for each further hour.

@@ -7,13 +7,14 @@
 
 namespace fidservo::diagnose {
 
-/// Whether all was tried, or why not.
+/// Whether everything was tried, or the reason why not.
 std::string end_words(gap::Ended ended);
 
 /// The headline: what causes the gap, or that there is none, or that no known effect explains it.
 std::string verdict_sentence(const gap::Diagnosis& diagnosis);
 
-/// What follows it: how large the gap was, how much of it goes, what the data cannot tell apart.
+/// The sentences after the headline: how large the gap was, how much of it is explained, and what the data
+/// cannot distinguish.
 std::string verdict_detail(const gap::Diagnosis& diagnosis);
 
 }  // namespace fidservo::diagnose

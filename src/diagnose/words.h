@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the parts of a diagnosis are called in sentences for people.
+// Names for the parts of a diagnosis in sentences.
 #include "gap/diagnosis.h"
 
 #include <string>
@@ -44,31 +44,32 @@ std::string probability_words(double probability);
 /// A share in percent: "45.6 %", "> 99.9 %", "100 %".
 std::string share_words(double share);
 
-/// In which unit people read a signal: its own one times `per_own_unit`.
+/// The unit in which a signal is displayed; one of its own units is `per_own_unit` of it.
 struct DisplayUnit {
     std::string_view unit;
     double per_own_unit;
 };
 
-/// Counts of the carriage as um, from some mm on as mm; commands as mV; Hall readings and corners as they
-/// are.
-/// @param largest  that is to be shown, in the signal's own unit
+/// Encoder counts are displayed in um, or in mm if the values are large; commands in mV; Hall readings and
+/// corners in their own units.
+/// @param largest  the largest value to be displayed, in the signal's own unit
 DisplayUnit display_unit(const Rig& rig, gap::Signal signal, double largest);
 
 /// A size in its display unit: "12.5 um".
 std::string shown_size(const Rig& rig, gap::Signal signal, double own_unit);
 
-/// What the platform moves by while the Hall reading changes by one, in the middle of its range.
+/// The platform's motion, um, per LSB of the Hall reading in the middle of its range.
 double hall_um_per_lsb(const HallParameters& hall);
 
 /// The motion of the platform that a size of the Hall reading stands for in the middle of the range, "25 um".
 /// Demands a micro stage.
 std::string platform_motion(const Rig& rig, double hall_lsb);
 
-/// What the recordings cannot tell an effect from, without what else is in the explanation.
+/// The effects that the recordings cannot distinguish from one, without those that are in the explanation
+/// themselves.
 std::vector<std::string> ties_of(const gap::FoundEffect& effect, const gap::Diagnosis& diagnosis);
 
-/// How large a gap in floors is, 0 (at the floor) .. 4: a class of the style sheet, "size-0".
+/// The size class of a gap in floors, 0 (at the floor) .. 4, as in the style sheet's "size-0".
 int size_class(double floors);
 
 }  // namespace fidservo::diagnose

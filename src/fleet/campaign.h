@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A campaign as a fleet sees it: recordings of one rig, made at about one time.
+// A campaign of a fleet: recordings of one rig from about one time.
 #include "src/files/recording/description.h"
 
 #include <filesystem>
@@ -9,15 +9,15 @@
 namespace fidservo::fleet {
 
 struct Campaign {
-    std::string noted;    ///< its path (noted_path)
+    std::string noted;    ///< its path as results note it (noted_path)
     std::string content;  ///< SHA-256 of its recordings' files
-    /// Of its recordings: the unit, when the first of them began, and of the labels those on which all that
-    /// have them agree.
+    /// The unit, the beginning of the first recording, and those labels on which all recordings that have
+    /// them agree.
     RecordingOrigin origin;
-    std::string fault;  ///< why it cannot be diagnosed: no recording in it, one that says nothing, two units
+    std::string fault;  ///< why it cannot be diagnosed: no recording, no statements in it, or two units
 };
 
-/// Looks at a campaign; of its recordings only recording.yaml is read as more than bytes.
+/// Reads a campaign: recording.yaml is parsed, all other files are only hashed.
 Campaign campaign_of(const std::filesystem::path& path);
 
 }  // namespace fidservo::fleet

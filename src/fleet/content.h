@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a result is made from, as a fingerprint.
+// Fingerprints of the files from which a result is made.
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// fidservo fleet diagnose: a campaign a task.
+// fidservo fleet diagnose: each campaign is a task.
 #include "src/diagnose/diagnose_recordings.h"
 #include "src/fleet/fleet_run.h"
 
@@ -10,10 +10,10 @@
 namespace fidservo::fleet {
 
 struct DiagnoseRequest {
-    std::vector<std::filesystem::path> campaigns;  ///< a folder of recordings each, or a recording
+    std::vector<std::filesystem::path> campaigns;  ///< folders of recordings, or single recordings
     std::filesystem::path rig_file;
     diagnose::Asked asked;
-    double effort_s = diagnose::usual_effort_s();  ///< of diagnose::Conduct
+    double effort_s = diagnose::usual_effort_s();  ///< diagnose::Conduct::effort_s
     RunOptions run;
 };
 

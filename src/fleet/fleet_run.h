@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the tasks of a fleet have in common, whatever they do.
+// The common part of all fleet commands.
 #include "src/fleet/result_store.h"
 #include "src/fleet/shard.h"
 #include "src/fleet/workers.h"
@@ -16,13 +16,13 @@
 
 namespace fidservo::fleet {
 
-/// How a fleet's tasks are run; nothing of it changes a result.
+/// How a fleet's tasks are run; these options do not change results.
 struct RunOptions {
     std::filesystem::path out;  ///< FLEET
     Shard shard;
-    bool resume = false;             ///< FLEET has to be there
-    std::size_t jobs = 0;            ///< tasks at a time; 0: as many as there are cores
-    std::uint64_t memory_mb = 2000;  ///< of a task
+    bool resume = false;             ///< FLEET must exist
+    std::size_t jobs = 0;            ///< number of tasks at a time; 0: the number of cores
+    std::uint64_t memory_mb = 2000;  ///< limit for a task
 };
 
 /// Throws InputError where FLEET is not what it has to be.
@@ -32,21 +32,22 @@ ResultStore open_store(const RunOptions& options);
 /// text is no result of this key.
 std::string why_failed(const std::string& text, const ResultName& name, const std::filesystem::path& folder);
 
-/// A result that is there, as the end of its task; empty: there is none.
+/// The outcome of a task whose result exists; empty: there is no result.
 std::optional<TaskEnd> end_if_there(const ResultStore& store, const ResultName& name);
 
-/// Publishes a result that was made now. @param why  it is one that failed; empty: it is done
+/// Publishes a new result.
+/// @param why  the reason, if the task failed; empty: it succeeded
 TaskEnd publish_result(const ResultStore& store, const ResultName& name, std::string text, std::string why);
 
-/// Why there is no result where each process of a task was ended by a signal of its own.
+/// The reason given for a task whose processes all crashed by a signal.
 std::string why_crashed(std::string_view signal);
 
-/// A text in which a path stands as results note it, in place of how it was given.
+/// The text with a path replaced by the form in which results note it.
 std::string as_noted(std::string text, const std::filesystem::path& given, const std::string& noted);
 
 struct FleetEnd {
-    int exit_code = 0;  ///< done; 1: all have a result and some failed; 3: some have none
-    std::map<std::size_t, std::string> done;  ///< by task: its result's file; of the tasks that did not fail
+    int exit_code = 0;  ///< 0: all done; 1: all have a result and some failed; 3: some have no result
+    std::map<std::size_t, std::string> done;  ///< for each task that did not fail, its result's file
 };
 
 /// How a fleet's processes work.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// fidservo fleet replay: a stretch of images a task.
+// fidservo fleet replay: each stretch of images is a task.
 #include "src/fleet/fleet_run.h"
 #include "src/images/image_names.h"
 #include "vision/tags/tag_book.h"
@@ -17,9 +17,9 @@ namespace fidservo::fleet {
 struct ReplayRequest {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path rig_file;
-    bool rig_is_given = false;  ///< its camera took the images of that camera's size
+    bool rig_is_given = false;  ///< images of the rig camera's size are taken by that camera
     NameTimes name_times = NameTimes::automatic;
-    vision::TagReading reading;  ///< as which tags are looked for
+    vision::TagReading reading;  ///< how tags are to be read
     RunOptions run;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The results of a fleet: a folder in which a result appears whole, once, whoever else writes there.
+// The results of a fleet: a folder in which each result appears complete and only once, whatever else writes
+// there.
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -10,19 +11,20 @@
 
 namespace fidservo::fleet {
 
-/// The beginning of a result: "format", "task", "rig", "program", "effort", "key", "status".
+/// The format of a result, which begins with the keys "format", "task", "rig", "program", "effort", "key",
+/// "status".
 inline constexpr const char* result_format = "fidservo-fleet-result/1";
 
-/// Where a result is put.
+/// The identity of a result.
 struct ResultName {
-    std::string stem;  ///< file_stem() of what the task is about
-    std::string key;   ///< SHA-256 of all that the result is made from
+    std::string stem;  ///< file_stem() of the task's subject
+    std::string key;   ///< SHA-256 of everything from which the result is made
 
-    /// STEM-KEY.json, with the key's first 16 digits.
+    /// Its file's name, STEM-KEY.json, with the key's first 16 digits.
     std::string file() const;
 };
 
-/// The stem of such a file's name; empty: it is no result's.
+/// The stem of such a file's name; empty: it is no result.
 std::string stem_of_result(const std::string& file);
 
 /// FLEET/results. Several processes, on several machines that share the folder, may use it at a time: a
@@ -53,7 +55,7 @@ class ResultStore {
     void supersede_others(const ResultName& name) const;
 
     std::filesystem::path folder_, superseded_;
-    std::string token_;                                      ///< of this run's drafts
+    std::string token_;                                      ///< identifies this run's drafts
     std::map<std::string, std::vector<std::string>> files_;  ///< by stem, as they were at the start
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Very many images, cut into stretches.
+// Divides a large number of images into stretches.
 #include "src/images/image_frames.h"
 
 #include <cstddef>
@@ -9,16 +9,17 @@
 
 namespace fidservo::fleet {
 
-/// How long a stretch is at most; of a video longer, as its pictures can only be had with those before them.
+/// Largest number of images in a stretch; for videos it is larger, as frames can only be decoded after those
+/// before them.
 inline constexpr std::size_t images_a_stretch = 1000, pictures_a_stretch = 10'000;
 
-/// Images in a row.
+/// A series of consecutive images.
 struct Stretch {
-    std::size_t series = 0;  ///< of ImageFrames, in which it begins
-    std::size_t first = 0;   ///< of that series' frames
+    std::size_t series = 0;  ///< index of the series of ImageFrames in which it begins
+    std::size_t first = 0;   ///< index of its first frame in that series
     std::size_t count = 0;
-    bool is_open = false;  ///< the last of a video, to its end, wherever that is
-    std::string noted;     ///< the path of its series (noted_path)
+    bool is_open = false;  ///< the last stretch of a video, which goes to the video's end
+    std::string noted;     ///< its series' path as results note it (noted_path)
 
     /// file_stem() of what it is of, and the number of its first image.
     std::string stem() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How results name what they are made from.
+// How results name the data from which they are made.
 #include <filesystem>
 #include <string>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Tasks in processes of their own, a core each.
+// Runs tasks in processes of their own, one for each core.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -13,10 +13,10 @@ namespace fidservo::fleet {
 /// How a task ended.
 enum class Outcome {
     made,        ///< its result was made now
-    failed,      ///< its result, made now, says why it has none
-    was_made,    ///< its result was there
-    was_failed,  ///< likewise; it says why
-    undone,      ///< it has no result, for a reason that is not the task's: another run will make it
+    failed,      ///< its result, made now, states the failure
+    was_made,    ///< its result existed
+    was_failed,  ///< its result existed and states a failure
+    undone,      ///< it has no result, for a reason outside of the task; another run will make it
 };
 
 struct TaskEnd {
@@ -26,21 +26,22 @@ struct TaskEnd {
 };
 
 struct WorkerOptions {
-    std::size_t at_once = 1;                 ///< processes
-    std::uint64_t memory_bytes = 0;          ///< of data that a process may have; 0: no limit
+    std::size_t at_once = 1;                 ///< number of processes at a time
+    std::uint64_t memory_bytes = 0;          ///< limit for a process's data; 0: no limit
     std::function<bool()> interrupted = {};  ///< whether the user wants an end now
 };
 
-/// What is done for a task, in its process.
+/// The work of a task, in its process.
 struct TaskWork {
     std::function<TaskEnd(std::size_t task)> work;
-    /// Makes the result of a task whose process crashed, three times, by the signal of that name.
+    /// Makes the result of a task whose process crashed three times, with the name of the signal.
     std::function<TaskEnd(std::size_t task, std::string_view signal)> say_crash = {};
 };
 
 struct WorkerCount {
     std::size_t made = 0, failed = 0, was_made = 0, was_failed = 0, undone = 0;
-    bool was_interrupted = false;  ///< the rest was not begun, or not finished
+    /// Interrupted by the user: the other tasks were not begun, or not finished.
+    bool was_interrupted = false;
 
     std::size_t ended() const { return made + failed + was_made + was_failed + undone; }
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The units of a table's columns, as people write them into titles.
+// Units of a table's columns, as written in titles.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,7 +10,7 @@ namespace fidservo {
 struct Unit {
     std::string_view name;
     std::string_view quantity;
-    double size;  ///< in the first unit of its quantity
+    double size;  ///< its size in the first unit of its quantity
 };
 
 /// By a unit's name, or another way to write it: "µm", "micron", "sec", "Volts", "°C". nullptr if it is
@@ -20,12 +20,11 @@ const Unit* find_unit(std::string_view text);
 /// The names of a quantity's units.
 std::vector<std::string_view> units_of(std::string_view quantity);
 
-/// A column's title, taken apart.
+/// A column's title, split into name and unit.
 struct ColumnTitleParts {
-    std::string name;  ///< without the unit
-    std::string
-        unit;  ///< find_unit()'s name for it; as it is written where that does not know it; else empty
-    std::string perhaps;  ///< a unit that the title may name, as t_s may: s, or something that begins with s
+    std::string name;     ///< without the unit
+    std::string unit;     ///< find_unit()'s name for it, or as written if that does not know it; else empty
+    std::string perhaps;  ///< a unit that the title may name: t_s may mean s, or a name that begins with s
 };
 
 /// A unit stands at the end, in square brackets; in round ones or behind a stroke if it is some quantity's:
@@ -35,7 +34,7 @@ ColumnTitleParts title_parts(std::string_view title);
 /// Whether a line holds a unit in brackets, of any quantity.
 bool names_a_unit(std::string_view line);
 
-/// The unit that a text is and nothing else, of any quantity, as in a line of units below the titles:
+/// The unit, of any quantity, if a text consists of nothing else, as in a line of units below the titles:
 /// find_unit()'s name, or the text; empty if it is none.
 std::string unit_alone(std::string_view text);
 

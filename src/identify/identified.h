@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What an identification found, as it is printed, written as JSON and into a rig file.
+// The result of an identification, for the terminal, JSON and rig files.
 #include "core/preisach.h"
 #include "core/rig.h"
 
@@ -12,30 +12,30 @@
 
 namespace fidservo {
 
-/// That holds the truth with 95 %.
+/// A 95 % confidence interval.
 struct Interval95 {
     double low, high;
 };
 
-/// Value +- what Student's law allows for, where that is wider than a normal law by a tenth; else nothing,
-/// since the standard error tells it.
+/// The interval by Student's distribution where that is wider by a tenth than by a normal one; empty where
+/// the standard error suffices.
 std::optional<Interval95> wide_interval(double value, double std, double freedom);
 
 struct IdentifiedValue {
-    std::string key;  ///< in the rig file, e.g. "macro.dead_zone.slope"; else a name of its own
+    std::string key;  ///< key in the rig file, e.g. "macro.dead_zone.slope"; else a name of its own
     std::string unit;
     double value = 0.0;
     double std = 0.0;  ///< standard error; NaN where there is none
     bool in_rig_file = true;
-    /// Where the standard error alone does not give it: few degrees of freedom, a value at its bound.
+    /// Set where the standard error does not suffice: few degrees of freedom, or a value at its bound.
     std::optional<Interval95> interval = {};
-    double systematic = 0.0;  ///< how far off it may be besides, by what the model lacks
+    double systematic = 0.0;  ///< bound of an additional error from forces that the model lacks
 };
 
-/// Two recordings that say different things of one number.
+/// Two recordings with contradicting estimates of a number.
 struct Contradiction {
     std::string key;
-    double standard_errors;  ///< of the difference, that they are apart
+    double standard_errors;  ///< their difference in its standard errors
     struct Side {
         std::string recording;
         double value, std;
@@ -46,18 +46,18 @@ struct Contradiction {
 /// A force or signal that the recordings show and the model does not have.
 struct Missing {
     std::string depends_on;
-    double share;  ///< of the residual's squares
+    double share;  ///< fraction of the residual's sum of squares
 };
 
-/// How far the identified model is from the data that it was fitted to.
+/// The residual between the identified model and its data.
 struct FitResidual {
     std::string signal;
     std::string unit;
     double rms = 0.0;
-    std::optional<double> floor;  ///< r.m.s. of noise and rounding alone, where that is known
+    std::optional<double> floor;  ///< r.m.s. expected from noise and rounding alone, where known
 };
 
-/// What these data do not determine.
+/// A number that the data do not determine.
 struct Undetermined {
     std::string key;
     std::string reason;
@@ -65,20 +65,19 @@ struct Undetermined {
 
 struct Identified {
     std::string part = {};                     ///< macro, hysteresis, heater, hall
-    std::vector<std::string> recordings = {};  ///< or tables, that it comes from
+    std::vector<std::string> recordings = {};  ///< recordings or tables from which it comes
     std::vector<IdentifiedValue> values = {};
     std::vector<FitResidual> residuals = {};
     std::vector<Undetermined> undetermined = {};
-    std::vector<StatedEffect> effects =
-        {};  ///< what the rig has besides, by the names of the effects' catalogue
+    std::vector<StatedEffect> effects = {};  ///< further effects of the rig, by the names of the catalogue
     std::shared_ptr<const FodTable> fod = {};
     std::vector<Contradiction> contradictions = {};
     std::vector<Missing> missing = {};        ///< the largest share first
-    std::optional<double> missed_share = {};  ///< of the force, r.m.s.
-    std::vector<std::string> notes = {};  ///< sentences for people: what was left out, what else was measured
+    std::optional<double> missed_share = {};  ///< fraction of the force that the model misses, r.m.s.
+    std::vector<std::string> notes = {};      ///< sentences: what was left out, what else was measured
 };
 
-/// Whether there is anything that a rig file can hold.
+/// Whether it has anything that a rig file can state.
 bool fits_a_rig_file(const Identified& identified);
 
 /// "a says 61.86 +- 0.66, b says 80.7 +- 1.1", the sides of a contradiction.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The identifications behind the commands identify and calibrate. Each throws InputError where the input
-// lacks what it needs; what the data do not determine is listed in the answer.
+// lacks what it needs; what the data do not determine is listed in the result.
 #include "src/identify/identified.h"
 #include "src/identify/input.h"
 
@@ -19,7 +19,8 @@ Identified identify_heater(const IdentifyInput& input);
 /// The Hall sensor's curve.
 Identified calibrate_hall(const IdentifyInput& input);
 
-/// One of them, with the roles that a table's columns can play; the first `required` must be there.
+/// An identification and the roles that its table's columns may have; the first `required` roles must be
+/// given.
 struct Identification {
     std::string_view name;
     std::string_view help;

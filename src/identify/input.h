@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What identifications read: recordings of a rig, or a text table.
+// Input of identifications: recordings of a rig, or a text table.
 #include "core/recording.h"
 #include "core/rig.h"
 #include "src/identify/text_table.h"
@@ -11,10 +11,10 @@
 namespace fidservo {
 
 struct IdentifyInput {
-    Rig rig;                            ///< the numbers that are believed so far
+    Rig rig;                            ///< the rig file's present numbers
     std::vector<Recording> recordings;  ///< empty if a table is given
     std::optional<TextTable> table;
-    double table_rate_hz = 0.0;  ///< rows a second; 0: the table has a column with the role time
+    double table_rate_hz = 0.0;  ///< rows per second; 0: the table has a column with the role time
 };
 
 /// Times in s of a table's rows. Throws InputError where time does not increase.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Columns of numbers from a text table that somebody else made.
+// Columns of numbers from a text table of another program.
 #include "src/files/table/table_structure.h"
 
 #include <filesystem>
@@ -11,11 +11,11 @@
 
 namespace fidservo {
 
-/// Which column of a table plays which part: "input=1", "output=position [mm]" or "output=5[um]".
+/// The role of a table's column: "input=1", "output=position [mm]" or "output=5[um]".
 struct ColumnChoice {
     std::string role;
-    std::string column;  ///< its number, from 1 on, or its title, with or without the unit
-    std::string unit;    ///< empty: that of the title, or what the reader expects
+    std::string column;  ///< its number, from 1 on, or its title with or without the unit
+    std::string unit;    ///< empty: as the title states, or the default
 };
 
 /// Reads "ROLE=COLUMN,ROLE=COLUMN[UNIT],...", as the option --columns takes it. Throws InputError on a role
@@ -28,16 +28,15 @@ struct TableColumn {
     std::string role;
     std::string unit;  ///< empty: not stated
     std::vector<double> values;
-    std::string perhaps = {};  ///< where no unit is stated: one that the title may name, as x_m may
+    std::string perhaps = {};  ///< if no unit is stated: one that the title may mean, as x_m may
 };
 
 struct TextTable {
     std::filesystem::path file;
     std::vector<TableColumn> columns;
-    std::vector<std::string> notes =
-        {};  ///< sentences for the user: what was passed over, and what was decided
+    std::vector<std::string> notes = {};  ///< sentences for the user: what was skipped, and what was decided
 
-    /// nullptr if no column plays that part.
+    /// The column with a role; nullptr if there is none.
     const TableColumn* find(std::string_view role) const;
     std::size_t rows() const { return columns.front().values.size(); }
 };

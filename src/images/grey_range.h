@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which of the bits of a sequence's samples are used. Cameras of 10, 12 and 14 bits are saved in samples
-// of 16.
+// Determines which bits of a sequence's samples are used: cameras of 10, 12 and 14 bits are saved with 16.
 #include "vision/images/image_file.h"
 
 #include <cstdint>
@@ -12,7 +11,7 @@
 
 namespace fidservo {
 
-/// What the samples of more than 8 bits of a sequence have been seen to be.
+/// The grey levels seen in a sequence whose samples have more than 8 bits.
 class GreyLevels {
   public:
     GreyLevels() : count_(std::size_t{1} << 16U) {}
@@ -21,8 +20,8 @@ class GreyLevels {
     void add(const GreyLevels& other);
     bool is_empty() const { return pixels_ == 0; }
 
-    /// The bits of which 2^bits - 1 is full scale, 8 to 16: the most that any file states or that any value
-    /// needs.
+    /// The number of bits, 8 to 16, with 2^bits - 1 as full scale: the largest that any file states or that
+    /// any value needs.
     int bits() const;
 
     /// What was decided, in one line; and a hint where the central 99 % of the pixels are spread over fewer
@@ -30,7 +29,7 @@ class GreyLevels {
     std::string text() const;
 
   private:
-    std::vector<std::uint64_t> count_;  ///< of pixels, by value
+    std::vector<std::uint64_t> count_;  ///< number of pixels for each value
     std::uint64_t pixels_ = 0;
     int stated_bits_ = 0;
     bool white_is_zero_ = false;
@@ -42,8 +41,8 @@ struct DeepImage {
     std::uint64_t page = 0;
 };
 
-/// Decodes all of them once, on all cores: as long as reading them takes, and exact. Those that cannot be
-/// read say nothing.
+/// Decodes all of them once, on all cores: the time is that of reading them, and the result is exact.
+/// Unreadable images are ignored.
 GreyLevels levels_of(std::span<const DeepImage> images);
 
 }  // namespace fidservo

@@ -15,7 +15,7 @@ namespace fidservo {
 
 struct ImageOptions {
     NameTimes name_times = NameTimes::automatic;
-    bool one_range = false;  ///< of grey levels for all inputs together, not one for each series
+    bool one_range = false;  ///< one range of grey levels for all inputs, not one for each series
 };
 
 /// The frames of all inputs (image_list.h), in order.
@@ -27,25 +27,25 @@ class ImageFrames {
     explicit ImageFrames(const std::vector<std::filesystem::path>& inputs, const ImageOptions& options = {});
     ~ImageFrames();
 
-    /// How many frames there are, damaged ones among them; of a video, how many packets it has.
+    /// The number of frames, damaged ones included; of a video, the number of packets.
     std::size_t size() const { return size_; }
-    /// Frames that an index lists and that are not there.
+    /// Names of frames that an index lists and that do not exist.
     const std::vector<std::string>& missing() const { return missing_; }
-    /// All frames belong to one series and have times.
+    /// Whether all frames are of one series and have times.
     bool is_one_timed_series() const { return is_one_timed_series_; }
-    /// Frames that belong together, by the file or folder that they are of.
+    /// Frames of one file or folder.
     struct Series {
         std::string name;
         std::size_t frames;  ///< as size() counts them
         bool is_video;
     };
     std::vector<Series> series() const;
-    /// The name of a series' frame, as the frame has it.
+    /// The `name` of a frame in a series.
     std::string frame_name(std::size_t series, std::size_t frame) const;
 
     /// Closes the files that are open; seek() opens them again.
     void pause();
-    /// The next frame is this one of this series. A video is opened anew and decoded up to there.
+    /// Makes this frame of this series the next one. A video is reopened and decoded up to there.
     void seek(std::size_t series, std::size_t frame);
     /// The next frame; empty after the last. Videos are decoded here; images by load().
     std::optional<ImageFrame> next();
@@ -61,9 +61,9 @@ class ImageFrames {
     bool has_times(std::size_t series) const;
 
     ImageList list_;
-    std::vector<std::unique_ptr<OpenVideo>> videos_;  ///< by series; null where images are, and after pause()
+    std::vector<std::unique_ptr<OpenVideo>> videos_;  ///< by series; null for images, and after pause()
     std::vector<std::size_t> sizes_;                  ///< by series
-    std::vector<int> video_bits_;                     ///< by series; 0: each frame's own statement
+    std::vector<int> video_bits_;                     ///< by series; 0: as each frame states
     bool is_one_timed_series_ = false;
     std::vector<std::string> missing_;
     std::size_t size_ = 0;

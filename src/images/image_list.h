@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a user gives as images, as lists of frames, without decoding any.
+// Lists the frames of the user's image inputs, without decoding any.
 #include "src/images/grey_range.h"
 #include "src/images/image_frame.h"
 #include "src/images/image_names.h"
@@ -13,19 +13,19 @@ namespace fidservo {
 
 /// Frames that belong together.
 struct ImageSeries {
-    std::string name{};                  ///< the file or folder that it is of
-    std::vector<ImageFrame> frames{};    ///< without those that are missing
-    std::vector<DeepImage> deep{};       ///< those of them whose samples may have more than 8 bits
-    std::vector<std::string> missing{};  ///< names of frames that an index lists and that are not there
-    std::filesystem::path video{};       ///< in place of frames
+    std::string name{};                  ///< file or folder
+    std::vector<ImageFrame> frames{};    ///< without missing ones
+    std::vector<DeepImage> deep{};       ///< those with samples of possibly more than 8 bits
+    std::vector<std::string> missing{};  ///< names of frames that an index lists and that do not exist
+    std::filesystem::path video{};       ///< the video's file, if it is one
 };
 
 struct ImageList {
     std::vector<ImageSeries> series;
-    std::vector<std::string> notes;  ///< one line each: what was passed over, where times come from
+    std::vector<std::string> notes;  ///< one line each: what was skipped, where times come from
 };
 
-/// Adds what an input stands for:
+/// Adds the frames of an input:
 ///   a folder with cam0/data.csv or mav0/cam0/data.csv (EuRoC), or such a cam0 itself: the index's frames,
 ///   with their times;
 ///   a folder with rgb.txt and the folder rgb (TUM): the list's frames, with their times;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What became of the frames that were to be read.
+// Counts the frames that were to be read, by what became of them.
 #include "src/images/image_frame.h"
 
 #include <cstddef>
@@ -13,10 +13,10 @@ namespace fidservo {
 /// camera's (vision/camera.h): cut short, or not to be decoded.
 class ImageTally {
   public:
-    /// @param missing  frames that are listed and not there
+    /// @param missing  names of frames that are listed and do not exist
     explicit ImageTally(std::vector<std::string> missing) : missing_(std::move(missing)) {}
 
-    /// A frame after load().
+    /// Counts a frame after load().
     void add(const ImageFrame& frame);
 
     std::size_t read() const { return read_; }
@@ -24,9 +24,10 @@ class ImageTally {
 
     /// "4 of 5 images; 1 listed and not there: 3.png"; "5 images" if none was left out.
     std::string text() const;
-    /// Why the first damaged frame cannot be read, in one line; else that the first missing one is not there.
+    /// Why the first damaged frame cannot be read, in one line; or else that the first missing one does not
+    /// exist.
     std::string first_reason() const;
-    /// What a user would want to know of those that were read. One line each.
+    /// Notes for the user on the frames that were read. One line each.
     std::vector<std::string> notes() const;
 
   private:

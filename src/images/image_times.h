@@ -9,10 +9,10 @@
 
 namespace fidservo {
 
-/// Gives the frames of a folder the times that are their names, and their order; says in one line what was
-/// decided, or nothing if names do not look like times. Frames keep having no times where only some names are
-/// times, two are the same one, or the unit could be ms or us.
-/// Throws InputError where `unit` says that names are times and one is not, or two are the same.
+/// Sets the times and the order of a folder's frames by their names. Returns one line on what was decided, or
+/// nothing if names do not look like times. Frames get no times where only some names are times, two are the
+/// same one, or the unit could be ms or us. Throws InputError where `unit` says that names are times and one
+/// is not, or two are the same.
 std::string take_times_of_names(const std::filesystem::path& folder, NameTimes unit,
                                 std::vector<ImageFrame>& frames);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Independent work on all cores, its results in order.
+// Parallel work on all cores with results in order.
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
@@ -30,8 +30,8 @@ void run_in_order(Next next, MakeWorker make_worker, Take take, unsigned threads
     };
     const std::size_t window = 4 * std::max(1u, threads);
     std::vector<Slot> slots(window);
-    std::mutex source;  // of next() and of the items' numbers; taken before `mutex`
-    std::mutex mutex;   // of all below
+    std::mutex source;  // guards next() and the items' numbers; locked before `mutex`
+    std::mutex mutex;   // guards everything below
     std::condition_variable slot_filled, slot_free;
     std::size_t started = 0, taken = 0;
     bool ended = false;

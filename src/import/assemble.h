@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A recording out of logs, as a map says.
+// Assembles a recording from logs by a map.
 #include "core/recording.h"
 #include "src/files/recording/layout.h"
 #include "src/import/import_map.h"
@@ -12,16 +12,16 @@
 
 namespace fidservo::imports {
 
-/// A recording and what goes beside it.
+/// A recording and its accompanying files.
 struct Assembled {
     Recording recording;
     RecordingOrigin origin;
-    /// By stage_columns: digits behind the point that its log has; -1: not known.
+    /// For each of stage_columns: digits after the decimal point in its log; -1: unknown.
     std::array<int, stage_columns.size()> decimals{};
-    const LoggedCamera* camera = nullptr;  ///< of the logs; nullptr: no frames
-    std::vector<TimeNs> frame_times_ns;    ///< of the camera's, on the recording's clock
+    const LoggedCamera* camera = nullptr;  ///< the logs' camera; nullptr: no frames
+    std::vector<TimeNs> frame_times_ns;    ///< the camera's frame times on the recording's clock
     std::string camera_info;               ///< text of a file of intrinsics; empty: none
-    std::vector<std::string> notes;        ///< what was done with each signal, one line each
+    std::vector<std::string> notes;        ///< how each signal was treated, one line each
 };
 
 /// Rows are those of the logs where all columns have the same times, a tick apart; otherwise they are a tick

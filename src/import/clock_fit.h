@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Offset and rate between two clocks, from a motion that signals on both have seen.
+// Offset and rate between two clocks, from a motion that appears in signals on both.
 #include <string>
 #include <vector>
 
@@ -18,7 +18,8 @@ struct MotionTrack {
 struct ClockFit {
     double offset_s = 0.0, offset_std_s = 0.0;
     double rate_ppm = 0.0, rate_std_ppm = 0.0;
-    double correlation = 0.0;  ///< of the two signals after the fit; below 0 where one is mirrored
+    /// Correlation of the two signals after the fit; negative where one is inverted.
+    double correlation = 0.0;
 };
 
 /// Looks for the lag of largest correlation r over lags that leave half of the shorter track in common, then

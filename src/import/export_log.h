@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A recording as signals that other programs read, with the map by which an import gives it back.
+// Exports a recording as signals for other programs, with the map by which an import restores it.
 #include "src/import/log.h"
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace fidservo::imports {
 
-/// Of a column's title "macro_setpoint [mm]": "macro_setpoint_mm", a name for MATLAB and Python; of px^2
-/// "px2".
+/// A column's name for MATLAB and Python: "macro_setpoint_mm" for the title "macro_setpoint [mm]", "px2" for
+/// px^2.
 std::string exported_name(std::string_view title);
 
 enum class ExportFormat { mat, hdf5, csv };

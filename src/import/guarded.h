@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A library's reader in a process of its own: a file that makes the library crash, loop or take all memory
-// costs one line, not the program.
+// Runs a library's reader in a process of its own, so that a file which makes the library crash, loop or
+// exhaust memory causes an error message only.
 #include "src/import/log.h"
 
 #include <filesystem>
@@ -10,14 +10,14 @@ namespace fidservo::imports {
 
 using LogReader = LogOrFault (*)(const char* file);
 
-/// What a reading process may take.
+/// Limits of a reading process.
 struct ReadingLimits {
     std::uint64_t bytes = std::uint64_t{8} << 30U;
     unsigned processor_s = 120;
 };
 
-/// What the reader makes of a file; cameras do not come through. Throws InputError "FILE: ...": its fault, or
-/// how its process ended. Ctrl-C ends the process.
+/// The log that the reader returns, without cameras. Throws InputError "FILE: ..." with the reader's message,
+/// or with how its process ended. Ctrl-C ends the process.
 Log read_guarded(const std::filesystem::path& file, LogReader reader, const ReadingLimits& limits = {});
 
 }  // namespace fidservo::imports

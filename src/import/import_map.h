@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The map that binds a log's signals to a recording: format fidservo-map/1 (docs/import.md).
+// The map that assigns a log's signals to a recording's columns: format fidservo-map/1 (docs/import.md).
 #include "core/recording.h"
 #include "src/files/recording/description.h"
 #include "src/files/table/table_structure.h"
@@ -17,28 +17,28 @@ namespace fidservo::imports {
 
 inline constexpr std::string_view map_format = "fidservo-map/1";
 
-/// One signal of the log, as the map asks for it.
+/// A signal of the log with its conversion.
 struct SignalChoice {
     std::string signal;
     std::string unit;     ///< empty: as the file states
-    double factor = 1.0;  ///< of the recording's unit in one of the signal's, after any conversion
+    double factor = 1.0;  ///< recording's units per unit of the signal, applied after any conversion
     bool has_factor = false;
     double offset = 0.0;             ///< in the recording's unit, added after the factor
     std::string clock;               ///< empty: the signal's own times, or the map's first clock
-    std::optional<bool> is_held;     ///< between samples: the last value, or a straight line
-    std::optional<int> decimals;     ///< that the log's numbers are rounded to
-    std::optional<YamlValue> where;  ///< in the map, for messages
+    std::optional<bool> is_held;     ///< values between samples: the last one, or linear interpolation
+    std::optional<int> decimals;     ///< number of decimals to which the log's numbers are rounded
+    std::optional<YamlValue> where;  ///< place in the map, for messages
 };
 
-/// Two signals that see the same motion, the first on the clock that is fitted.
+/// Two signals of the same motion; the first one is on the clock to be fitted.
 struct ClockFitChoice {
     std::string signal, to;
 };
 
-/// Time of the recording = offset + (1 + rate 1e-6) time of the clock, s.
+/// A clock: recording's time = offset + (1 + rate 1e-6) clock's time, s.
 struct ClockChoice {
     std::string name;
-    SignalChoice times;  ///< signal empty: rate_hz, or each signal's own
+    SignalChoice times;  ///< empty: the clock has rate_hz, or each signal its own times
     std::optional<double> rate_hz;
     double offset_s = 0.0;
     double rate_ppm = 0.0;
@@ -54,10 +54,10 @@ struct CameraChoice {
 
 struct ImportMap {
     std::filesystem::path file;
-    Recording stated;  ///< what `recording` says; tick_s 0: not said
+    Recording stated;  ///< what the map states under `recording`; tick_s 0: not stated
     RecordingOrigin origin;
     TableOptions table;
-    std::vector<ClockChoice> clocks;                 ///< the first is the recording's
+    std::vector<ClockChoice> clocks;                 ///< the first one is the recording's
     std::map<std::string, SignalChoice> columns;     ///< by the column's name without its unit
     std::map<std::string, SignalChoice> detections;  ///< tag_id, p0_x, ..
     std::string detections_clock;

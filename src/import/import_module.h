@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The libraries of other programs' formats (libmatio, libhdf5, SQLite), behind a module that is loaded when
-// the first such file is opened: what they depend on takes longer to load than the program.
+// The libraries for other programs' formats (libmatio, libhdf5, SQLite), in a module that is loaded when the
+// first such file is opened, as loading their dependencies takes longer than loading the program.
 #include "src/import/log.h"
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace fidservo::imports {
 
-/// What the module offers; its symbol is import_symbol, a constant of this type. Writers answer with what
-/// went wrong, or nothing.
+/// The module's functions; its exported symbol import_symbol is a constant of this type. Writers return an
+/// error message, or an empty one.
 struct ImportModule {
     LogOrFault (*read_mat)(const char* file);
     LogOrFault (*read_hdf5)(const char* file);
@@ -21,7 +21,7 @@ struct ImportModule {
 inline constexpr const char* import_symbol = "fidservo_import_module";
 
 /// Loads it at the first call. Throws InputError: it is not installed.
-/// @param file  what is to be read or written, for the message
+/// @param file  the file to be read or written, for the message
 const ImportModule& import_module(const std::filesystem::path& file);
 
 }  // namespace fidservo::imports

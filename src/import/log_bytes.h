@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A log's signals, texts and notes as bytes, from one process of this program to another.
+// Serialises a log's signals, texts and notes, to pass them between processes of this program.
 #include "src/import/log.h"
 
 #include <string>
@@ -10,7 +10,7 @@ namespace fidservo::imports {
 
 std::string to_bytes(const Log& log);
 
-/// Of bytes that to_bytes() made, whole.
+/// The log from the bytes that to_bytes() returned.
 Log from_bytes(std::string_view bytes);
 
 }  // namespace fidservo::imports

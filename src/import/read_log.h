@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The one reader of other programs' logs: which format a file is in is told by what it begins with.
+// The reader for all formats of other programs' logs; the format is recognised by the file's first bytes.
 #include "src/files/table/table_structure.h"
 #include "src/import/log.h"
 
@@ -9,9 +9,9 @@
 namespace fidservo::imports {
 
 /// MATLAB's .mat, HDF5, rosbag2 (.db3, or its folder), a folder as EuRoC's, or a text table. Throws
-/// InputError "FILE: ..." on what it cannot read; on formats that others read, with what makes one of these
-/// of them.
-/// @param table  what the user says of a text table
+/// InputError "FILE: ..." on what it cannot read; for formats that only other programs read, with how to
+/// convert them.
+/// @param table  the user's statements about a text table
 Log read_log(const std::filesystem::path& file, const TableOptions& table);
 
 }  // namespace fidservo::imports

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An imported recording as a folder, every number as it was logged.
+// Writes an imported recording as a folder, with every number as it was logged.
 #include "src/import/assemble.h"
 
 #include <filesystem>
@@ -13,8 +13,8 @@ namespace fidservo::imports {
 /// it exists, a frame cannot be decoded or an interrupt was requested; RunFault if the disk does not take it.
 void write_folder(const std::filesystem::path& folder, const Assembled& made);
 
-/// stage0/data.csv: each column with the digits behind the point that its log has, or else the fewest, from
-/// those of a recording up to 12, that give every number back exactly; else the shortest of each.
+/// stage0/data.csv: each column with the decimals that its log has, or else with the fewest, from those of a
+/// recording up to 12, that restore every number exactly; else each number in its shortest form.
 std::string stage_text(const Recording& recording, const std::array<int, stage_columns.size()>& decimals);
 
 /// cam0/detections.csv in the same way.

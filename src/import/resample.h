@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Signals with times of their own on the rows of a recording.
+// Resamples signals with times of their own to the rows of a recording.
 #include "core/time.h"
 
 #include <span>
@@ -10,20 +10,20 @@ namespace fidservo::imports {
 
 enum class Between { line, hold };
 
-/// The median interval of rising times, ns; 0 of fewer than two.
+/// The median interval of increasing times, ns; 0 for fewer than two.
 TimeNs median_interval(std::span<const TimeNs> time_ns);
 
-/// An interval of more than one and a half of the usual ones lacks a sample.
+/// An interval longer than this many median intervals is a gap.
 inline constexpr double gap_in_intervals = 1.5;
 
-/// What a signal is at a row's time.
+/// A signal's value at a row's time.
 struct RowValue {
     double value = 0.0;
-    bool is_in_gap = false;  ///< of a line: the samples beside it are too far apart
+    bool is_in_gap = false;  ///< with interpolation: the samples on both sides are too far apart
 };
 
-/// Values at rising times, asked for in rising order. Between two samples a signal is on the line between
-/// them, or what the earlier one says, as a converter holds its output. NaN beside a time makes a line NaN.
+/// Evaluates a signal at increasing times. Between two samples it is interpolated linearly, or held at the
+/// earlier one, as a converter holds its output. An interpolated value is NaN if a neighbouring sample is.
 class Resampler {
   public:
     /// Keeps references. @param time_ns  rising, one at least

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Signals of logs as the map asks for them: found, in the recording's unit, with times on its clock.
+// The logs' signals that a map names: converted to the recording's units, with times on its clock.
 #include "src/import/import_map.h"
 #include "src/import/log.h"
 
@@ -19,23 +19,23 @@ struct TimedSignal {
     std::vector<double> values;
 };
 
-/// What a clock's times are moved by: t + offset + rate 1e-6 (t - first).
+/// The transformation of a clock's times: t + offset + rate 1e-6 (t - first).
 struct ClockShift {
     double offset_s = 0.0, rate_ppm = 0.0;
-    std::optional<TimeNs> first_ns;  ///< of its first signal that was asked for
+    std::optional<TimeNs> first_ns;  ///< time of the clock's first signal that was used
 };
 
-/// The logs of one run and what the map says of them.
+/// The logs of one run with the map.
 class SignalSource {
   public:
-    /// Fits the clocks that are to be fitted, which is said in notes(). Throws InputError.
+    /// Fits the clocks for which the map asks; notes() tells the results. Throws InputError.
     SignalSource(const std::vector<Log>& logs, const ImportMap& map);
 
-    /// @param target_unit  the recording's; empty: the values as they are
-    /// @param may_repeat  whether one time may be there more than once
-    /// Throws InputError that names the map's line, or the file and the row.
+    /// @param target_unit  the recording's; empty: values are not converted
+    /// @param may_repeat  whether a time may occur more than once Throws InputError that names the map's
+    /// line, or the file and the row.
     TimedSignal timed(const SignalChoice& choice, std::string_view target_unit, bool may_repeat = false);
-    /// Moves times from a clock to the recording's.
+    /// Transforms times of a clock to the recording's.
     std::vector<TimeNs> on_recording_clock(std::vector<TimeNs> time_ns, const std::string& clock);
     const std::vector<std::string>& notes() const { return notes_; }
 
@@ -54,7 +54,8 @@ class SignalSource {
     std::vector<std::string> notes_;
 };
 
-/// Values in another unit, by the units that the map and the file state. Throws InputError at `choice.where`.
+/// Values converted to another unit, from the unit that the map or the file states. Throws InputError at
+/// `choice.where`.
 std::vector<double> converted(const LoggedSignal& signal, const Log& log, const SignalChoice& choice,
                               std::string_view target_unit);
 

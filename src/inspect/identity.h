@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a run depends on, as fingerprints.
+// Fingerprints of everything on which a run's results depend.
 #include "src/inspect/journal.h"
 #include "src/inspect/recipe/recipe.h"
 #include "src/session/session.h"

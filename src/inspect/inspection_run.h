@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A whole inspection, from the recipe to the report; or what is left of one that was killed.
+// A whole inspection from the recipe to the report, or the rest of one that was killed.
 #include "src/inspect/measure/results.h"
 #include "src/session/session.h"
 
@@ -15,10 +15,11 @@ struct InspectionOptions {
     std::optional<std::uint64_t> seed;
     std::filesystem::path out;
     bool resume = false;
-    bool diagnosis =
-        false;  ///< of the rig, by what the run has recorded; after it, with the stage switched off
-    std::filesystem::path history;  ///< of the rig, to which the diagnosis is appended; empty: none
-    std::optional<int> live_port;   ///< of the live page (src/live/live_server.h); 0: any; empty: no page
+    /// Diagnose the rig from the run's recordings, after the run, with the stage switched off.
+    bool diagnosis = false;
+    /// The rig's history file, to which the diagnosis is appended; empty: none.
+    std::filesystem::path history;
+    std::optional<int> live_port;  ///< of the live page (src/live/live_server.h); 0: any; empty: no page
 };
 
 /// Runs it, and leaves results.csv, run.json, report.html, images and recordings in the output folder, with a

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the live page is told of an inspection.
+// Reports an inspection's progress to the live page.
 #include "src/inspect/measure/results.h"
 #include "src/inspect/measure/schedule.h"
 #include "src/inspect/recipe/recipe.h"
@@ -11,7 +11,7 @@
 
 namespace fidservo::inspect {
 
-/// Does nothing without a feed.
+/// Without a feed it does nothing.
 class LiveProgress {
   public:
     LiveProgress(std::shared_ptr<LiveFeed> feed, const Recipe& recipe);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The run in one file for scripts.
+// A summary of the run for scripts.
 #include "src/inspect/journal.h"
 #include "src/inspect/recipe/recipe.h"
 #include "src/inspect/report/device_figures.h"

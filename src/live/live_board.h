@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the live page shows, collected from the feed by one thread and sent to browsers by others.
+// The live page's data, collected from the feed by one thread and sent to browsers by others.
 #include "core/micro_model.h"
 #include "src/live/live_feed.h"
 
@@ -20,7 +20,7 @@ struct Rig;
 
 class LiveBoard {
   public:
-    /// How far a browser has been told.
+    /// What a browser has already received.
     struct Told {
         std::uint64_t points = 0, picture = 0, state = 0;
     };
@@ -29,8 +29,8 @@ class LiveBoard {
 
     /// Empties the feed once.
     void collect();
-    /// Waits until there is news for somebody who has been told so much, or the time is over. JSON in one
-    /// line; empty if there is none.
+    /// Waits until there is something that this browser has not received, or for the time limit. JSON in one
+    /// line; empty if there is nothing new.
     std::string news(Told& told, double longest_s) const;
     /// The newest picture as JPEG; empty if there is none yet.
     std::shared_ptr<const std::string> picture() const;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a run shows of itself while it is under way, and what it is asked. The run's thread puts things here
-// and never waits for whoever looks at them: there is no lock between the two. What nobody takes in time is
-// lost.
+// The hand-over between a run and its live page. The run's thread puts data here and never waits for the
+// page, as there is no lock between them; data that the page does not fetch in time are lost.
 #include "core/detection.h"
 #include "core/recording.h"
 #include "core/spsc_ring.h"
@@ -31,27 +30,27 @@ struct LiveSite {
 
 /// How far the run is.
 struct LiveState {
-    std::string run;       ///< the recipe's name
+    std::string run;       ///< present activity: "homing", "site 12", "paused", "ended"
     std::string activity;  ///< "homing", "site 12", "paused", "ended"
-    std::string reason;    ///< why something is not as it should be; empty: nothing is
+    std::string reason;    ///< why something is wrong; empty: nothing is
     std::vector<LiveSite> sites;
 };
 
 class LiveFeed {
   public:
-    // The run's side: one thread.
+    // For the run's thread only.
 
-    /// Every tick may be given: one of `ticks_per_point` is kept.
+    /// Called at every tick; one of `ticks_per_point` is kept.
     void tick(const StageRow& row);
-    /// What was found belongs to the last frame.
+    /// Sets the last frame, to which the detections that follow belong.
     void saw(const vision::Frame& frame) { frame_ = frame; }
     void found(const std::vector<TagDetection>& tags);
     void is_at(LiveState state) { state_.put(std::make_unique<LiveState>(std::move(state))); }
     bool pause_is_asked() const { return pause_.load(std::memory_order_relaxed); }
 
-    // The page's side: one thread, but for ask_pause().
+    // For the page's thread only, except ask_pause().
 
-    /// Adds what has come since.
+    /// Appends the points that are new since the last call.
     void take_points(std::vector<StageRow>& points);
     std::unique_ptr<LivePicture> take_picture() { return picture_.take(); }
     std::unique_ptr<LiveState> take_state() { return state_.take(); }

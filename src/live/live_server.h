@@ -19,9 +19,9 @@ struct Rig;
 
 class LiveServer {
   public:
-    /// Listens at 127.0.0.1. Throws RunFault if the port cannot be had.
-    /// @param port  0: any that is free
-    /// @param stop  what "stop" does; called by a thread of the server, at once
+    /// Listens at 127.0.0.1. Throws RunFault if the port is not available.
+    /// @param port  0: any free one
+    /// @param stop  called at once, by a thread of the server, when the page asks to stop
     LiveServer(int port, std::shared_ptr<LiveFeed> feed, const Rig& rig, std::function<void()> stop);
     /// Sends what the feed still holds and ends.
     ~LiveServer();

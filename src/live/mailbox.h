@@ -5,8 +5,8 @@
 
 namespace fidservo {
 
-/// The newest value, from one thread to another. Neither side ever waits: a value that was not taken in time
-/// gives way to the next.
+/// Passes the newest value from one thread to another. Neither side ever waits; a value that is not taken in
+/// time is replaced by the next.
 template <class T>
 class Mailbox {
   public:
@@ -16,7 +16,7 @@ class Mailbox {
     Mailbox& operator=(const Mailbox&) = delete;
 
     void put(std::unique_ptr<T> value) { delete slot_.exchange(value.release(), std::memory_order_acq_rel); }
-    /// Empty if nothing was put since.
+    /// Empty if nothing was put since the last call.
     std::unique_ptr<T> take() {
         return std::unique_ptr<T>(slot_.exchange(nullptr, std::memory_order_acq_rel));
     }

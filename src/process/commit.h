@@ -3,7 +3,7 @@
 
 namespace fidservo {
 
-/// Of the release: major.minor.patch.
+/// The release's version: major.minor.patch.
 const char* program_version();
 
 /// What git calls the commit that the program was built from, "-dirty" behind it if files were changed;

@@ -3,12 +3,12 @@
 
 namespace fidservo {
 
-/// What the program's end tells a script.
+/// Exit codes of the program.
 enum ExitCode : int {
     exit_done = 0,
-    exit_answer_is_no = 1,  ///< done, but an inspection failed or a target was not reached
+    exit_answer_is_no = 1,  ///< completed, but an inspection failed or a target was not reached
     exit_wrong_input = 2,
-    exit_fault = 3,  ///< of a device or of the run
+    exit_fault = 3,  ///< failure of a device or of the run
 };
 
 }  // namespace fidservo

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Ctrl-C and its relatives: a request that the run ends in order at its next tick, what was measured on disk
-// and both stage commands zero.
+// Ctrl-C and similar signals: a request to end the run in order at its next tick, with all measurements on
+// disk and both stage commands zero.
 
 namespace fidservo {
 
@@ -14,10 +14,10 @@ void watch_for_interrupts();
 /// True once one of these signals came. Cheap enough for every tick.
 bool interrupt_requested() noexcept;
 
-/// The same as if the user had pressed Ctrl-C once; any thread may ask.
+/// Has the effect of one Ctrl-C; may be called from any thread.
 void request_interrupt() noexcept;
 
-/// The name of the signal that asked for the end, e.g. "SIGINT"; empty before that.
+/// The name of the signal that requested the end, e.g. "SIGINT"; empty before that.
 const char* interrupt_name() noexcept;
 
 }  // namespace fidservo

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How far a run is, on stderr: a bar on a terminal, otherwise a plain line every few seconds.
+// Shows the progress of a run on stderr: a bar on a terminal, otherwise a plain line every few seconds.
 #include <chrono>
 #include <cstddef>
 #include <string>
@@ -9,12 +9,12 @@ namespace fidservo {
 
 class Progress {
   public:
-    /// @param what   what is counted, e.g. "images"
-    /// @param total  how many there are; 0 if that is not known
+    /// @param what   the things counted, e.g. "images"
+    /// @param total  their number; 0 if unknown
     Progress(std::string what, std::size_t total);
 
     void advance(std::size_t count = 1);
-    /// Says the last state and ends the line.
+    /// Shows the last state and ends the line.
     void finish();
 
   private:

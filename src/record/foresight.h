@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What an experiment would do to a rig, told in advance from the rig file.
+// Checks by simulation whether an experiment is safe for a rig.
 #include "core/recording.h"
 #include "src/simulation/experiments.h"
 
@@ -11,13 +11,13 @@ namespace fidservo {
 
 struct Rig;
 
-/// Why a rig cannot do an experiment, by a simulation of it on the rig as its file describes it: the carriage
-/// would leave its travel, or the wire become too hot. Empty if it can.
+/// Why a rig cannot do an experiment, from a simulation of the rig file: the carriage would leave its travel,
+/// or the wire become too hot. Empty if it can.
 /// @param wire_limit_degC  empty: the wire cannot be damaged
 std::optional<std::string> why_not(const Rig& rig, const Experiment& experiment,
                                    std::optional<double> wire_limit_degC);
 
-/// The same by a recording of it that was made in advance, on whatever the rig is taken for.
+/// The same from a recording that was simulated beforehand, with any model of the rig.
 std::optional<std::string> why_not(const Rig& rig, const Experiment& experiment, const Recording& recording,
                                    std::optional<double> wire_limit_degC);
 

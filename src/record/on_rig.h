@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An experiment on the rig at hand: its law at every tick, and the camera's frames beside it.
+// Runs an experiment on the real or simulated rig of a session: its commands at every tick, and the camera's
+// frames meanwhile.
 #include "core/result.h"
 #include "src/process/progress.h"
 #include "src/session/session.h"
@@ -10,7 +11,7 @@ namespace fidservo {
 
 enum class ExperimentEnd {
     whole,
-    end_of_travel,  ///< broken off: the carriage would have left its travel
+    end_of_travel,  ///< aborted, as the carriage would have left its travel
 };
 
 /// Runs an experiment from where its start is (start.h): its voltages, or its setpoints under the rig file's

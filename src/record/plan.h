@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What `record` is to do: which experiments, in which folders, and how long that takes.
+// The plan of `record`: which experiments go to which folders, and how long that takes.
 #include "src/session/session.h"
 #include "src/simulation/experiments.h"
 
@@ -14,13 +14,13 @@ struct Rig;
 
 struct ExperimentOptions {
     SessionOptions session;  ///< its seed also determines the excitation
-    std::string experiment;  ///< a kind, campaign, or a file that describes one
+    std::string experiment;  ///< a kind of experiment, "campaign", or an experiment file
     std::filesystem::path out;
     bool frames = false;
     bool resume = false;
 };
 
-/// Whether two of each experiment are asked for.
+/// Whether the campaign is asked for: two of each experiment.
 bool is_campaign(const ExperimentOptions& options);
 
 /// A recording to be made.
@@ -40,13 +40,14 @@ struct RecordPlan {
 /// campaign.
 RecordPlan plan_recordings(const ExperimentOptions& options, const Rig& rig, const Plate& plate);
 
-/// Those of a plan that are not there whole. Throws InputError if a recording is of another experiment.
+/// The recordings of a plan that do not exist or are unfinished. Throws InputError if an existing recording
+/// is of another experiment.
 std::vector<PlannedRun> missing_runs(const RecordPlan& plan);
 
 /// Whether an experiment may heat the wire.
 bool heats(const Experiment& experiment);
 
-/// Homing, ways, cooling and the recordings themselves, s of the rig's time.
+/// Time on the rig, s, for homing, moves, cooling and the recordings themselves.
 double expected_s(const std::vector<PlannedRun>& runs, const Rig& rig);
 
 }  // namespace fidservo

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Where experiments begin: the carriage at a place, the wire cold, everything at rest.
+// The initial state of experiments: the carriage at a place, the wire cold, everything at rest.
 #include "core/result.h"
 #include "core/time.h"
 #include "src/session/pilot.h"
@@ -27,7 +27,7 @@ class ExperimentStart {
     /// @return what is worth noting; empty: nothing
     Result<std::string> bring_to(double carriage_mm);
 
-    /// The heater may have been on until now.
+    /// States that the heater may have been on until now.
     void heater_was_on();
 
   private:
@@ -35,7 +35,7 @@ class ExperimentStart {
 
     Pilot& pilot_;
     TimeNs heater_off_ns_ = 0;
-    bool cold_ = false;  ///< since the heater was on, the wire has been seen to be
+    bool cold_ = false;  ///< the wire was found cold since the heater was last on
 };
 
 }  // namespace fidservo

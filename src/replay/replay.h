@@ -15,7 +15,7 @@ namespace fidservo {
 struct ReplayCount {
     ImageTally images;
     std::size_t tags = 0;
-    FrameSample sample;  ///< of the frames that were searched
+    FrameSample sample;  ///< sample of the frames that were searched
 };
 
 /// Finds the tags of all frames on `threads` cores, and writes detections.csv and displacements.csv into a

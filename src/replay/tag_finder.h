@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// From a frame to its fiducials, as precise as they can be had.
+// Finds and measures the fiducials in a frame with the best precision available.
 #include "core/camera/camera_parameters.h"
 #include "core/detection.h"
 #include "src/images/image_frame.h"
@@ -13,7 +13,7 @@
 namespace fidservo {
 
 struct FoundTags {
-    std::vector<TagDetection> tags;           ///< all, with refined corners where there are any
+    std::vector<TagDetection> tags;           ///< all tags, with refined corners where possible
     std::vector<vision::RefinedTag> refined;  ///< those whose border is large and clear enough to be measured
 };
 
@@ -30,11 +30,11 @@ class TagFinder {
   public:
     explicit TagFinder(const std::optional<CameraParameters>& camera = {},
                        const vision::TagReading& reading = {});
-    /// As the detector finds them.
+    /// The detector's tags, without measuring them.
     /// @param image  CV_8UC1
     /// @param is_of_machine  taken by a rig's own camera
     std::vector<TagDetection> detect(const cv::Mat& image, TimeNs time_ns, bool is_of_machine);
-    /// Detects and measures.
+    /// Detects tags and measures them.
     FoundTags measure(const cv::Mat& image, TimeNs time_ns, bool is_of_machine);
     /// Decodes a frame first. Throws InputError if it cannot be read.
     FrameResult operator()(ImageFrame frame);

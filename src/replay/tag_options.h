@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What is looked for in images that exist, as users say it: `replay`, `fleet replay` and Python.
+// The tags that are looked for in existing images, as the options of `replay`, `fleet replay` and Python
+// state it.
 #include "core/rig.h"
 #include "src/images/image_names.h"
 #include "vision/tags/tag_book.h"
@@ -20,11 +21,11 @@ struct TagOptions {
 /// Throws InputError with the file where a rig has no fiducials: their size is the scale of displacements.
 void demand_fiducials(const Rig& rig, const std::filesystem::path& rig_file);
 
-/// Throws InputError where --name-times is none of its words.
+/// Throws InputError if the argument of --name-times is invalid.
 NameTimes name_times_of(const TagOptions& options);
 
-/// As which tags are looked for: what the options say, over how a rig's are printed. Throws InputError.
-/// @param print  of a rig file that was given; else the usual one
+/// The reading of tags: the options' where given, else that of the rig's tags. Throws InputError.
+/// @param print  of a given rig file, or the default
 vision::TagReading reading_of(const TagOptions& options, const TagPrint& print);
 
 }  // namespace fidservo

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What to say where images were searched for tags, and none or few were found.
+// Messages for images in which no or few tags were found.
 #include "vision/tags/other_readings.h"
 #include "vision/tags/tag_book.h"
 
@@ -12,7 +12,7 @@
 
 namespace fidservo {
 
-/// A few of many images, evenly spread over them, with the number of tags that were found in each.
+/// A sample of images, evenly spread over a sequence, with the number of tags found in each.
 class FrameSample {
   public:
     struct Image {
@@ -20,7 +20,7 @@ class FrameSample {
         std::size_t tags;
     };
 
-    /// Takes the next of all images, CV_8UC1.
+    /// Offers the next image of the sequence, CV_8UC1, to the sample.
     void offer(const cv::Mat& grey, std::size_t tags);
     const std::vector<Image>& images() const { return images_; }
     std::vector<cv::Mat> greys() const;
@@ -37,7 +37,7 @@ std::string options_for(const vision::TagReading& reading, const vision::TagRead
 /// "36 tags of tag36h11 with a border of two cells".
 std::string tags_text(const vision::TriedReading& found);
 
-/// What the images show, where no reading finds more; one line.
+/// What the images show, if no reading finds more tags; one line.
 std::string what_was_seen_text(const vision::OtherReadings& others, const vision::TagReading& tried);
 
 /// Nothing if most squares that look like tags were read. Else the reading that would find more, which was

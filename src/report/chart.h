@@ -10,7 +10,7 @@ namespace fidservo::report {
 /// Bars side by side; the bars of one stack lie on one another in the order of `kinds`.
 struct Histogram {
     std::string x_label;
-    double low, width;                     ///< of the first bin's left edge, of a bin
+    double low, width;                     ///< left edge and width of the first bin
     std::vector<std::string> kinds;        ///< names of the stacked parts
     std::vector<std::vector<int>> counts;  ///< counts[kind][bin]
     std::vector<double> marks;             ///< dashed vertical lines, e.g. the limits
@@ -18,7 +18,7 @@ struct Histogram {
 
 std::string histogram_svg(const Histogram& histogram);
 
-/// A share (0..1) over a size, with its interval of confidence.
+/// A fraction (0..1) over a size, with its confidence interval.
 struct SharePoint {
     double x, share, low, high;
 };

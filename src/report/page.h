@@ -7,7 +7,7 @@
 
 namespace fidservo::report {
 
-/// How a run ended, as a colour and a sign.
+/// The outcome of a run, shown as a colour and a sign.
 enum class Mood { good, bad, unsure, neutral };
 
 /// The style sheet's class of a mood.
@@ -34,7 +34,7 @@ struct Page {
 /// A section with a heading that can be linked to.
 std::string section(const std::string& id, const std::string& heading, const std::string& html);
 
-/// The whole file. Scripts and styles are inside; a content policy forbids it to load anything.
+/// The whole HTML file. Scripts and styles are embedded; a content security policy forbids loading anything.
 std::string render(const Page& page);
 
 }  // namespace fidservo::report

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Traces over time that the reader zooms and pans (drawn by uPlot, src/web/report.js).
+// Plots over time that can be zoomed and panned (by uPlot, src/web/report.js).
 #include <string>
 #include <vector>
 
@@ -8,9 +8,9 @@ namespace fidservo::report {
 
 struct Trace {
     std::string label;
-    std::vector<float> values;  ///< NaN: nothing here
+    std::vector<float> values;  ///< NaN: no value
     bool stepped = false;       ///< held between samples, as a setpoint is
-    int digits = 3;             ///< in the legend
+    int digits = 3;             ///< decimals in the legend
     bool faint = false;         ///< drawn lightly behind the others
 };
 
@@ -21,7 +21,7 @@ struct Span {
     std::string kind;  ///< good | bad | unsure | neutral
 };
 
-/// Traces on one pair of axes. All have one value at each time.
+/// Traces on one pair of axes, with one value for each time.
 struct TimePlot {
     std::string id;  ///< unique in the page
     std::string title;
@@ -40,8 +40,9 @@ struct TimeAxis {
 /// The plots of one group, one above the other. Values travel as base64 of little-endian float32.
 std::string time_plots(const TimeAxis& axis, const std::vector<TimePlot>& plots);
 
-/// Fewer points for the same picture: within each of `limit / 2` stretches of equal length, keeps the rows
-/// where `guide` is smallest and largest. Returns indices in ascending order; all if there are few.
+/// Reduces the number of points without changing the picture: within each of `limit / 2` stretches of equal
+/// length, keeps the rows where `guide` is smallest and largest. Returns indices in ascending order; all of
+/// them if there are few.
 std::vector<std::size_t> envelope_rows(const std::vector<float>& guide, std::size_t limit);
 
 }  // namespace fidservo::report

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the report on the published system is made of: chapters, each with its figures and the claims that
-// they decide.
+// The chapters of the report on the published system: each has figures and claims that they confirm or not.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,8 +9,9 @@ namespace fidservo::reproduce {
 
 enum class Outcome {
     holds,
-    rig_differs,  ///< the reference rig, completed where the paper gives no number, is another machine here;
-                  ///< `why` says it
+    /// The reference rig, completed where the paper gives no number, differs from the paper's in this
+    /// respect; `why` explains it.
+    rig_differs,
     fails,
 };
 
@@ -20,10 +20,10 @@ std::string_view name_of(Outcome outcome);
 
 struct Claim {
     std::string source;    ///< place in the publication: "fig. 17", "eq. 9"
-    std::string claim;     ///< what is claimed
-    std::string measured;  ///< what was measured here, with units
+    std::string claim;     ///< the publication's claim
+    std::string measured;  ///< the result here, with units
     Outcome outcome = Outcome::fails;
-    std::string why;  ///< of anything but `holds`
+    std::string why;  ///< explanation, unless it holds
 };
 
 inline Outcome holds_if(bool condition) {
@@ -31,7 +31,7 @@ inline Outcome holds_if(bool condition) {
 }
 
 struct Chapter {
-    std::string id;  ///< of its place in the report
+    std::string id;  ///< anchor of its place in the report
     std::string heading;
     std::string html;
     std::vector<Claim> claims;

@@ -16,7 +16,7 @@ Chapter nonlinear_pd(const Laboratory& laboratory);     ///< fig. 18, 19, eq. 9
 Chapter micro_steps(const Laboratory& laboratory);      ///< fig. 21, accuracy and settling
 Chapter micro_bandwidth(const Laboratory& laboratory);  ///< over the full travel
 Chapter integrated_task(const Laboratory& laboratory);  ///< fig. 22
-Chapter beyond_model(const Laboratory& laboratory);  ///< what it leaves for later: other friction, coupling,
-                                                     ///< a second thermal mass
+/// Effects that the paper leaves for later: other friction, coupling, a second thermal mass.
+Chapter beyond_model(const Laboratory& laboratory);
 
 }  // namespace fidservo::reproduce

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Where the experiments are made: the independent model of the rig (reference/), under the published
-// controllers. What identifies the rig has not seen it. Every recording is kept.
+// The experiments are made on the independent model of the rig (reference/), which identification does not
+// use, under the published controllers. Every recording is kept.
 #include "core/recording.h"
 #include "core/rig.h"
 #include "reference/departures.h"

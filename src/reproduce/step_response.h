@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How a controlled stage answers a step of its set point.
+// The response of a controlled stage to a step of its set point.
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -13,17 +13,18 @@ struct StepResponse {
     double overshoot = 0.0;    ///< largest excursion beyond the new set point, in the position's unit; >= 0
     double final_error = 0.0;  ///< mean of position - set point over the tail
     double tail_rms = 0.0;     ///< r.m.s. of position - set point over the tail
-    double tail_peak_to_peak = 0.0;  ///< of the position over the tail: of a limit cycle, twice its amplitude
+    /// peak-to-peak of the position over the tail: twice the amplitude of a limit cycle.
+    double tail_peak_to_peak = 0.0;
     double dead_s = 0.0;  ///< from the step until the position has moved by `band` for the first time
 };
 
-/// @param position  of the step's rows: from the step to the next one
+/// @param position  in the rows from the step to the next one
 /// @param band      half width within which a position counts as settled, > 0
-/// @param tail_s    how much of the end is the tail
+/// @param tail_s    duration of the tail, at the end
 StepResponse step_response(std::span<const double> position, double from, double to, double band,
                            double tail_s, double tick_s);
 
-/// A set point that is held, and the rows during which it is.
+/// A constant set point, and the rows in which it is held.
 struct HeldSetpoint {
     std::size_t begin, end;  ///< rows, end excluded
     double value;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What each command can do with a rig: by the parts that its file describes.
+// Which commands can be used with a rig, by the parts that its file describes.
 #include <string>
 #include <vector>
 
@@ -10,10 +10,11 @@ struct Rig;
 
 struct Ability {
     std::string command;
-    std::string missing;  ///< keys of the rig file, or what else the command needs; empty if it can be done
+    /// Missing keys of the rig file, or other requirements; empty if the command can be used.
+    std::string missing;
 };
 
-/// @param has_board  whether the file says how a stage is wired to a board (stage.comedi)
+/// @param has_board  whether the file states how a stage is wired to a board (stage.comedi)
 std::vector<Ability> abilities_of(const Rig& rig, bool has_board);
 
 }  // namespace fidservo

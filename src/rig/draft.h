@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A rig file for somebody who begins: what they know of their stage, and guesses for what only measurements
-// can tell, each with the command that measures it.
+// Drafts a rig file for a new user: from what they know of their stage, and guesses for numbers that need
+// measuring, each with the command that measures it.
 #include <array>
 #include <filesystem>
 #include <string>
@@ -10,7 +10,7 @@ namespace fidservo {
 
 enum class RigKind { axis, camera, full };
 
-/// What is asked of the user; the rest of a rig file is guessed from it.
+/// The numbers that the user is asked for; the rest of a rig file is guessed from them.
 struct RigDraft {
     RigKind kind = RigKind::full;
     std::string name = "my-rig";
@@ -19,7 +19,7 @@ struct RigDraft {
     std::array<double, 2> travel_mm{0.0, 200.0};
     double resolution_mm = 0.05;
     double command_limit_V = 5.0;
-    double friction_V = 0.0;  ///< 0: nobody knows; a fifth of the limit
+    double friction_V = 0.0;  ///< 0: unknown, a fifth of the limit is assumed
 
     std::array<double, 2> micro_travel_mm{0.0, 4.0};
     double heater_onset_V = 1.3;
@@ -42,13 +42,14 @@ struct RigDraft {
     bool has_camera() const { return kind != RigKind::axis; }
 };
 
-/// The command below which the axis stays at rest; rather a little too large: with too little it sticks.
+/// The command below which the axis stays at rest. It is rather chosen too large, as with too small a value
+/// the axis sticks.
 double friction_V_of(const RigDraft& draft);
 
 /// The columns of tags that reach from plate x = 0 to the end of the travel, at most what the family has.
 int columns_of(const RigDraft& draft);
 
-/// Throws InputError, by the options' names, where a rig file with these numbers would be refused.
+/// Throws InputError, naming the options, if a rig file with these numbers would be refused.
 void demand_sound(const RigDraft& draft);
 
 /// The commented rig file. @param fod  what it names as its table of first-order descending curves

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What looks wrong in a rig file that loads. Each kind of number has its own file; where a limit comes from
-// is said beside it.
+// Implausible values in a valid rig file. Each kind of number has a file of its own; the origin of each limit
+// is stated beside it.
 #include <string>
 #include <vector>
 
@@ -9,15 +9,15 @@ namespace fidservo {
 
 struct Rig;
 
-/// One thing that looks wrong.
+/// An implausible value.
 struct Finding {
     std::string key;    ///< in the rig file
-    std::string value;  ///< what stands there
-    std::string why;    ///< what follows from it
-    std::string usual;  ///< what would be expected instead
+    std::string value;  ///< its value
+    std::string why;    ///< the consequence
+    std::string usual;  ///< the expected value
 };
 
-/// Of a travel: what a step of the reading may be at most for the place to be known by it.
+/// Largest plausible step of a position reading, as a fraction of the travel.
 inline constexpr double coarsest_step_share = 0.01;
 
 /// All of those below.
@@ -27,9 +27,9 @@ std::vector<Finding> findings_of(const Rig& rig);
 std::vector<Finding> axis_findings(const Rig& rig);
 /// Heater, wire and Hall sensor.
 std::vector<Finding> micro_findings(const Rig& rig);
-/// Controllers: their linear loops' poles on the file's own model, and what they take friction to be.
+/// Controllers: the poles of their linear loops with the file's own model, and their friction compensation.
 std::vector<Finding> loop_findings(const Rig& rig);
-/// Camera and fiducials: scale, and what is seen over the travel.
+/// Camera and fiducials: scale, and visible fiducials over the travel.
 std::vector<Finding> sight_findings(const Rig& rig);
 
 }  // namespace fidservo

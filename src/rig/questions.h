@@ -9,8 +9,8 @@
 
 namespace fidservo {
 
-/// Asks for the few numbers that every stage has and no two share. An empty line takes what stands in
-/// brackets, and so does the end of the input; an answer that cannot be one is asked for again.
+/// Asks for the few numbers in which stages always differ. An empty line or the end of the input takes the
+/// default in brackets; an invalid answer is asked for again.
 /// @param is_given  whether an option, such as "--travel-mm", was given: then it is not asked for
 void ask(RigDraft& draft, const std::function<bool(std::string_view option)>& is_given, std::istream& answers,
          std::ostream& questions);

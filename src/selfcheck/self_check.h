@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The diagnosis judged on rigs whose effects are known: drawn, recorded on the independent model, diagnosed
-// without their labels, scored.
+// Tests the diagnosis on rigs with known effects: these are drawn, recorded with the independent model,
+// diagnosed without their labels, and scored.
 #include "core/result.h"
 #include "gap/budget.h"
 #include "gap/search/selection.h"
@@ -22,14 +22,14 @@ namespace fidservo::selfcheck {
 struct SelfCheckOptions {
     std::size_t cases = 300;
     std::size_t first = 0;        ///< number of the first case
-    std::vector<CaseKind> kinds;  ///< others are passed over; empty: all those without frames
+    std::vector<CaseKind> kinds;  ///< other kinds are skipped; empty: all those without frames
     std::uint64_t seed = 1;
     std::vector<std::string> only;  ///< effects that the diagnosis tries; empty: all
-    /// What the limits of a diagnosis (src/diagnose/time_limit.h) are counted by, on one core where by
-    /// effort; without, it takes what it takes.
+    /// How the time limits of a diagnosis (src/diagnose/time_limit.h) are counted; by effort only one core is
+    /// used. Empty: no limits.
     std::optional<gap::Seconds> limited = {};
-    std::vector<std::string> recordings;  ///< of a campaign's, those that are made; empty: all
-    bool settles_ties = false;            ///< src/selfcheck/ties.h
+    std::vector<std::string> recordings;  ///< the recordings of a campaign that are made; empty: all
+    bool settles_ties = false;  ///< whether ties are settled by a designed experiment (src/selfcheck/ties.h)
 };
 
 /// A case that could not be diagnosed.
@@ -41,7 +41,7 @@ struct Failure {
 struct SelfCheck {
     std::vector<Outcome> outcomes;
     std::vector<Failure> failures;
-    bool was_interrupted = false;  ///< after a whole number of cases
+    bool was_interrupted = false;  ///< ended by the user, after a whole number of cases
 
     std::size_t finished() const { return outcomes.size() + failures.size(); }
 };
@@ -50,9 +50,8 @@ struct SelfCheck {
 std::string line_of_last(const SelfCheck& check);
 
 /// Case after case; Ctrl-C (src/process/interrupt.h) ends it after the present one.
-/// @param done  called after every case with all so far
-/// Throws InputError if the rig lacks what the cases need: micro stage, camera, fiducials, controllers; and
-/// for kinds with and without frames together.
+/// @param done  called after every case with the results so far Throws InputError if the rig lacks what the
+/// cases need: micro stage, camera, fiducials, controllers; and for kinds with and without frames together.
 SelfCheck run_self_check(const Rig& nominal, const SelfCheckOptions& options,
                          const std::function<void(const SelfCheck&)>& done);
 

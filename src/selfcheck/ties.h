@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a designed experiment makes of ties: the case's rig records it, and all is diagnosed again.
+// Whether designed experiments resolve ties: the case's rig records the experiment, and everything is
+// diagnosed again.
 #include "gap/diagnosis.h"
 #include "src/selfcheck/draw/case_draw.h"
 
@@ -11,23 +12,23 @@
 
 namespace fidservo::selfcheck {
 
-/// A diagnosis made with one more recording.
+/// A diagnosis with one additional recording.
 struct Settlement {
     std::string experiment;  ///< "designed", or an experiment of the list
-    double log_odds = 0.0;   ///< that it was expected to bring, of the pair that it tells apart worst
+    double log_odds = 0.0;   ///< expected log odds of the pair that it distinguishes worst
     bool is_resolved = false;
-    std::vector<std::string> named;  ///< effects, each with what it is still tied with: "a|b"
+    std::vector<std::string> named;  ///< effects named, each with those with which it is still tied: "a|b"
 };
 
 struct Tie {
-    std::vector<std::string> set;  ///< of the first diagnosis, as in Settlement::named
-    bool holds_truth = false;      ///< each of the case's classes is in it
-    /// Nothing where no experiment is expected to bring odds of a thousand to 1.
+    std::vector<std::string> set;  ///< effects of the first diagnosis, as in Settlement::named
+    bool holds_truth = false;      ///< it contains each of the case's classes
+    /// Empty where no experiment is expected to give odds of a thousand to 1.
     std::optional<Settlement> by_design, by_list;
     double design_s = 0.0;  ///< wall clock
 };
 
-/// One line: what was tied, and what each experiment has made of it.
+/// One line: the tie, and the result of each experiment.
 std::string words_of(const Tie& tie);
 
 using DiagnoseAgain = std::function<gap::Diagnosis(std::vector<Recording>)>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Whether what comes from the camera can be an image of the plate, taken now.
+// Checks whether the camera's frames are plausible: images of the plate, taken now.
 #include "control/stage.h"
 #include "core/result.h"
 #include "vision/camera.h"
@@ -13,10 +13,10 @@ namespace fidservo {
 
 struct CameraWatchParams {
     double frame_period_s;
-    /// Nothing comes, or nothing usable: borne so long, and at least five frames.
+    /// How long missing or unusable frames are tolerated; in any case for five frames.
     double patience_s = 1.0;
-    double reconnect_s = 0.0;  ///< a camera that may come back is silent for so long
-    double count_mm = 0.05;    ///< of the encoder
+    double reconnect_s = 0.0;  ///< how long a camera that may come back can be silent
+    double count_mm = 0.05;    ///< resolution of the encoder
 };
 
 /// Looks at every frame that the program takes. What is wrong for longer than the patience is a fault of the
@@ -29,11 +29,12 @@ class CameraWatch {
   public:
     explicit CameraWatch(const CameraWatchParams& params) : params_(params) {}
 
-    /// What the camera gave at a poll, unless its time cannot be believed. Fails with Reason::device.
+    /// Passes on what the camera returned at a poll, unless its time is implausible. Fails with
+    /// Reason::device.
     Result<std::optional<vision::Frame>> admit(std::optional<vision::Frame> frame,
                                                const control::StageSample& stage);
 
-    /// Whether something was wrong with the last frame.
+    /// Whether something is wrong with the last frame, but not yet for long enough to be a fault.
     bool is_in_doubt() const { return trouble_.has_value(); }
 
   private:
@@ -41,7 +42,8 @@ class CameraWatch {
         TimeNs since_ns;
         int frames;
     };
-    /// An image, where the stage was when it first came, and when it was seen to have moved away.
+    /// An image, the stage's position when it first came, and the time when the stage was seen to have moved
+    /// away.
     struct Seen {
         std::vector<unsigned char> pixels;
         control::StageSample stage;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which hardware a session is given.
+// The devices of a session.
 #include "core/plate.h"
 #include "src/session/session.h"
 #include "src/session/simulated_rig.h"
@@ -9,13 +9,13 @@ namespace fidservo {
 
 struct Rig;
 
-/// Stage and camera of a session, and what watches over them.
+/// Stage and camera of a session, and the guardian.
 struct RigDevices {
-    std::shared_ptr<SimulatedRig> simulated;      ///< where stage and camera are both simulated
+    std::shared_ptr<SimulatedRig> simulated;      ///< set where stage and camera are both simulated
     std::shared_ptr<control::Guardian> guardian;  ///< owns the outputs
     std::shared_ptr<control::Stage> stage;        ///< ticked by the session, or by `loop` where there is one
-    std::shared_ptr<control::StageLoop> loop;     ///< where stage or camera are real: ticks in real time
-    std::shared_ptr<vision::Camera> camera;       ///< what looks at the plate
+    std::shared_ptr<control::StageLoop> loop;  ///< set where stage or camera are real: it ticks in real time
+    std::shared_ptr<vision::Camera> camera;    ///< what looks at the plate
 };
 
 /// Stage and camera as the options name them. What is simulated is the rig as its file (options.sim_rig_file,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What goes wrong with devices, on purpose: a drill for the program and for those who run it.
+// Deliberate faults of devices, as a drill for the program and its operators.
 #include "core/time.h"
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace fidservo {
 
-/// What fails.
+/// The kind of fault.
 enum class FaultKind {
     frames_dropped,     ///< two frames of three are lost
     frames_late,        ///< every frame arrives 100 ms later than it should
@@ -20,13 +20,13 @@ enum class FaultKind {
     tag_hidden,         ///< a bar of dirt across the middle of the image, the fiducials with it
     camera_clock_step,  ///< the frames' time stamps are 2 s ahead
     stage_clock_step,   ///< the stage's clock goes 2 s ahead; the camera's does not
-    encoder_jump,       ///< 400 counts that were no motion
-    hall_stuck,         ///< the Hall sensor reads the same whatever happens
+    encoder_jump,       ///< 400 counts without motion
+    hall_stuck,         ///< the Hall sensor's reading is constant
     heater_dead,        ///< the wire gets no current
     macro_jammed,       ///< the carriage does not move
 };
 
-/// A fault and when it is there, in session time.
+/// A fault and its time, in session time.
 struct Fault {
     FaultKind kind;       ///< what fails
     double from_s = 0.0;  ///< from when on

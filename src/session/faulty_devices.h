@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Devices with faults in them: decorators of the boundaries to stage and camera. What stands behind the
-// boundary does not know of them, nor what stands before it.
+// Devices with deliberate faults: decorators of the interfaces to stage and camera, of which neither side
+// knows.
 #include "control/stage.h"
 #include "core/result.h"
 #include "src/session/faults.h"
@@ -27,7 +27,7 @@ class FaultyStage final : public control::Stage {
 
     std::shared_ptr<control::Stage> stage_;
     std::vector<Fault> faults_;
-    TimeNs now_ns_ = 0;  ///< of the stage behind
+    TimeNs now_ns_ = 0;  ///< time of the decorated stage
     std::optional<int> stuck_adc_;
 };
 

@@ -7,11 +7,12 @@
 
 namespace fidservo {
 
-/// The tags of a plate by which the carriage's place can be registered.
+/// The tags of a plate that can serve to register the carriage's position.
 std::vector<PlateTag> registration_tags(const Rig& rig, const Plate& plate);
 
-/// Slowly to the end stop, registration against a tag, whose id and place fix the absolute position, and the
-/// tuning sweep of the micro stage (tuning_sweep.h). Ends with the platform in the middle of its travel.
+/// Homes the rig: slowly to the end stop, registration against a tag, whose id and place fix the absolute
+/// position, and the tuning sweep of the micro stage (tuning_sweep.h). Ends with the platform in the middle
+/// of its travel.
 Status home(Pilot& pilot);
 
 }  // namespace fidservo

@@ -3,9 +3,8 @@
 // The one loop: sample, control, write, record; a tick at a time.
 //
 // In virtual time the calling thread ticks the stage itself. In real time a StageLoop does, in a thread of
-// its own (control/stage_loop.h): controllers run there, the rows are recorded here, and ticks that went by
-// while nobody controlled are made up for: their samples can be shown to a controller, whose answer comes too
-// late.
+// its own (control/stage_loop.h): controllers run there, the rows are recorded here, and samples of ticks
+// without a controller can be passed to one afterwards, whose commands are then ignored.
 #include "control/stage.h"
 #include "control/stage_loop.h"
 #include "core/recording.h"
@@ -23,7 +22,7 @@
 
 namespace fidservo {
 
-/// The hardware, or what stands for it.
+/// The real or simulated devices.
 struct Devices {
     std::shared_ptr<control::Stage> stage;  ///< ticked by the machine; unused where there is a loop
     std::shared_ptr<vision::Camera> camera;
@@ -32,7 +31,7 @@ struct Devices {
 
 class LiveFeed;
 
-/// Set points to be recorded beside a command; NaN: not in force.
+/// Set points to be recorded with a command; NaN: not in force.
 struct Setpoints {
     double macro_mm = not_in_force;
     double micro_mm = not_in_force;
@@ -42,14 +41,14 @@ class Machine {
   public:
     Machine(Devices devices, const CameraWatchParams& watch)
         : devices_(std::move(devices)), camera_watch_(watch) {}
-    /// Leaves both commands at zero.
+    /// Sets both commands to zero.
     ~Machine();
     Machine(const Machine&) = delete;
     Machine& operator=(const Machine&) = delete;
 
     /// One tick: control(sample) gives the command. Fails with Reason::stopped if the user interrupts, with
-    /// Reason::device if stage or recorder fail; the commands are then zero. In real time, a tick that went
-    /// by while nobody controlled comes first.
+    /// Reason::device if stage or recorder fail; the commands are then zero. In real time, a tick that passed
+    /// without a controller may be processed first.
     template <std::invocable<const control::StageSample&> Control>
     Status tick(Control&& control, const Setpoints& setpoints = {}) {
         if (devices_.loop) {
@@ -83,7 +82,7 @@ class Machine {
         return run(control, done, setpoints, no_meanwhile);
     }
 
-    /// Shows a controller all ticks that went by while nobody controlled; none in virtual time.
+    /// Passes all ticks without a controller to one; there are none in virtual time.
     template <std::invocable<const control::StageSample&> Control>
     Status catch_up(Control&& control, const Setpoints& setpoints = {}) {
         if (!devices_.loop) return {};
@@ -95,9 +94,9 @@ class Machine {
     /// The newest frame, if a new one has arrived by the last tick. Fails with Reason::device where the
     /// camera does, or where what it gives cannot be an image taken now (camera_watch.h).
     Result<std::optional<vision::Frame>> poll_camera();
-    /// Whether something was wrong with its last frame; not for long enough to be a fault.
+    /// Whether something is wrong with the last frame, but not yet for long enough to be a fault.
     bool camera_is_in_doubt() const { return camera_watch_.is_in_doubt(); }
-    /// Keeps in the recording what was measured, and shows what was found.
+    /// Records the measured tags, and shows the found ones on the live page.
     Status keep(const std::vector<TagDetection>& found, const std::vector<TagDetection>& measured);
     /// Keeps a frame in the recording, which must be one that keeps frames.
     Status keep(const vision::Frame& frame);
@@ -106,29 +105,29 @@ class Machine {
     /// All ticks from now on go to this recording; null: none.
     void record_to(std::unique_ptr<RecordingWriter> recorder);
     /// Closes the recording; all of it is on the disk then.
-    /// @param zero  as far as it is known by now
+    /// @param zero  the encoder's zero, as far as it is known
     Status end_recording(const std::optional<EncoderZero>& zero = {});
-    /// Leaves the recording as it is, unfinished; all of it is on the disk then, if the disk takes it.
+    /// Ends the recording as unfinished; everything is on the disk then, if the disk takes it.
     void leave_recording(const std::optional<EncoderZero>& zero = {});
-    /// Something that happened just now, for the recording.
+    /// Records an event that happens now.
     void note(std::string what, std::string text);
 
-    /// All that happens from now on is shown there too.
+    /// Shows everything on the live page from now on.
     void show_to(std::shared_ptr<LiveFeed> feed) { feed_ = std::move(feed); }
 
-    /// Of the last tick.
+    /// The sample of the last tick.
     const control::StageSample& last_sample() const { return sample_; }
     TimeNs now_ns() const { return now_ns_; }
     void set_now(TimeNs now_ns) { now_ns_ = now_ns; }
-    /// From the first tick to the last.
+    /// Time from the first tick to the last.
     TimeNs elapsed_ns() const { return first_ns_ ? now_ns_ - *first_ns_ : 0; }
 
-    /// The travel's ends in encoder counts, for who watches the stage.
+    /// Sets the travel's ends in encoder counts, for the watchdog.
     void set_travel(const control::CarriageTravel& travel);
     /// How punctual the loop is; empty in virtual time.
     std::optional<control::LoopStatistics> loop_statistics() const;
 
-    /// Both commands to zero, for good.
+    /// Sets both commands to zero, for good.
     Status switch_off();
 
   private:
@@ -138,7 +137,7 @@ class Machine {
     Status end_tick(const control::StageSample& sample, const control::StageCommand& command,
                     const Setpoints& setpoints);
 
-    /// What the loop is given to run.
+    /// The program that is given to the loop.
     template <class Control, class Done>
     struct Call {
         Control& control;
@@ -174,21 +173,21 @@ class Machine {
         return went;
     }
 
-    /// Shows a controller a tick that went by while nobody controlled. What it answers comes too late.
+    /// Passes a tick without a controller to one; its command is ignored.
     template <class Control>
     Status make_up(const control::TickRecord& held, Control& control, const Setpoints& setpoints) {
         (void)control(held.sample);
         return record(held.sample, held.step.command, setpoints);
     }
 
-    /// The recording's writer, told all that it is to state; none is left.
+    /// Takes out the recording's writer, after its last statements.
     std::unique_ptr<RecordingWriter> take_recorder(const std::optional<EncoderZero>& zero);
-    /// Notes what ended the run.
+    /// Records the event that ended the run.
     tl::unexpected<Failure> note_end(Failure why);
-    /// Notes how many frames the camera has lost, or damaged, since this was last noted.
+    /// Records how many frames the camera has lost or damaged since the last such event.
     void note_missing_frames();
     void wait_for_ticks();
-    /// Records ticks as they were, up to a program's last.
+    /// Records the loop's ticks, up to the last one of a program.
     Status record_ticks(bool& was_last);
     Status skip_held();
     Status record(const control::StageSample& sample, const control::StageCommand& command,
@@ -198,8 +197,8 @@ class Machine {
     CameraWatch camera_watch_;
     control::StageSample sample_;  ///< of the last tick
     std::unique_ptr<RecordingWriter> recorder_;
-    bool end_noted_ = false;      ///< in this recording
-    vision::FrameCounts counts_;  ///< when frames were last said to be missing
+    bool end_noted_ = false;      ///< the end was recorded as an event
+    vision::FrameCounts counts_;  ///< counts when missing frames were last recorded
     TimeNs counted_ns_ = 0;
     std::shared_ptr<LiveFeed> feed_;
     TimeNs now_ns_ = 0;

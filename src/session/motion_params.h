@@ -11,8 +11,8 @@ struct Rig;
 /// needs: micro stage, camera, and the gains of both controllers.
 control::PositionerParams positioner_params(const Rig& rig, double tolerance_mm);
 
-/// Camera positions that motions may end at, plate x, mm: the macro stage's travel, and the platform's but
-/// for its ends.
+/// Camera positions, plate x, mm, at which motions may end: the macro stage's travel, and the platform's
+/// except its ends.
 struct CameraTravel {
     double low_mm, high_mm;
 };

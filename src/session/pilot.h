@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The rig under way: machine, sight and positioner together, and the registration that tells where the camera
-// is.
+// The rig in operation: machine, sight and positioner, and the registration of the camera's position.
 #include "control/positioner.h"
 #include "core/failure.h"
 #include "core/plate.h"
@@ -21,7 +20,8 @@
 
 namespace fidservo {
 
-/// Where the camera looks for a fiducial that is not where it should be: offsets along the stage axis, mm.
+/// Offsets along the stage axis, mm, at which the camera looks for a fiducial that it does not find where it
+/// should be.
 inline constexpr std::array search_offsets_mm{0.0, 0.7, -0.7};
 
 inline tl::unexpected<Failure> forward(Failure why) {
@@ -30,32 +30,31 @@ inline tl::unexpected<Failure> forward(Failure why) {
 
 class Pilot {
   public:
-    /// The rig must have all that `params` were made of (motion_params.h).
-    /// @param camera_reconnect_s  a camera that is lost is waited for so long
+    /// The rig must have all parts from which `params` were made (motion_params.h).
+    /// @param camera_reconnect_s  how long to wait for a camera that is lost
     Pilot(const Rig& rig, const Plate& nominal, const control::PositionerParams& params, Devices devices,
           double camera_reconnect_s = 0.0);
 
-    /// Where the registration believes the camera to be, plate x, mm.
+    /// The camera's position by the registration, plate x, mm.
     double believed_s_mm() const;
-    /// What a frame has just shown moves the registration, not the rig. Much of a move is logged: counts were
-    /// lost, or the carriage was pushed.
+    /// Corrects the registration by a position that a frame has just shown. A large correction is logged:
+    /// counts were lost, or the carriage was pushed.
     /// @param tag_id  of the tag that was seen
     void register_at(double s_mm, int tag_id);
-    /// The end stop is good to a count.
+    /// Registers the position of the end stop, which is accurate to a count.
     void register_at_end_stop(std::int64_t stop_count);
 
-    /// Where the encoder counts from, by the registration; empty before homing.
+    /// The encoder's zero, by the registration; empty before homing.
     std::optional<EncoderZero> encoder_zero() const;
 
-    /// Where the registration believes the carriage to be, mm.
+    /// The carriage's position by the registration, mm.
     double carriage_mm() const;
     /// The carriage's travel in encoder counts, by the registration.
     control::CarriageTravel carriage_travel() const;
 
     /// One tick of the positioner.
     Status step();
-    /// The positioner sees what went by while nobody controlled: before a motion begins. Nothing in virtual
-    /// time.
+    /// Passes ticks without a controller to the positioner, before a motion begins. Nothing in virtual time.
     Status catch_up();
 
     /// Ticks until a condition holds. Fails with Reason::timeout.
@@ -67,21 +66,22 @@ class Pilot {
         return ended;
     }
 
-    /// The stage was moved by others: from where it is now, the motor off, the wire without heat.
+    /// Resets the positioner to the present state after other motions: the motor is off, the wire without
+    /// heat.
     void begin_anew();
 
     /// The next frame exposed wholly after a time, in true exposure time. Fails with Reason::timeout.
     Result<vision::Frame> next_frame(TimeNs after_ns);
-    /// A frame's true middle of exposure: its stamp without the delay that the tuning found.
+    /// A frame's true middle of exposure: its time stamp less the delay that the tuning sweep found.
     TimeNs exposed_at(const vision::Frame& frame) const;
 
     /// Brings the macro stage so that the camera stands at s, by the registration alone; nothing is
     /// confirmed.
     Status carry_to(double s_mm);
     /// Brings the carriage to its place `carriage_mm`, by the registration, and to rest within a count of it.
-    /// Where commands or readings come so late that the controller's nudges go on, a few counts.
+    /// Where late commands or readings make the controller oscillate, to within a few counts.
     Status place_carriage(double carriage_mm);
-    /// Where the camera is by whatever tag the next frame shows.
+    /// The camera's position from any tag in the next frame.
     Result<vision::PositionFit> look_anywhere();
     /// A motion under the supervisor to camera position s, measured by a tag, confirmed at rest.
     Status drive_to(double target_s_mm, int tag_id);
@@ -95,17 +95,17 @@ class Pilot {
     control::PositionerParams params;
     control::PositionerState state;
     double count_zero_mm = 0.0;  ///< carriage position at count 0, by the registration
-    bool registered = false;     ///< against a tag; before that, by the end stop alone
-    std::string registered_by;   ///< for people; empty: not at all
+    bool registered = false;     ///< registered against a tag; before that, only by the end stop
+    std::string registered_by;   ///< how it was registered, in words; empty: not at all
     double camera_delay_s = 0.0;
     Eigen::Vector2d camera_mm{0.0, 0.0};
     Setpoints setpoints;
 
   private:
-    /// The positioner's answer to a sample.
+    /// The positioner's command for a sample.
     control::StageCommand command_for(const control::StageSample& sample,
                                       const std::optional<control::TargetOffset>& seen);
-    /// The positioner's ticks until done(), which is asked before the first one too.
+    /// Ticks the positioner until done(), which is checked before the first tick, too.
     Status move(const std::predicate auto& done, std::optional<control::TargetOffset> seen = {}) {
         return machine.run(
             [&](const control::StageSample& sample) {
@@ -114,7 +114,7 @@ class Pilot {
             done, setpoints);
     }
     bool carriage_is_quiet() const;
-    /// The macro controller's way to a place, until it is there, and to rest with the motor off.
+    /// Moves the macro stage to a place, until it is there and at rest with the motor off.
     Status carry(double carriage_mm, double timeout_s, const std::predicate auto& is_there) {
         const double place_mm = std::clamp(carriage_mm, rig.macro.low_mm, rig.macro.high_mm);
         control::macro_go_to(state.macro, (place_mm - count_zero_mm) / params.count_mm);

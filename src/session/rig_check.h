@@ -6,7 +6,7 @@
 
 namespace fidservo {
 
-/// Whether a motion that failed so may have failed for the rig: it has to show then that it answers.
+/// Whether a failed motion with this reason may be due to a defect of the rig, which then has to be checked.
 constexpr bool puts_rig_in_doubt(Reason reason) {
     return reason == Reason::timeout || reason == Reason::no_convergence || reason == Reason::not_at_rest ||
            reason == Reason::out_of_reach;
@@ -28,7 +28,7 @@ Status check_camera(Pilot& pilot);
 /// encoder, and comes to rest. Fails with Reason::device, in words for the user, or Reason::stopped.
 Status check_carriage(Pilot& pilot);
 
-/// Why the Hall sensor shows no motion, by whether the camera saw one.
+/// The failure for a Hall sensor that shows no motion, depending on whether the camera saw one.
 Failure unmoved_platform(double hall_mm, double camera_mm);
 
 }  // namespace fidservo

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The simulated rig: one truth behind a stage and a camera, in virtual time. Time passes when a command is
-// written, a tick at a time; frames are rendered only when somebody asks for them.
+// The simulated rig: one physical state behind a stage and a camera, in virtual time. Time advances by a tick
+// when a command is written; frames are rendered only when requested.
 #include "control/guardian.h"
 #include "control/stage.h"
 #include "core/camera/camera_parameters.h"
@@ -17,31 +17,31 @@
 
 namespace fidservo {
 
-/// One truth in virtual time, for a stage and a camera.
+/// One physical state in virtual time, for a stage and a camera.
 class SimulatedRig {
   public:
-    /// @param physics  the rig as it is, which may differ from its file
-    /// @param printed  the plate as it is
+    /// @param physics  the true rig, which may differ from its file
+    /// @param printed  the plate as printed
     SimulatedRig(const plant::PlantParameters& physics, const CameraParameters& camera, const Plate& printed,
                  std::uint64_t seed);
 
     /// Samples the sensors.
     control::StageSample read();
-    /// Applies a command for a tick, which passes.
+    /// Applies a command for a tick, and advances by that tick.
     void write(const control::StageCommand& command);
-    /// The newest frame that has arrived and was not handed out.
+    /// The newest frame that has arrived and was not returned before.
     std::optional<vision::Frame> poll();
 
-    /// Since the start.
+    /// Time since the start.
     TimeNs now_ns() const { return tick_ * tick_ns_; }
-    /// The truth: for tests and for drawing, never for what runs on the rig.
+    /// The true state: for tests and for drawing, never for what runs on the rig.
     const plant::StageState& truth() const { return state_; }
-    /// The rig as it is, which may differ from its file.
+    /// The true rig, which may differ from its file.
     const plant::StagePlant& physics() const { return plant_; }
 
     /// The whole physical state as JSON text, exact.
     std::string snapshot() const;
-    /// Goes on from a snapshot. Throws InputError where the text is none.
+    /// Continues from a snapshot. Throws InputError if the text is none.
     void restore(const std::string& snapshot);
 
   private:
@@ -60,7 +60,7 @@ class SimulatedRig {
 /// The rig's stage side. Every command also goes to the guardian's board, where there is a guardian.
 class SimulatedStage final : public control::Stage {
   public:
-    /// Without a guardian commands go to the rig alone.
+    /// @param guardian  null: commands go to the rig only
     SimulatedStage(std::shared_ptr<SimulatedRig> rig, std::shared_ptr<control::Guardian> guardian)
         : rig_(std::move(rig)), guardian_(std::move(guardian)) {}
     Result<control::StageSample> read() override;
@@ -74,7 +74,7 @@ class SimulatedStage final : public control::Stage {
 /// The rig's camera side.
 class SimulatedCamera final : public vision::Camera {
   public:
-    /// Sees the rig as it is when it is asked.
+    /// Sees the rig in its state at each poll.
     explicit SimulatedCamera(std::shared_ptr<SimulatedRig> rig) : rig_(std::move(rig)) {}
     Result<std::optional<vision::Frame>> poll(TimeNs now_ns) override;
 

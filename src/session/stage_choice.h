@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which stage `--stage` stands for.
+// The stage that the option --stage selects.
 #include "control/guardian.h"
 #include "control/watchdog.h"
 #include "src/session/session.h"
@@ -12,10 +12,10 @@ namespace fidservo {
 
 struct Rig;
 
-/// "sim".
+/// Whether --stage is "sim".
 bool stage_is_simulated(const SessionOptions& options);
 
-/// A board that was looked at and found to be as the rig file says; nothing is driven yet.
+/// A board that was checked against the rig file; no output is driven yet.
 class ComediChoice {
   public:
     /// Opens the node of "comedi:NODE" and checks the channels of the rig file's `stage.comedi` against it.
@@ -26,11 +26,11 @@ class ComediChoice {
     ComediChoice(const ComediChoice&) = delete;
     ComediChoice& operator=(const ComediChoice&) = delete;
 
-    /// Opens the outputs: for the guardian.
+    /// Opens the outputs, in the guardian process.
     control::BoardFactory outputs() const;
-    /// How long the guardian waits for a sign of life.
+    /// The guardian's timeout for the heartbeat.
     std::chrono::milliseconds patience() const;
-    /// Sensors by the board, commands by the guardian.
+    /// A stage with sensors read from the board and commands passed to the guardian.
     std::shared_ptr<control::Stage> stage(std::shared_ptr<control::Guardian> guardian) const;
     const control::WatchdogParams& watchdog() const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Explicit states as JSON, exact to the last bit: what a checkpoint is made of.
+// States as JSON, exact to the last bit, for checkpoints.
 #include "control/positioner.h"
 #include "core/micro_model.h"
 #include "plant/stage_plant.h"
@@ -13,10 +13,10 @@ nlohmann::json json_of(const PreisachMemory& wire);
 nlohmann::json json_of(const HeaterParameters& heater);
 nlohmann::json json_of(const plant::DelayLineState& line);
 nlohmann::json json_of(const plant::StageState& state);
-/// At rest: between motions. What a motion keeps for itself is not part of it.
+/// For a positioner between motions. The state within a motion is not included.
 nlohmann::json json_of(const control::PositionerState& state);
 
-// Each overwrites what json_of() wrote. Throws nlohmann::json::exception on text that it did not write.
+// Each restores what json_of() wrote. Throws nlohmann::json::exception on other text.
 void read_json(const nlohmann::json& json, PreisachMemory& wire);
 void read_json(const nlohmann::json& json, HeaterParameters& heater);
 void read_json(const nlohmann::json& json, plant::DelayLineState& line);

@@ -24,7 +24,7 @@ class SweepProfile {
     explicit SweepProfile(const MicroModel& model) : model_(model) {}
     static constexpr int rest_ticks = 100;
     static constexpr int longest_ticks = 9000;
-    /// That a sweep has, those left out by a late loop included.
+    /// Largest number of ticks in a sweep, including those left out by a late loop.
     static constexpr std::size_t most_ticks = 2 * longest_ticks;
 
     /// The command from this tick on, V; empty when the sweep is over.
@@ -36,7 +36,7 @@ class SweepProfile {
     bool cooling_ = false;
 };
 
-/// The model that the sweep shows, and by how much the camera's stamps are late.
+/// The model fitted to the sweep, and the delay of the camera's time stamps.
 struct Tuning {
     MicroModel model;
     double camera_delay_s;
@@ -44,10 +44,10 @@ struct Tuning {
     double actuator_residual_mm;
 };
 
-/// Fails with Reason::not_identifiable if the sweep does not determine it.
+/// Fits the model to a sweep. Fails with Reason::not_identifiable if the sweep does not determine it.
 Result<Tuning> tune(const MicroModel& nominal, const SweepRecord& sweep, double tick_s, double exposure_s);
 
-/// The model's wire at the end of a sweep that began cold.
+/// The state of the model's wire at the end of a sweep that began cold.
 PreisachMemory wire_after(const MicroModel& model, const std::vector<double>& command_V, double tick_s);
 
 }  // namespace fidservo

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// When the simulated camera takes its frames, and where it is meanwhile.
+// The simulated camera's frame times, and its positions meanwhile.
 #include "core/time.h"
 #include "plant/stage_plant.h"
 
@@ -9,8 +9,8 @@
 
 namespace fidservo {
 
-/// Frames come when the camera's own clock says so, the first at 3.3 ms of it; stamps are that clock's times
-/// and the delay (plant/camera.h).
+/// The frame times: frames are taken by the camera's own clock, the first one at 3.3 ms; their stamps are
+/// that clock's times plus the delay (plant/camera.h).
 class FrameClock {
   public:
     struct Frame {
@@ -26,7 +26,7 @@ class FrameClock {
     plant::CameraDeviation camera_;
 };
 
-/// The plant a part of a tick later, exactly, under commands in V that are held.
+/// The plant's exact state a part of a tick later, under held commands in V.
 plant::StageState moved_on(const plant::PlantParameters& parameters, plant::StageState state, TimeNs way_ns,
                            double macro_V, double micro_V);
 
@@ -37,9 +37,10 @@ class CameraTrack {
     /// @param keep_s  how long positions are remembered
     CameraTrack(const plant::PlantParameters& parameters, double keep_s);
 
-    /// The tick that begins at time_ns, a multiple of the tick; every tick in turn.
+    /// Adds the tick that begins at time_ns, a multiple of the tick; every tick must be added in turn.
     void add(const plant::StageState& state, TimeNs time_ns, double macro_V, double micro_V);
-    /// At any time within keep_s before the last tick that was added; where it began before that.
+    /// The position at a time within keep_s before the last tick added; before the first tick, the initial
+    /// position.
     double position_mm(double time_s) const;
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Experiments that people write themselves: a YAML file of pieces, one after the other, for either stage.
-// docs/formats.md describes it.
+// Experiments written by users: a YAML file with a sequence of pieces for either stage. docs/formats.md
+// describes it.
 #include "src/simulation/experiments.h"
 
 #include <filesystem>

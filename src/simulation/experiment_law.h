@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An experiment's law: from what the sensors read at a tick to what is commanded from then on. One for
-// simulated rigs and for the one at hand.
+// The controller side of an experiment: the commands of a tick from the sensors' readings. The same for
+// simulated and real rigs.
 #include "control/nonlinear_pd.h"
 #include "control/pi_antiwindup.h"
 #include "core/recording.h"
@@ -13,7 +13,7 @@ namespace fidservo {
 
 struct Rig;
 
-/// The controllers' memories, as far as the experiment closes their loops. A run starts with none.
+/// The states of the controllers that the experiment uses. A run starts with none.
 struct ExperimentLoops {
     control::PdState pd;
     control::PidState pid;
@@ -30,8 +30,8 @@ struct ExperimentLoops {
 void command_tick(const Rig& rig, const Experiment& experiment, double zero_count, double t_s,
                   ExperimentLoops& loops, StageRow& row);
 
-/// The controllers that follow an experiment's setpoints, by their names in recordings; empty where it has no
-/// setpoints.
+/// The names, as in recordings, of the controllers that follow an experiment's setpoints; empty where it has
+/// no setpoints.
 std::optional<ControllerNames> controllers_of(const Experiment& experiment);
 
 }  // namespace fidservo

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The experiments that tell a rig apart from its simulation: what is commanded, over time.
+// The experiments for comparing a rig with its simulation: their commands over time.
 #include "core/recording.h"
 
 #include <cstdint>
@@ -13,31 +13,31 @@ namespace fidservo {
 
 struct Rig;
 
-/// A course over time, t in s from the start. It is not in force where it gives NaN; an empty one never is.
+/// A function of time, t in s from the start. It is not in force where it returns NaN; an empty one never is.
 using Course = std::function<double(double t_s)>;
 
-/// NaN where the course is not in force.
+/// The function's value; NaN where it is not in force.
 inline double value_at(const Course& course, double t_s) {
     return course ? course(t_s) : not_in_force;
 }
 
-/// What follows a macro setpoint.
+/// The controller that follows a macro setpoint.
 enum class MacroLoop {
     nonlinear_pd,   ///< the published controller: MacroParameters::pd
     benchmark_pid,  ///< the one that it is compared with: MacroParameters::pid
 };
 
-/// What one recording commands. A stage follows its setpoint with its controller wherever one is in force,
-/// otherwise its voltage; where there is neither, the command is zero. A controller starts anew each time a
-/// setpoint comes into force.
+/// The commands of one recording. A stage follows its setpoint with its controller wherever one is in force,
+/// otherwise its voltage; where neither is in force, the command is zero. A controller starts anew each time
+/// a setpoint comes into force.
 struct Experiment {
-    std::string kind;          ///< one of experiment_kinds(), or of one's own
+    std::string kind;          ///< one of experiment_kinds(), or a name of its own
     double duration_s = 0.0;   ///< how long it takes
-    double carriage_mm = 0.0;  ///< at the start, at rest, homed before; the wire is cold
-    /// Of the carriage: where it should be, or the motor's voltage.
+    double carriage_mm = 0.0;  ///< at the start, at rest; the rig is homed and the wire cold
+    /// For the carriage: its setpoint, or the motor's voltage.
     Course macro_setpoint_mm = {}, macro_V = {};
-    MacroLoop macro_loop = MacroLoop::nonlinear_pd;  ///< what follows the setpoint
-    /// Of the platform: where it should be, or the heater's voltage.
+    MacroLoop macro_loop = MacroLoop::nonlinear_pd;  ///< the controller that follows the setpoint
+    /// For the platform: its setpoint, or the heater's voltage.
     Course micro_setpoint_mm = {}, micro_V = {};
 };
 

@@ -14,17 +14,17 @@
 
 namespace fidservo {
 
-/// The camera of a run whose frames are rendered: the real detector finds what there is to see in them. Needs
-/// a rig with camera and fiducials; the plate is the one that the rig file describes.
+/// The simulated camera of a run with rendered frames, in which the real detector finds the tags. Needs a rig
+/// with camera and fiducials; the plate is the one that the rig file describes.
 class FilmCamera {
   public:
     using Keep = std::function<void(TimeNs stamp_ns, const cv::Mat& image)>;
 
-    /// @param keep  takes every frame in turn; it may share the image
+    /// @param keep  receives every frame in turn; it may share the image
     FilmCamera(const Rig& rig, const plant::PlantParameters& parameters, std::uint64_t seed, Keep keep);
 
-    /// Sees the tick that begins at time_ns, under the commands given; renders the frames whose exposure is
-    /// over, and appends the tags that they show, with corners refined where the border can be measured.
+    /// Processes the tick that begins at time_ns, under the commands given: renders the frames whose exposure
+    /// has ended, and appends the tags in them, with corners refined where the border can be measured.
     void look(const plant::StageState& state, TimeNs time_ns, double macro_V, double micro_V,
               std::vector<TagDetection>& detections);
 

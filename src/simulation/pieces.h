@@ -12,7 +12,7 @@ namespace fidservo {
 
 enum class Follows { voltage, setpoint };
 
-/// In V, or in mm of a setpoint.
+/// Its values are in V, or in mm of a setpoint.
 struct Piece {
     Follows follows = Follows::voltage;
     double duration_s = 0.0;
@@ -27,7 +27,8 @@ std::pair<double, double> extremes(const Piece& piece);
 
 double duration_s(const std::vector<Piece>& pieces);
 
-/// In force during those pieces that follow what is asked for; empty if none does.
+/// The function composed of those pieces that have the kind asked for, in force during them; empty if there
+/// are none.
 Course course_of(const std::vector<Piece>& pieces, Follows follows);
 
 }  // namespace fidservo

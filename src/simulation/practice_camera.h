@@ -9,14 +9,14 @@
 
 namespace fidservo {
 
-/// The camera of a run whose detections are not made from images. Frames fall between ticks: the plant is
-/// moved on from the last tick for the rest of the way, exactly. Needs a rig with camera and fiducials.
+/// The simulated camera of a run whose detections are not made from images. Where frames fall between ticks,
+/// the plant is simulated exactly up to their times. Needs a rig with camera and fiducials.
 class PracticeCamera {
   public:
     PracticeCamera(const Rig& rig, const plant::PlantParameters& parameters, std::uint64_t seed);
 
-    /// Sees the tick that begins at time_ns, under the commands given; appends what the frames show that are
-    /// complete.
+    /// Processes the tick that begins at time_ns, under the commands given: appends the detections of the
+    /// frames that are complete.
     void look(const plant::StageState& state, TimeNs time_ns, double macro_V, double micro_V,
               std::vector<TagDetection>& detections);
 
@@ -32,7 +32,7 @@ class PracticeCamera {
     FrameClock clock_;
     std::int64_t next_frame_ = 0;
     std::deque<Pending> pending_;
-    std::optional<CameraTrack> track_;  ///< where a frame is more than an instant
+    std::optional<CameraTrack> track_;  ///< used where a frame's exposure is not taken as an instant
 };
 
 }  // namespace fidservo

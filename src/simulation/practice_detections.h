@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Detections that were not made from images: the fiducial nearest to the image centre, its corners with
-// noise.
+// Detections that are not made from images: the fiducial nearest to the image centre, its corners with noise.
 #include "core/camera/camera_parameters.h"
 #include "core/detection.h"
 #include "core/fiducial_parameters.h"

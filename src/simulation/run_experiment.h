@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// One loop for every simulated rig: the published controllers on what the sensors read, tick by tick.
+// The control loop for every simulated rig: the published controllers on the sensors' readings, tick by tick.
 #include "core/recording.h"
 #include "src/simulation/experiments.h"
 
@@ -34,7 +34,7 @@ class SimulatedHardware {
     virtual void advance(double macro_V, double micro_V) = 0;
 };
 
-/// Where a simulated rig's encoder counts from: it was homed.
+/// The encoder's zero of a simulated rig, which counts as homed.
 EncoderZero simulated_zero();
 
 /// Runs an experiment and records it as the real rig's would be recorded.

@@ -15,7 +15,7 @@ struct Rig;
 
 /// Runs an experiment on the simulated rig under the published controllers, and records it as the real one
 /// would be recorded: what the sensors read, what was commanded, the fiducials that the camera saw.
-/// @param effects  what the rig has and its file does not state
+/// @param effects  effects of the rig that its file does not state
 /// @param name     of the recording; together with the seed it determines all noise
 /// @param keep_frame  if given, frames are rendered and the fiducials are found in them; otherwise detections
 ///                    are made without images (practice_detections.h). Needs a rig with camera and fiducials

@@ -13,11 +13,11 @@ namespace fidservo {
 
 struct Rig;
 
-/// As `simulate`, but on the independent model of the rig (reference/): for checking, against a rig whose
-/// physics the diagnosis did not write.
-/// @param departures  what the rig has and its file does not state
-/// @param substeps  of the integration a tick; the independent model's own number where it is not given
-/// @param way_mm  takes the camera's true position (macro + micro) at every tick, if given
+/// As `simulate`, but on the independent model of the rig (reference/): for tests against physics that the
+/// diagnosis does not share.
+/// @param departures  deviations of the rig that its file does not state
+/// @param substeps  integration steps per tick; the independent model's default where it is not given
+/// @param way_mm  receives the camera's true position (macro + micro) at every tick, if given
 Recording simulate_reference(const Rig& rig, const reference::Departures& departures,
                              const Experiment& experiment, const std::string& name, std::uint64_t seed,
                              std::vector<double>* way_mm = nullptr, std::optional<int> substeps = {});

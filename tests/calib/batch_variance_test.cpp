@@ -19,9 +19,8 @@ namespace {
 
 constexpr int campaigns = 1000;
 
-/// Of hits among campaigns, the interval that holds 99.9 % of them if each has probability 0.95.
-/// Counts of fewer than `least_share`, where that is given, are a stated limit of what two or three
-/// recordings tell.
+/// The number of hits must be in the interval that contains it with 99.9 % if each has probability 0.95. A
+/// lower `least_share` states the limit of what two or three recordings can show.
 void expect_95_percent(const std::string& name, int hits, bool may_be_wider = false,
                        double least_share = 0.95) {
     const double share = static_cast<double>(hits) / campaigns;
@@ -104,7 +103,7 @@ int hits_over_recordings(std::size_t recordings, double between, double memory) 
 TEST(SlowHeterogeneity, IntervalsOverRecordings_CoverTheMeanOfTheirValues) {
     for (const std::size_t recordings : {2UL, 3UL, 6UL, 12UL}) {
         for (const double between : {0.2, 0.5, 2.0}) {
-            // Two or three that happen to agree do not show that others would differ.
+            // Two or three recordings that agree by chance do not show that others would differ.
             const double least_share = recordings <= 3 && between < 2.0 ? 0.8 : 0.95;
             expect_95_percent(fmt::format("{} recordings that differ by {:.0f} standard errors of one",
                                           recordings, between * 20.0),

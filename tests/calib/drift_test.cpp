@@ -43,7 +43,7 @@ TEST(Drift, ManyHealthyLists_RaiseOneFalseAlarmInAHundredAtMost) {
         alarms += any ? 1 : 0;
     }
     EXPECT_LT(alarms, 0.01 * lists + 3.0 * std::sqrt(0.01 * lists));
-    EXPECT_GT(alarms, 0.01 * lists - 4.0 * std::sqrt(0.01 * lists));  // not more careful than it says
+    EXPECT_GT(alarms, 0.01 * lists - 4.0 * std::sqrt(0.01 * lists));  // and not fewer alarms than stated
 }
 
 TEST(Drift, DifferencesThatDoNotMatter_AreNone) {

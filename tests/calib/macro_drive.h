@@ -15,7 +15,7 @@
 
 namespace fidservo::calib {
 
-/// The reference rig without what identification of the macro stage does not look at.
+/// The reference rig, reduced to what identification of the macro stage uses.
 inline Rig macro_rig() {
     Rig rig = load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
     rig.micro.reset();
@@ -58,7 +58,7 @@ inline Volts step_to(double volts) {
     return [=](double t_s) { return t_s < 0.0495 ? 0.0 : volts; };
 }
 
-/// Pulses of the given volts, `length_s` long, one every `period_s`, from rest to rest.
+/// Pulses of the given voltages, each `length_s` long, one every `period_s`, from rest to rest.
 inline Volts pulses(std::vector<double> volts, double period_s = 0.5, double length_s = 0.15) {
     return [=](double t_s) {
         const auto i = static_cast<std::size_t>((t_s + 1e-9) / period_s);
@@ -66,7 +66,7 @@ inline Volts pulses(std::vector<double> volts, double period_s = 0.5, double len
     };
 }
 
-/// Rising DC steps from `first_V` on, `length_s` each, with a rest of the same length after each.
+/// Rising DC steps from `first_V` on, each `length_s` long and followed by a rest of the same length.
 inline Volts rising_steps(double first_V, double rise_V, double length_s = 0.1) {
     return [=](double t_s) {
         const double i = std::floor((t_s + 1e-9) / (2.0 * length_s));

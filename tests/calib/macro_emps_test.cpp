@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A real drive, recorded by others (Janot, Gautier, Brunot, Data Set and Reference Models of EMPS, 2019).
+// A real drive with published data (Janot, Gautier, Brunot, Data Set and Reference Models of EMPS, 2019).
 #include "calib/macro/macro_force.h"
 #include "calib/macro/macro_identification.h"
 #include "core/rig.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether the standard errors that identification claims are those that its estimates show.
+// Whether the stated standard errors of identification agree with the scatter of its estimates.
 #include "core/result.h"
 #include "core/rig.h"
 #include "tests/calib/macro_drive.h"
@@ -13,7 +13,7 @@ namespace {
 const int runs = testing::draws(60, 24);
 constexpr double tick_s = 0.001, pole = 0.95833;
 
-/// Mean square of (estimate - truth) / claimed standard error over runs: 1 for a true claim.
+/// Mean square of (estimate - truth) / stated standard error over runs: 1 for right standard errors.
 class Score {
   public:
     void add(const Result<MacroEstimate>& estimate, double truth) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A wire as many thousand relays with drawn switching temperatures: Preisach's model by its definition,
-// without tables or grids, for checking what is fitted with tables.
+// A wire as thousands of relays with random switching temperatures: Preisach's model by its definition,
+// without tables or grids, for checking fits that use tables.
 #include "calib/wire/preisach_data.h"
 #include "core/random.h"
 
@@ -60,7 +60,7 @@ inline std::vector<double> kiln_turns() {
     return turns;
 }
 
-/// What a thermometer with noise and an encoder with steps would record.
+/// The recording of a thermometer with noise and an encoder with steps.
 inline HysteresisTrace record_wire(const std::vector<double>& temp_degC, std::uint64_t seed,
                                    double noise_degC, double encoder_mm) {
     RelayWire wire(seed);
@@ -74,7 +74,7 @@ inline HysteresisTrace record_wire(const std::vector<double>& temp_degC, std::ui
     return trace;
 }
 
-/// A course of turns drawn evenly over 30..105 degC, from cold, through the hottest first.
+/// A sequence of turning points, uniform over 30..105 degC, from cold, the hottest one first.
 inline std::vector<double> random_turns(std::uint64_t seed, std::size_t count) {
     NoiseStream draw(seed, "turns");
     std::vector<double> turns{110.0, 25.0};

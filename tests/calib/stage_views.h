@@ -23,7 +23,7 @@ inline CameraGeometry straight_camera() {
     return {1280, 960, 5000.0, {639.5, 479.5}, 20.0};
 }
 
-/// Corners of a tag share its edges: a common part and a part of their own, px^2.
+/// Covariance of a tag's corners, which share its edges: a common part and a part for each corner, px^2.
 inline vision::CornerCovariance corner_covariance(double std_px) {
     vision::CornerCovariance covariance = vision::CornerCovariance::Identity();
     for (int i = 0; i < 8; ++i)
@@ -32,15 +32,15 @@ inline vision::CornerCovariance corner_covariance(double std_px) {
     return std_px * std_px * covariance;
 }
 
-/// What the camera shows at s of the tags wholly in its image. @param y_mm  plate y of the stage's axis at s
-/// = 0
+/// The tags wholly in the image of a camera at s.
+/// @param y_mm  plate y of the stage's axis at s = 0
 inline StageView synthetic_view(const CameraGeometry& camera, double y_mm, double s_mm, double std_px,
                                 NoiseStream& noise) {
     StageView view;
     const vision::CornerCovariance covariance = corner_covariance(std_px);
     const vision::CornerCovariance root = covariance.llt().matrixL();
     for (const PlateTag& tag : row_of_tags().tags) {
-        // Far outside the image a barrel lens' formula folds back into it.
+        // Far outside the image the formula of a barrel lens maps back into it.
         if (std::abs(tag.centre_mm.x() - s_mm) > 6.0) continue;
         PlateTag shifted = tag;
         shifted.centre_mm.y() -= y_mm;
@@ -60,7 +60,7 @@ inline StageView synthetic_view(const CameraGeometry& camera, double y_mm, doubl
     return view;
 }
 
-/// Stands over a way, at uneven places of the tags' pitch, so that tags appear all over the image.
+/// Stands over a distance, irregular with respect to the tags' pitch, so that tags appear all over the image.
 inline std::vector<double> spread_places(int count, double from_mm, double to_mm) {
     std::vector<double> places;
     for (int i = 0; i < count; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A tuning sweep of the micro stage as the sensors would see it, on a rig whose truth the test chose.
+// A tuning sweep of the micro stage as the sensors would record it, on a rig whose true parameters the test
+// chooses.
 #include "calib/hall/hall_map.h"
 #include "core/random.h"
 #include "plant/stage_plant.h"

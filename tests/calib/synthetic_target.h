@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Tags where core's projection puts them, with noise of known covariance: calibration's answers beforehand.
+// Tags at the places where core's projection puts them, with noise of known covariance, so that the right
+// result of a calibration is known.
 #include "calib/camera/target_view.h"
 #include "core/camera/camera_geometry.h"
 #include "core/random.h"
@@ -30,7 +31,8 @@ inline std::vector<PlateTag> tag_grid(int columns, int rows, double side_mm, dou
 /// directions), or each coordinate on its own.
 enum class Scatter { rigid, every_coordinate };
 
-/// One tag with its noise. Rigid: std_px along u and v, and as much at the corners by rotation and by scale.
+/// One tag with its noise. Rigid: a shift of std_px along u and v, and rotation and scale that move the
+/// corners by as much.
 inline vision::RefinedTag scattered(TagDetection tag, Scatter scatter, double std_px, NoiseStream& noise) {
     Eigen::Matrix<double, 8, 8> directions = Eigen::Matrix<double, 8, 8>::Identity();
     if (scatter == Scatter::rigid) {
@@ -51,8 +53,8 @@ inline vision::RefinedTag scattered(TagDetection tag, Scatter scatter, double st
     return vision::tag_of_corners(tag, directions * directions.transpose());
 }
 
-/// The tags wholly in a camera's image, their corners scattered.
-/// @param picture  from a place on the target, mm, to the image, px
+/// The tags wholly in a camera's image, their corners with noise.
+/// @param picture  maps a place on the target, mm, to the image, px
 template <class Picture>
 TargetView view_of_tags(std::string name, const CameraGeometry& camera, const std::vector<PlateTag>& tags,
                         Picture picture, Scatter scatter, double std_px, NoiseStream& noise) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cameras of either lens model, drawn at random, before a hand-held target: the
-// lens is found within its stated standard errors, or refused for the reason
-// that the draw gave it.
+// Cameras of either lens model, drawn at random, before a hand-held target: the lens is found within its
+// stated standard errors, or refused for the reason that was built into the draw.
 #include "calib/camera/calibration_verdict.h"
 #include "calib/camera/other_explanations.h"
 #include "tests/calib_camera/hand_held.h"
@@ -19,20 +18,21 @@ namespace fidservo::calib {
 namespace {
 
 const int tried = testing::draws(200, 40);
-const int tried_of_long = testing::draws(25, 8);  ///< of kinds whose every answer takes a dozen calibrations
+/// For kinds in which every answer takes a dozen calibrations.
+const int tried_of_long = testing::draws(25, 8);
 constexpr double side_mm = 88.0, pitch_mm = 114.4;
 
 std::vector<PlateTag> small_target() {
     return tag_grid(4, 3, side_mm, pitch_mm);
 }
 
-/// Half the image's width in focal lengths.
+/// Half the image's width over the focal length.
 double reach_of(const CameraGeometry& lens) {
     return 0.5 * lens.width_px / lens.focal_px;
 }
 
-/// Of an equidistant lens: half the angle of view from 40 to 97 degrees; of a
-/// plumb_bob one, from 10 to 40.
+/// A random camera. Half its angle of view is 40 to 97 degrees for an equidistant lens, and 10 to 40 degrees
+/// for a plumb_bob one.
 CameraGeometry some_camera(LensModel model, NoiseStream& random) {
     const double width_px = std::round(between(random, 400.0, 1600.0));
     const double height_px = std::round(width_px * between(random, 0.6, 1.0));
@@ -65,8 +65,7 @@ Handling some_handling(const CameraGeometry& lens, NoiseStream& random) {
             .noise_px = between(random, 0.03, 0.15)};
 }
 
-/// The number of the lens that is further from the truth than four of its
-/// standard errors.
+/// A number of the lens that is farther from the truth than four of its standard errors.
 std::optional<std::string> too_far(const CameraCalibration& found, const CameraGeometry& truth) {
     const Lens is = lens_of(found.camera), was = lens_of(truth);
     for (std::size_t k = 0; k < lens_parameters; ++k) {
@@ -100,7 +99,7 @@ std::optional<double> number_after(const Answer& answer, const std::string& word
     return std::nullopt;
 }
 
-/// As the command judges, but for how much of the image was seen.
+/// The command's judgement, without the requirement on how much of the image the target covered.
 Answer answer_of(const std::vector<TargetView>& views, const CameraGeometry& camera, LensModel model,
                  const std::vector<PlateTag>& target) {
     const CalibrationLimits limits{.least_coverage = 0.0};
@@ -135,8 +134,7 @@ void try_right_model(const std::string& kind, LensModel model) {
         const CameraGeometry camera = some_camera(model, random);
         const auto views = hand_held_views(camera, small_target(), some_handling(camera, random), random);
         const Answer answer = answer_of(views, camera, model, small_target());
-        // The model, the target and the views are as said: only the views may be
-        // too few.
+        // Model, target and views are as stated: only the views may be too few.
         for (const char* untrue : {"does not describe", "spacing", "rows of", "lens fits", "without view"})
             if (!answer.accepted() && answer.says(untrue)) return Outcome::wrong(answer.reasons.front());
         return right_or_refused(answer, camera);
@@ -151,8 +149,8 @@ TEST(SlowCalibrationVariations, EquidistantLenses_AreRightOrRefused) {
     try_right_model("equidistant lens", LensModel::equidistant);
 }
 
-/// Where the lens that was asked for does not do, the answer names the one that does; where it does, the
-/// numbers are right or said to be unknown.
+/// Where the lens model that was asked for does not fit, the answer names the one that does; where it fits,
+/// the numbers are right or stated to be uncertain.
 void try_wrong_model(const std::string& kind, LensModel truth, LensModel asked, int number,
                      int known_wrong = 0) {
     try_all(
@@ -167,7 +165,7 @@ void try_wrong_model(const std::string& kind, LensModel truth, LensModel asked, 
             for (const char* untrue : {"spacing", "rows of", "without view"})
                 if (!answer.accepted() && answer.says(untrue)) return Outcome::wrong(answer.reasons.front());
             Answer compared = answer;
-            if (compared.found)  // in what lenses of both models have
+            if (compared.found)  // for the parameters that both models have
                 for (std::size_t k = k1; k <= k4; ++k) compared.found->fitted[k] = false;
             return right_or_refused(compared, camera);
         },
@@ -179,7 +177,8 @@ TEST(SlowCalibrationVariations, EquidistantLensTakenForPlumbBob_IsNamed) {
                     tried_of_long);
 }
 
-/// Of 200, one has a principal point 4.4 standard errors off, which the other model does not account for.
+/// Of 200 draws, one has a principal point that is 4.4 standard errors off, for which the other model does
+/// not account.
 TEST(SlowCalibrationVariations, PlumbBobLensTakenForEquidistant_IsNamed) {
     constexpr int known_wrong = 1;
     try_wrong_model("plumb_bob lens as equidistant", LensModel::plumb_bob, LensModel::equidistant, tried,
@@ -198,7 +197,7 @@ TEST(SlowCalibrationVariations, WrongSpacing_IsNamedWithTheRightOne) {
             const CameraGeometry camera = some_camera(model, random);
             const auto said = small_target();
             auto truth = said;
-            // One in eight is as said.
+            // One in eight is as stated.
             const double true_side_mm =
                 side_mm * (random.uniform() < 0.125 ? 1.0 : std::exp(between(random, -0.5, 0.2)));
             for (PlateTag& tag : truth) tag.side_mm = true_side_mm;
@@ -211,7 +210,7 @@ TEST(SlowCalibrationVariations, WrongSpacing_IsNamedWithTheRightOne) {
                 return Outcome::refused(answer.reasons.front());
             if (answer.accepted() && answer.says("is the target printed as said?"))
                 return Outcome::refused(answer.notes.back());
-            // A refusal for the error of the focal length counts, whatever the size.
+            // A refusal because of the focal length's error counts as right, whatever the size.
             if (answer.says("the focal length is not determined"))
                 return Outcome::refused(answer.reasons.front());
             if (!answer.accepted())
@@ -231,7 +230,7 @@ TEST(SlowCalibrationVariations, WrongGrid_IsNamedWithTheRightOne) {
             const int columns = static_cast<int>(between(random, 3.0, 7.0));
             int said_columns = static_cast<int>(between(random, 2.0, 7.0));
             if (said_columns == columns) ++said_columns;
-            if (random.uniform() < 0.125) said_columns = columns;  // one in eight is as said
+            if (random.uniform() < 0.125) said_columns = columns;  // one in eight is as stated
             const auto truth = tag_grid(columns, 4, side_mm, pitch_mm);
             auto said =
                 tag_grid(said_columns, (4 * columns + said_columns - 1) / said_columns, side_mm, pitch_mm);
@@ -260,8 +259,7 @@ TEST(SlowCalibrationVariations, TooLittleTilt_IsNamedOnlyWhereMoreWouldDo) {
         const auto views = hand_held_views(camera, small_target(), handling, random);
         const Answer answer = answer_of(views, camera, LensModel::plumb_bob, small_target());
         if (!answer.says("tilt it more")) return right_or_refused(answer, camera);
-        // The advice followed: the same number of views, held by 30 degrees more to
-        // all sides.
+        // The advice is followed: the same number of views, tilted by 30 degrees more to all sides.
         handling.least_tilt_rad += 0.5;
         handling.most_tilt_rad += 0.5;
         const auto better = answer_of(hand_held_views(camera, small_target(), handling, random), camera,

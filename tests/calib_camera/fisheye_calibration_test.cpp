@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Equidistant lenses are found from nothing but corners, with standard errors
-// that hold, as OpenCV finds them.
+// Equidistant lenses are found from corners alone, with valid standard errors, and in agreement with OpenCV.
 #include "calib/camera/calibration_verdict.h"
 #include "calib/camera/plane_pose.h"
 #include "tests/calib_camera/hand_held.h"
@@ -81,7 +80,8 @@ TEST(SlowFisheyeCalibration, StandardErrors_HoldOverManyDraws) {
     const double share = static_cast<double>(within_two) / numbers;
     std::printf("%d numbers of %d draws: mean square %.2f in their variances, %.1f %% within two\n", numbers,
                 draws, squares / numbers, 100.0 * share);
-    // The numbers of a draw hang together: as if there were as many independent ones as draws.
+    // The numbers of a draw are correlated, so the interval is that of as many independent values as there
+    // are draws.
     EXPECT_NEAR(squares / numbers, 1.0, 4.0 * std::sqrt(2.0 / draws));
     EXPECT_NEAR(share, 0.9545, 4.0 * std::sqrt(0.9545 * 0.0455 / draws));
 }
@@ -132,7 +132,7 @@ TEST(FisheyeCalibration, Result_IsOpenCVsWithinAStandardErrorAndItsResidualsByOp
         constexpr std::array coefficients{k1, k2, k3, k4};
         expect_same(coefficients[static_cast<std::size_t>(k)], numbers[static_cast<std::size_t>(k)], four[k]);
     }
-    // Our minimum by OpenCV's projection: its residuals are ours.
+    // OpenCV's projection at our minimum gives our residuals.
     double squares_px2 = 0.0, corners = 0.0;
     const cv::Matx33d found_matrix(ours->camera.focal_px, 0.0, ours->camera.principal_point_px.x(), 0.0,
                                    ours->camera.focal_px * ours->camera.focal_ratio,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Hand-held views of a flat target before a camera of either lens, as corners
-// with noise.
+// Corners with noise of a hand-held flat target in front of a camera with either lens model.
 #include "calib/camera/camera_calibration.h"
 #include "calib/camera/target_view.h"
 #include "core/camera/camera_geometry.h"
@@ -24,14 +23,14 @@ inline double between(NoiseStream& random, double low, double high) {
 /// How the target was held.
 struct Handling {
     int views = 16;
-    double most_tilt_rad = 0.7;  ///< of the target's normal to the line of sight
+    double most_tilt_rad = 0.7;  ///< of the target's normal from the line of sight
     double least_tilt_rad = 0.2;
-    double most_off_axis_rad = 0.6;  ///< of the target's middle to the optical axis
+    double most_off_axis_rad = 0.6;  ///< of the target's middle from the optical axis
     double noise_px = 0.1;
 };
 
-/// Image of a point in the camera's frame; NaN where a plumb_bob lens sees
-/// nothing: behind it, or where its picture has folded back.
+/// Image of a point in the camera's frame; NaN where a plumb_bob lens sees nothing: behind it, or where its
+/// distortion is no longer one-to-one.
 inline Eigen::Vector2d picture_px(const CameraGeometry& lens, const Eigen::Vector3d& seen) {
     const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::nan(""));
     if (lens.distortion.model == LensModel::plumb_bob) {
@@ -80,8 +79,8 @@ inline std::vector<TargetView> hand_held_views(const CameraGeometry& lens, const
                                       Eigen::AngleAxisd(tilt_rad, axis) *
                                       Eigen::AngleAxisd(between(random, -3.1, 3.1), Eigen::Vector3d::UnitZ()))
                                          .toRotationMatrix();
-        // The image's half-width in the middle, as an angle, says how near the
-        // target fills it.
+        // Half the angle of view across the image's shorter side, which determines how near the target has to
+        // be to fill it.
         const double field = 0.5 * std::min(lens.width_px, lens.height_px) / lens.focal_px;
         const double distance_mm = 0.5 * size_mm / std::tan(std::min(field, 1.0)) * between(random, 0.7, 1.6);
         TargetView view =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole way: a rig that differs from its file, moved by a session that knows the file only, seen through
-// rendered images.
+// End to end: a rig that differs from its file, moved by a session that knows the file only, with rendered
+// images.
 #include "core/result.h"
 #include "core/rig.h"
 #include "src/calibrate/stage_verdict.h"
@@ -66,7 +66,8 @@ TEST(SlowStageCalibration, CameraOtherThanItsFile_IsFoundToATenThousandth) {
     EXPECT_NEAR(map.camera.axis_rad.y(), 0.0, 1e-4);
     EXPECT_NEAR(map.camera.tilt_rad.x(), 0.4 * rad_per_deg, 2e-3);
     EXPECT_NEAR(map.camera.tilt_rad.y(), -0.3 * rad_per_deg, 2e-3);
-    // The file's focal length is kept: directions are longer by the scale than those that the lens bends.
+    // The map keeps the file's focal length, which is too small by a factor of 1.004, so that normalised
+    // image radii are larger by it and k1 is smaller by its square.
     EXPECT_NEAR(map.camera.distortion.k1, -0.25 / (1.004 * 1.004), 0.001);
     EXPECT_NEAR(numbers.encoder.resolution_mm / (0.05 * 1.003), 1.0, 1e-4);
     EXPECT_NEAR(numbers.hall.hall.span_V / (1.25 * 1.02), 1.0, 1e-3);

@@ -24,7 +24,8 @@ Rig file() {
     return load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml");
 }
 
-/// What a check of a rig that its file describes as the reference rig says has drifted.
+/// The quantities that a health check reports as drifted on a true rig, if the file is that of the reference
+/// rig.
 std::set<std::string> drifts_of(const Rig& truth, std::uint64_t seed) {
     const Rig believed = file();
     std::vector<StageShot> shots = synthetic_survey(truth, seed, corner_std_px);
@@ -90,7 +91,8 @@ TEST(StageCheck, LensThatDistorts_IsTheLens) {
     EXPECT_THAT(drifts_of(truth, 2), ElementsAre("lens distortion k1"));
 }
 
-/// A calibrated rig's encoder on fresh stands that lie so far from the middles of their counts, in counts.
+/// Test of a calibrated rig's encoder on fresh stands whose positions are `from_middle` counts from the
+/// middle of their count.
 FreshTest fresh_encoder_test(double from_middle, double counts_lost) {
     const Rig rig = file();
     std::vector<StageShot> shots = synthetic_survey(rig, 11, corner_std_px);

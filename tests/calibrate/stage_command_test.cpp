@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fidservo calibrate stage as a user meets it, on the real executable.
+// fidservo calibrate stage on the real executable.
 #include "core/camera/camera_covariance.h"
 #include "core/rig.h"
 #include "src/files/rig/rig_file.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a quick survey would record on a rig of known numbers: no images, no motion, the sensors' noise and
-// rounding and the corners' noise only.
+// The recording of a quick survey on a rig with known numbers: without images or motion, only with the
+// sensors' noise and rounding and the corners' noise.
 #include "src/calibrate/stage_numbers.h"
 #include "tests/calib/stage_views.h"
 
@@ -16,10 +16,10 @@ inline int synthetic_reading(const HallParameters& hall, double platform_mm, Noi
         std::lround(hall_voltage_V(hall, platform_mm) / hall_lsb_V(hall) + hall.noise_lsb * noise.normal()));
 }
 
-/// What a rig of known numbers shows and reads at rest.
+/// The measurements of a rig with known numbers at rest.
 class SyntheticStands {
   public:
-    /// @param truth  the rig as it is
+    /// @param truth  the true rig
     SyntheticStands(const Rig& truth, std::uint64_t seed, double corner_std_px)
         : truth_(truth), corner_std_px_(corner_std_px), corners_(seed, "corners"), sensor_(seed, "hall") {}
 

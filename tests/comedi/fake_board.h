@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A board in memory: subdevices as a test says, registers that can be looked at, refusals on demand.
+// A board in memory: a test defines its subdevices, reads its registers, and can make it refuse requests.
 #include "control/comedi/board_link.h"
 
 #include <map>
@@ -17,10 +17,10 @@ struct FakeSubdevice {
     std::vector<VoltageRange> ranges;
 };
 
-/// What a test sees of a board that somebody else owns.
+/// The registers, which a test can see although the board belongs to the program.
 struct FakeRegisters {
     std::map<std::pair<int, int>, std::uint32_t> values;    ///< by subdevice and channel
-    std::vector<std::pair<Address, std::uint32_t>> writes;  ///< in their order
+    std::vector<std::pair<Address, std::uint32_t>> writes;  ///< in order
     bool refuses = false;
     int lines_made_outputs = 0;
 };

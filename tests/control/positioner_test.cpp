@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The supervisor on the simulated stage, without images: the camera's word is the truth plus its noise, late.
+// The supervisor on the simulated stage, without images: the camera reports the truth with noise and a delay.
 #include "control/positioner.h"
 
 #include "core/failure.h"
@@ -32,7 +32,7 @@ PositionerParams positioner_params(const Rig& rig) {
 
 constexpr CarriageTravel anywhere{-1e5, 1e5};
 
-/// The stage, and a camera whose frames say how far it is to a target.
+/// The stage, and a camera whose frames report the distance to a target.
 class Bench {
   public:
     Bench(const Rig& rig, std::uint64_t seed, double start_mm)
@@ -197,7 +197,7 @@ TEST(Positioner, LooksThatDifferByMoreThanTheyClaim_WeighAlikeAndWidenTheResult)
     const TargetOffset before{10, 0.0, 1e-7}, now{20, 0.0002, 3e-7};
     const TargetOffset both = combine_looks(before, now);
     EXPECT_NEAR(both.needed_mm, 0.0001, 1e-8);
-    EXPECT_NEAR(both.std_mm, 0.0001, 1e-7);  // half their difference, as of a mean of two draws
+    EXPECT_NEAR(both.std_mm, 0.0001, 1e-7);  // half their difference, as for a mean of two draws
 }
 
 TEST(Positioner, LooksOfKnownNoise_ClaimWhatTheyAreWrongBy) {
@@ -217,7 +217,7 @@ TEST(Positioner, LooksOfKnownNoise_ClaimWhatTheyAreWrongBy) {
         }
         const double normalised = std::sqrt(squares / draws);
         EXPECT_GT(normalised, 0.75);
-        // One difference tells little of a shake's size: hence the heavy tails above 1.
+        // One difference determines the size of the shaking poorly, hence the heavy tails above 1.
         EXPECT_LT(normalised, shake_mm > 0.0 ? 2.5 : 1.0);
     }
 }

@@ -12,7 +12,7 @@ namespace fidservo::testing {
 
 class ChildProcess {
   public:
-    /// Starts a program; what it prints (both streams) can be read here.
+    /// Starts a program, whose output (both streams) can be read here.
     explicit ChildProcess(const std::vector<std::string>& arguments);
     ~ChildProcess();  ///< kills it if it still runs
     ChildProcess(const ChildProcess&) = delete;
@@ -21,7 +21,7 @@ class ChildProcess {
     void send(int signal) const;
     /// Reads on until `text` was printed. False if the output ended or the time was over before that.
     bool prints(const std::string& text, std::chrono::milliseconds limit = std::chrono::seconds(30));
-    /// Reads on until nobody holds the program's output open any more, as a shell's pipeline does.
+    /// Reads on until no process holds the program's output open any more, as in a shell's pipeline.
     bool output_ends(std::chrono::milliseconds limit = std::chrono::seconds(10));
     /// Waits for its end. The exit code, or minus the number of the signal that ended it.
     int wait();

@@ -31,8 +31,9 @@ using std::chrono::steady_clock;
 using testing::ChildProcess;
 using testing::text_of;
 
-/// From the end of the program to zero on the board: 20 ms without a heartbeat, two looks, and the scheduler.
-/// Where neither the guardian nor this test may go before other programs, a busy machine can delay both.
+/// Limit for the time from the end of the program to zero on the board: 20 ms without a heartbeat, two
+/// checks, and the scheduler. Where neither the guardian nor this test has real-time priority, a busy machine
+/// can delay both.
 std::chrono::milliseconds zero_limit() {
     static const bool real_time = take_real_time_priority();
     return real_time ? 50ms : 1000ms;
@@ -137,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(BothKinds, GuardianByHeartbeat, ::testing::Values<std::
 struct Ending {
     std::string name;
     int exit_code;
-    bool said_so;  ///< the program ended the guardian itself: nothing to log
+    bool said_so;  ///< the program ended the guardian itself, so nothing is logged
 };
 
 void PrintTo(const Ending& ending, std::ostream* out) {
@@ -250,7 +251,7 @@ TEST(Guardian, TwoInOneProgram_EachHasItsBoard) {
     EXPECT_TRUE(second.finish());
 }
 
-/// Over and over, so that a stop falls between any two steps of a command.
+/// Repeated often, so that a stop occurs between any two steps of a command.
 TEST(Guardian, StopWhileAnotherThreadCommands_OutputsZeroForGood) {
     for (int round = 0; round < 20; ++round) {
         const GuardedRun run;

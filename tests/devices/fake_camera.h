@@ -19,7 +19,7 @@ struct FakeControl {
     std::string name;
     std::uint32_t type;
     std::int64_t minimum, maximum, step, value;
-    bool deaf = false;  ///< accepts values and keeps its own
+    bool deaf = false;  ///< accepts values and does not apply them
 };
 
 struct FakeFormat {
@@ -31,9 +31,9 @@ struct FakeFormat {
 struct FakeProperties {
     std::vector<FakeFormat> formats;
     std::vector<FakeControl> controls;
-    bool maps = true;          ///< offers memory of its own
-    bool takes_memory = true;  ///< offers to fill the program's
-    int stream_error = 0;      ///< of VIDIOC_STREAMON
+    bool maps = true;          ///< offers buffers of its own
+    bool takes_memory = true;  ///< accepts the program's buffers
+    int stream_error = 0;      ///< error number of VIDIOC_STREAMON
     std::string driver = "fake";
 };
 
@@ -53,7 +53,7 @@ class FakeCamera {
     FakeCamera(const FakeCamera&) = delete;
     FakeCamera& operator=(const FakeCamera&) = delete;
 
-    /// The next frame that the sensor gives. It is dropped if the program has left no buffer.
+    /// Delivers the sensor's next frame. It is dropped if the program has queued no buffer.
     void expose(FakeFrame frame);
     /// Frames that the program has not fetched yet.
     std::size_t waiting() const;
@@ -63,7 +63,7 @@ class FakeCamera {
     /// From now on every request fails with ENODEV, until plug_in() and a new open.
     void unplug();
     void plug_in();
-    /// The format in force is another one from now on.
+    /// Changes the format in force.
     void change_format(const FakeFormat& format);
     std::int64_t control(std::uint32_t id) const;
 

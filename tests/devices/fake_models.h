@@ -13,7 +13,7 @@ inline FakeProperties grey_camera() {
     return properties;
 }
 
-/// A webcam's controls, all automatics on.
+/// A webcam's controls, with all automatic modes on.
 inline FakeProperties webcam() {
     FakeProperties properties;
     properties.formats = {{V4L2_PIX_FMT_MJPEG, 64, 48, 0}, {V4L2_PIX_FMT_YUYV, 64, 48, 128}};

@@ -42,7 +42,7 @@ int FakeCamera::State::answer(unsigned long request, std::vector<std::byte>& arg
         if (unplugged) return ENODEV;
     }
     if (request == VIDIOC_DQBUF) {
-        // The real one is waited for with poll(), which is always ready here.
+        // With a real camera the program waits in poll(); here poll() returns at once, so the wait is here.
         for (int k = 0; k < 4 && waiting_is_empty(); ++k)
             std::this_thread::sleep_for(std::chrono::microseconds(500));
     }

@@ -11,7 +11,7 @@
 
 namespace fidservo::devices {
 
-/// Reads and writes what a request's argument points to, in the program.
+/// Reads and writes the memory to which a request's argument points, in the program.
 struct Pointed {
     std::function<bool(std::size_t offset_of_pointer, std::vector<std::byte>& copy)> read;
     std::function<bool(std::size_t offset_of_pointer, const std::vector<std::byte>& bytes)> write;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a rig records in its work, on the nominal simulated rig: there is no gap.
+// Recordings of a nominal simulated rig in normal use have no gap.
 #include "src/files/rig/rig_file.h"
 #include "tests/control_guardian/child_process.h"
 #include "tests/src/temporary_folder.h"
@@ -26,7 +26,7 @@ nlohmann::json json_of(const std::filesystem::path& file) {
     return nlohmann::json::parse(stream);
 }
 
-/// What `fidservo diagnose` says of some recordings.
+/// The diagnosis that `fidservo diagnose` writes for recordings.
 nlohmann::json diagnosis_of(const std::filesystem::path& recordings, const std::filesystem::path& json,
                             const std::filesystem::path& rig_file = reference_rig_file()) {
     ChildProcess program({FIDSERVO_PROGRAM, "diagnose", "--rig", rig_file.string(), recordings.string(),
@@ -35,7 +35,7 @@ nlohmann::json diagnosis_of(const std::filesystem::path& recordings, const std::
     return json_of(json);
 }
 
-/// Of a signal, in its unit; empty if it was not judged.
+/// The entry of a signal; empty if it was not judged.
 nlohmann::json signal_of(const nlohmann::json& diagnosis, const std::string& name) {
     for (const auto& signal : diagnosis.at("signals"))
         if (signal.at("signal") == name) return signal;
@@ -154,7 +154,7 @@ TEST_F(SharedCase, SetpointOnATieOfTheRounding_IsNoGap) {
 
 class SlowSharedCase : public SharedCase {};
 
-/// Its data show friction in one direction only, and are off by more than any effect of the catalogue
+/// The data show friction in one direction only, and the errors are larger than any effect of the catalogue
 /// explains.
 TEST_F(SlowSharedCase, MotorOfOthers_IsAnsweredInTime_WithFrictionAmongWhatItCannotTellApart) {
     find("19-motor-of-others");
@@ -170,7 +170,7 @@ TEST_F(SlowSharedCase, MotorOfOthers_IsAnsweredInTime_WithFrictionAmongWhatItCan
     EXPECT_NE(std::ranges::find(named, "coulomb_friction"), named.end()) << diagnosis.at("effects").dump(2);
 }
 
-/// Slow, because what sanitizers slow down is over before it says what it does.
+/// Slow, because under sanitizers the time ends before the search has started.
 TEST_F(SlowSharedCase, MotorOfOthers_SignalEndsItWithTheBestUntilThen) {
     find("19-motor-of-others");
     if (IsSkipped()) return;

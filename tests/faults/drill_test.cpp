@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every fault of docs/faults.md, in a run: the table there says what has to come of it.
+// Every fault of docs/faults.md occurs in a run with the result that the table there states.
 #include "tests/faults/drill.h"
 
 #include <cmath>
@@ -113,7 +113,7 @@ TEST_F(SlowDrills, EveryFault_EndsAsTheTableSays) {
     }
 }
 
-/// Before anything is known of where the rig is.
+/// A fault before the rig's position is known.
 TEST_F(SlowDrills, EveryFaultThatStopsARun_IsNamedInHomingToo) {
     for (const Promise& promise : promises()) {
         if (!promise.stops) continue;
@@ -146,7 +146,7 @@ TEST_F(SlowDrills, CameraThatIsWaitedFor_TheRunGoesOnWhenItIsBack) {
     EXPECT_TRUE(too_long.outputs_zero);
 }
 
-/// The others are not led astray by it.
+/// Other sites are not affected.
 TEST_F(SlowDrills, TagOfAnotherSite_ThatSiteIsNotMeasuredAndTheOthersAre) {
     const DrillEnd end = drill_->run_with_wrong_tag("wrong_tag");
     EXPECT_FALSE(end.stopped) << end.text.substr(0, 2000);

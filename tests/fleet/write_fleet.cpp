@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// write_fleet OUT RIG.yaml UNITS WEEKS SEED RECORDING...: campaigns OUT/unit-UU/week-WW of rigs that the
-// independent model (reference/) stands for, one effect drawn for each unit, of each campaign the recordings
-// named.
+// write_fleet OUT RIG.yaml UNITS WEEKS SEED RECORDING...: writes campaigns OUT/unit-UU/week-WW of rigs
+// simulated by the independent model (reference/), with one random effect for each unit; of each campaign
+// only the recordings named are made.
 #include "core/rig.h"
 #include "src/files/recording/description.h"
 #include "src/files/recording/writer.h"

@@ -22,7 +22,7 @@ constexpr std::array sizes_floors{1.0, 2.0, 3.0, 4.0, 6.0, 10.0};
 constexpr std::array drifts_floors_a_week{0.25, 0.5, 1.0, 2.0, 4.0};
 constexpr std::size_t units = 50, batches = 5;
 
-/// One quantity of one unit that is off.
+/// A quantity of a unit with a deviation.
 struct Odd {
     std::uint64_t seed;
     std::size_t unit, effect, onset;
@@ -64,7 +64,7 @@ FoundChanges changes_of(const FleetFindings& findings, const Odd& odd) {
     return changes;
 }
 
-/// What is found four weeks after something began.
+/// What is found four weeks after a change began.
 FoundChanges four_weeks_after(const Odd& odd, ChangeKind kind, double size) {
     DrawnFleet fleet = fleet_of(odd.seed, odd.onset + 4);
     fleet.truth = [&](std::size_t effect, std::size_t unit, std::size_t week) {
@@ -132,7 +132,8 @@ TEST(SlowFleetFigures, NothingDrifts_FewFalseAlarmsAUnitYear) {
     EXPECT_LE(static_cast<double>(alarms) / unit_years, 0.05);
 }
 
-/// Whether a deviation of one quantity is said to be whose it is; and whether nothing else is said.
+/// Whether a deviation of one quantity is attributed to the right unit, batch or all, and nothing else is
+/// reported.
 struct ToldApart {
     bool right = false, alone = false;
 };

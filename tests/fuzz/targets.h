@@ -7,7 +7,7 @@
 
 namespace fidservo::fuzz {
 
-/// Lets one reader read the bytes as a file. InputError is an answer; any other exception goes through.
+/// Passes the bytes to a reader as a file. InputError is a valid result; any other exception is not caught.
 using Target = void (*)(std::string_view bytes);
 
 void read_rig(std::string_view bytes);
@@ -31,18 +31,18 @@ void read_table(std::string_view bytes);
 /// A list of images and times as another program writes it.
 void read_frame_index(std::string_view bytes);
 void read_journal(std::string_view bytes);
-/// Other programs' logs, by their libraries in a process of their own, as the program does.
+/// Other programs' logs, read by their libraries in a process of their own, as in the program.
 void read_mat(std::string_view bytes);
 void read_hdf5(std::string_view bytes);
 /// A bag of ROS 2 with its frames.
 void read_bag(std::string_view bytes);
-/// A map of an import, and what it makes of a small log.
+/// A map of an import, and its result for a small log.
 void read_import_map(std::string_view bytes);
-/// A text table as an import reads it, and the map that is drafted for it.
+/// A text table read as by an import, and the map that is drafted for it.
 void read_table_log(std::string_view bytes);
 
 struct NamedTarget {
-    std::string_view name;  ///< of the fuzzer, and of its folder in corpus/
+    std::string_view name;  ///< name of the fuzzer, and of its folder in corpus/
     Target target;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From recordings of the simulated rig to the effect that it has.
+// From recordings of the simulated rig to its effect.
 #include "gap/diagnose.h"
 
 #include "core/rig.h"
@@ -121,7 +121,7 @@ TEST(Diagnosis, EffectThatClearsOneSignal_IsRealThoughAnotherIsFurtherOff) {
     EXPECT_FALSE(search.off(with)[index_of(Signal::hall)]);
 }
 
-/// Beside a law that is not quite the true one many an effect gains a little.
+/// If the law of the main effect is not quite right, many other effects gain a little.
 TEST(Diagnosis, EffectThatClearsCrumbsOfALargeGap_IsNotReal) {
     const std::vector<Candidate> tried;
     const Evidence evidence = campaign(effects({"stress_shift:shift_degC=6"}), {"micro-steps"});
@@ -137,8 +137,8 @@ TEST(Diagnosis, EffectThatClearsCrumbsOfALargeGap_IsNotReal) {
     EXPECT_TRUE(search.is_real(search.nothing(), with_hall_at(6.0)));
 }
 
-/// Alone, either of the two does worse than a compromise of others; the one that is found first has taken
-/// over what it can of the other.
+/// Alone, either of the two is worse than a compromise of others; the one found first has absorbed part of
+/// the other.
 TEST(SlowDiagnosis, TwoEffectsOfOneStretch_AreBothNamed) {
     const Diagnosis diagnosis =
         diagnose(campaign(effects({"heater_gain:factor=1.1", "second_thermal_mass"}),
@@ -150,7 +150,7 @@ TEST(SlowDiagnosis, TwoEffectsOfOneStretch_AreBothNamed) {
     EXPECT_EQ(diagnosis.verdict, Verdict::explained);
 }
 
-/// Its halves of the data lie in a long bent valley, in which fits used to end far from its lowest place.
+/// Fits to its halves of the data end in a long curved valley of the loss, which needs many steps.
 TEST(SlowDiagnosis, MassThatConductsAndLosesHeat_IsFoundWithItsConductanceAndCapacity) {
     const Diagnosis diagnosis = diagnose(
         campaign(effects({"second_thermal_mass:conductance=0.117,mass_tau_s=62,taken=3.65,diffusion_s=1"}),
@@ -174,7 +174,7 @@ TEST(SlowDiagnosis, RippleOfTheReading_IsFoundWithItsAmplitude) {
     EXPECT_NEAR(diagnosis.effects.front().parameters[1].value, 8.0, 0.01);
 }
 
-/// Jumps from tag to tag tell it from an encoder whose counts are shorter, which explains nearly all.
+/// Jumps between tags distinguish it from an encoder with shorter counts, which explains nearly everything.
 TEST(SlowDiagnosis, PlateOfAnotherPitch_AccusesThePlate) {
     Rig wider = reference_rig();
     wider.fiducials->pitch_x_mm *= 1.0008;
@@ -214,7 +214,7 @@ TEST(SlowDiagnosis, WaveAlongTheRail_IsFoundWithItsPeriodAndPhase) {
     }
 }
 
-/// Wherever it is.
+/// At any point of the search.
 TEST(SlowDiagnosis, SearchThatIsStopped_Ends) {
     for (const int asked_before : {1, 30, 100, 300, 1000, 3000, 10'000, 30'000}) {
         std::atomic<int> asked = 0;

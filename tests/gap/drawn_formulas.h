@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Formulas drawn at random ports of the machine.
+// Random formulas at random ports of the machine.
 #include "core/formula_effect.h"
 #include "core/random.h"
 
@@ -14,13 +14,13 @@
 
 namespace fidservo::testing {
 
-/// What a formula may depend on, over about what it varies, and how it is written.
+/// A variable of a formula with its usual range, and how it is written.
 struct Ingredient {
     const char* name;
     double middle, reach;
 };
 
-/// A port with what its formulas are made of, and about how large they are.
+/// A port with the variables of its formulas, and their order of magnitude.
 struct Place {
     const char* port;
     const char* block;
@@ -56,7 +56,7 @@ inline std::size_t pick(NoiseStream& stream, std::size_t count) {
     return std::min(count - 1, static_cast<std::size_t>(stream.uniform() * static_cast<double>(count)));
 }
 
-/// A factor of one ingredient, of order 1; a shape parameter's name where it has one.
+/// A factor with one variable, of order 1; and the name of its shape parameter, if it has one.
 struct Factor {
     std::string text;
     bool has_shape;
@@ -84,10 +84,10 @@ inline Factor factor_of(const Ingredient& of, const std::string& shape, NoiseStr
 struct Drawn {
     FormulaEffect text;
     std::vector<double> truth;
-    std::vector<Ingredient> ingredients;  ///< that it depends on
+    std::vector<Ingredient> ingredients;  ///< the variables on which it depends
 };
 
-/// A formula of one factor or two; its size is not the typical one.
+/// A formula with one or two factors; its size differs from the typical one.
 inline Drawn draw(std::uint64_t seed) {
     NoiseStream stream(seed, "formulas");
     const Place& at = places()[pick(stream, places().size())];
@@ -98,7 +98,7 @@ inline Drawn draw(std::uint64_t seed) {
     drawn.text.text = "drawn at random";
     drawn.text.parameters.push_back(
         {.name = "size", .low = -20.0 * at.size, .high = 20.0 * at.size, .typical = at.size, .role = "size"});
-    // Friction that pushes would make the carriage run away.
+    // Friction with a negative sign would make the carriage run away.
     const bool may_be_negative = std::string(at.port) != "macro.friction";
     drawn.truth.push_back((may_be_negative && stream.uniform() < 0.5 ? -1.0 : 1.0) * at.size *
                           std::exp(even(stream, -0.7, 1.1)));

@@ -8,7 +8,7 @@
 
 namespace fidservo::testing {
 
-/// Of what a diagnosis names, in the order of the alphabet.
+/// The names of a diagnosis's effects in alphabetical order.
 inline std::vector<std::string> names(const gap::Diagnosis& diagnosis) {
     std::vector<std::string> found;
     for (const gap::FoundEffect& effect : diagnosis.effects) found.push_back(effect.effect);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What recordings of the simulated rig say about the effect that it has.
+// Recordings of the simulated rig and the hypothesis of its effect.
 #include "core/input_error.h"
 #include "core/random.h"
 #include "core/rig.h"
@@ -41,8 +41,8 @@ std::vector<Recording> simulated(const Hypothesis& truth, std::initializer_list<
 
 struct Case {
     std::string_view effect;
-    Signal signal;  ///< which tells it
-    double least;   ///< floors without the hypothesis
+    Signal signal;  ///< the signal that shows it
+    double least;   ///< least error in floors without the hypothesis
 };
 
 void PrintTo(const Case& one, std::ostream* stream) {
@@ -82,12 +82,12 @@ TEST(Evidence, SensorThatWouldReadHighAtAColdWire_IsNoWarmWire) {
     const auto rms_with = [&](std::string_view effect) {
         return rms(evidence, evidence.errors(effects({effect}), everything(evidence)), Signal::hall);
     };
-    // Cold, the second one reads an LSB and a half less than was recorded.
+    // From a cold wire both gains predict readings a few LSB below the recorded ones, as if it were warm.
     EXPECT_LT(rms_with("hall_gain:factor=1.005"), 2.2 * rms_with("hall_gain:factor=1.0025"));
 }
 
-/// Soft bristles let the carriage swing about the edge of a count, to which its controller takes it: there
-/// each reading is half a count off.
+/// Soft bristles let the carriage oscillate about the edge of a count, where its controller brings it: each
+/// reading there is off by half a count.
 TEST(Evidence, CarriageThatFlickersBetweenTwoCounts_IsNoFurtherOffThanIsExpected) {
     constexpr std::uint64_t seed = 11;
     const Hypothesis truth = effects({"presliding:level_V=0.01,distance_um=390"});

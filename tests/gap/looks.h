@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How tags look to a camera whose deviation is known.
+// The appearance of tags to a camera whose deviation is known.
 #include "core/recording.h"
 #include "plant/camera.h"
 #include "plant/view/view_options.h"
@@ -15,7 +15,7 @@ namespace fidservo::testing {
 
 inline constexpr double looks_px_per_s = 375.0;
 
-/// A tag that moves evenly along u for a second, 50 frames of it, where it is seen and its looks by the
+/// A tag that moves at constant speed along u for a second, 50 frames: its places and its appearance by the
 /// formulas of gap/links/image_link.h, on the reference rig.
 inline Recording looks_in_even_motion(const plant::CameraDeviation& truth,
                                       double speed_px_per_s = looks_px_per_s) {
@@ -51,7 +51,7 @@ inline Recording looks_in_even_motion(const plant::CameraDeviation& truth,
             const Eigen::Vector2d place((side.strip_px.x() - 639.5) / 639.5,
                                         (side.strip_px.y() - 479.5) / 479.5);
             plant::Light light;
-            light.level = 0.7;  // whatever the lamp
+            light.level = 0.7;  // any level
             light.gradient += truth.light_gradient;
             light.vignetting += truth.vignetting;
             side.white_grey = 230.0 * plant::brightness(light, place);

@@ -16,7 +16,7 @@
 
 namespace fidservo::testing {
 
-/// What a rig with effects records, two runs of each experiment.
+/// The recordings of a rig with effects, two of each experiment.
 inline std::vector<Recording> recordings_of(const gap::Hypothesis& truth,
                                             std::initializer_list<std::string_view> kinds,
                                             const Rig& true_rig = reference_rig()) {
@@ -30,7 +30,7 @@ inline std::vector<Recording> recordings_of(const gap::Hypothesis& truth,
     return recordings;
 }
 
-/// The same, beside the reference rig's file.
+/// Those recordings, with the reference rig's file.
 inline gap::Evidence campaign(const gap::Hypothesis& truth, std::initializer_list<std::string_view> kinds,
                               const Rig& true_rig = reference_rig()) {
     return {reference_rig(), recordings_of(truth, kinds, true_rig)};

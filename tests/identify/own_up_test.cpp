@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What identify macro says when the recordings do not fit together, or the model does not fit them.
+// The answer of identify macro if the recordings contradict each other, or the model does not fit them.
 #include "src/identify/identify.h"
 #include "tests/identify/owned_recordings.h"
 #include "tests/src/temporary_folder.h"
@@ -106,7 +106,8 @@ TEST(IdentifyOwnsUp, MotionTooShortForASteadySpeed_GivesTheAccelerationPerVolt) 
     EXPECT_NEAR(ratio->value, 500.0, 4.0 * ratio->std) << ratio->std;
 }
 
-/// Without friction an offset moves the carriage before the step: taken as zero it would bias the rest.
+/// Without friction an offset moves the carriage before the step: taking it as zero would bias the other
+/// parameters.
 TEST(IdentifyOwnsUp, CarriageThatCreepsBeforeItIsDriven_HasItsOffsetCounted) {
     std::mt19937_64 random(4);
     Carriage carriage;
@@ -127,7 +128,8 @@ TEST(IdentifyOwnsUp, CarriageThatCreepsBeforeItIsDriven_HasItsOffsetCounted) {
     }
 }
 
-/// Accelerations of readings at 100 Hz drown in their noise: that is no force that the model misses.
+/// At 100 Hz the noise of the readings hides the accelerations: that must not count as a force that the model
+/// misses.
 TEST(IdentifyOwnsUp, AccelerationsThatDrownInNoise_AreNoForceThatTheModelMisses) {
     constexpr int draws = 20;
     Carriage carriage;
@@ -144,7 +146,7 @@ TEST(IdentifyOwnsUp, AccelerationsThatDrownInNoise_AreNoForceThatTheModelMisses)
     EXPECT_GT(stated, draws / 2);
 }
 
-/// A carriage that is far from its steady speed may tend to any faster one: intervals are wider to that side.
+/// A carriage far from its steady speed is compatible with any higher one: intervals are wider on that side.
 TEST(IdentifyOwnsUp, MotionFarFromItsSteadySpeed_HasStandardErrorsThatHold) {
     constexpr int draws = 40;
     Carriage carriage;

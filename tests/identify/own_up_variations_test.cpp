@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings drawn at random that contradict each other, that the model misses, that fix a ratio only: every
-// number stated has an interval that holds the truth, or it is said that it is not known.
+// Recordings drawn at random that contradict each other, that the model does not explain, or that determine
+// only a ratio: every number stated has an interval that contains the truth, or is stated to be unknown.
 #include "src/identify/identify.h"
 #include "tests/effort.h"
 #include "tests/identify/owned_recordings.h"
@@ -13,7 +13,8 @@ namespace {
 
 using namespace testing;
 
-constexpr double far = 4.0;  ///< standard errors, scaled up where Student's law is wider than a normal one
+/// in standard errors, scaled up where Student's distribution is wider than the normal one.
+constexpr double far = 4.0;
 
 const int tried = draws(200, 50);
 
@@ -30,8 +31,8 @@ Carriage drawn_carriage(std::mt19937_64& random) {
 
 using Truths = std::vector<std::pair<std::string, double>>;
 
-/// Wrong: a number that is farther from its truth than four standard errors, and four times what is said of
-/// the model's own error, while no contradiction is named.
+/// Wrong: a number that is farther from its truth than four standard errors plus four times the stated bound
+/// of the model's error, while no contradiction is named.
 Outcome judged(const Identified& identified, const Truths& truths,
                const std::function<Identified()>& best_model = {}) {
     constexpr double normal_95 = 1.96;

@@ -15,7 +15,7 @@
 
 namespace fidservo::testing {
 
-/// What a carriage without dead zone is, and what it may have that its model lacks.
+/// A carriage without dead zone, and forces that its model lacks.
 struct Carriage {
     double gain_mm_per_s_per_V = 40.0;
     double time_constant_s = 0.08;
@@ -74,7 +74,7 @@ inline const IdentifiedValue* find_value(const Identified& identified, const std
     return found == identified.values.end() ? nullptr : &*found;
 }
 
-/// The stated numbers with what they ought to be.
+/// The true values of the numbers that an identification states.
 inline std::vector<std::pair<std::string, double>> truth_of(const Carriage& carriage) {
     return {{"macro.velocity_gain_mm_per_s_per_V", carriage.gain_mm_per_s_per_V},
             {"time_constant", carriage.time_constant_s},

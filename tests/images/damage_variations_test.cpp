@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files that are cut short or of which a byte is wrong. What is cut short is never taken for whole. A wrong
-// byte is found where the format has a checksum; elsewhere the image at least has the right size.
+// Truncated files, and files with one wrong byte. A truncated file is never accepted as complete. A wrong
+// byte is detected if the format has a checksum; otherwise the image has at least the right size.
 #include "tests/src/temporary_folder.h"
 #include "tests/variations.h"
 #include "vision/images/image_file.h"

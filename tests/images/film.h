@@ -11,14 +11,14 @@
 namespace fidservo::testing {
 
 struct Film {
-    std::string codec = "ffv1";  ///< ffv1, mjpeg, mpeg4 or libx264, of which frames build on later ones
-    std::string container = {};  ///< by the file's ending, if empty
-    /// CV_8UC1, all of one size; for ffv1 CV_16UC1, too. The luma of mpeg4 and libx264 has television's
-    /// range.
+    /// ffv1, mjpeg, mpeg4 or libx264; mpeg4 and libx264 predict frames from other frames.
+    std::string codec = "ffv1";
+    std::string container = {};  ///< empty: by the file's ending
+    /// CV_8UC1, all of one size; for ffv1 also CV_16UC1. The luma of mpeg4 and libx264 has limited range.
     std::vector<cv::Mat> frames;
-    std::vector<std::int64_t> times;  ///< in units of `unit_ms`, one a frame
+    std::vector<std::int64_t> times;  ///< in units of `unit_ms`, one for each frame
     int unit_ms = 1;
-    bool is_turned = false;  ///< has a display matrix of a quarter turn
+    bool is_turned = false;  ///< with a display matrix of a quarter turn
 };
 
 /// Throws std::runtime_error if it cannot be written.

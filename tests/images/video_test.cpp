@@ -204,8 +204,8 @@ Outcome judged_damage_of_video(std::mt19937_64& random) {
     const TemporaryFolder folder;
     constexpr const char* codecs[] = {"ffv1", "mjpeg", "libx264"};
     Film film = film_of({0, 40, 80, 120, 160, 200, 240, 280}, codecs[random() % std::size(codecs)]);
-    for (cv::Mat& frame :
-         film.frames) {  // with so much in them that the headers are a small part of the file
+    // Noise makes the frames' data so long that few of the wrong bytes are in the headers.
+    for (cv::Mat& frame : film.frames) {
         cv::Mat noise(frame.size(), CV_8SC1);
         cv::RNG(random()).fill(noise, cv::RNG::UNIFORM, -5, 6);
         cv::add(frame, noise, frame, cv::noArray(), CV_8U);

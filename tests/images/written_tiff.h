@@ -12,13 +12,13 @@ namespace fidservo::testing {
 
 struct TiffPage {
     cv::Mat samples{};    ///< CV_16UC1 or CV_16UC3: values below 2^bits
-    int bits = 8;         ///< 1, 4, 8, or 9 to 16; not 8 or 16: packed
+    int bits = 8;         ///< 1, 4, 8, or 9 to 16; samples of other than 8 or 16 bits are packed
     int compression = 1;  ///< libtiff's number
     int photometric = 1;  ///< 0: 0 is white, 1: 0 is black, 2: red, green, blue, 3: by a palette
     bool is_tiled = false;
-    bool is_planar = false;         ///< colours in planes
+    bool is_planar = false;         ///< colours in separate planes
     bool is_reduced = false;        ///< a smaller copy of another page
-    bool has_subdirectory = false;  ///< the page after it is below it
+    bool has_subdirectory = false;  ///< the next page is a subdirectory of it
     int orientation = 1;
     int rows_per_strip = 7;
 };

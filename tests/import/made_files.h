@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Logs as other programs write them, made by these formats' own libraries.
+// Logs as other programs write them, made with the formats' own libraries.
 #include "core/recording.h"
 #include "src/files/recording/layout.h"
 
@@ -12,14 +12,14 @@
 
 namespace fidservo::imports::testing {
 
-/// A signal of a log, or of a bag its topic.
+/// A signal of a log, or a topic of a bag.
 struct MadeSignal {
     std::string name;
     std::vector<double> values;
-    std::string unit = {};  ///< as an attribute, where the format has them
+    std::string unit = {};  ///< as an attribute, if the format has them
 };
 
-/// The columns of a recording that are there, by name.
+/// The columns that a recording has, by name.
 inline std::vector<MadeSignal> signals_of(const Recording& recording) {
     std::vector<MadeSignal> signals;
     for (const StageColumn& column : stage_columns) {
@@ -47,7 +47,7 @@ void make_plain_mat(const std::filesystem::path& file, MatFormat format, std::ve
 /// The bytes of a file of format 5 with one opaque object, as MATLAB writes them.
 std::string opaque_mat(const std::string& variable, const std::string& matlab_class);
 
-/// A dataset each, with its unit.
+/// A dataset for each signal, with its unit.
 void make_hdf5(const std::filesystem::path& file, const std::vector<MadeSignal>& signals);
 /// A table of one compound type, as h5py and PyTables write structured arrays.
 void make_hdf5_table(const std::filesystem::path& file, const std::string& name,
@@ -75,7 +75,7 @@ class CdrBytes {
 
 struct BagTopic {
     std::string name, type;
-    std::vector<std::pair<std::int64_t, std::string>> messages;  ///< received at, bytes
+    std::vector<std::pair<std::int64_t, std::string>> messages;  ///< time of reception, bytes
     std::string serialization = "cdr";
 };
 void make_bag(const std::filesystem::path& file, const std::vector<BagTopic>& topics);

@@ -70,7 +70,7 @@ void import_as(const TemporaryFolder& folder, const std::string& file, const std
         << file;
 }
 
-/// As `import_as` for each format; the folders' names.
+/// Imports the recording from each format as `import_as` does; returns the folders' names.
 std::vector<std::string> import_from_every_format(const TemporaryFolder& folder, const Recording& original) {
     const std::vector<testing::MadeSignal> signals = testing::signals_of(original);
     const std::vector<double> time_s = testing::seconds_of(original);

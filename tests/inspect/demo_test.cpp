@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The demo, whole, on the simulated rig: what it finds, and that a killed run ends like one that was not.
+// The complete demo on the simulated rig: its findings, and that a killed and resumed run has the same result
+// as an uninterrupted one.
 #include "src/inspect/inspection_run.h"
 #include "tests/control_guardian/child_process.h"
 #include "tests/src/temporary_folder.h"

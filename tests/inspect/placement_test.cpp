@@ -21,8 +21,8 @@ Plate plate_of_three() {
     return plate;
 }
 
-/// Two views, between tags 0 and 1 and between tags 1 and 2, of a plate whose tags are displaced by so much;
-/// the camera's scale is wrong by a part of `scale_error`.
+/// Two views, between tags 0 and 1 and between tags 1 and 2, of a plate with displaced tags; the camera's
+/// scale is wrong by the fraction `scale_error`.
 std::vector<Snapshot> views_of(const std::array<Eigen::Vector2d, 3>& displaced_um, double scale_error = 0.0) {
     const Plate plate = plate_of_three();
     const CameraParameters camera = *small_rig().camera;

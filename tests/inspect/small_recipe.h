@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A recipe of two sites on a small rig, and the means to spoil it.
+// A recipe of two sites on a small rig, and a function to introduce errors into it.
 #include "core/rig.h"
 #include "src/inspect/recipe/recipe.h"
 

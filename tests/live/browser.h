@@ -12,7 +12,7 @@ namespace fidservo::testing {
 
 class Browser {
   public:
-    /// Whether there is one on this machine.
+    /// Whether Chromium is installed.
     static bool is_installed();
 
     /// Starts it on a page. @param profile  a folder that does not exist yet
@@ -22,7 +22,7 @@ class Browser {
     Browser(const Browser&) = delete;
     Browser& operator=(const Browser&) = delete;
 
-    /// What a JavaScript expression gives, as JSON text.
+    /// The value of a JavaScript expression, as JSON text.
     std::string value_of(const std::string& expression);
     /// Waits until an expression is true. False if it is not within half a minute.
     bool eventually(const std::string& expression);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A feed as a run fills it.
+// A live feed with the data of a run.
 #include "src/live/live_feed.h"
 #include "tests/reference_rig.h"
 
@@ -11,7 +11,7 @@
 
 namespace fidservo::testing {
 
-/// A dark square where the tag is said to be.
+/// A frame with a dark square where the tag is reported.
 inline vision::Frame frame_with_square(TimeNs time_ns) {
     vision::Frame frame;
     frame.image = cv::Mat(960, 1280, CV_8UC1, cv::Scalar(200));
@@ -27,7 +27,7 @@ inline std::vector<TagDetection> tag_on_square(int id) {
     return {tag};
 }
 
-/// Ten seconds of a stage that goes somewhere, a picture, and three sites.
+/// Fills in ten seconds of a moving stage, a picture, and three sites.
 inline void show_run(LiveFeed& feed) {
     for (int k = 0; k < 10000; ++k) {
         StageRow row;

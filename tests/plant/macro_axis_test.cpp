@@ -25,7 +25,7 @@ MacroAxis endless_axis() {
     return make_macro_axis(parameters, tick_s);
 }
 
-/// Explicit integration with tiny steps; stops dead at the ends.
+/// Explicit integration with tiny steps, and stops without rebound at the ends.
 MacroAxisState integrate(const MacroAxisParameters& p, MacroAxisState state, double command_V,
                          double time_s) {
     constexpr int steps = 20000;
@@ -132,7 +132,7 @@ TEST(MacroAxis, EndOfTravelMetInsideATick_MatchesTinySteps) {
 }
 
 TEST(MacroAxis, TurnJustBeyondTheEnd_IsAnImpact) {
-    // Moving out at v0 under a full push back: the way to the turn is known in closed form.
+    // Moving outwards at v0 under full command inwards: the distance to the reversal has a closed form.
     const MacroAxis axis = reference_axis();
     const double tau = axis.parameters.time_constant_s;
     const double terminal =

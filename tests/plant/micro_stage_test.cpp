@@ -56,8 +56,8 @@ TEST(MicroStage, SameCommandFromBothSides_ShowsHysteresis) {
     EXPECT_GT(cooled.position_mm, heated.position_mm + 0.5);
 }
 
-/// A loss of heat that grows with the distance from 10 degC above the room, and a second one that lags by
-/// nothing at rest: x / tau = -0.1 (x - 10).
+/// A heat loss in proportion to the difference from 10 degC above the room, and a second one behind a lag,
+/// which does not matter at rest: x / tau = -0.1 (x - 10).
 TEST(MicroStage, FormulaOfHeat_BeginsWhereItLeavesAWireThatStoodForLong) {
     FormulaEffect text =
         formula_text("micro.heat_flow", "micro.heater",
@@ -74,7 +74,7 @@ TEST(MicroStage, FormulaOfHeat_BeginsWhereItLeavesAWireThatStoodForLong) {
     const double rise_degC = 10.0 * 0.1 * tau_s / (1.0 + 0.1 * tau_s);
     EXPECT_NEAR(state.heater.temp_degC, parameters.heater.ambient_degC + rise_degC, 1e-6);
     for (int k = 0; k < 5000; ++k) advance(stage, state, 0.0);
-    const double of_a_tick_degC = tick_s * rise_degC / tau_s;  // the flow is added at its beginning
+    const double of_a_tick_degC = tick_s * rise_degC / tau_s;  // the flow is added at the tick's beginning
     EXPECT_NEAR(state.heater.temp_degC, parameters.heater.ambient_degC + rise_degC, of_a_tick_degC);
 }
 

@@ -42,9 +42,9 @@ TEST(NoEffectCampaign, RecordedCommands_GiveTheRecordedReadingsToTheNoiseFloor) 
         worst_beyond = std::max(worst_beyond, beyond);
         worst_hall_sigma = std::max(worst_hall_sigma, std::abs(hall.sigma()));
 
-        // The commands are recorded to 1e-7 V and the rig file's gain to 1e-8: over a run, some 1e-5 counts.
-        // What is beyond the half count of rounding may hardly be more, and flips a reading only where it
-        // stands on an edge.
+        // Commands are recorded to 1e-7 V and the rig file's gain to 1e-8, which make some 1e-5 counts over a
+        // run. The excess over the half count of rounding may hardly be larger; it changes a reading only at
+        // the edge of a count.
         EXPECT_LE(beyond, 1e-4);
         EXPECT_LE(encoder.count_rms, 0.1 * count_floor);
         EXPECT_LE(std::abs(hall.sigma()), 4.0);

@@ -11,7 +11,7 @@
 namespace fidservo::plant {
 namespace {
 
-/// A pair whose mass takes more or less than it gives back.
+/// A random pair whose mass takes more or less heat than it gives back.
 ThermalPair drawn_pair(NoiseStream& draw, double least_mass_tau_s) {
     const double taken = 2.0 * draw.uniform();
     const double most_coupling = taken < 1.0 ? std::min(2.0, 0.8 / (1.0 - taken)) : 2.0;
@@ -95,7 +95,7 @@ TEST(ThermalPair, OneLongStep_IsTheSameAsManyShortOnes) {
 }
 
 TEST(ThermalPair, WireThatPassesItsGoal_SolvesTheEquationsInBothRegimes) {
-    // A hotter or colder mass takes the wire past what the command alone would bring it to.
+    // A hotter or colder mass takes the wire beyond the temperature that the command alone would reach.
     NoiseStream draw(13, "cases");
     int passed = 0;
     for (int k = 0; k < 40; ++k) {
@@ -108,7 +108,8 @@ TEST(ThermalPair, WireThatPassesItsGoal_SolvesTheEquationsInBothRegimes) {
         const double phi = 60.0;
         const Eigen::Vector2d expected = integrate(pair, start, phi, 2.0, 200000);
         passed += (phi - start.x()) * (phi - expected.x()) < 0.0 ? 1 : 0;
-        // A step of 1e-5 s across phi is of first order there, of less where the rate itself jumps.
+        // A step of 1e-5 s across phi makes an error of first order where the rate jumps, and a smaller one
+        // elsewhere.
         EXPECT_NEAR((advance(pair, start, phi, 2.0) - expected).norm(), 0.0, jumps ? 1e-5 : 1e-6)
             << "seed 13, case " << k;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A camera that is not as its file says: what is in the pictures is where plant/camera.h says, and looks as
-// the effects' texts say.
+// A camera that is not as its file says: things in its images are where plant/camera.h puts them, and look as
+// the effects' descriptions state.
 #include "core/camera/camera_parameters.h"
 #include "core/random.h"
 #include "plant/actual_camera.h"
@@ -138,7 +138,8 @@ double worst_difference(const cv::Mat& a, const cv::Mat& b) {
 }
 
 TEST(PlateView, HardlyWarpingCamera_GivesTheStraightPicture) {
-    // The two painters, in rest and in motion; what is left is rounding and the motion kernel's 0.2 %.
+    // Both renderers, at rest and in motion; the remaining difference is rounding and the motion kernel's 0.2
+    // %.
     ViewOptions options = ideal_view();
     options.glare.push_back({{0.3, -0.5}, 0.05, 0.05});
     const PlateView straight(small_camera(480, 320), busy_plate(), options);
@@ -149,8 +150,8 @@ TEST(PlateView, HardlyWarpingCamera_GivesTheStraightPicture) {
 }
 
 TEST(PlateView, TurnedCameraInMotion_SmearsAlongTheTurnedAxis) {
-    // Turned by 90 degrees, plate x runs down the image: a pad's upper and lower edges are smeared, its sides
-    // are not.
+    // Rotated by 90 degrees, plate x runs down the image: a pad's upper and lower edges are smeared, its
+    // sides are not.
     Plate plate = dark_plate();
     plate.features.push_back({"pad", Pad{{0.0, 0.0}, {0.4, 0.4}}, 1.0});
     const PlateView view(small_camera(241, 241), plate, ideal_view(), {.rotation_rad = 90.0 * deg});
@@ -215,7 +216,7 @@ TEST(RollingShutter, EvenMotion_ShearsAnEdgeBySpeedAndReadout) {
     constexpr double speed_mm_per_s = 8.0;
     const auto even = [](double after_s) { return speed_mm_per_s * after_s; };
     for (const double readout_s : {-0.01, 0.01}) {
-        for (const double rotation_rad : {0.0, 1e-9}) {  // both painters
+        for (const double rotation_rad : {0.0, 1e-9}) {  // both renderers
             const PlateView view(small_camera(241, 201), plate, ideal_view(),
                                  {.rotation_rad = rotation_rad, .readout_s = readout_s});
             const cv::Mat image = view.expose(even, 0);

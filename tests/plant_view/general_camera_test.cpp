@@ -171,7 +171,7 @@ TEST(PlateView, NominalGainSpread_IsThePixelsOwn) {
 }
 
 TEST(PlateView, MovingTurnedCamera_SmearsLikeOneThatPaintsRowByRow) {
-    // The same plate turned the other way, so that both see the same image: one through each painter.
+    // The same plate rotated the other way, so that both views see the same image: one by each renderer.
     constexpr double angle = 0.7 * deg;
     Plate plate;
     plate.tags.push_back({.id = 5, .centre_mm = {0.0, 0.0}, .side_mm = 1.2, .angle_rad = 0.01});
@@ -182,7 +182,7 @@ TEST(PlateView, MovingTurnedCamera_SmearsLikeOneThatPaintsRowByRow) {
     const cv::Mat turned = render_at({camera, turned_plate, ideal_view()}, 0.0);
     const cv::Mat straight = render_at({small_camera(480, 400), plate, ideal_view()}, 0.0);
     EXPECT_LE(cv::norm(turned, straight, cv::NORM_INF), 1.0);
-    // Creeping by less than a hundredth of a pixel beyond rest, the other painter takes over.
+    // Motion just above a hundredth of a pixel makes the other renderer take over.
     const std::vector<double> creeping{-0.000041, 0.000041};
     const cv::Mat crept = PlateView(camera, turned_plate, ideal_view()).render(creeping, 0);
     EXPECT_LE(cv::norm(turned, crept, cv::NORM_INF), 1.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Places in rendered images: what moves by 0.01 px moves by 0.01 px, and the detector finds tags where they
+// Places in rendered images: a motion by 0.01 px is one of 0.01 px, and the detector finds tags where they
 // are.
 #include "core/camera/camera_geometry.h"
 #include "core/camera/camera_parameters.h"
@@ -22,7 +22,7 @@ namespace {
 
 struct Centroid {
     double u_px;
-    double std_px;  ///< what rounding to whole grey levels does to it
+    double std_px;  ///< standard deviation from rounding to whole grey levels
 };
 
 /// Centre of intensity in u of an image that is black around one thing. A pixel that is neither black nor
@@ -47,7 +47,8 @@ Centroid centroid_of(const cv::Mat& image) {
     return {centre, std::sqrt(variance) / sum};
 }
 
-/// Centroid against true place over random shifts, and what of its error repeats with the pixel grid.
+/// Compares the centroid with the true place over random shifts, and tests for errors that repeat with the
+/// pixel grid.
 void expect_no_centroid_error(const Feature& feature) {
     Plate plate = dark_plate();
     plate.features.push_back(feature);
@@ -67,7 +68,7 @@ void expect_no_centroid_error(const Feature& feature) {
         cosine += error * std::cos(2.0 * M_PI * true_u) * 2.0 / cases;
     }
     EXPECT_LT(std_px, 5e-4);
-    // The rounding errors themselves repeat with the pixel grid, and a part of them is in the first harmonic.
+    // Rounding errors also repeat with the pixel grid, and part of them is in the first harmonic.
     EXPECT_LT(std::hypot(sine, cosine), std_px) << feature.name << ": harmonic of the pixel grid";
 }
 
@@ -104,8 +105,8 @@ TEST(PlateView, Tag_ShiftOfAHundredthPixel_ComesBack) {
     const CameraParameters camera = small_camera(360, 360);
     const PlateView view(camera, plate, ideal_view());
     NoiseStream starts(9, "test_starts");
-    // The central difference sees a slope that the blur of 0.85 px makes a sixth too small: calibrated by a
-    // shift of the same images by exactly one tenth of a pixel, twice.
+    // For a blur of 0.85 px the central difference underestimates the slope by a sixth. It is calibrated
+    // twice by shifts of the same images by exactly a tenth of a pixel.
     const cv::Mat at_zero = render_at(view, 0.0);
     const double scale = 0.1 / shift_px(at_zero, render_at(view, -0.0004));
     EXPECT_NEAR(scale * shift_px(at_zero, render_at(view, 0.0004)), -0.1, 5e-4);
@@ -157,7 +158,8 @@ class Detector {
     apriltag_detector_t* detector_;
 };
 
-/// Renders tags that are all in view, and demands that the library sees each of them, and where.
+/// Renders tags that are completely in view, and requires that the library detects each of them in the right
+/// place.
 void expect_detected(const Detector& detector, const std::vector<PlateTag>& tags,
                      const CameraParameters& camera, double s_mm) {
     Plate plate;

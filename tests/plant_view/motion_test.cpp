@@ -13,7 +13,7 @@
 namespace fidservo::plant {
 namespace {
 
-/// Something of every kind, crossing the image's border too, in a quarter of the reference image.
+/// Things of every kind, some across the image's border, in a quarter of the reference image.
 PlateView busy_view(ViewOptions options) {
     Plate plate;
     plate.tags.push_back({.id = 5, .centre_mm = {-0.2, 0.0}, .side_mm = 1.2, .angle_rad = 0.0122});
@@ -32,7 +32,7 @@ std::vector<double> samples_of(int count, const std::function<double(double)>& s
     return samples;
 }
 
-/// The mean of many images at rest, taken at even times over the exposure.
+/// The mean of many images at rest, at evenly spaced times over the exposure.
 cv::Mat mean_of_images(const PlateView& view, const std::function<double(double)>& s_mm) {
     constexpr int images = 200;
     cv::Mat sum;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Noise: the moments that the sensor's data sheet promises, and nothing that repeats.
+// Noise: the moments that the sensor's data sheet states, without repetition.
 #include "core/random.h"
 #include "plant/view/sensor.h"
 #include "tests/plant_view/view_fixture.h"
@@ -12,7 +12,7 @@
 namespace fidservo::plant {
 namespace {
 
-/// A plate of even grey under even light: every pixel has the same mean.
+/// A plate of uniform grey under uniform light, so that every pixel has the same mean.
 PlateView grey_view(double reflectance, int width_px, int height_px, std::uint64_t seed) {
     Plate plate;
     plate.paper_reflectance = reflectance;

@@ -17,7 +17,7 @@ namespace fidservo::plant::view {
 namespace {
 
 constexpr double blur_px = 0.8;
-constexpr double full_scale_fraction = 0.004;  // most of it the brute force's own
+constexpr double full_scale_fraction = 0.004;  // mostly the error of the brute force
 
 using Inside = std::function<bool(const Eigen::Vector2d&)>;
 using Painted = std::function<void(double, double, std::span<float>)>;

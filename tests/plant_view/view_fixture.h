@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The reference rig's camera, and numbers from rendered images.
+// The reference rig's camera, and functions that evaluate rendered images.
 #include "core/camera/camera_parameters.h"
 #include "core/plate.h"
 #include "plant/view/plate_view.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole loop: a rig whose file is wrong is recorded and diagnosed; with the file that the diagnosis
-// writes the next recordings have no gap.
+// The complete loop: a rig whose file is wrong is recorded and diagnosed; with the rig file that the
+// diagnosis writes, new recordings have no gap.
 #include "core/rig.h"
 #include "gap/diagnose.h"
 #include "src/diagnose/diagnosis_json.h"
@@ -23,7 +23,7 @@ namespace {
 
 using testing::TemporaryFolder;
 
-/// What a rig with hidden effects records when it is used with a rig file.
+/// Recordings of a rig with hidden effects that is used with a rig file.
 std::vector<Recording> pulses(const std::filesystem::path& rig_file, const std::filesystem::path& hidden,
                               const std::vector<std::uint64_t>& seeds, const std::filesystem::path& folder) {
     std::vector<Recording> recordings;

@@ -37,7 +37,7 @@ Experiment closed_loop() {
             .macro_setpoint_mm = steps({0.0, 0.3}, {31.0, 33.0})};
 }
 
-/// Homed, brought to its start and run; the recording of it.
+/// Homes a rig, brings it to the start, runs an experiment, and keeps the recording.
 struct OnRig {
     explicit OnRig(const plant::PlantParameters& physics) : watched(physics, reference_plate(), 5) {
         const auto homed = watched.session.home();
@@ -67,11 +67,11 @@ struct OnRig {
 
     WatchedRig watched;
     std::optional<ExperimentStart> start;
-    plant::StageState begin;  ///< the truth when the last experiment began
+    plant::StageState begin;  ///< true state when the last experiment began
 };
 
-/// Row by row: the same commands, the carriage within two counts of where it is in simulate. That begins at
-/// the place exactly and at time 0.
+/// Compares row by row: the same commands, and the carriage within two counts of that in simulate, which
+/// begins exactly at the place and at time 0.
 void expect_as_simulated(const Recording& recording, const Experiment& experiment, const Rig& rig) {
     const Recording simulated = simulate(rig, {}, experiment, recording.name, 5);
     ASSERT_EQ(recording.rows.size(), simulated.rows.size() + 1) << "and one that switches off";

@@ -107,7 +107,7 @@ TEST(RecordPlan, RigFileThatStatesAnEffectOfTheCamera_IsForeseen) {
 
 TEST(RecordPlan, RigThatCannotBeHomed_IsRefused) {
     Rig rig = reference();
-    rig.fiducials->columns = 1;  // at 0 mm, below all that the camera reaches while it homes
+    rig.fiducials->columns = 1;  // at 0 mm, lower than anything that the camera can see while homing
     EXPECT_NE(
         message_of([&] { plan(options_for("rest"), rig); }).find("fiducials: none can be brought into view"),
         std::string::npos);

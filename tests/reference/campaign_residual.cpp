@@ -11,7 +11,7 @@ namespace fidservo::reference {
 
 namespace {
 
-/// The carriage alone: how far it is from the recorded counts.
+/// The carriage's deviation from the recorded counts.
 struct EncoderError {
     double squares = 0.0, count_squares = 0.0, largest = 0.0;
 };
@@ -31,8 +31,8 @@ EncoderError encoder_error(const RigModel& carriage_only, std::span<const StageR
     return error;
 }
 
-/// The start moves the whole path, so that it is found from the path of any start, but for end stops: then
-/// the path from the start found is looked at again.
+/// The start only shifts the whole path, unless there are end stops: it is estimated from a path with any
+/// start, and the path from the estimate is checked.
 EncoderError best_encoder_error(const RigModel& model, std::span<const StageRow> rows) {
     RigModel carriage_only = model;
     carriage_only.platform.reset();

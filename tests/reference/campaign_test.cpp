@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shared campaigns were recorded on another model of the same machine. Fed with their commands, this one
-// must follow their readings to the noise floor.
+// The shared campaigns were recorded with another model of the same machine. Under their commands this model
+// must reproduce their readings to the noise floor.
 #include "tests/campaign.h"
 
 #include "core/rig.h"
@@ -71,8 +71,9 @@ TEST(SlowCampaign, HallNonlinearity_IsFollowedToTheNoiseFloor) {
     EXPECT_LE(worst.hall_sigma, 4.0);
 }
 
-// The campaign's law near standstill is not known. Both contacts leave, over runs of up to 40 s without
-// feedback, up to 0.9 counts beyond rounding (measured), where the nominal rig is off by up to 134.
+// The campaigns' friction law near standstill is unknown. With either contact law the deviation beyond
+// rounding, over runs of up to 40 s without feedback, is up to 0.9 counts (measured), compared with up to 134
+// for the nominal rig.
 TEST(SlowCampaign, Stribeck_IsFollowedToOneCountByEitherContact) {
     Departures rigid;
     rigid.friction.stribeck_V = 0.370873;

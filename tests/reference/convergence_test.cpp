@@ -26,7 +26,7 @@ Rig coarse_rig() {
     return rig;
 }
 
-/// A run of some quantity under a course of motor and heater voltages that changes at every fourth tick.
+/// A simulated quantity under random motor and heater voltages that change at every fourth tick.
 using Quantity = std::function<double(const Truth&)>;
 
 std::vector<double> run(const Departures& departures, int substeps, const Quantity& quantity) {

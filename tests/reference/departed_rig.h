@@ -20,7 +20,7 @@ inline State after(const RigModel& model, State state, int ticks, double macro_V
     return state;
 }
 
-/// With the carriage at 30 mm.
+/// The state after a motion from rest, with the carriage at 30 mm at the start.
 inline State from_rest(const Departures& departures, int ticks, double macro_V, double micro_V = 0.0) {
     const RigModel model = make_rig_model(rig(), departures);
     return after(model, start(model, 30.0, 1), ticks, macro_V, micro_V);

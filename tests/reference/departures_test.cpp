@@ -179,7 +179,7 @@ TEST(Fading, SteadySpeed_IsThatOfTheLowerVoltage) {
     departures.drive.fading_per_s = 0.1;
     const RigModel model = make_rig_model(rig(), departures);
     State state = start(model, 30.0, 1);
-    state.tick = 500;  // 5 % are gone; 1 % more a tenth of a second later
+    state.tick = 500;  // 5 % have been lost; 1 % more in a tenth of a second
     const double speed = gain() * (0.364 + 0.636 * (0.95 * 4.0 - 3.0));
     const double later = gain() * (0.364 + 0.636 * (0.94 * 4.0 - 3.0));
     const double v = after(model, state, 100, 4.0).carriage.speed_mm_per_s;
@@ -231,7 +231,7 @@ TEST(Stretch, FreeMasses_SwingAtTheirNaturalFrequencyWithTheirDamping) {
                             (std::cos(damped * t_s) + 0.02 * omega / damped * std::sin(damped * t_s));
         ASSERT_NEAR(state.carriage.stretch_mm, z_mm, 1e-3) << k;
     }
-    // the carriage has 0.7 of the mass: the masses' centre stays
+    // the carriage has 0.7 of the mass: the centre of mass stays
     EXPECT_NEAR(0.3 * state.carriage.motor_mm_per_s + 0.7 * state.carriage.speed_mm_per_s, 0.0, 1e-3);
 }
 
@@ -248,7 +248,7 @@ TEST(Flexure, SuddenSpeedOfTheCarriage_RingsAtItsResonance) {
     State state = start(model, 0.0, 1);
     state.carriage.speed_mm_per_s = -100.0;
     state.carriage.swing_mm_per_s = -50.0;  // platform and carriage move together, w = coupling v
-    advance(model, state, 0.0, 0.0);        // and the carriage strikes the end stop at once
+    advance(model, state, 0.0, 0.0);        // and the carriage hits the end stop at once
     ASSERT_EQ(state.carriage.speed_mm_per_s, 0.0);
     const double omega = 2.0 * std::numbers::pi * 20.0, zeta = 0.02;
     const double damped = omega * std::sqrt(1.0 - zeta * zeta);

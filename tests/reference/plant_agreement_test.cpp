@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two models of one machine, written apart: in closed form (plant/) and integrated (reference/). Under the
-// same commands they must go the same way. Each checks the other.
+// Two independent models of one machine, in closed form (plant/) and integrated (reference/), must give the
+// same motion under the same commands. Each checks the other.
 #include "core/random.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"

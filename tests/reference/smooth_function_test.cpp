@@ -33,7 +33,8 @@ TEST(SmoothFunction, OverItsRange_HasItsSizeAndNoLine) {
     EXPECT_NEAR(moment, 0.0, 2e-3);
 }
 
-/// Of cosines that are all alike: cos(k u) less its mean sin(k) / k, over the root of its variance.
+/// With equal wave numbers and phases the function is one cosine minus its mean, which is sin(k) / k over
+/// -1..1, scaled to an r.m.s. of 2.
 TEST(SmoothFunction, OneWave_IsTheCosineLessItsMean) {
     constexpr double k = std::numbers::pi / 2.0;
     std::array<double, smooth_waves> wave_numbers{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the cases are made with: the same for the same seed, even over classes, and nowhere to be read in what
-// the diagnosis is given.
+// Cases are the same for the same seed and evenly distributed over classes, and nothing that the diagnosis
+// gets reveals their causes.
 #include "src/selfcheck/draw/case_draw.h"
 
 #include "core/rig.h"

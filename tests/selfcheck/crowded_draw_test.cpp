@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rigs with many causes at once: what is drawn keeps to what was promised of it.
+// Rigs with many causes at once have the stated properties.
 #include "src/selfcheck/draw/crowded_draw.h"
 
 #include "core/rig.h"
@@ -95,7 +95,7 @@ TEST(OtherFormulas, Names_AreOfListedEffectsAndOfNoListedFormula) {
     EXPECT_TRUE(other_formulas_of("backlash").empty());
 }
 
-/// Whether a recording in which all stages move differs from the nominal rig's.
+/// Whether a recording in which all stages move differs from that of the nominal rig.
 bool shows(const TrueRig& rig) {
     const auto record = [](const TrueRig& true_rig) {
         constexpr int few_substeps = 4;
@@ -153,13 +153,13 @@ void expect_messy(const Label& label, bool has_dominant) {
     expect_between(label.discrepancy->gap_floors, discrepancy_floors, "discrepancy");
 }
 
-/// That they are the same again when they are drawn again: self_check_test.cpp.
+/// That drawing them again gives the same ones is tested in self_check_test.cpp.
 TEST(SlowCrowdedDraw, MessyRigs_KeepTheirGaps) {
     expect_messy(first_crowded_case(CaseKind::messy).label, true);
     expect_messy(first_crowded_case(CaseKind::messy_none).label, false);
 }
 
-/// Sizes are looked for with fewer sub-steps than a case is recorded with.
+/// The search for a size uses fewer integration sub-steps than the recording of a case.
 TEST(SlowGapAlone, OfADiscrepancy_IsThatOfTheFullModel) {
     const Case& drawn = first_crowded_case(CaseKind::messy_none);
     TrueRig alone{nominal(), {}};

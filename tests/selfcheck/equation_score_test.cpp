@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A proposed equation against the one that is right.
+// A proposed equation compared with the right one.
 #include "src/selfcheck/tally/equation_score.h"
 
 #include "core/rig.h"
@@ -76,7 +76,7 @@ TEST(EquationScore, AnotherQuantity_HasNothingInCommon) {
     EXPECT_EQ(score.apart, 1.0);
 }
 
-/// phi approaches with the time constant of the regime: a wire that is heated by more power is warmed faster.
+/// A heating power acts with the time constant of the regime, so that it can be converted to a heating rate.
 TEST(EquationScore, PowerAndFlowOfHeat_AreCompared) {
     const Rig& rig = evidence().rig();
     const EquationScore score =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cases with frames: the same for the same seed, even over the image's effects, and filmed as they are drawn.
+// Cases with frames are the same for the same seed, evenly distributed over the image's effects, and filmed
+// as drawn.
 #include "src/selfcheck/draw/frames_draw.h"
 
 #include "core/input_error.h"

@@ -36,7 +36,7 @@ TEST(SizeForGap, GapOfAnotherPower_ComesWithinAHalfOfTheTarget) {
     }
 }
 
-/// As of a carriage that one size lets go and a smaller one holds.
+/// As for a carriage that moves for one size and is held for a smaller one.
 TEST(SizeForGap, GapThatJumpsOverTheTarget_IsOneThatIsAllowed) {
     const auto found = size_for_gap([](double size) { return size < 0.3 ? 1.5 : 500.0; },
                                     {.start = 1.0, .largest = 10.0}, aim);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A label means what the catalogue means by it: a rig with a departure of the independent model is predicted
-// to the floor by the plant with the effect of that name.
+// Labels agree with the catalogue: the plant with an effect predicts, to the floor, a rig with the
+// independent model's departure of that name.
 #include "src/selfcheck/draw/listed_effects.h"
 
 #include "core/rig.h"
@@ -183,7 +183,7 @@ const std::vector<Pair>& pairs() {
     return all;
 }
 
-/// Of the one that is left out the independent model has another law: a rod, not a lump.
+/// For the excluded pair the independent model has another law: a rod in place of a lumped mass.
 TEST(ListedEffects, Pairs_AreAllThatAreDrawnButOne) {
     std::set<std::string_view> drawn{"second_thermal_mass"}, paired = drawn;
     for (const EffectDraw& draw : listed_effects()) drawn.insert(draw.effect);

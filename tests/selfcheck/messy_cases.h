@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Rigs with many causes. To draw one takes half a minute: it is done once for all tests of a process.
+// Rigs with many causes. Drawing one takes half a minute, so it is done once for all tests of a process.
 #include "src/selfcheck/draw/crowded_draw.h"
 #include "tests/reference_rig.h"
 
@@ -14,7 +14,7 @@ namespace fidservo::testing {
 
 inline constexpr std::uint64_t messy_seed = 3;
 
-/// The first crowded case of a kind, of `messy_seed`.
+/// The first crowded case of a kind, for the seed `messy_seed`.
 inline const selfcheck::Case& first_crowded_case(selfcheck::CaseKind kind) {
     static std::map<selfcheck::CaseKind, selfcheck::Case> drawn;
     if (const auto found = drawn.find(kind); found != drawn.end()) return found->second;

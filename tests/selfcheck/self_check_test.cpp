@@ -86,12 +86,12 @@ TEST(SlowSelfCheck, ManyCauses_AreDrawnAgainTheSameDiagnosedAndScored) {
         }
 }
 
-/// A case that was diagnosed wrongly once, and what is demanded of it.
+/// A case that was once diagnosed wrongly, and the result that is required of it.
 struct KnownCase {
     const char* name;
     std::uint64_t seed;
     std::size_t number;
-    const char* effect;  ///< its first one, by which a draw that has changed is noticed
+    const char* effect;  ///< name of its first effect, to notice if the draw has changed
     bool (*is_right)(const Score&);
     bool has_frames = false;
 };
@@ -109,12 +109,12 @@ bool is_all_right(const Score& score) {
 bool is_followed_to_the_floor(const Score& score) {
     return score.all_right && score.after < 1.1;
 }
-/// Of an effect that the catalogue lacks, or that is withheld.
+/// The requirement for an effect that is not in the catalogue or is withheld.
 bool has_right_block(const Score& score) {
     return score.right_block_first && !score.is_confident_wrong;
 }
 
-/// The same where others explain all that is there, so that their names cannot but be believed.
+/// The weaker requirement if other effects explain everything, so that their names are credible.
 bool has_right_block_at_least(const Score& score) {
     return score.right_block_first;
 }
@@ -148,29 +148,29 @@ INSTANTIATE_TEST_SUITE_P(
         KnownCase{"TagsOfAnotherSize", 2028, 120, "tag_side", has_right_block},
         // Its command shows as acceleration does: mass and belt together stand in for it.
         KnownCase{"LateCommandBesideAGain", 2081, 294, "drive_delay", is_all_right},
-        // Found by a scan: which way the carriage goes is all that shows it.
+        // Found by a scan, as the effect only shows in the direction that the carriage takes.
         KnownCase{"WaveOfTwoMillivolts", 2101, 278, "cogging", is_followed_to_the_floor},
         KnownCase{"WeakWaveBesideAMass", 2094, 325, "payload", is_all_right},
-        // Bristles that are withheld are friction and a mass, which leave nothing.
+        // Friction and a mass together explain withheld bristles completely.
         KnownCase{"BristlesThatAreNotKnown", 2094, 190, "presliding", has_right_block_at_least},
-        // Where the tags are smeared they say nothing of the camera's geometry, and few others move.
+        // Smeared tags give no information on the camera's geometry, and few other tags move.
         KnownCase{"SmearedTags", 2099, 22, "motion_blur", is_followed_to_the_floor, true},
         KnownCase{"SmearedTagsWithoutItsEffect", 2099, 71, "motion_blur", has_right_block, true},
         KnownCase{"FarOutOfFocus", 2099, 19, "defocus", is_followed_to_the_floor, true},
-        // One half of the data has hardly a tag that moves.
+        // One half of the data has hardly any moving tag.
         KnownCase{"ShutterThatRollsInOneHalf", 2100, 106, "rolling_shutter", is_followed_to_the_floor, true},
-        // Followed as a spring that does not harden the carriage goes other ways.
+        // A simulation with a spring that does not harden takes the carriage along other paths.
         KnownCase{"HardeningCableOfManyWays", 2097, 337, "cable_force", is_followed_to_the_floor},
-        // The balance needs the cable alone; only where the carriage goes shows the other one.
+        // The balance of forces needs the cable only; the other effect shows in the carriage's path alone.
         KnownCase{"FrictionByDirectionBesideACable", 2101, 369, "friction_asymmetry",
                   is_followed_to_the_floor},
-        // Effects of which neither is worth naming alone, and which the search does not follow to the floor.
+        // Neither effect is worth naming alone, and the search does not follow them to the floor.
         KnownCase{"PlayBesideAHardeningCable", 2101, 12, "cable_force", is_all_right},
-        // Under a false scale a ripple does more harm than good, though the readings show it.
+        // With a scale error of the encoder a ripple increases the loss, although the readings show it.
         KnownCase{"RippleUnderAFalseScale", 2107, 81, "encoder_scale", is_followed_to_the_floor},
-        // Withheld; a camera that turns about an axis far over it looks aside, and passes for it.
+        // Withheld; a camera tilted about an axis far above it looks aside, and explains it.
         KnownCase{"ScaleAndNoTiltAboutAFarAxis", 2111, 107, "encoder_scale", has_right_block},
-        // Explained by what Stribeck friction and bristles come to at a limit.
+        // Explained by limiting cases of Stribeck friction and bristles.
         KnownCase{"DryFrictionThatIsNotKnown", 2097, 367, "coulomb_friction", has_right_block}),
     [](const auto& instance) { return instance.param.name; });
 

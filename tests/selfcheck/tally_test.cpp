@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What outcomes come to, by hand.
+// Statistics of hand-made outcomes.
 #include "src/selfcheck/tally/tally.h"
 
 #include "src/selfcheck/tally/tally_text.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A camera may be askew about its mount, about the plate, about anything between: one effect, with the way of
-// its centre.
+// A camera may be tilted about its mount, about the plate, or about anything between: one effect, which
+// includes the displacement of the camera's centre.
 #include "gap/diagnose.h"
 #include "src/selfcheck/draw/campaign.h"
 #include "tests/effort.h"
@@ -18,7 +18,7 @@ namespace {
 
 struct Tilt {
     double about_u_deg, about_v_deg;
-    double height;  ///< of the axis, as a share of the camera's
+    double height;  ///< height of the axis relative to the camera's
     friend std::ostream& operator<<(std::ostream& out, const Tilt& tilt) {
         return out << tilt.about_u_deg << " and " << tilt.about_v_deg << " deg at " << tilt.height;
     }
@@ -44,7 +44,7 @@ TEST_P(TiltedCamera, OfTheIndependentModel_IsNamedWithItsParameters) {
     EXPECT_NEAR(parameters[2].value, height, 0.02);
 }
 
-/// First two that differ in all: the guard's.
+/// All tilts; the first two, which differ in all parameters, are those used without --all-draws.
 std::vector<Tilt> tilts() {
     std::vector<Tilt> all{Tilt{1.5, 0.0, 0.0}, Tilt{-0.4, 0.7, 1.0}, Tilt{0.0, 0.6, 0.0},
                           Tilt{-0.8, -0.6, 0.6}};

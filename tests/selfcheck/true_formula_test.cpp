@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The formula by which an equation is judged is what the rig has: with it the plant predicts the independent
-// model's recordings to the floor.
+// The formula against which equations are judged is that of the rig: with it the plant predicts the
+// independent model's recordings to the floor.
 #include "src/selfcheck/draw/true_formula.h"
 
 #include "core/rig.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole session in real time, as on hardware: loop in a thread of its own, a camera that delivers by the
-// wall clock, vision in between. The truth is a simulated rig that goes on whatever the program does.
+// wall clock, vision in between. The rig is a simulated one that advances in real time, independent of the
+// program.
 #include "control/stage_check.h"
 #include "core/monotonic_clock.h"
 #include "core/result.h"
@@ -84,7 +85,7 @@ TEST(SlowLiveSession, HomeAndGoTo_ReachTheTruthWithinTolerance) {
     const Plate plate = plate_of(rig.fiducials.value());
     const testing::TemporaryFolder folder;
     const auto live = std::make_shared<LiveRig>(rig, plate, 30.0, 5);
-    // No watchdog on the time: this machine may be busy, and the loop is right at any speed.
+    // The watchdog does not check the time: the machine may be busy, and the loop must be right at any speed.
     const auto loop =
         std::make_shared<control::StageLoop>(std::make_shared<LiveStage>(live), control::LoopOptions{});
     {
@@ -119,7 +120,8 @@ TEST(SlowLiveSession, HomeAndGoTo_ReachTheTruthWithinTolerance) {
         ASSERT_GT(recording.rows[k].time_ns, recording.rows[k - 1].time_ns) << "row " << k;
 }
 
-/// The loop's thread runs the law: what it commanded is the law's answer to what it read, at every tick.
+/// The loop's thread runs the experiment's law: at every tick the command is the law's result for the
+/// reading.
 TEST(SlowLiveSession, Experiment_EveryCommandAnswersItsReading) {
     const Rig rig = live_rig_file();
     const Plate plate = plate_of(rig.fiducials.value());
@@ -154,7 +156,7 @@ TEST(SlowLiveSession, Experiment_EveryCommandAnswersItsReading) {
     std::optional<TimeNs> start_ns;
     int in_force = 0;
     for (const StageRow& row : recording.rows) {
-        if (std::isnan(row.macro_setpoint_mm)) continue;  // held, before and after
+        if (std::isnan(row.macro_setpoint_mm)) continue;  // held before and after the experiment
         if (!start_ns) start_ns = row.time_ns;
         StageRow again = row;
         command_tick(rig, experiment, zero_count, seconds(row.time_ns - *start_ns), loops, again);

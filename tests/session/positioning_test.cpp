@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fiducial-relative positioning end to end, through rendered images, judged by the plant's own truth: on the
-// rig as its file says, and on rigs that differ from their file in ways the session is not told.
+// Fiducial-relative positioning end to end, through rendered images, tested against the simulated plant's
+// true state: on the nominal rig, and on rigs that differ from their file without the session's knowing it.
 #include "core/failure.h"
 #include "core/random.h"
 #include "core/rig.h"

@@ -25,7 +25,7 @@ std::shared_ptr<SimulatedRig> reference_rig_in_simulation() {
         reference_physics(), load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml").camera.value(), reference_plate(), 5);
 }
 
-/// A session on that rig, whose stage has a fault.
+/// A session on that rig with a fault of the stage.
 Session session_with(const std::shared_ptr<SimulatedRig>& rig, const Fault& fault) {
     const auto stage = std::make_shared<FaultyStage>(std::make_shared<SimulatedStage>(rig, nullptr),
                                                      std::vector<Fault>{fault});
@@ -137,7 +137,7 @@ TEST(Session, CameraThatFails_IsAnEventOfARecordingThatIsUnfinished) {
     EXPECT_NE(recording.events[0].text.find("no frame from the camera"), std::string::npos);
 }
 
-/// A carriage that stands looks like one at its end stop.
+/// A carriage at rest looks like one at its end stop.
 TEST(Session, Home_CarriageJams_IsSaidWhereverItIsOnItsWay) {
     for (const double from_s : {0.0, 0.4, 0.9}) {
         SCOPED_TRACE(from_s);
@@ -152,7 +152,7 @@ TEST(Session, Home_CarriageJams_IsSaidWhereverItIsOnItsWay) {
     }
 }
 
-/// It can still move, and a tag tells where it is.
+/// The carriage can still move, and a tag shows its position.
 TEST(SlowSession, Home_SomethingInTheWay_IsRegisteredAllTheSame) {
     const auto rig = reference_rig_in_simulation();
     Session session = session_with(rig, {FaultKind::macro_jammed, 0.5, 0.3});
@@ -254,7 +254,7 @@ TEST(SlowSession, CountsThatWereNoMotion_AreFoundOutByTheTags) {
     EXPECT_TRUE(session.check_rig());
 }
 
-/// The PD's last nudges then go on for ever, a count to and fro.
+/// The PD then oscillates by a count for ever.
 TEST(SlowSession, DriveThatActsLate_IsHomedAndPositioned) {
     auto physics = reference_physics();
     const plant::EffectSetting late = plant::parse_effect("drive_delay:delay_ms=5");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A simulated rig whose truth a test writes down, tick by tick, while a session drives it through its
-// devices.
+// A simulated rig whose true state is logged, tick by tick, while a session drives it through its devices.
 #include "core/plate.h"
 #include "core/result.h"
 #include "src/files/rig/plate_file.h"
@@ -26,7 +25,7 @@ class WatchedStage final : public control::Stage {
         return stage_.write(command);
     }
 
-    std::vector<plant::StageState> history;  ///< before each command
+    std::vector<plant::StageState> history;  ///< states before each command
     std::vector<control::StageCommand> commands;
 
   private:
@@ -34,12 +33,12 @@ class WatchedStage final : public control::Stage {
     SimulatedStage stage_;
 };
 
-/// The reference rig's file, a rig that may differ from it, and a session that knows the file only.
+/// The reference rig's file, a true rig that may differ from it, and a session that knows the file only.
 struct WatchedRig {
     WatchedRig(const plant::PlantParameters& physics, const Plate& printed, std::uint64_t seed)
         : WatchedRig(physics, printed, seed, load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml")) {}
 
-    /// @param of  what the session knows
+    /// @param of  the rig file that the session knows
     WatchedRig(const plant::PlantParameters& physics, const Plate& printed, std::uint64_t seed, Rig of)
         : file(std::move(of)),
           nominal(plate_of(file.fiducials.value())),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a user gave and is wrong: one clear line, the right exit code, nothing overwritten. On the real
+// Wrong input gives one clear line and the right exit code, and nothing is overwritten. On the real
 // executable.
 #include "core/rig.h"
 #include "tests/src/run_program.h"

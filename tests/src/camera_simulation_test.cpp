@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The simulated camera in recordings: detections that are not made from images and frames with the real
-// detector must tell the same story, whatever the camera is like.
+// detector must agree, for any camera.
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "src/files/recording/reader.h"
@@ -21,7 +21,7 @@
 namespace fidservo {
 namespace {
 
-/// The wire heats up: the camera moves at some mm/s, evenly but for the table's cells.
+/// The wire heats up: the camera moves at some mm/s, uniformly within the table's cells.
 Experiment heating() {
     return {
         .kind = "micro-steps", .duration_s = 0.7, .carriage_mm = 99.2, .micro_V = [](double) { return 1.5; }};
@@ -64,7 +64,7 @@ TEST_P(CameraOfARecording, DetectionsWithAndWithoutImages_Agree) {
             worst_px = std::max(worst_px, (corners[k] - found->second[k]).norm());
     }
     EXPECT_GE(compared, 4);
-    // A picture in perspective is fitted; a lens that bends it puts its corners 0.04 px beside.
+    // A perspective picture is fitted; a distorting lens shifts its corners by 0.04 px.
     const bool bends = GetParam().size() == 1 && GetParam()[0].starts_with("lens_distortion");
     EXPECT_LT(worst_px, bends ? 0.05 : 0.01);
     std::printf("%d frames, corners within %.4f px of each other\n", compared, worst_px);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Effects as formulas in files: what is read is what is written, and mistakes are named where they stand.
+// Effects as formulas in files: reading restores what was written, and errors are reported with their place.
 #include "src/files/rig/effects_file.h"
 
 #include "plant/effects/catalogue.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Experiments that people write: what they command, tick by tick, and what is refused.
+// Experiments written by users: their commands, tick by tick, and the errors for wrong ones.
 #include "src/simulation/experiment_file.h"
 
 #include "core/rig.h"

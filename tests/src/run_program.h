@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Runs the real executable, for what only it can show: exit codes and what stands on stderr.
+// Runs the real executable, for tests of exit codes and output on stderr.
 #include "tests/src/temporary_folder.h"
 
 #include <csignal>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loop's thread on a stage in memory: what it hands over, what it does alone, how it ends. Nothing here
-// depends on how fast this machine is.
+// The loop's thread on a stage in memory: the records that it hands over, what it does without a program, and
+// how it ends. Nothing here depends on the machine's speed.
 #include "control/stage_loop.h"
 
 #include "control/positioner.h"
@@ -126,7 +126,7 @@ class StallingStage final : public Stage {
     }
     Status write(const StageCommand&) override { return {}; }
 
-    std::vector<TimeNs> read_ns;  ///< the loop's until it is stopped
+    std::vector<TimeNs> read_ns;  ///< the loop thread's own until the loop has stopped
 
   private:
     TimeNs period_ns_;

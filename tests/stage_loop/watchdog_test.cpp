@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each alarm by what it is for, and none of them by a healthy stage.
+// Each alarm is raised by its cause, and none by a healthy stage.
 #include "control/watchdog.h"
 
 #include "plant/stage_plant.h"

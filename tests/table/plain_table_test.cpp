@@ -73,7 +73,8 @@ TEST(PlainTable, DecimalSign_IsThatOfAnyNumberThatTells) {
     EXPECT_EQ(rows_of("1,234;0.5\n2,345;1\n"), (Rows{{1234, 0.5}, {2345, 1}}));
     EXPECT_EQ(rows_of("1.234;1.234,5\n"), (Rows{{1234, 1234.5}}));
     EXPECT_EQ(rows_of("1,234\t1,234,567\n"), (Rows{{1234, 1234567}}));
-    EXPECT_EQ(rows_of("1.234,2\n"), (Rows{{1.234, 2}}));  // no thousands between points where commas separate
+    // A comma that separates columns is no decimal sign, so the point is one, not a thousands separator.
+    EXPECT_EQ(rows_of("1.234,2\n"), (Rows{{1.234, 2}}));
 }
 
 TEST(PlainTable, NumberThatCouldMeanTwoThings_IsAskedFor) {

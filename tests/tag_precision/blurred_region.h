@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How much of a region each pixel of a camera sees, to rounding.
+// The coverage of a camera's pixels by a region, exact to rounding.
 //
 // The optics blur with a normal distribution, motion during the exposure with a box along u, and a pixel
 // averages over its square: the kernel is separable, k(x, y) = kx(x) ky(y). With K(z) = integral of kx up to
@@ -17,9 +17,9 @@
 namespace fidservo::precision {
 
 struct Blur {
-    double sigma_px = 0.8;                 ///< of the optics, more than 0
+    double sigma_px = 0.8;                 ///< of the optics, greater than 0
     double motion_px = 0.0;                ///< along u during the exposure
-    double halo_share = 0.0;               ///< of the light, in a second normal distribution
+    double halo_share = 0.0;               ///< fraction of the light in a second normal distribution
     double halo_sigma_px = 0.8;            ///< its standard deviation
     double standard_deviation_px() const;  ///< of the optics alone
 };

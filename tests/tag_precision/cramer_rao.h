@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The best that any unbiased estimator can do with one frame.
+// The lower bound on the variance of any unbiased estimator from one frame.
 #include "tests/tag_precision/sensor.h"
 #include "tests/tag_precision/tag_scene.h"
 
@@ -11,7 +11,7 @@
 namespace fidservo::precision {
 
 struct UnknownPerspective {
-    bool fitted = false;  ///< two more unknowns: the tag's tilt about two axes
+    bool fitted = false;  ///< the tag's tilt about two axes is unknown, too
 };
 
 /// Derivatives of the mean grey picture with respect to the centre (u, v), then to the nuisances: rotation,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a refinement is judged on: pictures, what it is told of them, and how good it must be.
+// The cases on which a refinement is tested: pictures, the prior knowledge given to it, and the required
+// accuracy.
 #include "tests/tag_precision/sensor.h"
 #include "tests/tag_precision/tag_scene.h"
 #include "vision/tags/tag_refinement.h"
@@ -11,9 +12,10 @@
 namespace fidservo::precision {
 
 struct PrecisionLimits {
-    double sigma_ratio;  ///< standard deviation by the Cramer-Rao bound
+    double sigma_ratio;  ///< standard deviation over the Cramer-Rao bound
     double bias_px;
-    double first_harmonic_px;  ///< of the error over the place between pixels
+    /// Amplitude of the error's periodic part as a function of the place between pixels.
+    double first_harmonic_px;
 };
 
 /// One kind of picture.
@@ -21,9 +23,9 @@ struct PrecisionCase {
     std::string name;
     TagScene scene;
     Sensor sensor;
-    vision::RefinementOptions known;  ///< told to the refinement
+    vision::RefinementOptions known;  ///< prior knowledge given to the refinement
     PrecisionLimits limits;
-    Eigen::Matrix2d bound_px2() const;  ///< of what is visible; with unknown tilt where no camera is known
+    Eigen::Matrix2d bound_px2() const;  ///< for the visible part; with unknown tilt if the camera is unknown
 };
 
 /// A tag of 320 px in 640 x 480, turned by 0.7 degrees, edges of 0.8 px, grey levels 33 and 194 of 255, seen

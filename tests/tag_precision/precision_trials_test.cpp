@@ -66,7 +66,7 @@ TEST(PrecisionTrials, LeastSquaresFromTheTruth_AttainTheBound) {
     EXPECT_THAT(reproaches(figures, of.limits, true), ::testing::IsEmpty());
 }
 
-/// Errors made on purpose come back as figures, and are reproached.
+/// The statistics show errors of known size, and these are reported as too large.
 TEST(PrecisionTrials, ErrorsMadeOnPurpose_AreFound) {
     const PrecisionCase of = small_case();
     NoiseStream noise(4, "errors");

@@ -18,7 +18,7 @@
 namespace fidservo::precision {
 
 struct Sensor {
-    double full_well_e = 10000.0;  ///< of full scale, grey level 255
+    double full_well_e = 10000.0;  ///< at full scale, grey level 255
     double read_noise_e = 5.0;
     double gain_spread = 0.0;
     double gamma = 1.0;

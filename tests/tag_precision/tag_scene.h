@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The mean picture of one printed tag under a camera, as a function of everything that shapes it. Exact to
-// rounding for a camera without noise; shares nothing with the program's own pictures.
+// The mean picture of one printed tag under a camera, as a function of all influences. Exact to rounding for
+// a camera without noise; it shares no code with the program's own rendering.
 #include "core/camera/camera_geometry.h"
 #include "core/detection.h"
 #include "tests/tag_precision/blurred_region.h"
@@ -21,28 +21,29 @@ struct Illumination {
     double vignetting = 0.0;
 };
 
-/// Something on the tag that is not of it. Its outline is drawn on the tag: (-0.5, -0.5) is the corner of
-/// least plate x and y, (0.5, 0.5) the opposite one. It is blurred like the tag, and covers it.
+/// A foreign object on the tag. Its outline is given on the tag: (-0.5, -0.5) is the corner of least plate x
+/// and y, (0.5, 0.5) the opposite one. It is blurred like the tag, and covers it.
 struct Cover {
     std::vector<Eigen::Vector2d> outline;  ///< clockwise as seen in the image
-    double level;                          ///< share of full scale
+    double level;                          ///< fraction of full scale
 };
 
 /// A reflex: light added to the picture, level exp(-(r / radius)^2 / 2) around a point of the tag.
 struct Glare {
-    Eigen::Vector2d at;  ///< as outlines
+    Eigen::Vector2d at;  ///< in the same coordinates as outlines
     double radius_px;
-    double level;  ///< shares of full scale
+    double level;  ///< fraction of full scale
 };
 
 struct TagScene {
     int tag_id = 0;
     Eigen::Vector2d centre_px{319.5, 239.5};  ///< image of the tag's centre
-    double side_px = 320.0;                   ///< where the camera looks straight
+    double side_px = 320.0;                   ///< if the camera looks straight down
     double angle_rad = 0.0;                   ///< on the plate, from x towards y
     CameraGeometry camera{640, 480, 5000.0, {319.5, 239.5}, 20.0};
-    double ink_spread_px = 0.0;  ///< by which every black edge is grown, corners staying square
-    double black = 0.07;         ///< shares of full scale
+    /// Distance by which every black edge is moved outwards, corners staying square.
+    double ink_spread_px = 0.0;
+    double black = 0.07;  ///< fractions of full scale
     double white = 0.70;
     Blur blur;
     Illumination illumination;
@@ -58,13 +59,14 @@ Eigen::Vector2d image_of(const TagScene& scene, const Eigen::Vector2d& on_tag);
 /// In detection order.
 std::array<Eigen::Vector2d, 4> corners_of(const TagScene& scene);
 
-/// Share of black ink (0..1) that every pixel sees.
+/// Fraction of black ink (0..1) that every pixel sees.
 cv::Mat1d ink_picture(const TagScene& scene);
 
-/// Share of full scale that every pixel would show without noise and saturation.
+/// Fraction of full scale that every pixel would show without noise and saturation.
 cv::Mat1d mean_picture(const TagScene& scene);
 
-/// 255 where the picture is the tag's alone, 0 where cover or glare change it by more than a grey level.
+/// 255 where the picture is that of the tag alone, 0 where cover or glare change it by more than a grey
+/// level.
 cv::Mat1b undamaged(const TagScene& scene);
 
 }  // namespace fidservo::precision

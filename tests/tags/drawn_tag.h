@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Pictures of tags of any family. Their cells are drawn by the libraries that define them, not by the
-// program.
+// Pictures of tags of any family, whose cells come from the libraries that define them, not from the program.
 #include "core/detection.h"
 #include "vision/tags/tag_book.h"
 
@@ -15,12 +14,13 @@
 
 namespace fidservo::testing {
 
-/// A tag as it is to be printed and seen.
+/// A tag with its print and its place in the image.
 struct DrawnTag {
     vision::TagReading reading;
     int id;
     std::array<Eigen::Vector2d, 4> corners_px;  ///< of the outline, in detection order
-    bool corner_squares = false;                ///< as on an AprilGrid; for borders of two cells
+    /// Black squares touch the corners, as on an AprilGrid; for borders of two cells.
+    bool corner_squares = false;
 };
 
 /// Cells of all that is printed, 255 is white, without the paper around.

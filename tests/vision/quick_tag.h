@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Tags drawn in a hurry, for tests of thousands of pictures: four samples a pixel, so that edges are right to
-// a fifth of a pixel or so.
+// Fast drawing of tags for tests with thousands of pictures: four samples per pixel, so that edges are
+// accurate to about a fifth of a pixel.
 #include <array>
 #include <optional>
 #include <vector>
@@ -21,7 +21,7 @@ struct QuickTag {
     double paper = 220.0;
 };
 
-/// The cells of a code of the book, drawn by the library.
+/// The cells for an id, drawn by the library.
 std::array<std::array<bool, 8>, 8> cells_of(int tag_id);
 /// The same print, turned by a quarter turn from u towards v.
 std::array<std::array<bool, 8>, 8> turned(const std::array<std::array<bool, 8>, 8>& cells);

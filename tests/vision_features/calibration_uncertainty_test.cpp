@@ -14,7 +14,7 @@
 namespace fidservo::vision::testing {
 namespace {
 
-/// Far above what a calibration leaves, so that it dominates what is measured here.
+/// Much larger than the uncertainty after a calibration, so that it dominates the uncertainties here.
 CameraCovariance loose_calibration() {
     const CameraNumbers std{{0.02, 1e-3, 2e-3, 2e-3, 1e-3, 1e-3, 0.02}};
     CameraCovariance correlation = CameraCovariance::Identity();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Does a stated uncertainty describe the errors? Over many independent trials the normalised squared errors
-// follow a chi-square law.
+// Whether stated uncertainties describe the errors: over many independent trials the normalised squared
+// errors follow a chi-square distribution.
 #include "core/failure.h"
 #include "core/result.h"
 #include "vision/features/rest_image.h"
@@ -37,7 +37,7 @@ class Consistency {
     double chi2_ = 0.0;
 };
 
-/// The bias is below `most_bias`, and the squared errors lie within the 99 % interval of their law.
+/// The bias is below `most_bias`, and the squared errors lie within the 99 % interval of their distribution.
 inline void expect_consistent(const Consistency& trials, double most_bias, const char* what) {
     constexpr double two_sided_99 = 2.576;
     ASSERT_GE(trials.trials(), 100) << what;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A small world for tests: a plate, a camera above it, and images of it.
+// A plate, a camera above it, and images of it.
 #include "core/plate.h"
 #include "plant/view/view_options.h"
 #include "vision/features/rest_image.h"
@@ -14,10 +14,10 @@ inline constexpr double ink = 0.1;
 struct Scene {
     Plate plate;
     CameraParameters camera;
-    double s_mm = 100.0;  ///< where the camera is
+    double s_mm = 100.0;  ///< camera position
     plant::ViewOptions view;
 
-    /// One more thing printed in ink.
+    /// Adds a thing printed in ink.
     template <class Shape>
     void print(const Shape& shape, double reflectance = ink) {
         plate.features.push_back({"", shape, reflectance});

@@ -96,7 +96,8 @@ void film(LiveRig& rig, const CameraParameters& camera, devices::LoopbackFeed& f
     const TimeNs period_ns = nanoseconds(1.0 / camera.frame_rate_hz);
     TimeNs next_ns = monotonic_now_ns();
     for (std::uint64_t frame = 0; !stop.stop_requested(); ++frame) {
-        sleep_until(next_ns + nanoseconds(camera.exposure_s) + 2 * step_ns);  // the stage is that far by then
+        // By then the stage has been simulated up to the end of the exposure.
+        sleep_until(next_ns + nanoseconds(camera.exposure_s) + 2 * step_ns);
         const cv::Mat image = rig.frame_at(next_ns, frame);
         sleep_until(next_ns + nanoseconds(camera.latency_s));
         feed.show(image);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The other end of v4l2loopback: what is shown here is what a camera on the node sees.
+// The output side of v4l2loopback: images shown here are those that a camera on the node sees.
 #include "vision/v4l2/device.h"
 #include "vision/v4l2/pixel_format.h"
 

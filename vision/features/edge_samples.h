@@ -14,18 +14,18 @@ namespace fidservo::vision {
 
 using EdgeSamples = std::vector<EdgeSample>;
 
-/// Distances inwards and outwards up to which pixels are taken.
+/// Distances from the outline, inwards and outwards, up to which pixels are taken.
 struct Reach {
     double in_px;
     double out_px;
 };
 
-/// A circle's surroundings in equal sectors, the first one centred at angle 0; t = distance from the centre -
-/// radius.
+/// The surroundings of a circle in equal sectors, the first one centred at angle 0; t = distance from the
+/// centre minus radius.
 std::vector<EdgeSamples> samples_of_ring(const cv::Mat& grey, const Eigen::Vector2d& centre_px,
                                          double radius_px, const Reach& reach, int sectors);
 
-/// A straight segment's surroundings in equal stretches from `from_px` to `to_px`; t = distance along
+/// The surroundings of a straight segment in equal stretches from `from_px` to `to_px`; t = distance along
 /// `outward`, the segment's unit normal.
 std::vector<EdgeSamples> samples_of_band(const cv::Mat& grey, const Eigen::Vector2d& from_px,
                                          const Eigen::Vector2d& to_px, const Eigen::Vector2d& outward,
@@ -39,9 +39,9 @@ struct BinnedProfile {
 };
 BinnedProfile binned_profile(std::span<const EdgeSample> samples);
 
-/// The place of the greatest step in a profile, to about a pixel: mean of the 3 px above less mean of the 3
-/// px below. Only steps of the given sign (+1: brighter outwards, -1: darker outwards) of at least
-/// `least_grey`.
+/// The position of the largest step in a profile, to about a pixel: the mean of the 3 px above it less the
+/// mean of the 3 px below. Only steps of the given sign (+1: brighter outwards, -1: darker outwards) of at
+/// least `least_grey` count.
 std::optional<double> coarse_step_px(std::span<const EdgeSample> samples, double sign, double least_grey);
 
 }  // namespace fidservo::vision

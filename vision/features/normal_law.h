@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The standard normal law.
+// The standard normal distribution.
 #include <cmath>
 #include <numbers>
 
@@ -24,7 +24,7 @@ inline double normal_exceeded(double tail) {
     return 0.5 * (low + high);
 }
 
-/// Expectation of the greatest of n independent standard normal values (Blom 1958; to 1 % from n = 2 on).
+/// Expectation of the maximum of n independent standard normal values (Blom 1958; to 1 % from n = 2 on).
 inline double expected_greatest(double n) {
     return n < 2.0 ? 0.0 : normal_exceeded(0.625 / (n + 0.25));
 }

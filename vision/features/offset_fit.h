@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Robust weighted linear least squares: how a shape must change so that its outline passes through the edges
-// found.
+// Robust weighted linear least squares for the change of a shape's parameters that brings its outline onto
+// the measured edge points.
 #include "core/median.h"
 #include "core/normal_equations.h"
 
@@ -14,7 +14,8 @@
 
 namespace fidservo::vision {
 
-/// An edge found at `offset_px` from the outline; the shape's parameters p move the outline there by row . p.
+/// An edge point measured at `offset_px` from the outline; a change p of the shape's parameters moves the
+/// outline there by row . p.
 template <int N>
 struct OutlineOffset {
     Eigen::Matrix<double, N, 1> row;
@@ -26,14 +27,15 @@ template <int N>
 struct OffsetFit {
     Eigen::Matrix<double, N, 1> correction;
     Eigen::Matrix<double, N, N> covariance;  ///< from the offsets' own uncertainties, not widened by `excess`
-    double excess = 1.0;                     ///< r.m.s. residual over its expectation, of the offsets used
+    double excess = 1.0;                     ///< r.m.s. residual of the offsets used over its expectation
     std::vector<bool> used{};
     int used_count = 0;
     bool determined = false;
 };
 
-/// Least absolute deviations first (iteratively reweighted), then least squares on the offsets within 4.5 of
-/// their standard deviations, widened by the median residual where that is larger than expected.
+/// Least absolute deviations first (iteratively reweighted), then least squares on the offsets whose residual
+/// is within 4.5 standard deviations, which are enlarged to the median residual where that is larger than
+/// expected.
 template <int N>
 OffsetFit<N> fit_offsets(const std::vector<OutlineOffset<N>>& offsets) {
     using Vector = Eigen::Matrix<double, N, 1>;
@@ -80,8 +82,8 @@ OffsetFit<N> fit_offsets(const std::vector<OutlineOffset<N>>& offsets) {
     return fit;
 }
 
-/// The factor by which an excess beyond chance widens an uncertainty: 1 while chi^2 / dof stays within three
-/// standard deviations of 1.
+/// The factor by which a residual larger than chance widens an uncertainty; 1 as long as chi^2 / dof is
+/// within three standard deviations of 1.
 inline double widening(double excess, int degrees_of_freedom) {
     const double chance = 1.0 + 3.0 * std::sqrt(2.0 / std::max(1, degrees_of_freedom));
     return excess * excess > chance ? excess : 1.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Fits a shape's outline to the edge found along it: what dots, pads and single edges have in common.
+// Fits a shape's outline to the edge measured along it: the common part of dots, pads and single edges.
 #include "core/failure.h"
 #include "core/result.h"
 #include "vision/features/edge_samples.h"
@@ -18,7 +18,7 @@
 
 namespace fidservo::vision {
 
-/// A piece of an outline: the pixels along it, and how the shape's parameters move it along its normal.
+/// A section of an outline: the pixels along it, and how the shape's parameters move it along its normal.
 template <int N>
 struct OutlineSection {
     EdgeSamples samples;
@@ -32,28 +32,28 @@ struct OutlineFit {
     EdgeQuality quality;
 };
 
-/// The edge's reach for locating it finely: five standard deviations of the profile.
+/// How far from the edge pixels are used for its fine location: five standard deviations of the profile.
 inline constexpr double fine_reach_px = 4.5;
 
 namespace outline_detail {
 
-/// Residuals of a section's profile beyond noise, as a part of the contrast, from which it is set aside.
+/// A section is left out if its profile deviates from the model by more than this fraction of the contrast,
+/// noise deducted.
 inline constexpr double most_misfit = 0.04;
 /// Standard deviation in px of a coarse edge position.
 inline constexpr double coarse_std_px = 1.0;
-/// This part of the outline must be seen for a value to be given.
+/// The least fraction of the outline's sections that must be usable for a result.
 inline constexpr double least_part_used = 0.6;
-/// A shape whose edge scatters more than this around its outline is another shape.
+/// An edge that scatters more than this around the outline does not have the shape's form.
 inline constexpr double most_form_error_px = 1.5;
 
-/// What is hidden must not make any parameter's variance greater than this many times that of the whole
-/// outline.
+/// The largest ratio of a parameter's variance with the usable sections to that with the whole outline.
 inline constexpr double most_hidden_variance = 1.5;
 
 template <class Shape>
 using Information = Eigen::Matrix<double, Shape::parameters, Shape::parameters>;
 
-/// The greatest ratio of a parameter's variance with the sections used to that with all of them.
+/// The largest ratio of a parameter's variance with the sections used to that with all of them.
 template <class Shape>
 double hidden_variance(const Information<Shape>& of_all, const Information<Shape>& of_used) {
     return of_used.inverse().diagonal().cwiseQuotient(of_all.inverse().diagonal()).maxCoeff();
@@ -66,8 +66,8 @@ struct LocatedEdge {
     double sigma_px;
 };
 
-/// The edge in one section; an uncertainty widened by the profile's misfit. Fails as locate_edge, or with
-/// occluded.
+/// Locates the edge in one section; its uncertainty is widened by the profile's misfit. Fails as
+/// locate_edge() does, or with occluded.
 inline Result<LocatedEdge> locate_outline(const EdgeSamples& samples, const GreyNoise& noise,
                                           const BlurPrior& blur) {
     const auto edge = locate_edge(samples, noise, blur);
@@ -82,7 +82,7 @@ inline Result<LocatedEdge> locate_outline(const EdgeSamples& samples, const Grey
                        1.0 - edge->low_side_grey / std::max(1.0, edge->high_side_grey), edge->sigma_px};
 }
 
-/// One round: locate all sections' edges, correct the shape by `step` times what they say.
+/// One iteration: locates the edge in all sections and corrects the shape by `step` times the fitted change.
 template <class Shape>
 Result<OffsetFit<Shape::parameters>> correct_once(const cv::Mat& grey, Shape& shape, const GreyNoise& noise,
                                                   const BlurPrior& blur, const SearchOptions& options,
@@ -131,9 +131,9 @@ Result<OffsetFit<Shape::parameters>> correct_once(const cv::Mat& grey, Shape& sh
 
 }  // namespace outline_detail
 
-/// Brings a shape known within `reach_px` onto the strongest steps of the expected sign.
-/// @param paper_grey  level around the feature, against which the expected contrast counts
-/// Fails with feature_not_found (next to no such edge) or occluded (too little of it).
+/// Moves a shape whose place is known to within `reach_px` onto the strongest steps of the expected sign.
+/// @param paper_grey  level around the feature, to which the expected contrast refers
+/// Fails with feature_not_found (hardly any such edge) or occluded (too little of it).
 template <class Shape>
 Status find_outline(const cv::Mat& grey, Shape& shape, double reach_px, double paper_grey,
                     const SearchOptions& options) {
@@ -159,15 +159,16 @@ Status find_outline(const cv::Mat& grey, Shape& shape, double reach_px, double p
     return {};
 }
 
-/// Locates the outline finely. Shape: `parameters`, `sections(grey, Reach)`, `correct(correction)`.
-/// Fails with occluded, glare, no_convergence.
+/// Locates the outline finely. Shape must have `parameters`, `sections(grey, Reach)` and
+/// `correct(correction)`. Fails with occluded, glare, no_convergence.
 template <class Shape>
 Result<OutlineFit<Shape>> fit_outline(const RestImage& image, Shape shape, const SearchOptions& options) {
     constexpr int most_rounds = 8;
-    // In standard deviations. Pixels that enter and leave a section move the fit, at times to and fro.
+    // Largest last correction, in standard deviations. Pixels that enter and leave a section can make the fit
+    // oscillate.
     constexpr double at_rest = 0.2;
     constexpr double still_at_rest = 1.0;
-    constexpr int full_rounds = 4;  // half steps after these end a to and fro
+    constexpr int full_rounds = 4;  // half steps after these damp an oscillation
     const GreyNoise noise = grey_noise(image.camera);
     const BlurPrior blur{image.camera.blur_px, 0.3};
     EdgeQuality quality;

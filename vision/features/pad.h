@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A printed rectangle: where it is, how large, how turned.
+// A printed rectangle: its position, size and angle.
 #include "core/plate.h"
 #include "core/result.h"
 #include "vision/features/rest_image.h"
@@ -8,7 +8,7 @@
 namespace fidservo::vision {
 
 struct PadMeasurement {
-    Measured x_um;  ///< centre, plate frame; includes the camera position's uncertainty
+    Measured x_um;  ///< centre in the plate frame; includes the uncertainty of the camera position
     Measured y_um;
     Measured width_um;   ///< along the pad's own x
     Measured height_um;  ///< along the pad's own y
@@ -16,8 +16,8 @@ struct PadMeasurement {
     EdgeQuality quality;
 };
 
-/// Fits a rectangle to the edge found in sections along its four sides, away from the corners. Method and
-/// failures as for measure_dot; the pad's sides must be at least 16 px long.
+/// Fits a rectangle to the edge located in sections along its four sides, away from the corners. Method and
+/// failures are those of measure_dot; the pad's sides must be at least 16 px long.
 Result<PadMeasurement> measure_pad(const RestImage& image, const Pad& nominal,
                                    const SearchOptions& options = {});
 

@@ -20,7 +20,7 @@ struct ProfileModelValue {
     Eigen::Matrix<double, N, 1> gradient;
 };
 
-/// Gaussian knowledge of the parameters beforehand, independent of each other; precision 0: none.
+/// An independent Gaussian prior for each parameter; precision 0: none.
 template <int N>
 struct ProfilePrior {
     Eigen::Matrix<double, N, 1> mean;
@@ -35,7 +35,7 @@ struct ProfileFit {
     bool converged = false;
 };
 
-/// What a pixel of level g reads on average when it is clipped at white, and the derivative of that:
+/// The mean reading of a pixel of level g that is clipped at white, and its derivative by g:
 ///     E min(G, w) = g - s (phi(z) - z (1 - Phi(z))),   z = (w - g) / s,   G normal with mean g and std s.
 struct ClippedLevel {
     double grey;
@@ -49,10 +49,10 @@ inline ClippedLevel clip_at_white(double grey, double std) {
     return {grey - std * (normal_density(z) - z * (1.0 - below)), below};
 }
 
-/// Gauss-Newton with steps of bounded length. Weights follow the model's own level, never the sample's: a
-/// weight that knows its sample's noise biases the levels.
+/// Gauss-Newton with steps of bounded length. Weights follow from the model's level, not from the sample:
+/// weights that depend on a sample's noise would bias the levels.
 /// @param model  ProfileModelValue<N>(double t, const Vector& parameters)
-/// @param bound  largest step of each parameter; converged below 1e-5 of it
+/// @param bound  largest step of each parameter; steps below 1e-5 of it end the iteration
 template <int N, class Model, class Clamp>
 ProfileFit<N> fit_profile(std::span<const EdgeSample> samples, const GreyNoise& noise,
                           const Eigen::Matrix<double, N, 1>& start, const ProfilePrior<N>& prior,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// One straight edge in the image, as a shape that fit_outline can bring onto what is seen.
+// One straight edge in the image, as a shape for fit_outline().
 #include "vision/features/outline_fit.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace fidservo::vision {
 
-/// Parameters: shift along the normal at the middle, px; turn, rad (positive from x towards y).
+/// Its parameters: shift along the normal at the middle, px, and rotation, rad (positive from x towards y).
 struct StraightEdge {
     static constexpr int parameters = 2;
     static constexpr double section_px = 6.0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Where an edge crosses, from grey values at known distances from its presumed place. No interpolation: the
-// samples are pixels, so their noise is independent and the uncertainty that follows from it is exact to
-// first order.
+// Subpixel position of an edge, from the grey values of pixels at known distances from its presumed place.
+// Nothing is interpolated: the samples are pixels, so their noise is independent and the uncertainty that
+// follows from it is exact to first order.
 #include "core/result.h"
 #include "vision/grey_noise.h"
 
@@ -16,24 +16,25 @@ struct EdgeSample {
     double grey;
 };
 
-/// What is known of the blur beforehand: the optical blur's standard deviation, and how well it is known.
+/// Prior knowledge of the blur: the optical blur's standard deviation, and that value's own standard
+/// deviation.
 struct BlurPrior {
     double blur_px;
-    double std_px;  ///< 0: exactly
+    double std_px;  ///< 0: blur_px is exact
 };
 
 /// Standard deviation of an edge's profile: optical blur and the pixel's own square, whose variance is 1/12
 /// px^2 in every direction.
 double edge_sigma_px(double blur_px);
-/// The inverse; 0 where the edge is sharper than a pixel allows.
+/// The inverse of edge_sigma_px(); 0 where the edge is sharper than a pixel allows.
 double optical_blur_px(double edge_sigma_px);
 
 struct EdgeFit {
     double position_px;      ///< of the edge along t
-    double position_std_px;  ///< Fisher information, levels and blur being unknown too
-    double low_side_grey;    ///< level at t below the edge
-    double high_side_grey;   ///< level at t above it
-    double sigma_px;         ///< of the profile
+    double position_std_px;  ///< from the Fisher information, with levels and blur unknown too
+    double low_side_grey;    ///< level on the side of smaller t
+    double high_side_grey;   ///< level on the side of larger t
+    double sigma_px;         ///< standard deviation of the profile
     double chi2;             ///< sum of squared residuals over their variance
     int degrees_of_freedom;
 };
@@ -44,7 +45,7 @@ struct EdgeFit {
 Result<EdgeFit> locate_edge(std::span<const EdgeSample> samples, const GreyNoise& noise,
                             const BlurPrior& blur);
 
-/// What is known beforehand of a strip between two edges.
+/// Prior knowledge of a strip between two edges.
 struct StripPrior {
     BlurPrior blur;
     double centre_px, centre_std_px;

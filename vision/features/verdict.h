@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// From a measured value to a decision, guarded against the measurement's own uncertainty.
+// From a measured value to a decision, with guard bands for the measurement's uncertainty.
 #include "vision/features/rest_image.h"
 
 #include <string_view>
@@ -10,7 +10,7 @@ namespace fidservo::vision {
 enum class Verdict {
     pass,
     fail,
-    not_decidable,  ///< at this tolerance, with this uncertainty
+    not_decidable,  ///< the uncertainty is too large for a decision at this tolerance
 };
 
 /// The word that stands for a verdict in result files, e.g. "not_decidable".
@@ -20,11 +20,11 @@ std::string_view name_of(Verdict verdict);
 ///     pass            |value - nominal| + k u <= tolerance
 ///     fail            |value - nominal| - k u >  tolerance
 ///     not decidable   otherwise
-/// With k = 2 a wrong pass or fail has a probability of at most 2.3 % at the worst value.
-/// All in one unit; u >= 0, tolerance >= 0. A value that is not finite is not decidable.
+/// With k = 2 the probability of a wrong pass or a wrong fail is at most 2.3 %, whatever the true value. All
+/// in one unit; u >= 0, tolerance >= 0. A value that is not finite is not decidable.
 Verdict decide(const Measured& measured, double nominal, double tolerance, double coverage_factor = 2.0);
 
-/// One-sided: as above for value >= least (a line's narrowest place, a gap).
+/// The one-sided form, for value >= least (a line's narrowest place, a gap).
 Verdict decide_at_least(const Measured& measured, double least, double coverage_factor = 2.0);
 
 }  // namespace fidservo::vision

@@ -13,9 +13,9 @@ namespace fidservo::vision {
 
 bool is_jpeg(std::span<const std::byte> bytes);
 
-/// JPEG to grey: of YCbCr the luma alone is decoded; those for print (CMYK, inverted as all programs write
-/// it) become the luma of their red, green and blue. A frame without Huffman tables has the standard's, as in
-/// motion-JPEG. Single-threaded.
+/// Decodes JPEG to grey: of YCbCr only the luma is decoded; CMYK, which all programs store inverted, is
+/// converted to RGB and that to luma. A frame without Huffman tables uses the standard ones, as in motion
+/// JPEG. For one thread.
 class JpegDecoder {
   public:
     JpegDecoder();
@@ -23,8 +23,8 @@ class JpegDecoder {
     JpegDecoder(const JpegDecoder&) = delete;
     JpegDecoder& operator=(const JpegDecoder&) = delete;
 
-    /// The image, CV_8UC1. Fails with Reason::device for data that are damaged anywhere or cut short, or of
-    /// a side beyond most_side_px.
+    /// The image, CV_8UC1. Fails with Reason::device for data that are damaged or truncated, or for a side
+    /// beyond most_side_px.
     Result<cv::Mat> decode(std::span<const std::byte> jpeg);
 
   private:

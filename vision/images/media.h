@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Libraries for images and videos that are many and large, behind a module that is loaded at the first call:
-// libtiff, FFmpeg's, and OpenCV's codecs.
+// The large libraries for images and videos (libtiff, FFmpeg, OpenCV's codecs), behind a module that is
+// loaded at the first call.
 
 #include "core/result.h"
 #include "core/time.h"
@@ -21,10 +21,10 @@ namespace fidservo::vision {
 class Video {
   public:
     struct Picture {
-        StoredImage image{};              ///< if it is not damaged
+        StoredImage image{};              ///< the frame, if it is not damaged
         std::optional<TimeNs> time_ns{};  ///< its own time stamp, on the container's time line
-        std::string
-            damage{};  ///< why there is no image; so it is said of frames that build on a damaged one, too
+        /// Why there is no image; set also for frames that are predicted from a damaged one.
+        std::string damage{};
     };
 
     Video() = default;
@@ -32,35 +32,36 @@ class Video {
     Video& operator=(const Video&) = delete;
     virtual ~Video() = default;
 
-    /// Frames in the order in which they are shown, damaged ones among them; empty after the last. Pixels are
-    /// where the stream has them: a display matrix is not followed.
+    /// Frames in display order, damaged ones included; empty after the last. Pixels are in the order of the
+    /// stream: a display matrix is not applied.
     virtual std::optional<Picture> next() = 0;
-    /// How many packets the stream has, which is how many frames unless some are hidden.
+    /// The number of packets in the stream, which is that of its frames unless some are hidden.
     virtual std::size_t packets() const = 0;
-    /// Whether every packet has a time stamp, no two the same one, and they rise.
+    /// Whether every packet has a time stamp and the time stamps strictly increase.
     virtual bool has_times() const = 0;
-    /// Samples of 16 bits of which the stream does not say how many are used.
+    /// Whether samples have 16 bits and the stream does not state how many of them are in use.
     virtual bool has_open_range() const = 0;
-    /// What a user would want to know: why there are no times, how players turn the picture, that there are
-    /// other streams, that the file ends too early. One line each, without the file's name.
+    /// Notes for the user: why there are no times, how players rotate the picture, that there are other
+    /// streams, that the file ends too early. One line each, without the file's name.
     virtual std::vector<std::string> notes() const = 0;
 };
 
-/// Reads all packets once, for what has_times() says. Fails with Reason::device: not a video that can be
-/// decoded, or the module is not installed.
+/// Opens a video and reads all packets once, to know what has_times() returns. Fails with Reason::device: not
+/// a video that can be decoded, or the module is not installed.
 Result<std::unique_ptr<Video>> open_video(const std::filesystem::path& file);
 
 /// Any image that OpenCV reads, CV_8UC1 or CV_16UC1. Fails with Reason::device, without the file's name.
 Result<cv::Mat> read_with_opencv(const std::filesystem::path& file);
 
-/// Has OpenCV a reader for what the file begins with?
+/// Whether OpenCV has a decoder for what the file begins with.
 bool is_image_for_opencv(const std::filesystem::path& file);
 
-/// The pages of a TIFF; a page of it. As list_pages() and read_stored() say, without the file's name.
+/// The pages of a TIFF, and one of them, as list_pages() and read_stored() return them; failures are without
+/// the file's name.
 Result<std::vector<PageOfFile>> list_tiff_pages(const std::filesystem::path& file);
 Result<StoredImage> read_tiff_page(const std::filesystem::path& file, std::uint64_t page);
 
-/// What the module offers; its symbol is media_symbol, a constant of this type.
+/// The module's functions; its exported symbol media_symbol is a constant of this type.
 struct MediaModule {
     bool (*is_image)(const char* file);
     Result<cv::Mat> (*read_image)(const char* file);

@@ -11,11 +11,11 @@ namespace fidservo::vision {
 
 bool is_png(std::span<const std::byte> bytes);
 
-/// Does the beginning of a PNG say that its samples have 16 bits?
+/// Whether the beginning of a PNG states 16-bit samples.
 bool is_deep_png(std::span<const std::byte> beginning);
 
-/// A PNG as read_stored() says; its chunk sBIT states the bits that are used. Fails with Reason::device for
-/// data that are damaged anywhere or cut short, or with a side beyond most_side_px.
+/// Decodes a PNG as described at read_stored(); its chunk sBIT states the bits in use. Fails with
+/// Reason::device for data that are damaged or truncated, or with a side beyond most_side_px.
 Result<StoredImage> decode_png(std::span<const std::byte> png);
 
 }  // namespace fidservo::vision

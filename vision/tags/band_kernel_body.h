@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// band_kernel.h's functions, for the processor that the including file is compiled for.
+// The functions of band_kernel.h, compiled for the processor that the including file is compiled for.
 #include "vision/tags/band_kernel.h"
 #include "vision/tags/edge_profile.h"
 
 namespace fidservo::vision::kernel {
 namespace {
 
-/// Pixels whose columns are multiplied at a time: they stay in the first-level cache.
+/// Number of pixels whose columns are multiplied at a time, so that they stay in the first-level cache.
 constexpr std::size_t chunk = 8 * block;
 
-/// Columns of the weighted Jacobian and, after them, the weighted residual.
+/// The columns of the weighted Jacobian, followed by the weighted residual.
 struct Columns {
     alignas(32) float at[most_columns][chunk];
 };
 
-/// A profile that is at its end on one side of the line.
+/// The profile of a line that is out of reach: constant, 0 or 1.
 [[gnu::always_inline]] inline void level_profile(float level, EdgeProfile& f) {
     f.f0 = Lanes{} + level;
     f.f1 = f.f2 = f.f3 = f.f4 = f.f5 = Lanes{};
 }
 
-/// Eight pixels' places in the tag frame.
+/// Places of eight pixels in the tag frame.
 template <std::size_t geometry>
 [[gnu::always_inline]] inline void locate(const Band& band, std::size_t first, const Constants& c, Lanes& x,
                                           Lanes& y) {
@@ -43,9 +43,9 @@ template <std::size_t geometry>
     }
 }
 
-/// Eight pixels of a block. Adds their residuals and squared residuals in standard deviations, without
-/// weights.
-/// @param shown  1 for the block's pixels, 0 for those that fill up
+/// Computes the columns for eight pixels of a block, and adds up their residuals and squared residuals in
+/// standard deviations, without weights.
+/// @param shown  1 for the block's pixels, 0 for the padding
 template <std::size_t geometry, Near near>
 [[gnu::always_inline]] inline void fill_columns(const Band& band, const Node& node, const Block& of,
                                                 std::size_t first, const Lanes& shown, float root_of_weight,
@@ -130,7 +130,7 @@ template <std::size_t geometry, Near near>
     put(geometry + kink, height * by_kink);
     put(geometry + white, w * light * covered);
     put(geometry + black, w * light * (1.0F - covered));
-    constexpr auto sides_per_cell = static_cast<float>(1.0 / half_side_cells);  // half sides
+    constexpr auto sides_per_cell = static_cast<float>(1.0 / half_side_cells);  // half sides per cell
     const Lanes by_light = w * unlit * sides_per_cell;
     put(geometry + light_x, by_light * x);
     put(geometry + light_y, by_light * y);
@@ -170,8 +170,8 @@ constexpr std::size_t whole_lanes(std::size_t pixels) {
     return (pixels + lane_count - 1) / lane_count * lane_count;
 }
 
-/// sums[i][k] += columns i times k, on and below the diagonal (and a little above it). Two by four sums at a
-/// time stay in registers.
+/// sums[i][k] += column i times column k, on and below the diagonal (and a little above it). Two by four sums
+/// at a time stay in registers.
 template <std::size_t columns>
 [[gnu::always_inline]] inline void add_products(const Columns& j, std::size_t count,
                                                 Lanes (&sums)[columns][columns]) {

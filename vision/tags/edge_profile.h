@@ -20,7 +20,8 @@ struct EdgeProfile {
     Lanes f0, f1, f2, f3, f4, f5;
 };
 
-/// f0 to 1e-7 (Abramowitz and Stegun, Handbook of Mathematical Functions, 26.2.17).
+/// The profile without motion; f0 to 1e-7 (Abramowitz and Stegun, Handbook of Mathematical Functions,
+/// 26.2.17).
 [[gnu::always_inline]] inline void still_profile(const Lanes& z, EdgeProfile& f) {
     constexpr float inverse_root_two_pi = 0.39894228F;
     const Lanes far = z < 0.0F ? -z : z;
@@ -40,7 +41,7 @@ struct EdgeProfile {
     f.f5 = (z2 * (z2 - 6.0F) + 3.0F) * density;
 }
 
-/// The same averaged over z - half .. z + half, half > 0.
+/// The profile averaged over z - half .. z + half, half > 0.
 [[gnu::always_inline]] inline void moving_profile(const Lanes& z, float half, EdgeProfile& f) {
     const Lanes low = z - half, high = z + half;
     EdgeProfile a, b;
@@ -55,7 +56,8 @@ struct EdgeProfile {
     f.f5 = by_stretch * (a.f4 - b.f4);
 }
 
-/// half = 0: no motion.
+/// The profile with or without motion.
+/// @param half  half the motion's length in units of z; 0: no motion
 [[gnu::always_inline]] inline void profile_at(const Lanes& z, float half, EdgeProfile& f) {
     if (half > 0.0F)
         moving_profile(z, half, f);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Eight numbers at a time: arithmetic that every processor has, in vectors where it has them.
+// Arithmetic on eight numbers at a time: vector instructions where the processor has them, scalar ones
+// elsewhere.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -11,7 +12,8 @@ inline constexpr std::size_t lane_count = 8;
 using Lanes [[gnu::vector_size(lane_count * sizeof(float))]] = float;
 using LaneBits [[gnu::vector_size(lane_count * sizeof(float))]] = std::int32_t;
 
-// Arguments and results go by reference: how vectors are passed depends on the processor.
+// Arguments and results are passed by reference, as the calling convention for vectors depends on the
+// processor.
 
 [[gnu::always_inline]] inline void load(const float* from, Lanes& into) {
     std::memcpy(&into, from, sizeof into);
@@ -27,7 +29,7 @@ using LaneBits [[gnu::vector_size(lane_count * sizeof(float))]] = std::int32_t;
     return sum;
 }
 
-/// exp(x) for x <= 0, to 3e-7 relative; below -80 as at -80.
+/// exp(x) for x <= 0, to 3e-7 relative; clamped at x = -80.
 [[gnu::always_inline]] inline void exp_of_negative(const Lanes& x, Lanes& result) {
     constexpr float log2_e = 1.44269504F;
     constexpr float lowest = -80.0F;
@@ -44,7 +46,7 @@ using LaneBits [[gnu::vector_size(lane_count * sizeof(float))]] = std::int32_t;
                                f * (0.05550411F + f * (0.00961813F + f * (0.00133336F + f * 0.00015404F))))));
 }
 
-/// 1 / sqrt(x) for x > 0, to 5e-6 relative: Newton's method from the exponent's half.
+/// 1 / sqrt(x) for x > 0, to 5e-6 relative: Newton's method, started from the halved exponent.
 [[gnu::always_inline]] inline void inverse_root(const Lanes& x, Lanes& result) {
     constexpr std::int32_t start = 0x5f375a86;  // Lomont, Fast inverse square root, 2003
     LaneBits bits;

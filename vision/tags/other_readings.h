@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Images in which no tags, or few, were found: what else could be read in them, and what they show.
+// For images in which no tags, or few, were found: which other readings find tags in them, and what the
+// images look like.
 #include "vision/tags/tag_book.h"
 
 #include <cstddef>
@@ -12,40 +13,42 @@
 
 namespace fidservo::vision {
 
-/// A reading that was tried on the images, and found so many tags.
+/// A reading (family, border, inversion, mirroring) that was tried on the images, and the number of tags it
+/// found.
 struct TriedReading {
     TagReading reading;
     std::size_t tags;
 };
 
-/// Of all images together.
+/// Statistics of all images together.
 struct ImagesSeen {
-    double darkest_grey = 0.0, brightest_grey = 0.0;  ///< all but 1 % of the pixels at either end
-    double saturated_share = 0.0;                     ///< of the pixels, at 255
-    std::size_t squares = 0;                          ///< with four straight sides (square_outlines.h)
-    std::size_t patterned = 0;                        ///< of these that have something in them
-    /// Medians: of those that have something in them, of all where none has.
+    double darkest_grey = 0.0, brightest_grey = 0.0;  ///< 1 % and 99 % quantiles of the pixels
+    double saturated_share = 0.0;                     ///< fraction of the pixels at 255
+    std::size_t squares = 0;    ///< outlines with four straight sides (square_outlines.h)
+    std::size_t patterned = 0;  ///< squares that have a pattern inside
+    /// Medians over the squares with a pattern, or over all squares if none has one.
     double side_px = 0.0, contrast_grey = 0.0, blur_px = 0.0;
 };
 
 struct OtherReadings {
     std::size_t images = 0;
-    std::size_t tags = 0;  ///< found as they were looked for
-    /// Those that find the most tags, more than that; several where they find equally many.
+    std::size_t tags = 0;  ///< number found with the reading that was asked for
+    /// The readings that find more tags than that: the best one, or several that are equally good.
     std::vector<TriedReading> better;
     ImagesSeen seen;
 };
 
-/// Whether more squares look like tags than tags were found: twice as many or more.
+/// Whether the image has at least twice as many squares that look like tags as tags were found.
 bool looks_unread(const cv::Mat& image, std::size_t tags_found);
 
-/// Looks for all families, with borders of one and two cells, as printed and inverted, as they are and
-/// mirrored; whatever seems to be there is then looked for alone, as a user would. Images of more than three
-/// million pixels are made smaller. Costs some ten searches of every image: a second for a few of a million.
+/// Looks for all families, with borders of one and two cells, as printed and inverted, upright and mirrored;
+/// whatever appears to be there is then searched for alone, as a user would. Images of more than three
+/// million pixels are reduced. Takes some ten times as long as one search: a second for a few images of a
+/// million pixels.
 /// @param images  CV_8UC1
 OtherReadings try_other_readings(std::span<const cv::Mat> images, const TagReading& tried);
 
-/// What was seen, and of the causes that were checked those that hold; one line.
+/// The images' statistics and, of the known causes for missing tags, those that apply; one line.
 std::string text_of(const ImagesSeen& seen, const TagReading& tried);
 
 }  // namespace fidservo::vision

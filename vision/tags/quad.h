@@ -10,8 +10,8 @@
 
 namespace fidservo::vision {
 
-/// H that takes tag_corners to the four image points: (u, v, 1) ~ H (x, y, 1), H(2,2) = 1. Three points on a
-/// line have no such map: the result is not finite then.
+/// The homography H that maps tag_corners to the four image points: (u, v, 1) ~ H (x, y, 1), H(2,2) = 1. It
+/// is not finite where three points are on a line.
 Eigen::Matrix3d square_to_image(const std::array<Eigen::Vector2d, 4>& corners_px);
 
 inline Eigen::Vector2d map_point(const Eigen::Matrix3d& homography, const Eigen::Vector2d& point) {
@@ -19,21 +19,21 @@ inline Eigen::Vector2d map_point(const Eigen::Matrix3d& homography, const Eigen:
     return mapped.head<2>() / mapped.z();
 }
 
-/// Where the diagonals cross: the image of the tag's centre.
+/// The intersection of the diagonals: the image of the tag's centre.
 Eigen::Vector2d centre_of(const std::array<Eigen::Vector2d, 4>& corners_px);
 
-/// Whether the picture is a mirrored one: the corners go round the other way.
+/// Whether the picture is mirrored: the corners then go round the other way.
 bool is_mirrored(const std::array<Eigen::Vector2d, 4>& corners_px);
 
-/// Corners of a tag that was read as the mirrored picture of its print, in the order of the print's.
+/// The corners of a tag that was read in a mirrored picture, reordered as on the print.
 std::array<Eigen::Vector2d, 4> mirrored(const std::array<Eigen::Vector2d, 4>& corners_px);
 
 double longest_side_px(const std::array<Eigen::Vector2d, 4>& corners_px);
 
-/// Two finds of one printed tag: nearer to each other than two printed tags can be.
+/// Whether two detections are of one printed tag: nearer to each other than two printed tags can be.
 bool same_place(const std::array<Eigen::Vector2d, 4>& a_px, const std::array<Eigen::Vector2d, 4>& b_px);
 
-/// Does a point lie where bilinear interpolation has its four neighbours?
+/// Whether bilinear interpolation has its four neighbours at a point.
 inline bool can_sample(const cv::Mat& image, const Eigen::Vector2d& at_px) {
     return at_px.x() >= 0 && at_px.y() >= 0 && at_px.x() < image.cols - 1 && at_px.y() < image.rows - 1;
 }

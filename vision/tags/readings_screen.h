@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Many readings of tags at a time.
+// Tries many readings of tags at a time.
 #include "vision/tags/tag_book.h"
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace fidservo::vision {
 
-/// Finds squares once and holds all readings against each. Quicker than a search for each reading, but a tag
-/// counts as seen only if all of its bits are right.
+/// Finds squares once and compares all readings with each of them. Faster than a search for each reading, but
+/// a tag counts only if all of its bits are right.
 class ReadingsScreen {
   public:
     explicit ReadingsScreen(const std::vector<TagReading>& readings);
     ~ReadingsScreen();
 
-    /// For every tag the number of the reading by which it is one.
+    /// For every tag found, the index of its reading.
     /// @param image  CV_8UC1
     std::vector<std::size_t> seen_in(const cv::Mat& image);
 

@@ -3,18 +3,18 @@
 // How blurred, how bright and how noisy a tag is in its frame.
 //
 // Every side of the black border is an edge from ink to paper. Along pixel rows (columns, where the side is
-// nearer to level) the grey levels g are normalised with the light, even across and bent along the side, that
-// is fitted to strips of ink and of paper on both sides of the edge, G = (g - black) / (white - black). The
-// (Where the outline is white inside and black outside, ink and paper change places.)  The
-// differences of neighbours are the slope of the profile, averaged over a pixel's pitch; with q their places
-// from a parabola that is fitted to the edge,
+// nearer to level) the grey levels g are normalised, G = (g - black) / (white - black), by levels that are
+// fitted to strips of ink and of paper on both sides of the edge; they are constant across the edge and
+// quadratic along it. (Where the outline is white inside and black outside, ink and paper change places.) The
+// differences dG of neighbouring pixels are the slope of the profile, averaged over a pixel's pitch; with q
+// their distance from a parabola that is fitted to the edge,
 //
-//     variance = cos^2 (sum q^2 dG - 1/12) along the edge's normal, cos = that of the normal to the row
+//     variance = cos^2 (sum q^2 dG - 1/12) along the edge's normal, with the cosine of the angle between
+//     normal and row
 //
-// No shape of the blur is assumed: it holds for optics, motion and both together. Strips begin 3.5 standard
-// deviations and a pixel from the edge.
-// Source of the moments: Tabatabai, Mitchell, Edge location to subpixel values in digital imagery, IEEE
-// Trans. PAMI 6(2), 1984.
+// No shape of the blur is assumed: the variance is that of optics and motion together. Strips begin 3.5
+// standard deviations and a pixel from the edge. Source of the moments: Tabatabai, Mitchell, Edge location to
+// subpixel values in digital imagery, IEEE Trans. PAMI 6(2), 1984.
 #include "core/appearance.h"
 
 #include <opencv2/core/mat.hpp>

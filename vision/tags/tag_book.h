@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The code book of a family as libapriltag takes it.
+// The code book of a family in libapriltag's form.
 #include "core/tag_families.h"
 
 #include <memory>
@@ -11,32 +11,33 @@ struct apriltag_family;
 
 namespace fidservo::vision {
 
-/// As which tags are looked for.
+/// How tags are to be read.
 struct TagReading {
-    TagPrint print;         ///< of the tags that are looked for
-    bool mirrored = false;  ///< the picture is: seen through the glass, from behind, by way of a mirror
+    TagPrint print;  ///< family and border of the tags that are looked for
+    /// The picture is mirrored: seen through the glass from behind, or by way of a mirror.
+    bool mirrored = false;
 
     bool operator==(const TagReading&) const = default;
 };
 
-/// Code bits that may be corrected: fewer than half of those in which two codes differ, so that a code has
-/// one nearest; 2 at most, and no more than a table of a million words, which is kept in memory, has room
-/// for.
+/// The number of code bits that may be corrected: fewer than half of the least distance between two codes, so
+/// that the nearest code is unique; 2 at most, and no more than a table of a million words, kept in memory,
+/// can hold.
 int most_correctable_bits(const TagFamily& family);
 
-/// The library decodes any family whose bits are listed so that a quarter turn moves each by a quarter of
-/// them, which can be had of every square pattern; a bit in the middle comes last. Borders, mirrored and
-/// inverted prints are books of their own. The library's table for decoding comes with it and is only read:
-/// one book serves all detectors that want it at a time, and the last one is kept for the next that does.
+/// The library decodes any family whose bits are listed such that a quarter turn shifts the list by a quarter
+/// of its length. Every square pattern can be listed so; a bit in the middle comes last. Each border,
+/// mirrored and inverted reading has a book of its own. The book includes the library's decoding table and is
+/// read-only: all detectors share it, and the last one used is kept for the next detector.
 /// @param corrected_bits  0 to 2
 std::shared_ptr<apriltag_family> shared_tag_book(const TagReading& reading, int corrected_bits);
 
-/// Ends a detector, not the books that it was given.
+/// Deletes a detector, but not its books.
 struct EndLibraryDetector {
-    /// Gives the detector back to its library.
+    /// Deletes the detector by its library's function.
     void operator()(apriltag_detector* ended) const;
 };
-/// The library's detector, owned.
+/// A detector of the library with unique ownership.
 using LibraryDetector = std::unique_ptr<apriltag_detector, EndLibraryDetector>;
 
 /// A detector of the library that runs in the caller's thread, on the image as it is. The books must outlive

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which tags the camera sees from where, and which of them to measure by. Pure geometry.
+// Which tags the camera sees from a position, and which of them is used for measuring. Pure geometry.
 #include "core/camera/camera_geometry.h"
 #include "core/plate.h"
 
@@ -19,7 +19,7 @@ std::array<Eigen::Vector2d, 4> corners_mm(const PlateTag& tag);
 /// from camera position s; nearest to the optical axis first, then by id.
 std::vector<PlateTag> visible_tags(const CameraGeometry& camera, const Plate& plate, double s_mm);
 
-/// The tag to measure by from s: the first of visible_tags(). Empty if there is none.
+/// The tag for measuring from position s: the first of visible_tags(). Empty if there is none.
 std::optional<PlateTag> tag_to_use(const CameraGeometry& camera, const Plate& plate, double s_mm);
 
 /// Camera positions from which a tag is wholly in view.
@@ -27,17 +27,18 @@ struct ViewRange {
     double low_mm, high_mm;
 };
 
-/// The stage moves along x alone: a tag whose row lies outside the image's height is never seen.
-/// Empty then, or if the tag is larger than the image.
+/// The range of camera positions for a tag. The stage moves along x alone: empty for a tag whose row lies
+/// outside the image's height, or for one that is larger than the image.
 std::optional<ViewRange> view_range(const CameraGeometry& camera, const PlateTag& tag);
 
-/// Can the tag's row be brought into view at all, wherever the stage stands along x?
+/// Whether the tag's row is within the image's height, so that the tag can be seen from some position along
+/// x.
 bool row_is_reachable(const CameraGeometry& camera, const PlateTag& tag);
 
-/// The tags of a plate whose rows can be brought into view, in the plate's order.
+/// The tags of a plate whose rows are within the image's height, in the plate's order.
 std::vector<PlateTag> reachable_rows(const CameraGeometry& camera, const Plate& plate);
 
-/// The plate's tag of this id; empty if it has none.
+/// The plate's tag with this id; empty if there is none.
 std::optional<PlateTag> find_tag(const Plate& plate, int tag_id);
 
 }  // namespace fidservo::vision

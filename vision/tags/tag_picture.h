@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How the plane of a tag and its picture map onto each other, with parameters to be fitted.
+// The mapping between the plane of a tag and the image, with parameters to be fitted.
 //
 // Tag frame: x to the right, y down on an upright tag, origin at the tag's centre, unit one cell of the code.
 #include "core/camera/camera_geometry.h"
@@ -22,26 +22,29 @@ class TagPicture {
     static constexpr int most_parameters = 8;
     using Generators = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, most_parameters>;
 
-    /// Coefficients of 1, U, V, U^2, UV, V^2, U^3, U^2 V, U V^2, V^3 with U = (u - origin) / unit.
+    /// A cubic polynomial in U and V, (U, V) = ((u, v) - origin) / unit: coefficients of 1, U, V, U^2, UV,
+    /// V^2, U^3, U^2 V, U V^2, V^3.
     struct Cubic {
         Eigen::Vector2d origin_px;
         double unit_px;
         std::array<Eigen::Vector2d, cubic_terms> coefficients;
     };
 
-    /// @param corners_px  of the outline, in detection order
-    /// @param cells  on a side of the outline
+    /// @param corners_px  of the outline, in the order of detections
+    /// @param cells  along a side of the outline
     /// @param rim  cells of the print beyond the outline
     TagPicture(const std::array<Eigen::Vector2d, 4>& corners_px, int cells,
                const std::optional<CameraGeometry>& camera, int rim = 0);
 
-    /// 4: shift in x and y, scale, rotation. 8: then aspect, shear, two of perspective.
+    /// The number of parameters. 4: shift in x and y, scale, rotation. 8: also aspect, shear and two of
+    /// perspective.
     int parameters() const { return camera_ ? 4 : most_parameters; }
 
-    /// d (x, y) / d parameters at a point: the directions in which change() moves what is seen there.
+    /// d (x, y) / d parameters at a point: how change() moves the point that is mapped there.
     Generators generators(const Eigen::Vector2d& cell) const;
 
-    /// Puts what was seen at (x, y) to (x, y) + generators (x, y) step, to first order.
+    /// Changes the parameters such that what was mapped to (x, y) is mapped to (x, y) + generators(x, y)
+    /// step, to first order.
     void change(const Eigen::VectorXd& step);
 
     Eigen::Vector2d image_of(const Eigen::Vector2d& cell) const;
@@ -58,7 +61,7 @@ class TagPicture {
     void follow_image(const std::array<Eigen::Vector2d, 4>& corners_px, int cells);
 
     std::optional<CameraGeometry> camera_;
-    Eigen::Vector2d centre_mm_ = Eigen::Vector2d::Zero();  ///< on the plate, of q = 0
+    Eigen::Vector2d centre_mm_ = Eigen::Vector2d::Zero();  ///< the plate point of q = 0
     Eigen::Matrix2d mm_by_q_ = Eigen::Matrix2d::Identity();
     Cubic cubic_;
     Eigen::Matrix3d m_ = Eigen::Matrix3d::Identity();

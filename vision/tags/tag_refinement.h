@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Where a tag is, as precisely as its pixels allow, from all edges of its code.
+// The place of a tag as precisely as its pixels allow, from all edges of its code.
 #include "core/camera/camera_geometry.h"
 #include "core/detection.h"
 #include "core/result.h"
@@ -14,10 +14,10 @@
 
 namespace fidservo::vision {
 
-/// Of the eight coordinates of a tag's corners, px^2.
+/// Covariance of the eight coordinates of a tag's corners, px^2.
 using CornerCovariance = Eigen::Matrix<double, 8, 8>;
 
-/// RefinedTag::explained below which a tag that could be refined is yet not measured by.
+/// Least RefinedTag::explained of a tag that is used for measuring.
 inline constexpr double enough_to_measure = 0.7;
 
 /// A tag that was measured.
@@ -27,27 +27,29 @@ struct RefinedTag {
         covariance_px2;  ///< of (u0, v0, u1, v1, ...): corners share edges, so it is not diagonal
     Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();              ///< image of the tag's centre
     Eigen::Matrix2d centre_covariance_px2 = Eigen::Matrix2d::Zero();  ///< of the centre
-    double explained = 1.0;  ///< share of the edges' length that looks like this tag; the rest was left out
-    double blur_px = 0.0;    ///< standard deviation of the edges' profiles, optics and pixel together
-    double ink_spread_px = 0.0;  ///< by which every black edge reaches farther out than the code says
-    double misfit = 1.0;  ///< mean square of what the model leaves, in variances of the noise: 1 if it fits
-    bool fits =
-        true;  ///< whether that can be noise alone, at 1 %; if not, covariances are sandwich estimates
-    /// Whether perspective and distortion of the picture are those of the camera in the options; if not, all
-    /// eight coordinates of the corners were measured.
+    /// Fraction of the edges' length that looks like this tag; the rest was left out.
+    double explained = 1.0;
+    double blur_px = 0.0;  ///< standard deviation of the edges' profiles, from optics and pixel together
+    double ink_spread_px = 0.0;  ///< distance by which every black edge extends farther outwards than nominal
+    double misfit = 1.0;  ///< mean square of the residuals in variances of the noise: 1 for a perfect model
+    /// Whether the misfit can be due to noise alone, at a level of 1 %; if not, covariances are sandwich
+    /// estimates.
+    bool fits = true;
+    /// Whether the camera of the options gave perspective and distortion; if not, all eight coordinates of
+    /// the corners were fitted.
     bool camera_known = false;
 };
 
-/// What is known of the picture beforehand.
+/// Prior knowledge of the picture.
 struct RefinementOptions {
-    /// A calibrated camera: tilt and distortion of the tag's picture are taken from it. Without one the
-    /// perspective is fitted too, which costs precision (1.4 times the standard deviation); so it is where a
-    /// tag fits a free perspective but not the camera's.
+    /// A calibrated camera, whose tilt and distortion apply to the tag's picture. Without one the perspective
+    /// is fitted too, at 1.4 times the standard deviation; the same happens where a tag fits a free
+    /// perspective but not the camera's.
     std::optional<CameraGeometry> camera;
     GreyNoise noise{white_grey / 10000.0, 0.1, 0.0};  ///< of the camera
-    /// Of the picture during the exposure. Zero: unknown; the edges' unequal blurs tell it.
+    /// The picture's motion during the exposure. Zero: unknown; it then shows as unequal blurs of the edges.
     Eigen::Vector2d motion_px = Eigen::Vector2d::Zero();
-    /// Standard deviation of the edges' profiles to begin with: a good guess saves a step or two.
+    /// Initial value for the standard deviation of the edges' profiles: a good one saves an iteration or two.
     double blur_px = 1.0;
 };
 
@@ -63,14 +65,14 @@ struct RefinementOptions {
 Result<RefinedTag> refine_tag(const cv::Mat& image, const TagDetection& found,
                               const RefinementOptions& options = {});
 
-/// A tag of which only the corners were measured, by whatever means.
+/// A tag of which only the corners were measured, by any means.
 RefinedTag tag_of_corners(const TagDetection& corners, const CornerCovariance& covariance_px2);
 
-/// The tag as found, with the uncertainty of the library's corners (0.2 px a coordinate against rendered
-/// tags) in place of a measured one: for tags too small or too hidden to be refined. `explained` is 0.
+/// The tag as detected, with the uncertainty of the library's corners (0.2 px per coordinate on rendered
+/// tags) in place of an estimated one: for tags too small or too hidden to be refined. `explained` is 0.
 RefinedTag unrefined(const TagDetection& found);
 
-/// Image of the tag's centre as its corners tell it (where the diagonals cross), px.
+/// Image of the tag's centre, px: the intersection of the diagonals between its corners.
 Eigen::Vector2d centre_px(const TagDetection& tag);
 
 }  // namespace fidservo::vision

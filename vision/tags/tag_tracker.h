@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Tags followed from frame to frame: the image is searched only where a tag is expected, and as a whole only
+// Follows tags from frame to frame: the image is searched only where a tag is expected, and as a whole only
 // when one is lost.
 #include "vision/tags/tag_alignment.h"
 #include "vision/tags/tag_detector.h"
@@ -18,19 +18,19 @@ namespace fidservo::vision {
 enum class FoundBy { tracking, region_search, full_search };
 
 struct FoundTag {
-    TagDetection detection;  ///< corners good to half a pixel
+    TagDetection detection;  ///< corners accurate to half a pixel
     FoundBy found_by;
 };
 
 struct TrackedTag {
-    RefinedTag tag;  ///< `explained` is 0 where the refinement refused it
+    RefinedTag tag;  ///< `explained` is 0 where the refinement failed
     FoundBy found_by;
 };
 
-/// How the picture moved since the last frame, from the stage's sensors.
+/// The picture's motion since the last frame, as the stage's sensors predict it.
 struct PictureMotion {
     Eigen::Vector2d shift_px;
-    double uncertainty_px;  ///< largest error of the shift that is to be reckoned with
+    double uncertainty_px;  ///< largest error of the shift to be expected
     Eigen::Vector2d during_exposure_px = Eigen::Vector2d::Zero();
 };
 
@@ -38,31 +38,32 @@ struct TagTrackerOptions {
     TagDetectorOptions detector = machine_camera_options();
     AlignmentOptions alignment;
     RefinementOptions refinement;
-    /// Every so many frames the whole image is searched for tags that have come into view; 0: only when a
-    /// tag is lost or none is known.
+    /// Number of frames after which the whole image is searched for tags that have come into view; 0: only
+    /// when a tag is lost or none is known.
     int look_around_every = 0;
 };
 
 /// Finds tags where they are expected (align_tag), where that fails with libapriltag in the region around,
-/// and where that fails in the whole image. An id is never taken over from the frame before: it is read again
-/// in every frame. A tag that is expected across the image's border or outside is not searched for in the
-/// whole image: it has left the view, unless nothing else is seen.
-/// Holds working memory: use one a thread.
+/// and where that fails in the whole image. An id is never carried over from the frame before: it is read
+/// again in every frame. A tag whose expected place is not wholly inside the image counts as having left the
+/// view and is not searched for in the whole image, unless no other tag is seen. It holds working memory: use
+/// one tracker per thread.
 class TagTracker {
   public:
     explicit TagTracker(const TagTrackerOptions& options = {});
 
-    /// Every tag of the last frame that is still in view, and what searches for lost ones bring to light.
+    /// Every tag of the last frame that is still in view, and tags that a search for lost ones has found.
     /// @param image   CV_8UC1
     /// @param motion  empty: constant velocity, from the last two frames
     std::vector<TrackedTag> track(const cv::Mat& image, TimeNs time_ns,
                                   const std::optional<PictureMotion>& motion = {});
 
-    /// The same of tags whose places are known beforehand, from the plate's geometry; keeps no memory.
+    /// Finds tags whose places are predicted from the plate's geometry; does not use or change the tracker's
+    /// memory.
     std::vector<FoundTag> find(const cv::Mat& image, TimeNs time_ns,
                                const std::vector<ExpectedTag>& expected);
 
-    /// Forgets the last frame: the next one is searched as a whole.
+    /// Forgets the last frame, so that the whole of the next one is searched.
     void forget() { *this = TagTracker(options_); }
 
   private:
@@ -76,7 +77,7 @@ class TagTracker {
     TagTrackerOptions options_;
     TagDetector detector_;
     std::vector<Followed> followed_;
-    double blur_px_;  ///< of the tag refined last
+    double blur_px_;  ///< blur of the tag that was refined last
     int frames_since_full_search_ = 0;
 };
 

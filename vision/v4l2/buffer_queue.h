@@ -2,8 +2,8 @@
 #pragma once
 // The frames' memory, shared with the driver: a few buffers that are filled in turn.
 //
-// Who owns a buffer: the driver, from the moment it is queued; a Lease, from the moment it was taken, filled,
-// until the lease ends, which queues it again. One thread takes; leases may end on any thread, also after the
+// A buffer is owned by the driver from when it is queued, and by a Lease from when it is taken, filled, until
+// the lease ends and queues it again. One thread takes buffers; leases may end on any thread, also after the
 // queue was stopped: the memory stays mapped until the last lease has gone.
 #include "core/result.h"
 #include "core/time.h"
@@ -34,8 +34,8 @@ class Lease;
 
 class BufferQueue : public std::enable_shared_from_this<BufferQueue> {
   public:
-    /// Makes buffers, hands them to the driver and starts the stream. Where the driver lacks the kind of
-    /// memory asked for, the other kind is used. Throws RunFault.
+    /// Allocates buffers, queues them and starts the stream. Where the driver lacks the kind of memory asked
+    /// for, the other kind is used. Throws RunFault.
     static std::shared_ptr<BufferQueue> start(Device device, Memory memory, std::size_t frame_bytes);
     ~BufferQueue();
     BufferQueue(const BufferQueue&) = delete;
@@ -49,7 +49,7 @@ class BufferQueue : public std::enable_shared_from_this<BufferQueue> {
 
     const Device& device() const { return device_.value(); }
     Memory memory() const { return memory_; }
-    /// How many buffers the driver has to fill.
+    /// How many buffers are queued for the driver to fill.
     std::size_t with_driver() const;
     std::size_t size() const { return buffers_.size(); }
 
@@ -73,7 +73,7 @@ class BufferQueue : public std::enable_shared_from_this<BufferQueue> {
     std::size_t frame_bytes_;
     Memory memory_ = Memory::mapped;
     std::vector<Buffer> buffers_;
-    mutable std::mutex mutex_;      ///< of what follows
+    mutable std::mutex mutex_;      ///< guards the members below
     std::optional<Device> device_;  ///< empty: stopped
     std::size_t with_driver_ = 0;
 };

@@ -7,14 +7,14 @@
 
 namespace fidservo::vision::v4l2 {
 
-/// Who a node is, and what it can do.
+/// Name and capabilities of a video node.
 struct Capability {
     std::string driver, card, bus;
-    bool captures = false;  ///< video, one plane
+    bool captures = false;  ///< it captures video, in one plane
     bool streams = false;
 };
 
-/// Fails with Reason::device: not a video node, or gone.
+/// Fails with Reason::device if it is no video node, or gone.
 Result<Capability> capability_of(const Device& device);
 
 }  // namespace fidservo::vision::v4l2

@@ -19,18 +19,19 @@ struct MenuItem {
 
 struct Control {
     std::uint32_t id;
-    std::string name;  ///< the driver's
+    std::string name;  ///< as the driver names it
     ControlKind kind;
     std::int64_t minimum, maximum, step, standard;
-    std::optional<std::int64_t> value;  ///< now; nothing for what has none or cannot be read
-    bool writable;                      ///< now
-    std::vector<MenuItem> menu;         ///< of a menu, what it offers
+    /// Present value; empty for a control without one, or if it cannot be read.
+    std::optional<std::int64_t> value;
+    bool writable;               ///< whether it can be set at present
+    std::vector<MenuItem> menu;  ///< the items of a menu
 };
 
 /// All controls that are not disabled, in the driver's order.
 std::vector<Control> list_controls(const Device& device);
 
-/// One control; nothing if the camera does not have it.
+/// The control with this id; empty if the camera does not have it.
 std::optional<Control> find_control(const Device& device, std::uint32_t id);
 
 /// @return 0, or the system's error number

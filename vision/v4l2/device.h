@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An open video node.
+// An open video device node.
 
 #include "core/result.h"
 
@@ -10,11 +10,11 @@
 
 namespace fidservo::vision::v4l2 {
 
-/// Closed with its owner. request() may be called from several threads.
+/// The file descriptor is closed with its owner. request() may be called from several threads.
 class Device {
   public:
-    /// Opens a node for capture, without waiting in later requests. Fails with Reason::device, saying what
-    /// the system says and, where it is a matter of rights, which group helps.
+    /// Opens a node for capture in non-blocking mode. Fails with Reason::device, with the system's message
+    /// and, where permission is missing, the group that has it.
     static Result<Device> open(const std::filesystem::path& node);
     ~Device();
     Device(Device&& other) noexcept;
@@ -22,13 +22,14 @@ class Device {
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
-    /// An ioctl, repeated if a signal came between. @return 0, or the system's error number
+    /// An ioctl, repeated if a signal interrupts it.
+    /// @return 0, or the system's error number
     int request(unsigned long code, void* argument) const noexcept;
 
     int fd() const { return fd_; }
     const std::filesystem::path& node() const { return node_; }
 
-    /// "NODE: what: the system's words".
+    /// An error message: "NODE: what: the system's message".
     std::string refusal(std::string_view what, int error) const;
 
   private:

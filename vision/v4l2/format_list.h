@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a camera offers: pixel formats, image sizes, frame rates.
+// The pixel formats, image sizes and frame rates that a camera offers.
 #include "vision/v4l2/device.h"
 #include "vision/v4l2/pixel_format.h"
 
@@ -12,12 +12,12 @@ struct v4l2_fract;
 
 namespace fidservo::vision::v4l2 {
 
-/// Image sizes: one, or all from the smallest to the largest in steps.
+/// A single image size, or a range from the smallest to the largest in steps.
 struct OfferedSize {
     int least_width_px, least_height_px;
     int most_width_px, most_height_px;
     int step_width_px = 0, step_height_px = 0;  ///< 0: a single size
-    std::vector<double> rates_hz;               ///< of the largest; where a range is offered its ends
+    std::vector<double> rates_hz;               ///< frame rates at the largest size; of a range its two ends
 
     bool is_single() const { return step_width_px == 0; }
     bool includes(int width_px, int height_px) const;
@@ -25,17 +25,17 @@ struct OfferedSize {
 
 struct OfferedFormat {
     std::uint32_t fourcc;
-    std::string description;  ///< the driver's
+    std::string description;  ///< as the driver words it
     std::vector<OfferedSize> sizes;
 };
 
-/// In the driver's order. A driver that does not say leaves lists empty.
+/// All formats in the driver's order. Lists that the driver does not provide are empty.
 std::vector<OfferedFormat> offered_formats(const Device& device);
 
-/// Of a frame interval; 0 for one that the driver does not know.
+/// The frame rate for a frame interval; 0 if the driver does not know it.
 double rate_hz(const v4l2_fract& period_s);
 
-/// "640x480", "16x16 to 4096x2160 in steps of 2x2".
+/// A size in words: "640x480", "16x16 to 4096x2160 in steps of 2x2".
 std::string size_text(const OfferedSize& size);
 
 }  // namespace fidservo::vision::v4l2

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Between the thread that reads the camera and whoever wants a frame: one place, in which a newer frame takes
-// the older one's.
+// The hand-over between the thread that reads the camera and the thread that wants a frame: a single slot, in
+// which a newer frame replaces the older one.
 #include "core/result.h"
 #include "core/time.h"
 #include "vision/camera.h"
@@ -14,7 +14,7 @@
 
 namespace fidservo::vision::v4l2 {
 
-/// A frame as the driver filled it, not looked at yet.
+/// A frame as the driver filled it, not decoded yet.
 struct RawFrame {
     Lease lease;
     CaptureFormat format;
@@ -23,17 +23,17 @@ struct RawFrame {
     std::uint64_t sequence;
 };
 
-/// Held for the time of a move only; nobody waits in it.
+/// Its mutex is held for the time of a move only; no thread waits for a frame in it.
 class FrameSlot {
   public:
-    /// Takes the place of a frame that nobody has asked for, which counts as skipped.
+    /// Puts a frame into the slot; a frame that it replaces, which was not taken, counts as skipped.
     void put(RawFrame frame);
-    /// The newest frame, once; empty if there is none or it arrived after now_ns; the failure for good once
-    /// there is one.
+    /// Takes the newest frame out of the slot. Empty if there is none or it arrived after now_ns. Once fail()
+    /// was called, the failure is returned for ever.
     Result<std::optional<RawFrame>> take(TimeNs now_ns);
-    /// No frame comes any more. The first reason stays.
+    /// States that no more frames come. Later reasons are ignored.
     void fail(Failure why);
-    /// Drops the frame that is there, if any: it is of a camera that was lost.
+    /// Drops a frame in the slot, which is of a camera that was lost.
     void clear();
 
     void count(const FrameCounts& more);

@@ -6,8 +6,8 @@
 
 namespace fidservo::vision::v4l2 {
 
-/// An image that lies in a leased buffer: the lease ends with the last cv::Mat that shares the image.
-/// @param view  of the lease's bytes
+/// An image in a leased buffer: the lease ends with the last cv::Mat that shares the image.
+/// @param view  an image over the lease's bytes
 cv::Mat leased_image(Lease lease, const cv::Mat& view);
 
 }  // namespace fidservo::vision::v4l2

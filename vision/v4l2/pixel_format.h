@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The pixel formats that are understood, and what they are called.
+// The supported pixel formats and their names.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -9,14 +9,14 @@
 
 namespace fidservo::vision::v4l2 {
 
-/// In the order in which they are preferred.
+/// In the order of preference.
 enum class PixelFormat {
     grey,   ///< GREY: 8 bit
     y16,    ///< Y16: 16 bit, little endian
     y12,    ///< Y12: 12 bit in the low bits of 16
-    y10,    ///< Y10: likewise
+    y10,    ///< Y10: 10 bit in the low bits of 16
     yuyv,   ///< YUYV: 4:2:2, luma in the even bytes
-    mjpeg,  ///< MJPG: a JPEG a frame
+    mjpeg,  ///< MJPG: one JPEG per frame
 };
 
 inline constexpr std::array pixel_formats{PixelFormat::grey, PixelFormat::y16,  PixelFormat::y12,
@@ -26,13 +26,14 @@ inline constexpr std::array pixel_formats{PixelFormat::grey, PixelFormat::y16,  
 std::string_view name_of(PixelFormat format);
 std::optional<PixelFormat> pixel_format_named(std::string_view name);
 
-/// The system's four characters as a number, and back.
+/// The system's four-character code of a format, and the reverse.
 std::uint32_t fourcc_of(PixelFormat format);
 std::optional<PixelFormat> pixel_format_of(std::uint32_t fourcc);
-/// "YUYV"; "Y16 -BE" for big endian, as v4l2-ctl writes it. Characters that cannot be printed become '?'.
+/// A four-character code as text: "YUYV"; "Y16 -BE" for big endian, as v4l2-ctl writes it. Unprintable
+/// characters become '?'.
 std::string fourcc_text(std::uint32_t fourcc);
 
-/// Bytes of a pixel; nothing for compressed formats.
+/// Bytes per pixel; empty for compressed formats.
 std::optional<int> bytes_per_pixel(PixelFormat format);
 
 }  // namespace fidservo::vision::v4l2

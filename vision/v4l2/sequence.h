@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The driver's 32-bit frame numbers as one long count, and what is missing in it.
+// The driver's 32-bit frame numbers as a 64-bit count, and the number of missing frames.
 #include <cstdint>
 #include <optional>
 
@@ -8,8 +8,8 @@ namespace fidservo::vision::v4l2 {
 
 class SequenceCounter {
   public:
-    /// Takes the number of the next frame. A number that is not ahead of the last (by less than half the
-    /// range) means that the driver has begun to count anew; the long count then goes on by one.
+    /// Takes the number of the next frame. A number that is not ahead of the last one (by less than half the
+    /// range) means that the driver has restarted its count; the 64-bit count then increases by one.
     /// @return frames that the driver numbered between the last and this one, and did not deliver
     std::uint64_t take(std::uint32_t number) {
         const std::uint32_t ahead = last_ ? number - *last_ : 1U;
@@ -20,10 +20,10 @@ class SequenceCounter {
         return step - 1;
     }
 
-    /// The driver counts anew from the next frame on.
+    /// States that the driver restarts its count with the next frame.
     void restart() { last_.reset(); }
 
-    /// The last frame's place in the long count; the first frame has 0.
+    /// The last frame's number in the 64-bit count; the first frame has 0.
     std::uint64_t sequence() const { return count_ - 1; }
 
   private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A camera that sends: opened, set, started. One thread uses it.
+// A camera that is opened, configured and streaming. For one thread.
 #include "core/result.h"
 #include "vision/v4l2/buffer_queue.h"
 #include "vision/v4l2/capture_format.h"
@@ -12,27 +12,27 @@
 
 namespace fidservo::vision::v4l2 {
 
-/// Why wait() came back.
+/// Why wait() returned.
 enum class Wake {
     ready,   ///< a frame may be there
-    broken,  ///< the device has an error, and a frame may be there
+    broken,  ///< the device has an error; there may still be a frame
     late,    ///< nothing happened in the time allowed
-    told,    ///< the other descriptor became readable
+    told,    ///< wake_fd became readable
 };
 
 class FrameStream {
   public:
     /// Throws InputError for settings that the camera cannot have, RunFault where the device fails.
     FrameStream(const std::filesystem::path& node, const CaptureSettings& settings);
-    /// Stops the stream. Leases and what shares their memory live on.
+    /// Stops the stream. Leases, and images that share their memory, remain valid.
     ~FrameStream();
     FrameStream(const FrameStream&) = delete;
     FrameStream& operator=(const FrameStream&) = delete;
 
     /// Waits for a frame. Fails with Reason::device if the source changed.
-    /// @param wake_fd  another descriptor that ends the waiting
+    /// @param wake_fd  another file descriptor whose readability ends the waiting
     Result<Wake> wait(int wake_fd, TimeNs at_most_ns);
-    /// The oldest frame that is there; see BufferQueue.
+    /// The oldest filled frame, as BufferQueue::take().
     Result<std::optional<Lease>> take() { return queue_->take(); }
     /// Fails with Reason::device if the format in force is no longer the one that was set.
     Status check_format() const;
@@ -42,7 +42,7 @@ class FrameStream {
     const ControlLock& lock() const { return lock_; }
     double frame_rate_hz() const { return frame_rate_hz_; }
     Memory memory() const { return queue_->memory(); }
-    /// Whether a frame stays what it is while it is leased. v4l2loopback writes into it all the same.
+    /// Whether a leased frame remains unchanged. v4l2loopback writes into it nevertheless.
     bool leased_frames_stay() const { return leased_frames_stay_; }
 
   private:

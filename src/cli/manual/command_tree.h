@@ -12,17 +12,17 @@ namespace fidservo {
 
 /// A command, and the words that call it.
 struct Command {
-    std::vector<std::string> words;  ///< fidservo, calibrate, camera
+    std::vector<std::string> words;  ///< the words by which it is called: fidservo, calibrate, camera
     const CLI::App* app;
 };
 
-/// The program and all that is below it: each command before its own commands.
+/// The program and all commands below it, each command before its subcommands.
 std::vector<Command> all_commands(const CLI::App& program);
 
-/// The commands that follow a command's words.
+/// The direct subcommands of a command.
 std::vector<const CLI::App*> commands_of(const CLI::App& app);
 
-/// As what an option may be given: -h, --help.
+/// The names of an option: -h, --help.
 std::vector<std::string> option_words(const CLI::Option& option);
 
 }  // namespace fidservo

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How errors depend on what moved the rig: their mean in bins of velocity, position, temperature and so on.
+// The dependence of errors on quantities such as velocity, position and temperature: mean errors in bins.
 #include "src/diagnose/report/predictions.h"
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace fidservo::diagnose {
 
-/// An error and what it may depend on.
+/// A quantity's value x with the error there without and with the explanation.
 struct Sample {
-    float x, before, after;  ///< errors in floors
+    float x, before, after;  ///< x, and both errors in floors
     std::uint32_t window;
 };
 
-/// What a signal's error may depend on.
+/// A quantity on which a signal's error may depend.
 struct Quantity {
-    std::string name;        ///< as gap::Remainder names dependences, so that one finds the other
+    std::string name;        ///< as in gap::Remainder, so that one can be found by the other
     std::string axis_label;  ///< with its unit
     std::vector<Sample> samples;
 };
@@ -26,10 +26,10 @@ struct Quantity {
 std::vector<Quantity> quantities(const gap::Evidence& evidence, const Predictions& predictions,
                                  gap::Signal signal);
 
-/// A mean error with its standard error; NaN where a bin has too little for either.
+/// A mean error with its standard error; NaN where a bin has too few values.
 struct BinnedMean {
     std::vector<double> mean, std_error;
-    double share = 0.0;  ///< of the squared error that the bins' means account for
+    double share = 0.0;  ///< fraction of the squared error that the bins' means explain
 };
 
 struct BinnedErrors {
@@ -37,7 +37,7 @@ struct BinnedErrors {
     BinnedMean before, after;
 };
 
-/// Bins of equal width over the range of x, but for 0.2 % at each end. Errors of one window hang together:
+/// Bins of equal width over the range of x, but for 0.2 % at each end. Errors within a window are correlated:
 /// the standard error comes from the scatter of the windows' means in a bin, weighted by their values.
 BinnedErrors binned(const std::vector<Sample>& samples, std::size_t bins);
 

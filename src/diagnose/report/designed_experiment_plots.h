@@ -7,9 +7,9 @@
 
 namespace fidservo::diagnose {
 
-/// Setpoints over time; the commands and readings that each explanation predicts; and, for each that may be
-/// true, by how much the other one would still be wrong after its values have adjusted themselves: r.m.s. in
-/// each window of 1 s of the signal that tells most, in floors, beside what the truth itself leaves.
+/// Setpoints over time; the commands and readings that each explanation predicts; and, for each explanation
+/// as the truth, the error that the other one would still have after a fit of its values: r.m.s. in each
+/// window of 1 s of the most informative signal, in floors, beside the error of the true explanation.
 std::string designed_experiment_html(const Rig& rig, const DesignedNext& next);
 
 }  // namespace fidservo::diagnose

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What was found and what was tried, as tables.
+// The effects found and the effects tried, as tables.
 #include "gap/diagnosis.h"
 
 #include <string>

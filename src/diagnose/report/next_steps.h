@@ -15,7 +15,7 @@ struct Rig;
 
 namespace fidservo::diagnose {
 
-/// What a diagnosis was asked for, to be repeated in commands.
+/// The options of a diagnosis, which are repeated in proposed commands.
 struct Request {
     std::filesystem::path rig_file;
     std::vector<std::filesystem::path> recordings;

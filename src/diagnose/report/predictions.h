@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the rig file alone and the explanation predict of the recordings, for the report's pictures.
+// The predictions of the recordings by the rig file alone and by the explanation, for the report's plots.
 #include "gap/diagnosis.h"
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace fidservo::diagnose {
 
-/// In floors, of the windows of an evidence. With an explanation its parameters are those fitted to all of
-/// the recordings; the sizes that a diagnosis states are from recordings held out.
+/// Errors in floors of the windows of an evidence. The explanation's parameters are those fitted to all
+/// recordings, whereas the numbers in a diagnosis are for held-out data.
 struct Predictions {
     gap::Errors nominal, explained;
     bool is_explained = false;  ///< whether there is an explanation; otherwise `explained` is `nominal`
@@ -17,7 +17,7 @@ struct Predictions {
 
 Predictions predict(const gap::Evidence& evidence, const gap::Hypothesis& hypothesis);
 
-/// R.m.s. error in floors; NaN where nothing was judged.
+/// R.m.s. errors in floors; NaN where nothing was judged.
 struct RunGap {
     double before, after;
 };
@@ -25,10 +25,10 @@ struct RunGap {
 /// A recording's gaps, signal by signal.
 using RunGaps = std::array<RunGap, gap::signal_count>;
 
-/// One a recording.
+/// The gaps of each recording.
 std::vector<RunGaps> gaps_by_run(const gap::Evidence& evidence, const Predictions& predictions);
 
-/// Sums that make an r.m.s. error in floors.
+/// Accumulates an r.m.s. error in floors.
 class RootMeanSquare {
   public:
     void add(const gap::Errors& errors, const gap::Window& window);

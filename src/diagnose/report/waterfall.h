@@ -7,14 +7,14 @@
 
 namespace fidservo::diagnose {
 
-/// The gap in floors with the first effects of a diagnosis: from the shares that they remove,
+/// The gap in floors after adding the effects of a diagnosis one by one, from the fractions that they remove:
 ///
 ///     after^2 = 1 + (1 - removed) (before^2 - 1),
 ///
-/// with all of them the diagnosis's own gap after. One value for each effect.
+/// The last value is the diagnosis's own `after`. One value for each effect.
 std::vector<double> gap_after_steps(const gap::Diagnosis& diagnosis);
 
-/// Bars on a logarithmic axis in floors, the floor marked, one row a step.
+/// Bars on a logarithmic axis in floors, one row for each step; the floor is marked.
 std::string waterfall_svg(const gap::Diagnosis& diagnosis);
 
 }  // namespace fidservo::diagnose

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Files that are on the disk, whole, when the caller goes on.
+// Files that are completely on the disk when a call returns.
 
 #include "core/result.h"
 
@@ -21,7 +21,8 @@ class DurableFile {
     ~DurableFile();
 
     Status append(std::string_view text);
-    /// Writes what is collected: whoever kills the program leaves it in the file; a power cut need not.
+    /// Hands the collected text to the system: it survives the program's being killed, but not a power
+    /// failure.
     Status flush() { return write_out(); }
     /// Writes what is still collected, and waits until the disk has it all.
     Status close();
@@ -47,7 +48,7 @@ void write_or_throw(const std::filesystem::path& file, std::string_view text);
 /// disk does not take it.
 void replace_file(const std::filesystem::path& file, std::string_view text);
 
-/// Waits until the disk has the names of a folder's files.
+/// Waits until the names of a folder's files are on the disk.
 Status sync_folder(const std::filesystem::path& folder);
 
 }  // namespace fidservo

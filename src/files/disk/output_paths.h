@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Names that a command writes to: nothing is ever overwritten, nothing that was measured is lost.
+// Output paths of commands: nothing is ever overwritten, and no measurement is lost.
 #include <filesystem>
 
 namespace fidservo {
@@ -11,8 +11,8 @@ void demand_new_file(const char* option, const std::filesystem::path& file);
 /// Makes a new output folder. Throws InputError if something of that name exists or it cannot be made.
 void make_output_folder(const std::filesystem::path& folder);
 
-/// Gives what an interrupted run left under this name another one ("NAME.interrupted-1"). Does nothing if
-/// there is nothing. Throws RunFault if it cannot be renamed.
+/// Renames what an interrupted run left under this name ("NAME.interrupted-1"). Does nothing if there is
+/// nothing. Throws RunFault if it cannot be renamed.
 void set_aside(const std::filesystem::path& path);
 
 }  // namespace fidservo

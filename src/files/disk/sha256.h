@@ -9,7 +9,7 @@ namespace fidservo {
 
 /// SHA-256 in lower-case hexadecimal.
 std::string sha256(std::string_view bytes);
-/// Of a file's content, which is read in pieces. Throws InputError if it cannot be read.
+/// The SHA-256 of a file's content, which is read in pieces. Throws InputError if it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& file);
 
 }  // namespace fidservo

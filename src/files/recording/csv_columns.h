@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The header of a recording's CSV file: which column is what.
+// The header of a recording's CSV file: which quantity each column holds.
 #include "src/files/text/csv_text.h"
 
 #include <optional>
@@ -16,7 +16,7 @@ struct ColumnTitle {
     bool required;
 };
 
-/// For each known title the column's index in this file, read from the header line that `csv` stands on.
+/// For each known title the column's index in this file, read from the present line of `csv`, the header.
 /// Throws InputError on a column that is unknown, given twice, missing, or in another unit.
 std::vector<std::optional<std::size_t>> find_columns(const CsvText& csv, std::span<const ColumnTitle> known);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The list of a camera folder's images and their times, as other programs write it: EuRoC's data.csv, TUM's
-// rgb.txt, and what becomes of them in editors and spreadsheets.
+// The list of a camera folder's images and their times as other programs write it (EuRoC's data.csv, TUM's
+// rgb.txt), also after editing in a text editor or a spreadsheet.
 #include "core/recording.h"
 
 #include <filesystem>

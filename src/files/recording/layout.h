@@ -23,10 +23,10 @@ struct StageColumn {
     std::string_view title;
     double StageRow::*value;
     bool StageColumns::*present;
-    int decimals;  ///< written after the point
+    int decimals;  ///< digits after the decimal point
 };
 
-/// In the order in which they are written.
+/// In the order of the file.
 inline constexpr std::array stage_columns{
     StageColumn{"macro_setpoint [mm]", &StageRow::macro_setpoint_mm, &StageColumns::macro_setpoint, 4},
     StageColumn{"macro_command [V]", &StageRow::macro_command_V, &StageColumns::macro_command, 7},
@@ -40,8 +40,8 @@ inline constexpr std::array<std::string_view, 8> corner_titles{
     "p0_x [px]", "p0_y [px]", "p1_x [px]", "p1_y [px]", "p2_x [px]", "p2_y [px]", "p3_x [px]", "p3_y [px]"};
 inline constexpr int corner_decimals = 4;
 
-/// What a file of detections may have beside the corners: 1 where they were refined, 0 where they are as the
-/// detector found them; and of each corner the covariance of x and y.
+/// Optional columns of a detections file: whether the corners were refined (1) or are as the detector found
+/// them (0), and the covariance of x and y of each corner.
 inline constexpr std::string_view refined_title = "refined";
 inline constexpr std::array<std::string_view, 12> covariance_titles{
     "p0_xx [px^2]", "p0_xy [px^2]", "p0_yy [px^2]", "p1_xx [px^2]", "p1_xy [px^2]", "p1_yy [px^2]",

@@ -16,9 +16,9 @@ namespace fidservo {
 /// without a whole line counts as not there.
 Recording read_recording(const std::filesystem::path& folder);
 
-/// The recordings that a path stands for: itself if it holds recording.yaml, else the folders in it that do,
-/// by name; else those in its folder "recordings", where an inspection keeps them. Throws InputError if there
-/// are none.
+/// Expands a path to recordings: itself if it holds recording.yaml, else the folders in it that do, by name;
+/// else those in its folder "recordings", where an inspection keeps them. Throws InputError if there are
+/// none.
 std::vector<std::filesystem::path> find_recordings(const std::filesystem::path& path);
 
 /// The list of a camera folder's frames, by time: of a recording its cam0/data.csv; of a folder that another

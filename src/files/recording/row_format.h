@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Recordings as text, byte for byte.
+// The text format of recordings.
 #include "core/camera/camera_parameters.h"
 #include "core/recording.h"
 
@@ -8,20 +8,20 @@
 
 namespace fidservo {
 
-/// What a file says of detections: their corners alone, or also how well they are known.
+/// The corners' columns in a file of detections: their places only, or their covariances, too.
 enum class CornerColumns { places, places_and_covariances };
 
 std::string stage_header(const StageColumns& columns);
 std::string detections_header(CornerColumns columns = CornerColumns::places);
-/// The titles of the corners' columns alone.
+/// The column titles of the corners.
 std::string corners_header(CornerColumns columns);
 std::string frames_header();
 
-/// Each appends one line with its end. A value that is not in force is an empty field; zero has no sign.
+/// Appends one line with its line end. A value that is not in force is an empty field; zero has no sign.
 void append_row(std::string& text, const StageRow& row, const StageColumns& columns);
 void append_detection(std::string& text, const TagDetection& detection,
                       CornerColumns columns = CornerColumns::places);
-/// The corners alone, with a comma before each field.
+/// Appends the corners only, with a comma before each field.
 void append_corners(std::string& text, const TagDetection& detection, CornerColumns columns);
 void append_frame(std::string& text, const FrameName& frame);
 

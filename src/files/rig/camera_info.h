@@ -10,9 +10,9 @@
 
 namespace fidservo {
 
-/// What such a file says of the image as the camera gives it.
+/// A camera's intrinsics as such a file states them.
 struct CameraInfo {
-    std::string camera_name;             ///< as the file has it; may be empty
+    std::string camera_name;             ///< as in the file; may be empty
     int width_px;                        ///< of the image
     int height_px;                       ///< of the image
     Eigen::Vector2d focal_px;            ///< f_x, f_y
@@ -23,7 +23,7 @@ struct CameraInfo {
 /// The camera's intrinsics without its place.
 CameraInfo camera_info_of(const CameraGeometry& camera, const std::string& camera_name);
 
-/// The same intrinsics in a camera whose place is another one's.
+/// A camera with other intrinsics; its mounting stays.
 CameraGeometry with_intrinsics(CameraGeometry camera, const CameraInfo& info);
 
 /// Reads a file; its keys tell whose it is:

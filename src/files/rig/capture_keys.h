@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a rig file says about how its camera is to be set: `camera.capture`. Only who opens a camera asks.
+// The keys `camera.capture` of a rig file: how the camera is to be set. Only programs that open the camera
+// read them.
 #include "src/files/text/yaml_reader.h"
 #include "vision/v4l2/pixel_format.h"
 
@@ -10,9 +11,9 @@
 namespace fidservo {
 
 struct CaptureKeys {
-    std::optional<vision::v4l2::PixelFormat> format;  ///< empty: the best that the camera has
+    std::optional<vision::v4l2::PixelFormat> format;  ///< empty: the best one that the camera offers
     std::optional<int> gain;   ///< in the driver's units, as `fidservo cameras` shows them
-    std::optional<int> focus;  ///< likewise
+    std::optional<int> focus;  ///< in the driver's units, as `fidservo cameras` shows them
 };
 
 /// The keys of `camera.capture`. Throws InputError.

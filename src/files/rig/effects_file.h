@@ -17,11 +17,11 @@ class YamlValue;
 /// The effects of a file, in its order. Throws InputError with file, line and key where it is none, an effect
 /// cannot be evaluated, or two have one name.
 std::vector<const plant::Effect*> load_effects_file(const std::filesystem::path& file);
-/// The same of a file that was read.
+/// The effects of a parsed file.
 std::vector<const plant::Effect*> read_effects_file(const YamlValue& root);
 
-/// Throws InputError with the option where a name that it gives is of no effect.
-/// @param formulas  that are known beside the catalogue
+/// Throws InputError that names the option if one of its names is of no effect.
+/// @param formulas  effects known besides the catalogue
 void demand_effects(const char* option, const std::vector<std::string>& names,
                     std::span<const plant::Effect* const> formulas);
 
@@ -29,7 +29,7 @@ void demand_effects(const char* option, const std::vector<std::string>& names,
 /// with `value` beside a parameter's bounds where it is not the typical one.
 StatedEffect read_stated_formula(const YamlValue& map);
 
-/// What read_stated_formula() reads, as text.
+/// The text that read_stated_formula() reads.
 std::string stated_formula_yaml(const StatedEffect& effect);
 
 }  // namespace fidservo

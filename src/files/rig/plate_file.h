@@ -22,14 +22,14 @@ Plate read_plate(const YamlValue& map);
 std::string plate_yaml(const std::vector<PlateTag>& tags);
 
 /// One printed feature of a plate file's `features`.
-/// @param ink_reflectance  where the feature does not say
+/// @param ink_reflectance  the default for a feature that states none
 Feature read_feature(const YamlValue& map, double ink_reflectance);
 
 /// The plate that a rig file describes: its grid of fiducials and nothing else.
 Plate plate_of(const FiducialParameters& fiducials);
 
-/// The plate of a rig that needs one to find its way. Throws InputError if it has no fiducials.
-/// @param rig_file  that it was read from, for the message
+/// The plate of a rig, for commands that need one. Throws InputError if the rig has no fiducials.
+/// @param rig_file  the rig's file, for the message
 Plate rig_plate(const Rig& rig, const std::filesystem::path& rig_file);
 
 }  // namespace fidservo

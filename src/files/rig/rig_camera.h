@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The camera of a rig file: its keys and what they may hold.
+// The camera section of a rig file: its keys and their allowed values.
 #include "core/camera/camera_parameters.h"
 #include "src/files/text/yaml_reader.h"
 
@@ -11,7 +11,7 @@ namespace fidservo {
 inline constexpr int least_image_px = 16;
 inline constexpr int most_image_px = 20'000;
 
-/// Keys of `camera` that a ROS file gives in their place.
+/// Keys of `camera` that a ROS file can provide instead.
 inline constexpr std::array intrinsic_camera_keys{
     "width_px", "height_px", "focal_px", "focal_ratio", "principal_point_px", "lens", "distortion"};
 
@@ -19,7 +19,8 @@ inline constexpr std::array intrinsic_camera_keys{
 /// InputError.
 CameraParameters read_rig_camera(const YamlValue& map);
 
-/// Demands that a pixel is nearly square. @param value  what the error names
+/// Throws InputError unless a pixel is nearly square.
+/// @param value  the value that the error names
 void check_focal_ratio(const YamlValue& value, double focal_ratio);
 
 }  // namespace fidservo

@@ -13,13 +13,13 @@
 
 namespace fidservo {
 
-/// What a part's numbers come from, for people who read the file.
+/// The provenance of a part's numbers, for readers of the file.
 struct RigProvenance {
     std::string part;
     std::vector<std::string> recordings;
-    std::vector<std::pair<std::string, double>> standard_errors;  ///< of keys, in their units
+    std::vector<std::pair<std::string, double>> standard_errors;  ///< of keys, in the keys' units
     std::vector<std::pair<std::string, double>> residuals;        ///< r.m.s. by "signal_unit"
-    std::vector<std::string> contradictions = {};                 ///< between recordings, in words
+    std::vector<std::string> contradictions = {};  ///< contradictions between recordings, in words
 };
 
 /// A copy of a rig file whose values are changed one by one. Keys keep their order; comments are lost.
@@ -31,14 +31,14 @@ class RigEdit {
     RigEdit(const RigEdit&) = delete;
     RigEdit& operator=(const RigEdit&) = delete;
 
-    /// @param key  its path, e.g. "macro.dead_zone.slope"; maps on the way are made where they are missing
-    /// Intrinsics of a camera whose file names a camera_info are first copied from there.
+    /// @param key  its path, e.g. "macro.dead_zone.slope"; missing maps are created
+    /// If the camera names a camera_info file, its intrinsics are first copied from there.
     void set(std::string_view key, double value);
-    /// The same for a list, e.g. "camera.distortion".
+    /// Sets a list, e.g. "camera.distortion".
     void set(std::string_view key, std::span<const double> values);
-    /// The same for a name, e.g. "camera.lens".
+    /// Sets a name, e.g. "camera.lens".
     void set_name(std::string_view key, std::string_view name);
-    /// Adds an effect to those that the file states; one of the same name is replaced.
+    /// Adds an effect to those that the file states, or replaces the one of the same name.
     void state_effect(const StatedEffect& effect);
     /// Writes the table beside the rig file, as NAME_fod.csv, and refers to it.
     void set_fod(std::shared_ptr<const FodTable> table);

@@ -12,7 +12,7 @@ struct Rig;
 /// does not have may be left out. Throws InputError.
 Rig load_rig(const std::filesystem::path& file);
 
-/// A rig file and the files that it names: all that load_rig() reads. Throws InputError.
+/// A rig file and the files that it names: everything that load_rig() reads. Throws InputError.
 std::vector<std::filesystem::path> files_of_rig(const std::filesystem::path& file);
 
 /// The reference rig that is installed with the program: used where --rig is not given.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a rig file says about the board that drives its stage, and about the limits that are watched: `stage`.
-// Only who opens a stage asks.
+// The keys `stage` of a rig file: the board that drives the stage, and the watchdog's limits. Only programs
+// that open a stage read them.
 #include "control/comedi/channel_map.h"
 #include "control/watchdog.h"
 #include "src/files/text/yaml_reader.h"
@@ -13,7 +13,7 @@ namespace fidservo {
 
 struct Rig;
 
-/// `stage.watchdog`; what is not given stays as it is (control/watchdog.h).
+/// The keys of `stage.watchdog`; those not given keep their defaults (control/watchdog.h).
 struct WatchdogKeys {
     std::optional<int> late_ticks;
     std::optional<double> wire_limit_degC;
@@ -28,10 +28,10 @@ struct StageKeys {
 /// The keys of `stage`. Throws InputError.
 StageKeys read_stage_keys(const YamlValue& map);
 
-/// Those of a rig file; none where it has none. Throws InputError.
+/// The keys `stage` of a rig file; defaults where it has none. Throws InputError.
 StageKeys load_stage_keys(const std::filesystem::path& rig_file);
 
-/// The limits of a rig with those that its file gives.
+/// The watchdog's limits for a rig, with those that its file gives.
 control::WatchdogParams watchdog_params(const Rig& rig, const WatchdogKeys& keys);
 
 }  // namespace fidservo

@@ -11,8 +11,8 @@ namespace fidservo {
 struct ClockTime {
     std::int64_t ns = 0;  ///< since midnight, of 1970-01-01 where there is a date
     bool has_date = false;
-    bool is_date_certain = true;  ///< false: day and month could be exchanged, as in 03/04/2020
-    std::string_view date = {};   ///< as it is written
+    bool is_date_certain = true;  ///< false: day and month may be exchanged, as in 03/04/2020
+    std::string_view date = {};   ///< the date as written
 };
 
 /// Reads H:MM:SS with a fraction after a point or comma, or MM:SS with a fraction; AM or PM behind it. In

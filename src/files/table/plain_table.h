@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A table of numbers that another program wrote: with titles or without, above it what its instrument says of
-// itself, numbers with points or commas.
+// A table of numbers from another program: with or without titles, possibly below a header by the instrument,
+// numbers with decimal points or commas.
 #include "src/files/table/table_structure.h"
 
 #include <functional>
@@ -32,11 +32,11 @@ class PlainTable {
     const std::optional<std::pair<int, std::string>>& line_above() const { return structure_.line_above; }
     int first_line() const { return structure_.first_row.line; }
     int last_line() const { return structure_.last_line; }
-    /// Whether the last row's line has an end.
+    /// Whether the last row's line is terminated.
     bool last_row_ends() const { return structure_.end < file_.text().size(); }
     const std::filesystem::path& file() const { return file_.file(); }
 
-    /// Sentences for the user: what was passed over, and what was decided.
+    /// Notes for the user: what was skipped, and what was decided.
     const std::vector<std::string>& notes() const { return structure_.notes; }
 
     void for_each_row(const std::function<void(const TableRow&)>& visit) const;
@@ -55,13 +55,13 @@ class PlainTable {
           options_are_offered_(options_are_offered) {}
 
     void decide_decimal_sign(const TableOptions& options);
-    /// Refuses fields between commas that could be parts of one number.
+    /// Throws InputError if fields between commas could be parts of one number.
     void demand_whole_numbers(const DecimalEvidence& evidence, std::string_view no_such_table) const;
 
     TextFile file_;
     TableStructure structure_;
     bool options_are_offered_;
-    std::optional<DecimalSign> decimal_;  ///< empty: no number of the table tells
+    std::optional<DecimalSign> decimal_;  ///< empty: no number of the table shows it
 };
 
 }  // namespace fidservo

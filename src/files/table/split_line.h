@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A line of a table in fields.
+// Splits a line of a table into fields.
 #include <string_view>
 #include <vector>
 
 namespace fidservo {
 
-/// Splits a line without copies. A separator of ' ' stands for blanks and tabs, many as one. Quotes (" or ')
+/// Splits a line without copies. The separator ' ' stands for any run of blanks and tabs. Quotes (" or ')
 /// that begin and end a field are taken off, and what stands between " is not split.
 void split_line(std::string_view line, char separator, std::vector<std::string_view>& fields);
 
@@ -14,7 +14,7 @@ void split_line(std::string_view line, char separator, std::vector<std::string_v
 /// does not separate.
 bool is_comment(std::string_view line, char separator);
 
-/// A comment without what marks it.
+/// A comment without its comment sign.
 std::string_view without_comment_mark(std::string_view line);
 
 }  // namespace fidservo

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Where in a text file a table stands: what separates its fields, where its rows begin and end, which lines
-// above them hold titles.
+// The structure of a table in a text file: its separator, where its rows begin and end, and which lines above
+// them hold titles.
 #include "src/files/table/number_notation.h"
 #include "src/files/table/text_file.h"
 
@@ -13,12 +13,12 @@
 
 namespace fidservo {
 
-/// What the user says of a table; what is not said is found, or asked for.
+/// What the user states about a table; the rest is detected, or an error asks for it.
 struct TableOptions {
     std::optional<int> header_lines = {};
     std::optional<DecimalSign> decimal = {};
-    std::optional<char> separator = {};  ///< ' ' stands for blanks and tabs, many as one
-    bool are_offered = true;             ///< whether messages may name the options that say the above
+    std::optional<char> separator = {};  ///< ' ' stands for any run of blanks and tabs
+    bool are_offered = true;             ///< whether messages may mention the options that state the above
 };
 
 /// A line above the rows with a field for each column.
@@ -29,16 +29,17 @@ struct TitleLine {
 
 struct TableStructure {
     char separator = ',';
-    std::size_t fields = 0;             ///< of every row
-    std::vector<FieldKind> kinds = {};  ///< of the columns, by what most of their fields are
+    std::size_t fields = 0;             ///< number of fields in every row
+    std::vector<FieldKind> kinds = {};  ///< kinds of the columns, by the majority of their fields
     LinePlace first_row = {};
-    std::size_t end = 0;                                         ///< offset behind the last row
-    int last_line = 0;                                           ///< the last row's
-    std::vector<TitleLine> titles = {};                          ///< the lowest first
-    std::optional<std::pair<int, std::string>> line_above = {};  ///< the lowest, where none is one of titles
-    std::size_t fields_above = 0;                    ///< of the lowest line above the rows; 0 without one
-    std::optional<DecimalSign> stated_decimal = {};  ///< by the user, or by a line above the rows
-    std::vector<std::string> notes = {};             ///< sentences on what was passed over
+    std::size_t end = 0;                 ///< offset behind the last row
+    int last_line = 0;                   ///< number of the last row's line
+    std::vector<TitleLine> titles = {};  ///< the lowest first
+    /// The lowest line above the rows, if it holds no titles.
+    std::optional<std::pair<int, std::string>> line_above = {};
+    std::size_t fields_above = 0;  ///< fields of the lowest line above the rows; 0 without one
+    std::optional<DecimalSign> stated_decimal = {};  ///< stated by the user, or in a line above the rows
+    std::vector<std::string> notes = {};             ///< sentences on what was skipped
 };
 
 inline constexpr std::size_t most_table_columns = 10'000;
@@ -51,7 +52,7 @@ inline constexpr std::size_t most_table_columns = 10'000;
 /// @throws InputError "FILE:LINE: ..."
 TableStructure structure_of(const TextFile& file, const TableOptions& options);
 
-/// How messages call a separator.
+/// The name of a separator in messages.
 std::string_view separator_name(char separator);
 
 /// A piece of a file for a message, without quotes of its own and not too long.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A text file of whatever program, line by line: what it is encoded in, how its lines end, how large it may
-// be.
+// A text file from any program, line by line: its encoding, line ends and size limits.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -35,7 +34,7 @@ class TextFile {
 
     const std::string& text() const { return text_; }
     const std::filesystem::path& file() const { return file_; }
-    /// Whether the last line has an end.
+    /// Whether the last line is terminated.
     bool ends_with_line_end() const;
 
   private:
@@ -58,14 +57,14 @@ class TextLines {
     /// Throws InputError on a line of more than most_line_bytes.
     bool next();
     std::string_view line() const { return line_; }
-    /// Where the line begins that next() gave.
+    /// Where the line begins that next() returned.
     const LinePlace& place() const { return place_; }
 
   private:
     const TextFile* file_;
     LinePlace place_;
     LinePlace next_;
-    const char* ends_;  ///< what a line can end with in this file
+    const char* ends_;  ///< the characters that can end a line in this file
     std::string_view line_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the name of a key says: its unit, and which key was meant by one that does not exist.
+// Names of keys: the unit that a key ends with, and the key that was meant by one that does not exist.
 #include <string>
 #include <string_view>
 #include <vector>

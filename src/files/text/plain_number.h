@@ -6,8 +6,8 @@
 
 namespace fidservo {
 
-/// Reads a number that is all of a text, with or without a sign, whatever the locale.
-/// @return whether it is one that T holds
+/// Reads a number that takes up a whole text, with or without a sign, independent of the locale.
+/// @return false if it is none, or does not fit into T
 template <class T>
 bool parse_all(std::string_view text, T& value) {
     if (text.starts_with('+')) text.remove_prefix(1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Strict reading of YAML: every mistake is an InputError that names file, line, key, value and what is
-// allowed. Keys that nobody asked for are mistakes too.
+// allowed. Unknown keys are mistakes too.
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
@@ -34,7 +34,7 @@ class YamlValue {
     /// The same from text, for tests and fuzzing; `file` only appears in messages.
     static YamlValue parse(const std::string& text, const std::filesystem::path& file);
 
-    YamlValue at(std::string_view key) const;  ///< must exist
+    YamlValue at(std::string_view key) const;  ///< the key must exist
     std::optional<YamlValue> find(std::string_view key) const;
     bool is_map() const;
     bool is_list() const;
@@ -48,7 +48,7 @@ class YamlValue {
     std::vector<std::string> keys() const;  ///< of a map
     double number(const NumberRange& range = any_number) const;
     int integer(int low, int high) const;
-    std::int64_t whole_number() const;  ///< any that has 64 bits
+    std::int64_t whole_number() const;  ///< any 64-bit integer
     bool boolean() const;
     std::string text() const;
     std::string text_or_empty() const;  ///< the same, or empty where "" or nothing is given

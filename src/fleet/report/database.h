@@ -11,11 +11,11 @@
 
 namespace fidservo::fleet {
 
-/// What came of bringing the database up to date.
+/// The result of updating the database.
 struct Collected {
-    std::vector<FleetResult> results;    ///< all that it now holds, by unit and time
-    std::vector<std::string> damaged;    ///< a line for each file that is no result
-    std::size_t added = 0, removed = 0;  ///< files that are new or were changed; that are no longer there
+    std::vector<FleetResult> results;    ///< all results in it, by unit and time
+    std::vector<std::string> damaged;    ///< a line for each file that is no valid result
+    std::size_t added = 0, removed = 0;  ///< number of new or changed files, and of files that are gone
 };
 
 /// Brings FLEET/fleet.sqlite up to date with FLEET/results: files that are new or whose bytes have changed

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the results of a fleet come to: what is wrong with the model, a batch, a unit; what has changed and
+// The findings from a fleet's results: what is wrong with the model, a batch or a unit, and what has changed
 // since when.
 #include "src/fleet/report/series.h"
 #include "src/fleet/report/statistics/attribution.h"
@@ -17,7 +17,7 @@
 
 namespace fidservo::fleet {
 
-/// False alarms over all quantities, for one unit and year.
+/// Expected number of false alarms over all quantities, per unit and year.
 inline constexpr double false_alarms_a_unit_year = 0.05;
 
 /// Units that may share a cause.
@@ -29,62 +29,63 @@ struct UnitGroup {
 /// One quantity of one unit.
 struct UnitFindings {
     QuantitySeries series;
-    std::vector<Change> changes;  ///< places among the series' points
-    Level known;                  ///< now, by its own diagnoses; with a limit where they name nothing
-    Level level;                  ///< the same as a normal law
-    Level pooled;                 ///< the same given the fleet
+    std::vector<Change> changes;  ///< their times are indices of the series' points
+    Level known;   ///< present value by its own diagnoses; with a limit where they do not name the effect
+    Level level;   ///< the same as a normal distribution
+    Level pooled;  ///< the same, given the fleet
 };
 
 /// One quantity.
 struct QuantityFindings {
     Quantity quantity;
     std::vector<UnitFindings> units;
-    Scatter scatter;                ///< of units that have not changed
-    Population population;          ///< of units that share in no deviation of their own
-    std::vector<UnitGroup> groups;  ///< sets that were compared; units are places in `units`
-    Attribution attribution;        ///< units and groups are places in `units` and `groups`
+    Scatter scatter;                ///< scatter of units that have not changed
+    Population population;          ///< distribution of the units without a deviation of their own
+    std::vector<UnitGroup> groups;  ///< groups that were compared; units are indices in `units`
+    Attribution attribution;        ///< units and groups are indices in `units` and `groups`
 };
 
-/// Dates between which something began: it was not there at the one and was there at the other.
+/// The dates between which something began: absent at the first, present at the second.
 struct Dates {
     std::int64_t earliest_s, likeliest_s, latest_s;
 };
 
-/// What a judgement is about.
+/// The kind of a judgement.
 enum class Matter {
-    deviation,  ///< of one unit, a batch, all
-    step,       ///< at a date
-    trend,      ///< since a date, going on
+    deviation,  ///< of one unit, a batch or all units
+    step,       ///< a sudden change at a date
+    trend,      ///< a continuing change since a date
 };
 
-/// Something that somebody should do something about.
+/// A finding that needs action.
 struct Judgement {
     Matter matter = Matter::deviation;
     Whose whose = Whose::unit;
-    std::size_t quantity = 0;        ///< of FleetFindings::quantities
-    std::vector<std::size_t> units;  ///< of FleetFindings::units
-    std::string group;               ///< the batch's name; empty where it is none
-    /// In floors; of a trend, floors a week. Of several units' changes their mean.
+    std::size_t quantity = 0;        ///< index in FleetFindings::quantities
+    std::vector<std::size_t> units;  ///< indices in FleetFindings::units
+    std::string group;               ///< the batch's name; empty if it is no batch
+    /// In floors, of a trend in floors per week. For changes of several units, their mean.
     Level size;
-    double now = 0.0;                     ///< where it stands now, floors beyond the rig file
+    double now = 0.0;                     ///< present value, floors relative to the rig file
     std::optional<Dates> since;           ///< of a change
-    std::optional<std::int64_t> found_s;  ///< with the diagnosis of which time it was found first
-    double probability = 1.0;             ///< of a deviation: that it is whose it is said to be
-    double log_odds = 0.0;  ///< natural: against none of it; of a change, over the bound of an alarm
-    double log_all = 0.0, log_group = 0.0, log_unit = 0.0;  ///< of a deviation (Share)
+    std::optional<std::int64_t> found_s;  ///< time of the diagnosis with which it was first found
+    double probability = 1.0;  ///< of a deviation: probability that it belongs to this unit, batch or all
+    /// Natural log odds of a deviation against none; of a change, over the alarm bound.
+    double log_odds = 0.0;
+    double log_all = 0.0, log_group = 0.0, log_unit = 0.0;  ///< of a deviation, as in Share
 };
 
-/// All of it.
+/// All findings.
 struct FleetFindings {
     std::vector<UnitHistory> units;
     std::vector<QuantityFindings> quantities;
-    Unexplained unexplained;            ///< what no effect accounts for
+    Unexplained unexplained;            ///< gaps that no effect explains
     std::vector<Judgement> judgements;  ///< most serious first
     double looks_a_year = 52.0;
-    double bound = 1.0;  ///< of an alarm (change_points.h)
+    double bound = 1.0;  ///< alarm bound (change_points.h)
 };
 
-/// Of a quantity's units, those that have a share of their own or of their batch.
+/// For each unit of a quantity, whether it or its batch has a deviation.
 std::vector<bool> odd_units(const QuantityFindings& found);
 
 FleetFindings findings_of(const std::vector<FleetResult>& results);

@@ -7,8 +7,8 @@
 
 namespace fidservo::fleet {
 
-/// What the page's plots draw (src/web/fleet.js), as JSON that may stand in a script element. Numbers travel
-/// as base64 of little-endian float32 and float64.
+/// The data of the page's plots (src/web/fleet.js), as JSON that is safe in a script element. Numbers are
+/// encoded as base64 of little-endian float32 and float64.
 std::string plot_data(const std::vector<FleetResult>& results, const FleetFindings& findings);
 
 }  // namespace fidservo::fleet

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which units may share a cause: by a label of their recordings, by when they were first recorded, by when
-// they changed.
+// Groups of units that may share a cause: by a label of their recordings, by the date of their first
+// recording, or by the date of a change.
 #include "src/fleet/report/findings.h"
 
 #include <span>
@@ -10,18 +10,19 @@
 
 namespace fidservo::fleet {
 
-/// Sets of two units or more, of all but one at most; of sets that are the same the first. Units are places
+/// Groups of at least two units and at most all but one; identical groups are listed once. Units are indices
 /// in `units`.
 std::vector<UnitGroup> groups_of(const std::vector<FleetResult>& results,
                                  const std::vector<UnitHistory>& histories,
                                  std::span<const UnitFindings> units);
 
-/// Changes of several units that may be one, in the same direction: the date of each lies within the interval
-/// of every other's; or one of a single unit.
+/// Changes of several units that may be one event, in the same direction: the date of each is within the
+/// intervals of all others. Or a change of a single unit.
 struct ChangeCluster {
     ChangeKind kind;
-    std::vector<std::size_t> units, changes;  ///< places in `units`; of each the change
-    Dates since;                              ///< that all of them allow
+    /// Indices in `units`, and for each unit the index of its change.
+    std::vector<std::size_t> units, changes;
+    Dates since;  ///< dates that are compatible with all of them
 };
 
 /// All changes of a quantity, those of most units first.
@@ -31,7 +32,7 @@ std::vector<ChangeCluster> clusters_of(const std::vector<FleetResult>& results,
 /// When a change began.
 Dates dates_of(const std::vector<FleetResult>& results, const UnitFindings& unit, const Change& change);
 
-/// How much two sets of units are the same: of those in one or the other the share that is in both.
+/// The overlap of two sets of units: intersection over union.
 double overlap(std::vector<std::size_t> a, std::vector<std::size_t> b);
 
 }  // namespace fidservo::fleet

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Judgements of a fleet in words of the workshop.
+// Judgements of a fleet in plain words.
 #include "src/fleet/report/findings.h"
 
 #include <string>
@@ -12,10 +12,10 @@ namespace fidservo::fleet {
 /// "the model is wrong for all units", "batch 7", "unit P-0007".
 std::string whose_words(const FleetFindings& findings, const Judgement& judgement);
 
-/// What is the matter, in one sentence.
+/// The finding in one sentence.
 std::string matter_sentence(const FleetFindings& findings, const Judgement& judgement);
 
-/// What speaks for it, in sentences.
+/// The evidence for it, in sentences.
 std::string evidence_sentences(const FleetFindings& findings, const Judgement& judgement);
 
 /// What to do, in sentences for a technician.
@@ -24,10 +24,10 @@ std::vector<std::string> what_to_do(const FleetFindings& findings, const Judgeme
 /// A value with its unit: "1.02", "38.5 um".
 std::string value_words(const Quantity& quantity, double floors);
 
-/// By how much, without the rig file's value: "+8.5 um".
+/// The difference from the rig file's value: "+8.5 um".
 std::string change_words(const Quantity& quantity, double floors);
 
-/// Names of units, the first few and how many more.
+/// Names of units: the first few, and the number of the others.
 std::string unit_names(const FleetFindings& findings, const std::vector<std::size_t>& units,
                        std::size_t most = 8);
 

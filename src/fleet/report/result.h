@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a report knows of one task of a fleet: a campaign of a unit and its diagnosis, from a file of
-// FLEET/results (format fidservo-fleet-result/1).
+// One task's result for the report: a campaign of a unit and its diagnosis, from a file of FLEET/results
+// (format fidservo-fleet-result/1).
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -14,34 +14,35 @@ namespace fidservo::fleet {
 
 /// A number of a named effect, in its unit.
 struct NamedParameter {
-    std::string name, unit;  ///< by the catalogue of effects
+    std::string name, unit;  ///< as in the catalogue of effects
     double value, std;       ///< as fitted; one standard error
 };
 
 /// An effect that a diagnosis names.
 struct NamedEffect {
-    std::string effect, block;  ///< by the catalogue of effects
-    double probability = 0.0;   ///< that it is there
-    double gap_removed = 0.0;   ///< with it and those before it
-    /// The gap that it alone would make, in floors; NaN where the file does not say.
+    std::string effect, block;  ///< as in the catalogue of effects
+    double probability = 0.0;   ///< probability of its being present
+    double gap_removed = 0.0;   ///< fraction of the gap that is removed with it and those before it
+    /// The gap that it alone would cause, in floors; NaN where the file does not state it.
     double gap_alone = std::numeric_limits<double>::quiet_NaN();
-    std::vector<NamedParameter> parameters;           ///< in the diagnosis's order
-    std::vector<std::string> indistinguishable_from;  ///< effects that the campaign cannot tell from it
+    std::vector<NamedParameter> parameters;  ///< in the diagnosis's order
+    /// Effects that the campaign cannot distinguish from it.
+    std::vector<std::string> indistinguishable_from;
 };
 
 /// An effect that was tried alone.
 struct TriedAlone {
-    std::string effect;               ///< by the catalogue of effects
-    double probability, gap_removed;  ///< as the diagnosis has them
+    std::string effect;               ///< as in the catalogue of effects
+    double probability, gap_removed;  ///< as in the diagnosis
 };
 
 /// A signal's gap, r.m.s., in its unit.
 struct SignalSize {
-    std::string signal, unit;     ///< as the diagnosis has them
-    double before, after, floor;  ///< without effects, with those named, under the truth
+    std::string signal, unit;     ///< as in the diagnosis
+    double before, after, floor;  ///< without effects, with those named, and by noise alone
 };
 
-/// A block with the probability that the file has it wrong.
+/// A block with the probability that the rig file is wrong in it.
 struct AccusedBlock {
     std::string block;   ///< macro.friction and the like
     double probability;  ///< 0 to 1
@@ -50,16 +51,16 @@ struct AccusedBlock {
 /// One result.
 struct FleetResult {
     std::string file;                           ///< its name in FLEET/results
-    std::string campaign, campaign_content;     ///< path as it was given; SHA-256 of its recordings
-    std::optional<std::string> unit;            ///< which rig; none where its recordings do not say
+    std::string campaign, campaign_content;     ///< path as given; SHA-256 of its recordings
+    std::optional<std::string> unit;            ///< the rig; empty where its recordings do not state it
     std::optional<std::int64_t> recorded_at_s;  ///< since 1970-01-01 UTC
     std::map<std::string, std::string> labels;  ///< of its recordings
     std::string rig_name, rig_content;          ///< of the rig file
     std::string program;                        ///< version
-    double effort = 0.0;                        ///< that it cost
-    bool done = false;                          ///< otherwise failed, for `reason`
+    double effort = 0.0;                        ///< computing effort spent
+    bool done = false;                          ///< false: failed, for `reason`
     std::string reason;                         ///< why it failed
-    std::string verdict, ended;                 ///< as the diagnosis has them
+    std::string verdict, ended;                 ///< as in the diagnosis
     double gap_before = 1.0, gap_after = 1.0;   ///< in floors
     std::string unexplained;                    ///< block of what no effect explains; empty: none
     std::vector<SignalSize> signals;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What results say of each quantity of each unit, over time, in floors.
+// The results for each quantity of each unit, over time, in floors.
 //
 // A quantity is a size of an effect of the catalogue: what a unit has of it beyond its rig file. Its size in
 // floors is by how much it alone would lift the gap, f = sqrt(g^2 - 1), which each diagnosis states for each
@@ -24,11 +24,11 @@
 
 namespace fidservo::fleet {
 
-/// A size of an effect.
+/// A size parameter of an effect, as a quantity that is observed over time.
 struct Quantity {
-    std::string effect, parameter, unit, block;  ///< by the catalogue
-    double vanishing = 0.0;                      ///< what the rig file stands for
-    double floors_per_unit = 0.0;                ///< beyond it
+    std::string effect, parameter, unit, block;  ///< as in the catalogue
+    double vanishing = 0.0;                      ///< the value for which the rig file stands
+    double floors_per_unit = 0.0;                ///< floors per unit of deviation from it
 
     double in_floors(double value) const { return (value - vanishing) * floors_per_unit; }
     double in_units(double floors) const { return vanishing + floors / floors_per_unit; }
@@ -37,8 +37,8 @@ struct Quantity {
 /// A unit's results.
 struct UnitHistory {
     std::string name;
-    std::vector<std::size_t> results;  ///< by time; those without a time come first
-    /// Of these, the first that is part of what is judged: of the same rig file as the last one.
+    std::vector<std::size_t> results;  ///< indices of results by time; those without a time come first
+    /// Index in `results` of the first one that is judged: from there on the rig file is the present one.
     std::size_t first_judged = 0;
 };
 
@@ -46,11 +46,11 @@ struct UnitHistory {
 struct QuantitySeries {
     std::size_t unit = 0;
     std::vector<Point> points;         ///< by time
-    std::vector<std::size_t> results;  ///< of each point
-    std::size_t untimed = 0;           ///< points at the beginning of which no time is known
+    std::vector<std::size_t> results;  ///< index of the result for each point
+    std::size_t untimed = 0;           ///< number of points at the beginning without a known time
 };
 
-/// One quantity of all units of which something is known.
+/// One quantity of all units that have results on it.
 struct QuantityOverFleet {
     Quantity quantity;
     std::vector<QuantitySeries> units;
@@ -64,7 +64,7 @@ std::vector<UnitHistory> histories(const std::vector<FleetResult>& results);
 std::vector<QuantityOverFleet> quantities_over_fleet(const std::vector<FleetResult>& results,
                                                      const std::vector<UnitHistory>& units);
 
-/// How many sizes the catalogue has: as many are looked at in each unit.
+/// The number of size parameters in the catalogue: so many quantities are tested in each unit.
 std::size_t quantities_looked_at();
 
 /// When a point of a series was recorded, in seconds since 1970-01-01.
@@ -75,7 +75,7 @@ std::int64_t time_s_of(const std::vector<FleetResult>& results, const QuantitySe
 /// Weeks since 1970-01-01.
 double weeks_of(std::int64_t time_s);
 
-/// How often a unit is diagnosed, by the median of the times between two diagnoses; 52 where none is known.
+/// Diagnoses of a unit per year, from the median interval between two diagnoses; 52 where it is unknown.
 double looks_a_year(const std::vector<FleetResult>& results, const std::vector<UnitHistory>& units);
 
 }  // namespace fidservo::fleet

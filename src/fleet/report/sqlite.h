@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// SQLite's handles, closed when they go, and its errors as exceptions.
+// SQLite handles that close themselves; errors become exceptions.
 #include <cstdint>
 #include <filesystem>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What diagnoses leave unexplained: gaps that no effect of the catalogue accounts for, of single units or of
-// all. Nothing of it shows in sizes of effects, by which units are judged otherwise.
+// Gaps that no effect of the catalogue explains, of single units or of all. They do not appear in the sizes
+// of effects by which units are judged otherwise.
 #include "src/fleet/report/series.h"
 
 #include <cstddef>
@@ -10,25 +10,25 @@
 
 namespace fidservo::fleet {
 
-/// What a unit's last diagnosis leaves.
+/// The remaining gap in a unit's last diagnosis.
 struct LeftOver {
-    std::size_t unit = 0;    ///< of the histories
-    double floors = 1.0;     ///< gap with all that is named; 1 is what noise alone leaves
+    std::size_t unit = 0;    ///< index in the histories
+    double floors = 1.0;     ///< gap with all named effects; 1 is noise alone
     double before = 1.0;     ///< gap without effects, floors
-    std::string block;       ///< where it arises; empty: not said
-    std::string campaign;    ///< that was diagnosed
-    bool was_ended = false;  ///< the search had not come to its end
+    std::string block;       ///< the accused block; empty: none is stated
+    std::string campaign;    ///< the campaign of that diagnosis
+    bool was_ended = false;  ///< the search had been cut short
 };
 
 /// All units' remainders.
 struct Unexplained {
-    std::vector<LeftOver> units;  ///< those whose last diagnosis leaves something, most first
-    std::size_t diagnosed = 0;    ///< units whose last diagnosis is done
+    std::vector<LeftOver> units;  ///< units with a remaining gap, the largest first
+    std::size_t diagnosed = 0;    ///< number of units whose last diagnosis succeeded
 
     bool empty() const { return units.empty(); }
-    /// Eight units in ten or more, of two at least: it is then no matter of one unit.
+    /// Whether at least two units and 80 % of all have one: it is then not a matter of single units.
     bool is_of_all() const;
-    /// Half of the units that leave something leave so much or more, floors.
+    /// The median of the remaining gaps, floors.
     double median_floors() const;
 };
 
@@ -42,7 +42,8 @@ std::string unexplained_sentence(const Unexplained& unexplained);
 /// "All of them leave a gap unexplained", "Unit P-0007 leaves 11 floors unexplained".
 std::string unexplained_title(const Unexplained& unexplained, const std::vector<UnitHistory>& units);
 
-/// Each unit with its size, and where it arises; most first. @param most  so many, then how many more
+/// Each unit with the size and the block of its gap, the largest first.
+/// @param most  largest number of lines; then the number of the others
 std::vector<std::string> unexplained_lines(const Unexplained& unexplained,
                                            const std::vector<UnitHistory>& units, std::size_t most);
 

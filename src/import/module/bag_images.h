@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Cameras' messages of ROS 2.
+// Camera messages of ROS 2.
 #include "src/import/log.h"
 #include "src/import/module/cdr.h"
 

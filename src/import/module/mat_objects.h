@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// MATLAB's own objects (timetables, strings, datetimes), which no other program can read, by name and class.
+// MATLAB's own objects (timetables, strings, datetimes), which other programs cannot read: only their names
+// and classes.
 #include <map>
 #include <string>
 
 namespace fidservo::imports {
 
-/// What the file's elements show without their data.
+/// What can be seen of the file's content without its data.
 struct MatContents {
-    std::map<std::string, std::string> objects{};  ///< class by variable
-    std::string damage{};                          ///< where the file breaks off; empty: it does not
+    std::map<std::string, std::string> objects{};  ///< class, by the variable's name
+    std::string damage{};                          ///< where the file is truncated; empty: it is not
 };
 
 /// Of a file of format 5.

@@ -11,10 +11,10 @@
 
 namespace fidservo::inspect {
 
-/// Draws the nominal plate as the camera would see it with its axis at a plate point, without noise.
+/// Renders the nominal plate as the camera would see it with its axis at a plate point, without noise.
 using DrawNominal = std::function<vision::ReferenceImage(const Eigen::Vector2d& axis_mm)>;
 
-/// What the checks of one view are made with.
+/// The data for the checks of one view.
 struct CheckContext {
     const Site& site;
     const View& view;
@@ -30,11 +30,11 @@ struct CheckedView {
     std::vector<Overlay> overlays;
 };
 
-/// All checks of a view, in the recipe's order. What cannot be measured becomes a row with the reason: `fail`
-/// for a feature that is not there, `not_decidable` for everything else.
+/// Makes all checks of a view, in the recipe's order. A failed measurement becomes a row with the reason:
+/// `fail` for a feature that is not there, `not_decidable` for everything else.
 CheckedView check_view(const CheckContext& context);
 
-/// The rows of a view that could not be seen: one for each check, not_measured, with the reason.
+/// The rows of a view of which there is no image: one not_measured row for each check, with the reason.
 std::vector<ResultRow> rows_not_measured(const Site& site, const View& view, const std::string& reason);
 
 }  // namespace fidservo::inspect

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The nominal plate as an ideal camera would see it.
+// Renders the nominal plate as an ideal camera would see it.
 #include "core/camera/camera_parameters.h"
 #include "src/inspect/measure/checks.h"
 

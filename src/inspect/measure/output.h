@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Where a run's files lie.
+// The files and folders of a run.
 #include <filesystem>
 #include <string>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What an inspection found: rows of results, what was seen where in the images, and how each visit went.
+// The results of an inspection: rows of measurements, the outlines measured in images, and the course of each
+// visit.
 #include "vision/features/verdict.h"
 
 #include <filesystem>
@@ -12,7 +13,7 @@
 
 namespace fidservo::inspect {
 
-/// What a row says. The first three are guarded decisions (vision/features/verdict.h).
+/// The outcome of a check. The first three are guarded decisions (vision/features/verdict.h).
 enum class Outcome { pass, fail, not_decidable, not_measured };
 
 /// The word in result files: "pass", "fail", "not_decidable", "not_measured".
@@ -21,7 +22,7 @@ Outcome outcome_of(vision::Verdict verdict);
 /// The worse of two: fail, not_measured, not_decidable, pass.
 Outcome worse(Outcome a, Outcome b);
 
-/// One row of results.csv. Numbers that do not exist are empty.
+/// One row of results.csv. Numbers that do not apply are empty.
 struct ResultRow {
     int site;  ///< id of its fiducial
     std::string view;
@@ -29,7 +30,7 @@ struct ResultRow {
     std::string feature;
     std::optional<double> value;
     std::string unit;
-    std::optional<double> uncertainty;  ///< one standard uncertainty
+    std::optional<double> uncertainty;  ///< standard uncertainty
     std::optional<double> nominal;
     std::optional<double> tolerance;
     Outcome verdict;
@@ -54,9 +55,9 @@ struct ViewResult {
     std::vector<Overlay> overlays;
 };
 
-/// A try at a site that did not succeed.
+/// A failed attempt at a site.
 struct FailedAttempt {
-    std::string view;    ///< where it failed; empty: on the way
+    std::string view;    ///< the view at which it failed; empty: during a motion
     std::string reason;  ///< name of the Reason
     std::string text;
 };
@@ -71,13 +72,13 @@ struct Visit {
     std::vector<ResultRow> rows;
     std::vector<ViewResult> views;
     std::string recording;  ///< relative to the output folder
-    double from_s, to_s;    ///< rig time
+    double from_s, to_s;    ///< on the rig's clock
     double macro_time_s, micro_time_s;
 };
 
 std::string_view name_of(Visit::End end);
 
-/// How many rows ended how.
+/// The number of rows for each outcome.
 struct Counts {
     int pass = 0, fail = 0, not_decidable = 0, not_measured = 0;
     int total() const { return pass + fail + not_decidable + not_measured; }

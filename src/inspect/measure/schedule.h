@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which site comes next: the recipe's order first, then, once more, those that were put off.
+// The order of visits: first the recipe's, then once more the sites that were deferred.
 #include "src/inspect/measure/results.h"
 #include "src/inspect/recipe/recipe.h"
 
@@ -14,13 +14,14 @@ struct NextVisit {
     bool again;  ///< the second visit of a site that was deferred
 };
 
-/// A pure function of the visits so far, so that a resumed run goes the same way. Empty: all done.
+/// The next visit, as a function of the visits so far only, so that a resumed run takes the same course.
+/// Empty: all done.
 std::optional<NextVisit> next_visit(const std::vector<Site>& sites, const std::vector<Visit>& visits);
 
 /// What to do after a failure.
 enum class Remedy { retry, defer, skip };
 
-/// @param failures  at this visit so far, this one included
+/// @param failures  number of failures at this visit, this one included
 Remedy remedy_for(const OnFailure& rule, int failures, bool again);
 
 }  // namespace fidservo::inspect

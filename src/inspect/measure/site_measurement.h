@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What is made of a site's images: the checks of every view, the images on the disk.
+// Evaluates a site's images: makes the checks of every view, and writes the images to disk.
 #include "src/inspect/measure/checks.h"
 #include "src/inspect/measure/output.h"
 
@@ -11,7 +11,7 @@
 
 namespace fidservo::inspect {
 
-/// What every measurement of a run needs.
+/// The common data of all measurements in a run.
 struct Measuring {
     const Recipe& recipe;
     const CameraParameters& camera;
@@ -20,10 +20,10 @@ struct Measuring {
     vision::TagDetector& detector;
 };
 
-/// Snapshots of a site's views, in their order; empty where none has succeeded yet.
+/// The snapshots of a site's views, in their order; empty for a view that has not succeeded.
 using Snapshots = std::vector<std::optional<Snapshot>>;
 
-/// What the rows of a view are to say of tries that failed; empty if there were none.
+/// The message for a view's rows on failed attempts; empty if there were none.
 using Trouble = std::function<std::string(const View& view)>;
 
 /// Fills in the visit's rows and views; the images are on the disk when this returns. Views without a

@@ -7,7 +7,7 @@
 
 namespace fidservo::inspect {
 
-/// What every visit of a run needs.
+/// The common data of all visits in a run.
 struct VisitContext {
     Measuring measuring;
     Session& session;

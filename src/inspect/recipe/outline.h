@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Outlines of what was measured, for drawing over the image.
+// Outlines of features, for drawing over an image.
 #include "core/plate.h"
 #include "vision/features/rest_image.h"
 

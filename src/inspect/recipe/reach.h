@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What this rig can reach and see: everything that is refused when the recipe is read.
+// Checks of a recipe against the rig: sites and views that it cannot reach or see are refused when the recipe
+// is read.
 #include "core/camera/camera_geometry.h"
 #include "src/files/text/yaml_reader.h"
 #include "src/inspect/recipe/recipe.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What an inspection is told: the plate as it should be, the places to go to, and what to check there.
+// The recipe of an inspection: the nominal plate, the sites to visit, and the checks to make there.
 // docs/inspection.md describes the file.
 #include "core/plate.h"
 
@@ -16,7 +16,7 @@ struct Rig;
 
 namespace fidservo::inspect {
 
-/// The site's fiducial against the nominal grid: its place relative to the fiducials beside it.
+/// Check of a fiducial's place relative to the neighbouring fiducials of the nominal grid.
 struct PlacementCheck {
     double tolerance_um;
 };
@@ -24,9 +24,9 @@ struct PlacementCheck {
 /// Centre and size of a dot or a pad.
 struct MarkCheck {
     std::string feature;
-    double centre_tolerance_um;  ///< in x and in y, relative to the site's fiducial
-    double size_tolerance_um;    ///< of the diameter, or of width and height
-    double search_um;            ///< the mark lies this far from its nominal place at most
+    double centre_tolerance_um;  ///< for x and for y, relative to the site's fiducial
+    double size_tolerance_um;    ///< for the diameter, or for width and height
+    double search_um;            ///< largest distance of the mark from its nominal place at which it is found
 };
 
 /// Width of a line: its mean and its narrowest place.
@@ -45,34 +45,35 @@ struct EdgeDistanceCheck {
 
 /// Comparison with a reference image.
 struct ReferenceCheck {
-    std::optional<std::filesystem::path> image;  ///< of a good part; empty: drawn from the nominal plate
-    double longest_defect_um;                    ///< defects up to this length are allowed
+    /// Image of a good part; empty: the nominal plate is rendered.
+    std::optional<std::filesystem::path> image;
+    double longest_defect_um;  ///< defects up to this length are allowed
 };
 
 using Check = std::variant<PlacementCheck, MarkCheck, LineCheck, EdgeDistanceCheck, ReferenceCheck>;
 
 struct View {
     std::string name;
-    double offset_um;  ///< of the camera's axis from the site's fiducial, along the stage axis
+    double offset_um;  ///< offset of the camera's axis from the site's fiducial, along the stage axis
     std::vector<Check> checks;
 };
 
 /// What happens when a site cannot be measured.
 struct OnFailure {
-    int retries = 1;     ///< at once, that many times; then:
-    bool defer = false;  ///< come back once, after all other sites; otherwise skip
+    int retries = 1;     ///< number of immediate retries; after that:
+    bool defer = false;  ///< visit it once more after all other sites; false: skip it
 };
 
 struct Site {
-    int tag_id;  ///< of its fiducial: also its name
+    int tag_id;  ///< id of its fiducial, which is also the site's name
     Eigen::Vector2d fiducial_mm;
     OnFailure on_failure;
     std::vector<View> views;
 };
 
-/// Only the simulated rig sees this.
+/// Data for the simulated rig only.
 struct Simulation {
-    std::optional<std::filesystem::path> plate;  ///< as it was printed; empty: as it should be
+    std::optional<std::filesystem::path> plate;  ///< the plate as it was printed; empty: the nominal one
     std::uint64_t seed = 1;
 };
 
@@ -80,9 +81,9 @@ struct Recipe {
     std::string name;
     std::filesystem::path file;
     Plate nominal;
-    std::vector<Site> sites;  ///< in the order in which they are visited
+    std::vector<Site> sites;  ///< in the order of visits
     Simulation simulation;
-    double camera_reconnect_s = 0.0;  ///< a camera that is lost is waited for so long; 0: the run ends
+    double camera_reconnect_s = 0.0;  ///< how long to wait for a camera that is lost; 0: the run ends
 };
 
 /// Reads a recipe and checks it against the rig. Throws InputError for what is wrong in the file, and for

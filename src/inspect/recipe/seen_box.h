@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which rectangles of the plate a camera sees.
+// Rectangles of the plate that a camera sees.
 #include "core/camera/camera_geometry.h"
 #include "src/inspect/recipe/clip.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An image taken at rest, and what its fiducials say about where it was taken.
+// An image taken at rest, with its fiducials and the camera position that follows from them.
 #include "core/plate.h"
 #include "core/result.h"
 #include "vision/camera.h"
@@ -14,7 +14,7 @@ namespace fidservo::inspect {
 
 struct Snapshot {
     vision::RestImage image;  ///< its axis is counted from the site's fiducial at its nominal place
-    std::vector<vision::RefinedTag> tags;  ///< all that were seen whole and belong to the plate
+    std::vector<vision::RefinedTag> tags;  ///< all tags that were completely visible and belong to the plate
 };
 
 /// Finds the plate's fiducials, and where the camera was by the one that is named. Fails as

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How the devices of a run did: the control loop's punctuality, the camera's frames.
+// Statistics of a run's devices: the control loop's punctuality, the camera's frames.
 #include "control/loop_statistics.h"
 #include "vision/camera.h"
 
@@ -9,8 +9,7 @@
 
 namespace fidservo::inspect {
 
-/// Since the run was last taken up. Empty where there is nothing to count: in simulated time, or on images
-/// of the disk.
+/// Counted since the run was last resumed. Empty in simulated time, or with images from disk.
 struct DeviceFigures {
     std::optional<control::LoopStatistics> loop;
     std::optional<vision::FrameCounts> frames;

@@ -16,20 +16,20 @@ struct Rig;
 
 namespace fidservo::inspect {
 
-/// All but what is known of the rig only after a run.
+/// The report without what is only known after the run.
 struct InspectionReport {
     report::Page page;
-    std::size_t findings_at = 0;  ///< where in its body a section about the rig belongs
+    std::size_t findings_at = 0;  ///< position in its body where the section about the rig is inserted
 };
 
 /// Reads images and recordings back from the output folder.
 InspectionReport inspection_report(const OutputFolder& output, const Recipe& recipe, const Rig& rig,
                                    const JournalContent& content, const DeviceFigures& devices);
 
-/// The same with a section of what the recordings say of the rig.
+/// The report with a section on the rig's diagnosis.
 InspectionReport with_findings(InspectionReport all, const RigFindings& findings);
 
-/// Throws RunFault if the disk does not take it.
+/// Writes the report. Throws RunFault if the disk fails.
 void write_inspection_report(const OutputFolder& output, const InspectionReport& all);
 
 }  // namespace fidservo::inspect

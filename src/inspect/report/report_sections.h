@@ -14,7 +14,7 @@ report::Mood mood_of(Outcome outcome);
 /// A coloured word with a sign, so that it is readable without colour.
 std::string badge(Outcome outcome);
 
-/// What failed, one line a row.
+/// The failed checks, one line for each row.
 std::string findings_html(const std::vector<Visit>& visits);
 /// The plate with its fiducials, and each site's field of view in the colour of its outcome.
 std::string plate_html(const Recipe& recipe, const CameraGeometry& camera, const std::vector<Visit>& visits);
@@ -23,7 +23,7 @@ std::string sites_html(const OutputFolder& output, const CameraGeometry& camera,
                        const std::vector<Visit>& visits);
 /// All rows, with filters.
 std::string checks_html(const std::vector<Visit>& visits);
-/// Deviations in parts of their tolerance, by kind of check.
+/// Histogram of deviations relative to their tolerance, by kind of check.
 std::string histogram_html(const std::vector<Visit>& visits);
 /// Fingerprints and versions.
 std::string footer_html(const JournalContent& content);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What an inspection's own recordings say of the rig beside its simulation.
+// The diagnosis of the rig from an inspection's own recordings.
 #include "src/inspect/measure/output.h"
 
 #include <filesystem>
@@ -13,14 +13,14 @@ struct Rig;
 namespace fidservo::inspect {
 
 struct RigFindings {
-    std::string line;            ///< for a terminal: verdict and where the report is
+    std::string line;            ///< for the terminal: verdict and path of the report
     std::string html;            ///< of the report's section
     std::string diagnosis = {};  ///< the text of diagnosis.json; empty where there is none
 };
 
 /// Diagnoses what homing and visits have recorded, for at most half a minute, and writes OUT/diagnosis.html
-/// and OUT/diagnosis.json. What cannot be diagnosed is said instead. Throws RunFault if the disk does not
-/// take the files.
+/// and OUT/diagnosis.json. If a diagnosis is impossible, the reason is reported instead. Throws RunFault if
+/// the disk does not take the files.
 RigFindings find_in_recordings(const OutputFolder& output, const Rig& rig,
                                const std::filesystem::path& rig_file);
 

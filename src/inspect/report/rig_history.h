@@ -19,7 +19,7 @@ struct Rig;
 
 namespace fidservo::inspect {
 
-/// What the history says.
+/// The findings from the history.
 struct HistoryFindings {
     std::vector<std::string> lines;  ///< for a terminal
     std::string html;                ///< for the report's section

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the diagnosis of a case is given: the recordings of a campaign, in memory.
+// The recordings from which a case is diagnosed, in memory.
 #include "core/recording.h"
 #include "src/selfcheck/draw/true_rig.h"
 #include "src/simulation/experiments.h"
@@ -11,12 +11,13 @@
 
 namespace fidservo::selfcheck {
 
-/// On the independent model (reference/) of the true rig; what is commanded is made for the nominal one.
-/// @param substeps  of the model's integration a tick; its own number where it is not given
+/// Makes a recording with the independent model (reference/) of the true rig; the commands are computed for
+/// the nominal one.
+/// @param substeps  integration steps per tick; the model's default where it is not given
 Recording record_run(const Rig& nominal, const TrueRig& true_rig, const CampaignRun& run, std::uint64_t seed,
                      std::optional<int> substeps = {});
 
-/// All of campaign_runs, on all cores.
+/// All recordings of a campaign (campaign_runs), computed on all cores.
 std::vector<Recording> record_campaign(const Rig& nominal, const TrueRig& true_rig, std::uint64_t seed,
                                        std::optional<int> substeps = {});
 

@@ -11,14 +11,14 @@
 
 namespace fidservo::selfcheck {
 
-/// What a cause of a messy rig adds to the gap by itself, in floors (gap_alone()).
+/// Range of the gap, in floors, that each cause of a messy rig causes alone (gap_alone()).
 inline constexpr double dominant_floors[] = {10.0, 100.0}, small_floors[] = {0.3, 3.0},
                         discrepancy_floors[] = {1.0, 10.0};
-/// By how much the dominant effect's gap exceeds that of any other.
+/// Least ratio of the dominant effect's gap to that of any other.
 inline constexpr double dominance = 5.0;
 inline constexpr std::size_t small_effects = 8;
 
-/// Whether a kind is one of these. They are drawn by themselves, never among the others.
+/// Whether a kind is one of these. They are drawn separately from the other kinds.
 bool is_crowded(CaseKind kind);
 
 /// Of three cases in a row one has three effects, one is messy, and one has no dominant effect.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Discrepancies that no effect has: smooth functions of random shape on one signal's block.
+// Discrepancies that are no effect of the catalogue: smooth functions of random shape on one signal's block.
 #include "core/random.h"
 #include "core/rig.h"
 #include "reference/departures.h"
@@ -10,19 +10,19 @@
 
 namespace fidservo::selfcheck {
 
-/// A place where a discrepancy may act, and what it depends on.
+/// Where a discrepancy acts, and the quantity on which it depends.
 struct DiscrepancyKind {
     std::string_view block, depends_on;
     reference::ActsOn acts_on;
     reference::DependsOn variable;
-    double start_size;  ///< r.m.s. from which the search for a size of some floors begins: V, or mm
-    double largest;     ///< in the same unit
+    double start_size;  ///< r.m.s. at which the search for a size of some floors begins: V, or mm
+    double largest;     ///< largest size, in the same unit
 };
 
 std::span<const DiscrepancyKind> discrepancy_kinds();
 
-/// Its correlation length is drawn from a twelfth to a quarter of the range that the campaign covers, so that
-/// no straight line, cubic or single wave follows it.
+/// Draws a discrepancy. Its correlation length is between a twelfth and a quarter of the range that the
+/// campaign covers, so that no line, cubic or single wave approximates it.
 /// @param rig  with a micro stage
 reference::Discrepancy draw_discrepancy(const DiscrepancyKind& kind, const Rig& rig, double size,
                                         NoiseStream& draw);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the diagnosis of a case with frames is given.
+// The recordings from which a case with frames is diagnosed.
 #include "core/recording.h"
 #include "src/selfcheck/draw/true_rig.h"
 

@@ -9,7 +9,7 @@
 
 namespace fidservo::selfcheck {
 
-/// Whether cases of a kind have frames. They are drawn by themselves, never among the others.
+/// Whether cases of a kind have frames. They are drawn separately from the other kinds.
 bool has_frames(CaseKind kind);
 
 /// Of four cases in a row two have an effect of the image, one has one that is withheld, and one has none.

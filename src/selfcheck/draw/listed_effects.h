@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The effects of the catalogue that the independent model of rigs (reference/) can have, and how large they
-// are drawn.
+// The catalogue's effects that the independent model (reference/) can simulate, and the ranges of their
+// sizes.
 #include "core/random.h"
 #include "reference/departures.h"
 
@@ -11,17 +11,17 @@
 
 namespace fidservo::selfcheck {
 
-/// A way to make an effect.
+/// A way to simulate an effect.
 struct EffectDraw {
-    /// Puts the effect of a size into the rig; its sign and shape are drawn.
+    /// Puts the effect with a size into the rig; its sign and shape are random.
     using Put = void (*)(reference::Departures& rig, double size, NoiseStream& draw);
 
     std::string_view effect;   ///< the catalogue's name
-    std::string_view formula;  ///< empty for the plain one
-    /// The size at which the reference rig's campaign shows it by one floor (r.m.s.) in some signal.
-    /// Measured.
+    std::string_view formula;  ///< empty for the usual one
+    /// The size at which it causes an error of one floor (r.m.s.) in some signal of the reference rig's
+    /// campaign, as measured.
     double floor_size;
-    double largest;  ///< beyond it a rig would be called broken
+    double largest;  ///< largest size; beyond it a rig would count as broken
     Put put;
 };
 
@@ -31,22 +31,22 @@ std::span<const EffectDraw> listed_effects();
 /// The classes among them, each once.
 const std::vector<std::string_view>& listed_classes();
 
-/// Of a class.
+/// The ways for a class.
 std::vector<const EffectDraw*> draws_of(std::string_view class_name);
 
-/// Those of a class among some ways.
+/// The ways for a class among given ones.
 std::vector<const EffectDraw*> draws_of(std::string_view class_name, std::span<const EffectDraw> ways);
 
-/// Whether two classes may be drawn together: not where the one's parameters are part of the other's.
+/// Whether two classes may be drawn together; not if the parameters of one are part of the other's.
 bool can_be_together(std::string_view class_name, std::string_view other);
 
-/// Between two positive limits, evenly in the logarithm.
+/// Log-uniform between two positive limits.
 double log_uniform(NoiseStream& draw, double low, double high);
 
 /// +1 or -1.
 double random_sign(NoiseStream& draw);
 
-/// 1 + size or its inverse.
+/// 1 + size or its inverse, at random.
 double random_factor(NoiseStream& draw, double size);
 
 }  // namespace fidservo::selfcheck

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Effects of the catalogue made by a formula that the catalogue does not have for them.
+// Effects of the catalogue simulated by another formula than the catalogue's.
 #include "src/selfcheck/draw/listed_effects.h"
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace fidservo::selfcheck {
 
-/// Floor sizes are only where a search for a size begins.
+/// Their floor sizes only serve as start of the search for a size.
 std::span<const EffectDraw> other_formulas();
 
 /// Those of a class; empty where there is none.

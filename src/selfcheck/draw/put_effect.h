@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An effect of the catalogue put into a rig at a size that is drawn evenly in the logarithm.
+// Puts an effect of the catalogue with a log-uniform random size into a rig.
 #include "core/random.h"
 #include "src/selfcheck/draw/label.h"
 #include "src/selfcheck/draw/listed_effects.h"
@@ -10,7 +10,7 @@
 
 namespace fidservo::selfcheck {
 
-/// What a label says of an effect made in a way.
+/// The label of an effect that was simulated in a given way.
 TrueEffect true_effect(const EffectDraw& way, double size);
 
 /// One of the ways to make an effect of a class, from below the floor, or a 300th of the largest where that

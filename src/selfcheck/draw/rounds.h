@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Draws that are even: nothing is met again before all was met.
+// Random draws without repetition: nothing is drawn again before everything has been drawn.
 #include "core/random.h"
 #include "src/selfcheck/draw/label.h"
 
@@ -32,7 +32,7 @@ Item met(std::span<const Item> items, std::uint64_t seed, CaseKind kind, std::si
     return round[k % items.size()];
 }
 
-/// Kinds of cases, shuffled anew whenever all of them were gone through.
+/// The kinds of cases in random order, reshuffled after each round.
 class KindCycle {
   public:
     /// @param name  of what it is drawn from
@@ -45,7 +45,7 @@ class KindCycle {
         return shuffled(seed, number)[number % kinds_.size()];
     }
 
-    /// How many cases of the same kind come before a case.
+    /// The number of earlier cases of the same kind.
     std::size_t ordinal_of(std::uint64_t seed, std::size_t number) const {
         const std::vector<CaseKind> kinds = shuffled(seed, number);
         const auto here = kinds.begin() + static_cast<std::ptrdiff_t>(number % kinds.size());

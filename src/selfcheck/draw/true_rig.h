@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The machine that a case is recorded on.
+// The rig on which a case is recorded.
 #include "core/rig.h"
 #include "reference/departures.h"
 
 namespace fidservo::selfcheck {
 
-/// The rig is what the diagnosis is given, but where an effect that the catalogue lacks changed it.
+/// `rig` is the file that the diagnosis gets, unless an effect that the catalogue lacks has changed it.
 struct TrueRig {
     Rig rig;
     reference::Departures departures;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Effects that the catalogue lacks: no setting of a named effect, nor two of them, does what they do.
+// Effects that the catalogue lacks and that no setting of one or two of its effects reproduces.
 #include "core/random.h"
 #include "src/selfcheck/draw/true_rig.h"
 
@@ -11,7 +11,7 @@ namespace fidservo::selfcheck {
 
 struct UnlistedEffect {
     std::string_view name;
-    std::string_view block;  ///< where a diagnosis should find it
+    std::string_view block;  ///< the block that a diagnosis should accuse
     double smallest, largest;
     void (*put)(TrueRig& rig, double size, NoiseStream& draw);
 };

@@ -4,7 +4,7 @@
 
 namespace fidservo::selfcheck {
 
-/// How many of how many.
+/// A fraction of counts.
 struct Share {
     std::size_t hits = 0, of = 0;
 
@@ -12,7 +12,7 @@ struct Share {
         hits += hit ? 1 : 0;
         ++of;
     }
-    /// NaN of none.
+    /// hits / of; NaN for of = 0.
     double value() const;
 };
 

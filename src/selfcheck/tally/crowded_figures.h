@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What outcomes of rigs with many causes at once come to.
+// Statistics of cases with many causes at once.
 #include "src/selfcheck/tally/tally.h"
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace fidservo::selfcheck {
 
-/// Of three effects, those cases count in which each is by its size at judged_floors or more.
+/// Cases with three effects count only if each effect's size is at least judged_floors.
 std::vector<ShareFigure> crowded_shares(std::span<const Outcome> outcomes);
 
 std::vector<LimitFigure> crowded_limits(std::span<const Outcome> outcomes);

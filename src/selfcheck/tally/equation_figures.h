@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What outcomes come to of equations that are proposed for what no name is right for.
+// Statistics of the equations proposed in cases where no name is right.
 #include "src/selfcheck/tally/tally.h"
 
 #include <span>
@@ -8,10 +8,11 @@
 
 namespace fidservo::selfcheck {
 
-/// From this size on, in floors (Score::floors), an equation is asked for.
+/// Least size, in floors (Score::floors), at which an equation is expected.
 inline constexpr double equation_floors = 10.0;
 
-/// Of effects withheld or not listed that a formula at a port states (draw/true_formula.h).
+/// For effects that were withheld or are not in the catalogue, and that a formula at a port states
+/// (draw/true_formula.h).
 std::vector<ShareFigure> equation_shares(std::span<const Outcome> outcomes);
 
 std::vector<LimitFigure> equation_limits(std::span<const Outcome> outcomes);

@@ -9,17 +9,17 @@
 
 namespace fidservo::selfcheck {
 
-/// A case that is done.
+/// The outcome of a case.
 struct Outcome {
     std::size_t number = 0;
     Label label;
     Score score;
     double recording_s = 0.0;     ///< wall clock
-    double diagnosis_s = 0.0;     ///< likewise, from recordings in memory to the diagnosis
-    std::optional<Tie> tie = {};  ///< where ties are settled
+    double diagnosis_s = 0.0;     ///< wall clock, from recordings in memory to the diagnosis
+    std::optional<Tie> tie = {};  ///< set where ties are settled
 };
 
-/// One line: the truth, what was said, whether that is right.
+/// One line: the true causes, the diagnosis, and whether it is right.
 std::string line_of(const Outcome& outcome);
 
 }  // namespace fidservo::selfcheck

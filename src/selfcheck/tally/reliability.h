@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Whether probabilities mean what they say.
+// Whether stated probabilities are calibrated.
 #include <cstddef>
 #include <vector>
 
 namespace fidservo::selfcheck {
 
-/// What was claimed with which probability, and whether it was so.
+/// A claim with its probability, and whether it was true.
 struct Claim {
     double probability;
     bool came_true;
@@ -18,11 +18,11 @@ struct ReliabilityBin {
     std::size_t claims;
 };
 
-/// NaN of no claims.
+/// Calibration statistics; NaN without claims.
 struct Reliability {
     std::vector<ReliabilityBin> bins;  ///< by probability, ascending
-    double expected_error = 0.0;       ///< mean over claims of |mean probability - share true| of their bin
-    double brier = 0.0;                ///< mean of (probability - 1 or 0)^2
+    double expected_error = 0.0;  ///< mean over claims of |mean probability - fraction true| of their bin
+    double brier = 0.0;           ///< mean of (probability - 1 or 0)^2
 };
 
 /// @param most_bins  of equal count; fewer where a bin would have less than least_claims

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a self-check's outcomes come to.
+// Statistics of a self-check's outcomes.
 #include "src/selfcheck/tally/binomial.h"
 #include "src/selfcheck/tally/outcome.h"
 #include "src/selfcheck/tally/reliability.h"
@@ -13,18 +13,18 @@
 
 namespace fidservo::selfcheck {
 
-/// From this size on, in floors (Score::floors), an effect is asked to be found.
+/// Least size, in floors (Score::floors), at which an effect is expected to be found.
 inline constexpr double judged_floors = 3.0;
 
-/// A share of cases, and how large it should be.
+/// A fraction of cases, with its required value.
 struct ShareFigure {
-    std::string name;  ///< one word, of the JSON file
+    std::string name;  ///< one word, for the JSON file
     std::string text;
     Share share;
     std::optional<double> at_least;
 };
 
-/// A number, and how large it may be.
+/// A number with its upper limit.
 struct LimitFigure {
     std::string name;
     std::string text;
@@ -35,15 +35,16 @@ struct LimitFigure {
 /// Cases with one effect, by its class.
 struct ClassRow {
     std::string class_name;
-    Share right;  ///< named first, at judged_floors or more
+    Share right;  ///< named first, for sizes of at least judged_floors
     Share right_at_any_size;
-    std::map<std::string, std::size_t> named;  ///< class named first, or "nothing"; any size
+    /// Number of cases for each class named first, or "nothing"; any size.
+    std::map<std::string, std::size_t> named;
 };
 
 /// Cases with one effect, by size.
 struct PowerRow {
     double from_floors, to_floors;
-    Share found;  ///< verdict other than no-gap
+    Share found;  ///< the verdict is not no-gap
     Share right;  ///< named first
 };
 
@@ -58,10 +59,10 @@ struct Tally {
 
 Tally tally(std::span<const Outcome> outcomes);
 
-/// Whether all figures that have a limit keep it; those of no cases do.
+/// Whether all figures with a limit keep it; figures without cases do.
 bool keeps_all_limits(const Tally& tally);
 
-/// The share p of the values is not above it; NaN of none.
+/// The p-quantile of the values; NaN without values.
 double quantile(std::vector<double> values, double p);
 
 }  // namespace fidservo::selfcheck

@@ -12,7 +12,7 @@
 namespace fidservo::calib {
 namespace {
 
-constexpr double encoder_mm = 0.014;  // the published kiln's
+constexpr double encoder_mm = 0.014;  // of the published oven
 
 TEST(FodCurves, KilnCycles_GiveCurvesTableAndPredictionOfOtherProfiles) {
     constexpr std::uint64_t wire = 1;
@@ -60,7 +60,8 @@ TEST(FodCurves, Readings_LieWithinTheirStandardErrorsOfTheWire) {
             count += 1.0;
         }
     EXPECT_GT(count, 150.0);
-    // The encoder's rounding is no Gauss and a line over a cell is no curve: 1 would be perfect.
+    // 1 would be perfect; but the encoder's rounding is not Gaussian, and the curve is not straight within a
+    // cell.
     EXPECT_LT(std::sqrt(squares / count), 1.6);
 }
 

@@ -78,7 +78,7 @@ TEST(HallCurve, Inverse_ReturnsTheReferences) {
     for (const HallSample& sample : samples)
         squares +=
             std::pow(hall_position_mm(curve->hall, sample.adc * 5.0 / 4096.0) - sample.reference_mm, 2);
-    // Half an LSB of noise and rounding, two micrometres each.
+    // Noise and rounding of half an LSB, two micrometres each.
     EXPECT_LT(std::sqrt(squares / static_cast<double>(samples.size())), 0.0013);
 }
 
@@ -96,7 +96,8 @@ TEST(HallCurve, StandardErrors_AreTrue) {
             squares[2] += std::pow((curve->hall.centre_mm - truth.centre_mm) / curve->centre_std_mm, 2);
             squares[3] += std::pow((curve->hall.cubic - truth.cubic) / curve->cubic_std, 2);
         }
-        // 99.99 % of a chi-square law with 60 degrees of freedom, over 60: 0.44 to 1.83.
+        // The 99.99 % interval of a chi-square distribution with 60 degrees of freedom, over 60: 0.44 to
+        // 1.83.
         for (const double sum : squares) {
             EXPECT_GT(sum / n, 0.44) << "reference noise " << reference_std_mm;
             EXPECT_LT(sum / n, 1.83) << "reference noise " << reference_std_mm;

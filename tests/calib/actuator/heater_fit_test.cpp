@@ -22,7 +22,7 @@ namespace {
 using testing::column;
 using testing::shared_table;
 
-/// Steps as the paper's: heated for 3 s at each of the voltages, cooled for 4 s, on the independent model.
+/// Steps as in the paper: heated for 3 s at each of the voltages, cooled for 4 s, on the independent model.
 HeaterRun step_responses(const Rig& rig, const reference::Departures& departures,
                          const std::vector<double>& volts, std::uint64_t seed) {
     constexpr int heating_ticks = 3000, period_ticks = 7000, substeps = 4;
@@ -62,7 +62,7 @@ TEST(HeaterFit, StepsOfTheIndependentModel_GiveBackItsHeater) {
     EXPECT_TRUE(fit->refused.empty());
     const auto found = numbers_of(fit->heater);
     for (std::size_t i = 0; i < heater_numbers; ++i) {
-        // The integration of the independent model in sub-steps of 0.25 ms adds 1e-5 of a number.
+        // The independent model's integration in sub-steps of 0.25 ms adds a relative error of 1e-5.
         EXPECT_NEAR(found[i], another_truth[i], 4.0 * fit->std[i] + 1e-5 * another_truth[i])
             << name_of(static_cast<HeaterNumber>(i));
         EXPECT_LT(fit->std[i], 0.005 * another_truth[i]) << name_of(static_cast<HeaterNumber>(i));
@@ -186,7 +186,8 @@ TEST(SlowHeaterFitToTemperature, RealSpring_IsPredictedOnTheHalfItWasNotFittedTo
     if (rows.empty()) GTEST_SKIP() << "the shared data are absent";
     const std::vector<double> command = column(rows, 4);
     const std::vector<std::size_t> corrupt = corrupt_samples(command);
-    // 32 of 100 to 1025 where the drive goes up to 25; 14 lone tens between zeros; a lone 3 between 23s.
+    // 32 samples of 100 to 1025 where the drive reaches 25; 14 isolated tens between zeros; an isolated 3
+    // between 23s.
     EXPECT_EQ(corrupt.size(), 47U);
     HeaterRun run{.tick_s = 0.01,
                   .command = without_samples(command, corrupt),

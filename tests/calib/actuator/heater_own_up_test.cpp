@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What identify heater says when recordings contradict each other, fix a combination only, or are missed.
+// The answer of identify heater if recordings contradict each other, determine only a combination, or are not
+// explained by the model.
 #include "calib/significance.h"
 #include "calib/tails.h"
 #include "calib/wire/heater_fit.h"
@@ -19,7 +20,8 @@ namespace {
 
 constexpr HeaterParameters wire{0.4, 10.0, 6.0, 12.0, 25.0, 22.0};
 
-/// Steps of four heights, heated and cooled for `half_s` each, read by a thermometer whose noise remembers.
+/// Steps of four heights, heated and cooled for `half_s` each, read by a thermometer with autocorrelated
+/// noise.
 HeaterRun heated(const HeaterParameters& heater, double half_s, std::uint64_t seed, double memory = 0.0,
                  double noise_degC = 0.1) {
     constexpr double tick_s = 0.5;
@@ -61,7 +63,8 @@ TEST(SlowHeaterIntervals, WhiteAndCorrelatedNoise_AreCovered) {
         const double share = static_cast<double>(hits) / stated;
         fmt::print("coverage of 95 % intervals | heater, noise of correlation {} | {:.1f} % of {}\n", memory,
                    100.0 * share, stated);
-        // The five numbers of a campaign are not independent: the width of as many campaigns as there are.
+        // The five numbers of a campaign are not independent, so the interval is that of as many values as
+        // there are campaigns.
         const double reach = normal_bound(0.0005) * std::sqrt(0.95 * 0.05 / campaigns);
         EXPECT_NEAR(share, 0.95, reach);
     }

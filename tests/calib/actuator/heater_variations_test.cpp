@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings of a heated wire drawn at random that contradict each other, that the model misses, that fix a
-// combination only: every number stated has an interval that holds the truth, or it is said not to be known.
+// Recordings of a heated wire drawn at random that contradict each other, that the model does not explain, or
+// that determine only a combination: every number stated has an interval that contains the truth, or is
+// stated to be unknown.
 #include "calib/tails.h"
 #include "calib/wire/heater_fit.h"
 #include "core/result.h"
@@ -20,7 +21,8 @@ namespace fidservo::calib {
 namespace {
 
 const int tried = testing::draws(200, 40);
-constexpr double far = 4.0;  ///< standard errors, scaled up where Student's law is wider than a normal one
+/// in standard errors, scaled up where Student's distribution is wider than the normal one.
+constexpr double far = 4.0;
 constexpr double tick_s = 0.5;
 
 using Numbers = std::array<double, heater_numbers>;
@@ -51,7 +53,7 @@ std::vector<double> drawn_commands(std::mt19937_64& random, double half_s, int p
     return command;
 }
 
-/// Read by a thermometer whose noise remembers.
+/// Read by a thermometer with autocorrelated noise.
 HeaterRun read(HeaterRun run, std::mt19937_64& random) {
     const double noise_degC = draw(random, 0.02, 0.3), memory = random() % 2 == 0 ? 0.0 : 0.7;
     std::normal_distribution<double> normal;
@@ -127,7 +129,7 @@ TEST(SlowHeaterVariations, RecordingsThatContradictEachOther_AreOwnedUpTo) {
     });
 }
 
-/// Of 200, one states a combination 4.6 standard errors off.
+/// Of 200 draws, one gives a combination that is 4.6 standard errors off.
 TEST(SlowHeaterVariations, OneVoltage_FixesACombination) {
     expect_right_or_refused(
         "heater: one voltage", tried,
@@ -140,7 +142,7 @@ TEST(SlowHeaterVariations, OneVoltage_FixesACombination) {
         1);
 }
 
-/// Of 200, one states a gain 4.2 standard errors off.
+/// Of 200 draws, one gives a gain that is 4.2 standard errors off.
 TEST(SlowHeaterVariations, ShortPulses_FixARate) {
     expect_right_or_refused(
         "heater: short pulses", tried,

@@ -45,8 +45,8 @@ TEST(EncoderScale, ErrorsOverSeeds_AreAsLargeAsTheirStandardErrorsSay) {
 }
 
 TEST(SlowEncoderScale, StandsThatPileUpAtTheEdgesOfCounts_KeepTheirStandardErrors) {
-    // A drive that stops as soon as its count is reached: nothing like the even spread that a likelihood of
-    // rounding supposes.
+    // A drive that stops as soon as its count is reached violates the uniform distribution within a count
+    // that the likelihood assumes.
     constexpr int seeds = 100, way_counts = 3800;
     for (const int count : {10, 20, 40}) {
         double squares = 0.0;
@@ -66,7 +66,7 @@ TEST(SlowEncoderScale, StandsThatPileUpAtTheEdgesOfCounts_KeepTheirStandardError
             squares += std::pow((scale->resolution_mm - resolution_mm) / scale->resolution_std_mm, 2.0);
         }
         EXPECT_LT(squares, chi_square_bound(seeds, 1e-4)) << count << " stands";
-        EXPECT_GT(squares, 0.5 * seeds);  // nor twice too careful
+        EXPECT_GT(squares, 0.5 * seeds);  // and not too wide by a factor of two
     }
 }
 

@@ -23,7 +23,7 @@ CameraGeometry bent_lens() {
     return lens;
 }
 
-/// Views from all around, tilted by up to 20 degrees: nearly every direction is there.
+/// Views from all around, tilted by up to 20 degrees, so that nearly every direction occurs.
 std::vector<TargetView> tilted_views(const CameraGeometry& lens, int count, double most_tilt_rad,
                                      Scatter scatter, double std_px, std::uint64_t seed) {
     const std::vector<PlateTag> tags = tag_grid(25, 25, 0.75, 0.9375);
@@ -69,7 +69,8 @@ TEST(CameraCalibration, WithoutNoise_IsFoundExactly) {
     EXPECT_EQ(found->unused, 0U);
 }
 
-/// Errors in standard deviations over many noises have the mean square 1, whatever was measured of the tags.
+/// The mean square of errors in standard deviations is 1 over many noise draws, whichever directions of the
+/// corners were measured.
 TEST(SlowCameraCalibration, StandardErrors_AreThoseOfManyNoises) {
     const CameraGeometry lens = bent_lens();
     constexpr int seeds = 16;
@@ -100,7 +101,7 @@ TEST(SlowCameraCalibration, StandardErrors_AreThoseOfManyNoises) {
     }
 }
 
-/// As of a hand-held AprilGrid before a wide lens.
+/// As for a hand-held AprilGrid in front of a wide-angle lens.
 TEST(CameraCalibration, WideLens_IsFoundFromNothing) {
     CameraGeometry lens{752, 480, 458.0, {367.0, 248.0}, 500.0};
     lens.distortion = {.k1 = -0.283, .k2 = 0.074, .p1 = 2e-4, .p2 = 2e-5, .k3 = 0.0};

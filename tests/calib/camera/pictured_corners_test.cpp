@@ -9,8 +9,9 @@
 namespace fidservo::calib {
 namespace {
 
-/// The perspective picture nearest to what the lens shows, by Gauss-Newton over all eight numbers: a second
-/// way, of no order in the distortion. Points as dense as one likes, weighted as the edges are.
+/// The perspective picture nearest to what the lens shows, by Gauss-Newton over all eight numbers: an
+/// independent computation that is not limited to first order in the distortion. Points may be arbitrarily
+/// dense, and are weighted like the edges.
 std::array<Eigen::Vector2d, 4> nearest_perspective(const CameraGeometry& camera, const PlateTag& tag,
                                                    double s_mm) {
     std::vector<Eigen::Vector2d> from, to;

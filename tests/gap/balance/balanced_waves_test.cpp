@@ -19,7 +19,7 @@ using namespace gap;
 using testing::campaign;
 using testing::effects;
 
-/// Of a wave, beside what is known.
+/// The fitted waves, given the known effects.
 std::vector<plant::EffectSetting> waves_of(const Hypothesis& truth, std::string_view wave,
                                            const Hypothesis& known) {
     const Evidence evidence = campaign(truth, {"macro-sweep", "macro-pulses", "macro-square"});
@@ -30,7 +30,7 @@ std::vector<plant::EffectSetting> waves_of(const Hypothesis& truth, std::string_
                           periods_along_rail(evidence, known, evidence.errors(known, wanted)));
 }
 
-/// At 10 mV a carriage that was predicted to stand goes on in half of the windows.
+/// At 10 mV a carriage that is predicted to stop moves on in half of the windows.
 TEST(BalancedWaves, WeakWave_ComesBackFirst) {
     const auto waves =
         waves_of(effects({"cogging:amplitude_V=0.012,period_mm=6.1,phase_rad=1"}), "cogging", {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The forces that a carriage's prediction lacks, against forces that are known.
+// The forces that a carriage's prediction lacks, for known forces.
 #include "gap/balance/carriage_forces.h"
 
 #include "core/rig.h"
@@ -30,7 +30,7 @@ CarriageForces lacking_of_file(const Evidence& evidence) {
     return {evidence, evidence.errors({}, everything(evidence)), half_support};
 }
 
-/// By how much a column of a unit quantity has to be scaled to be what the truth has and the file lacks.
+/// The factor on a column of a unit quantity that fits the difference between the true rig and the file.
 double fitted(const CarriageForces& forces, const Column& column) {
     double product = 0.0, square = 0.0;
     for (const CarriageForces::Support& support : forces.supports()) {
@@ -87,7 +87,7 @@ TEST(CarriageForces, StateAtAWindowsStart_IsNoForce) {
         EXPECT_NEAR(after.lacking()[support.slot], before.lacking()[support.slot], 0.05);
 }
 
-/// As well as a fit needs it to begin: a fifth of the amplitude, a tenth of a wave over half the rail.
+/// As accurate as the start of a fit needs: a fifth of the amplitude, a tenth of a period over half the rail.
 TEST(SlowPeriodSearch, ForceThatLetsTheCarriageGoByJumps_ComesBackWithPeriodAmplitudeAndPhase) {
     struct Truth {
         double amplitude_V, period_mm, phase_rad;
@@ -114,7 +114,7 @@ TEST(SlowPeriodSearch, ForceThatLetsTheCarriageGoByJumps_ComesBackWithPeriodAmpl
     }
 }
 
-/// As well as a fit needs it to begin, also where dry friction that the file lacks is everywhere.
+/// As accurate as the start of a fit needs, also with additional dry friction everywhere.
 TEST(PatchSearch, NarrowPatch_ComesBackWithLevelPlaceAndWidth) {
     for (const std::string_view beside : {"", "coulomb_friction:level_V=0.05"}) {
         constexpr double level_V = 0.1, centre_mm = 77.0, width_mm = 5.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether forces balance along recorded ways.
+// Whether forces balance along recorded paths.
 #include "gap/balance/force_balance.h"
 
 #include "gap/candidates/coupling.h"
@@ -25,7 +25,8 @@ Wanted encoder_of(const Evidence& evidence) {
 
 class OfAnEffect : public ::testing::TestWithParam<std::string_view> {};
 
-/// What rounding leaves is a standard deviation, two fifths of what excess forces are told in.
+/// With the true forces one standard deviation of rounding remains: 0.4 in the units of 2.5 standard
+/// deviations in which excess forces are given.
 TEST_P(OfAnEffect, ForcesBalance_WhereTheHypothesisIsTheTruth) {
     const Hypothesis truth = effects({GetParam()});
     const Evidence evidence = campaign(truth, {"macro-sweep", "macro-pulses"});

@@ -111,8 +111,8 @@ TEST(Refinements, AreWhatAnEffectMayBeWithoutAndCountAsNoParameter) {
     EXPECT_TRUE(refinements_of(*plant::find_effect("presliding")).empty());
 }
 
-/// What an effect is without has no slope, and no prediction is spent on it; a negative value is no such
-/// thing.
+/// The derivative by an optional parameter at its vanishing value is zero without a prediction; a negative
+/// value is not a vanishing one.
 TEST(Slope, OfWhatAnEffectIsWithout_IsZeroUnasked) {
     int asked = 0;
     const Predict predict = [&](const Hypothesis& hypothesis) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Effects that show only beside what another one does.
+// Effects that only show in combination with another one.
 #include "gap/diagnose.h"
 #include "tests/gap/effect_names.h"
 #include "tests/gap/simulated_campaign.h"
@@ -30,7 +30,7 @@ const FoundEffect& found(const Diagnosis& diagnosis, std::string_view name) {
     return *std::ranges::find(diagnosis.effects, name, &FoundEffect::effect);
 }
 
-/// From the small offset that it is taken for alone, a gain leads nowhere.
+/// Alone, the pair looks like a small offset, and a gain fitted from there does not improve.
 TEST(SlowDiagnosis, TwoEffectsThatHideEachOther_AreBothNamed) {
     const Diagnosis diagnosis = diagnosed({"drive_offset:offset_V=-0.257", "drive_gain:factor=1.081"},
                                           {"macro-sweep", "macro-pulses", "macro-square"},
@@ -41,7 +41,7 @@ TEST(SlowDiagnosis, TwoEffectsThatHideEachOther_AreBothNamed) {
     EXPECT_NEAR(found(diagnosis, "drive_gain").parameters.front().value, 1.081, 1e-3);
 }
 
-/// From afar a creep speed only seems to do harm.
+/// Far from its true value a creep speed only increases the loss.
 TEST(SlowDiagnosis, FrictionThatCreeps_IsFoundWithItsCreepSpeed) {
     for (const std::string name : {"coulomb_friction", "stribeck_friction"}) {
         const Diagnosis diagnosis = diagnosed({name + ":level_V=0.4,creep_mm_per_s=0.5"},
@@ -77,7 +77,7 @@ TEST(SlowDiagnosis, FrictionThatDoesNotCreep_HasNoCreepSpeed) {
         EXPECT_NE(parameter.name, "creep_mm_per_s");
 }
 
-/// Of effects that no balance of forces shows.
+/// With effects that do not show in the balance of forces.
 TEST(SlowDiagnosis, SearchWhoseEffortIsSpent_KeepsWhatItHasFoundAndSaysSo) {
     const Evidence evidence =
         campaign(effects({"drive_delay:delay_ms=8", "backlash"}), {"macro-sweep", "macro-square"});
@@ -91,7 +91,7 @@ TEST(SlowDiagnosis, SearchWhoseEffortIsSpent_KeepsWhatItHasFoundAndSaysSo) {
     }));
 }
 
-/// What one half of the runs teaches helps the other a little, and what that one teaches does harm.
+/// What is fitted to one half helps the other a little, but what is fitted to that one does harm.
 TEST(SlowDiagnosis, HalvesThatContradictEachOther_AreEndedWithAnAnswer) {
     std::vector<Recording> recordings;
     for (const std::string_view kind : {"macro-square", "macro-sweep"})
@@ -110,7 +110,7 @@ TEST(SlowDiagnosis, HalvesThatContradictEachOther_AreEndedWithAnAnswer) {
     EXPECT_NE(diagnosis.verdict, Verdict::explained);
 }
 
-/// What it does in the middle of the rail hides within a count.
+/// Up to 50 mm from a place, the error of a distance from it is at most 0.04 mm, which is less than a count.
 TEST(SlowDiagnosis, SmallFalseScaleOfEitherSign_IsFound) {
     for (const double factor : {0.9992, 1.0008}) {
         const std::string text = fmt::format("encoder_scale:factor={}", factor);
@@ -122,7 +122,7 @@ TEST(SlowDiagnosis, SmallFalseScaleOfEitherSign_IsFound) {
     }
 }
 
-/// Between the places of a coarse grid.
+/// The patch lies between the points of the coarse grid of places that the search tries.
 TEST(SlowDiagnosis, NarrowPatchOfFriction_IsFoundWithItsPlace) {
     const Diagnosis diagnosis = diagnosed({"rail_patch:level_V=0.15,centre_mm=73,width_mm=3"},
                                           {"macro-square", "macro-sweep", "macro-pulses"},
@@ -133,7 +133,7 @@ TEST(SlowDiagnosis, NarrowPatchOfFriction_IsFoundWithItsPlace) {
     EXPECT_NEAR(diagnosis.effects.front().parameters[2].value, 3.0, 0.2);
 }
 
-/// A tilted camera predicts nearly all that the tags show of it, but nothing of what the encoder shows.
+/// A tilted camera explains nearly all of the effect on the tags, but nothing of that on the encoder.
 TEST(SlowDiagnosis, FalseScaleThatIsWithheld_IsNoMatterOfTheCamera) {
     const Diagnosis diagnosis = diagnosed({"encoder_scale:factor=1.001"}, {"macro-square", "integrated"},
                                           {"camera_tilt", "viscous_friction", "drive_gain"});
@@ -142,7 +142,7 @@ TEST(SlowDiagnosis, FalseScaleThatIsWithheld_IsNoMatterOfTheCamera) {
     for (const FoundEffect& effect : diagnosis.effects) EXPECT_LT(effect.probability, 0.5) << effect.effect;
 }
 
-/// Its period is one of the rail, which the encoder reads at a false scale.
+/// Its period is constant on the rail, which the encoder reads with a scale error.
 TEST(SlowDiagnosis, RippleBesideAFalseScale_IsFoundWithItsPeriod) {
     const Diagnosis diagnosis =
         diagnosed({"encoder_scale:factor=1.01", "encoder_ripple:amplitude_um=60,period_mm=8,phase_rad=1"},
@@ -152,7 +152,7 @@ TEST(SlowDiagnosis, RippleBesideAFalseScale_IsFoundWithItsPeriod) {
     EXPECT_NEAR(found(diagnosis, "encoder_ripple").parameters[1].value, 8.0, 0.01);
 }
 
-/// What the platform feels is fitted first where the carriage moves as its file says, which it does not.
+/// The platform's excitation is fitted first with the carriage's nominal motion, which is wrong.
 TEST(SlowDiagnosis, PlatformThatFeelsACarriageOfAnotherGain_HasNoThirdEffect) {
     const Diagnosis diagnosis =
         diagnosed({"drive_gain:factor=0.97", "macro_coupling"}, {"macro-square", "macro-sweep", "integrated"},

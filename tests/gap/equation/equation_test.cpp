@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An equation against names that are wrong, and beside names that are right.
+// An equation against wrong names, and in addition to right names.
 #include "gap/diagnose.h"
 #include "plant/formulas/formula_effect.h"
 #include "tests/gap/simulated_campaign.h"
@@ -33,8 +33,8 @@ Diagnosis diagnosed(const Evidence& evidence, std::vector<std::string> only) {
         {.only = std::move(only), .without = {}, .equation_s = as_long_as_it_takes_s, .selection = {}});
 }
 
-/// Damping and a constant friction come near drag, and are named where only they may be; the law predicts
-/// better than both, and what they were thought to be is taken back.
+/// Damping and a constant friction approximate drag, and are named where only they are allowed; the formula
+/// predicts better than both, and their probabilities are reduced.
 TEST(SlowEquation, LawThatPredictsBetterThanWrongNames_TakesTheirPlace) {
     const Evidence evidence = testing::campaign({drag(4e-6)}, {"macro-pulses", "macro-sweep"});
     const Diagnosis diagnosis = diagnosed(evidence, {"coulomb_friction", "viscous_friction"});
@@ -50,7 +50,7 @@ TEST(SlowEquation, LawThatPredictsBetterThanWrongNames_TakesTheirPlace) {
     EXPECT_GT(diagnosis.where.front().probability, 0.9);
 }
 
-/// A name that is right stays, and the law is found beside it.
+/// A right name remains, and the formula is found in addition.
 TEST(SlowEquation, LawBesideANameThatIsRight_LeavesTheName) {
     Hypothesis truth = testing::effects({"drive_gain:factor=0.9"});
     truth.push_back(drag(4e-6));

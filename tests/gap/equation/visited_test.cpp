@@ -91,7 +91,7 @@ TEST(WhereMostIsLost, OfUnequalRecordings_TakesThoseThatHoldTheShare) {
     EXPECT_EQ(runs(where_most_is_lost(evidence, Signal::encoder, squares, 1.0, 0, 9)).size(), 6U);
 }
 
-/// A law holds for experiments that it was not fitted to; what only fits does not.
+/// A law also holds for experiments to which it was not fitted; a function that only fits does not.
 TEST(KindsLeftOut, DragAndABellInItsPlace_AreToldApart) {
     const plant::Effect& drag =
         plant::effect_of(effect_text("macro.friction", "macro.friction", "4e-6 * speed * abs(speed)"));

@@ -30,8 +30,8 @@ TEST(NoiseFloor, RoundedVarianceSpreadOverAStep_IsNoisePlusATwelfth) {
     EXPECT_NEAR((sum + stray) / parts, 0.4 * 0.4 + 1.0 / 12.0, 1e-6);
 }
 
-/// Frames of one tag at rest, whose refined corners and, of every third frame, the detector's scatter as
-/// told.
+/// Frames of one tag at rest: the refined corners scatter less than the detector's, which every third frame
+/// has.
 TEST(NoiseFloor, CornersThatCouldNotBeRefined_DoNotCountBesideThoseThatWere) {
     constexpr double frame_s = 0.02, refined_px = 0.01, found_px = 0.2;
     NoiseStream noise(17, "corners");

@@ -23,8 +23,7 @@ constexpr std::size_t windows_count = 12, values = 300;
 
 const std::vector<Window> windows = testing::equal_windows(windows_count, values);
 
-/// Errors of drive_gain as if they were in proportion to what the factor lacks to `truth`, and noise of a
-/// floor.
+/// Errors in proportion to the difference between drive_gain's factor and `truth`, plus noise of one floor.
 Predict prediction(double truth, const std::vector<double>& noise) {
     return [truth, &noise](const Hypothesis& hypothesis) {
         Errors errors(windows_count * values);
@@ -64,7 +63,7 @@ TEST(Fit, ValueBeyondItsBound_EndsAtTheBound_WithoutAnError) {
 }
 
 TEST(Fit, StepBeyondABound_IsCutThere_AndTheWayBackIsFound) {
-    // From 0.9 on a line leads to 5.7, far beyond the bound of 1.5.
+    // From 0.9 on a linear step leads to 5.7, far beyond the bound of 1.5.
     const Predict bent = [](const Hypothesis& hypothesis) {
         Errors errors(windows_count * values);
         const double lacks = std::atan(20.0 * (hypothesis.front().values.front() - 1.3));
@@ -77,7 +76,7 @@ TEST(Fit, StepBeyondABound_IsCutThere_AndTheWayBackIsFound) {
     EXPECT_NEAR(found.hypothesis.front().values.front(), 1.3, 1e-3);
 }
 
-/// A third of the windows is predicted at a factor of 1, the others at 1.3.
+/// A third of the windows is predicted best at a factor of 1, the others at 1.3.
 Errors of_two_kinds(const Hypothesis& hypothesis) {
     Errors errors(windows_count * values);
     for (std::size_t k = 0; k < errors.size(); ++k) {
@@ -106,7 +105,7 @@ TEST(Fit, ExpectedSizes_BringBackWhatTheWindowsDoNotTell) {
     EXPECT_NEAR(found.hypothesis.front().values.front(), 1.0, 1e-4);
 }
 
-/// Errors that bend a little with a gain and an offset; of a hypothesis with the first alone, as with no
+/// Errors that are slightly nonlinear in a gain and an offset. A hypothesis with the gain alone has no
 /// offset.
 Errors bent_a_little(const Hypothesis& hypothesis) {
     Errors errors(windows_count * values);
@@ -189,7 +188,7 @@ TEST(Fit, SlopesOfOtherEffects_AreNotUsed) {
     EXPECT_NEAR(both[1].values[0], 0.05, 1e-4);
 }
 
-// With a value at the start and none in a window there is a problem without a block.
+// With a value at the start and none in a window, the least squares problem has an empty block.
 TEST(Fit, WindowsWithoutAValue_GiveTheStartBack) {
     const Predict knows_nothing = [](const Hypothesis&) {
         return Errors(windows_count * values, std::numeric_limits<float>::quiet_NaN());

@@ -17,8 +17,8 @@ namespace {
 
 using namespace gap;
 
-/// Whatever a window's square is, a signal of many such windows says the same of its level: where all squares
-/// are equal, Student's law is most probable at a variance that is equal to them.
+/// If all windows have the same square, Student's distribution is most probable at a variance equal to it,
+/// whatever its size.
 TEST(Discrepancy, WhereEveryWindowIsOffByTheSame_IsWhatThatExceedsTheNoiseBy) {
     std::vector<Window> windows = testing::equal_windows(40, 10);
     for (std::size_t w = 20; w < 40; ++w) {

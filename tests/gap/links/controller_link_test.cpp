@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Controllers replayed on what was recorded: the rig file's, under every reading that firmware is free to
-// have.
+// Controllers replayed on recordings: the rig file's, in every way in which firmware may read setpoints and
+// counts.
 #include "gap/links/controller_link.h"
 
 #include "control/nonlinear_pd.h"
@@ -67,16 +67,16 @@ constexpr double nothing_V = 1e-9, something_V = 1e-3;
 
 TEST(ControllerLink, EveryReadingOfFirmware_IsTheFilesController) {
     EXPECT_LT(largest_error_V(controlled_by({})).value(), nothing_V);
-    // Half way between two counts.
+    // Rounded half way between two counts.
     EXPECT_LT(largest_error_V(controlled_by({102.275, 2045.0})).value(), nothing_V);
     EXPECT_LT(largest_error_V(controlled_by({102.275, 2046.0})).value(), nothing_V);
-    // Cut off.
+    // Truncated.
     EXPECT_LT(largest_error_V(controlled_by({102.29, 2045.0})).value(), nothing_V);
-    // A count a tick old.
+    // With a count that is one tick old.
     EXPECT_LT(largest_error_V(controlled_by({102.30, 2046.0, 1})).value(), nothing_V);
 }
 
-/// What a file of so many decimals has of it.
+/// The recording as restored from a file with this number of decimals.
 Recording in_a_file_of(int decimals, Recording recording) {
     recording.macro_setpoint_step_mm = std::pow(10.0, -decimals);
     for (StageRow& row : recording.rows)
@@ -98,7 +98,7 @@ TEST(ControllerLink, SetpointMayBeWhatItsLastDigitLeavesOpen_AndNoMore) {
     const Recording near_tie = controlled_by({102.27497, 2046.0});
     EXPECT_LT(largest_error_V(in_a_file_of(4, near_tie)).value(), nothing_V);
     EXPECT_GT(largest_error_V(in_a_file_of(5, near_tie)).value(), something_V);
-    // With one decimal a setpoint leaves three counts open.
+    // With one decimal a setpoint is compatible with three counts.
     for (const double count : {2045.0, 2046.0, 2047.0})
         EXPECT_LT(largest_error_V(in_a_file_of(1, controlled_by({102.3, count}))).value(), nothing_V)
             << count;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Looks of tags as they follow from a camera, and what a diagnosis makes of frames of the simulated rig.
+// Appearances of tags predicted from a camera, and the diagnosis of frames of the simulated rig.
 #include "gap/links/image_link.h"
 
 #include "core/rig.h"
@@ -28,7 +28,8 @@ using testing::effects;
 using testing::looks_in_even_motion;
 using testing::names;
 
-/// R.m.s. error in floors, by value; only frames with neighbours on both sides know how edges move.
+/// R.m.s. error in floors of each value; the speed of edges is only known in frames with neighbours on both
+/// sides.
 std::map<std::size_t, double> errors_of(const plant::CameraDeviation& claimed, Recording recording) {
     const CameraParameters camera = *reference_rig().camera;
     const ImageRun run = image_run(recording, camera);
@@ -67,7 +68,7 @@ TEST(ImageLink, EachCause_ShowsInItsOwnValuesOnly) {
     EXPECT_EQ(off({.delay_s = 0.01, .readout_s = 0.01}), "..........");
 }
 
-/// Paper that a compressor has made one grey has no noise to compare.
+/// Paper that compression has made uniformly grey has no noise that could be compared.
 TEST(ImageLink, StripOfOneGrey_IsJudgedByItsOtherValuesOnly) {
     Recording recording = looks_in_even_motion({});
     for (TagAppearance& seen : recording.appearances) seen.white.variance_grey2 = 0.0;
@@ -115,12 +116,12 @@ TEST(ImageLink, MeanSquareThatAWindowExpects_IsThatOfNoiseAndOfErrorsWithinTheir
     add(seen.white.std_share, 0.06);
     add(seen.black.std_share, 0.06);
     EXPECT_NEAR(run.windows.front().expected_square, sum / image_values, 1e-3);
-    still.appearances.front().sides[0] = {};  // not measured: the rest counts
+    still.appearances.front().sides[0] = {};  // not measured: the other values count
     EXPECT_GT(image_run(still, *reference_rig().camera).windows.front().expected_square, 0.3);
 }
 
 TEST(ImageLink, TagThatStartsBetweenTwoFrames_IsNotJudgedThere) {
-    // Both differences about frame 20 are the same, and it still stands there.
+    // The differences to both neighbours of frame 20 are equal, and yet it is at rest there.
     Recording recording = looks_in_even_motion({});
     for (std::size_t frame = 0; frame < recording.detections.size(); ++frame) {
         const double u_px = frame <= 20 ? 200.0 : 200.0 + 140.0 * static_cast<double>(frame - 20);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What recordings share that a rig made without being switched off, and where its encoder counts from.
+// Recordings that a rig made without being switched off share their encoder's zero.
 #include "gap/links/power_on.h"
 
 #include "core/rig.h"
@@ -34,7 +34,7 @@ Recording recorded(std::string_view kind, const Hypothesis& truth = {}) {
     return simulate(reference_rig(), truth, make_experiment(kind, reference_rig(), seed, name), name, seed);
 }
 
-/// As a rig would write it whose controllers are its own and whose power came on elsewhere.
+/// As written by a rig with controllers of its own whose encoder has another zero.
 Recording counted_from(Recording recording, double count) {
     recording.controllers = ControllerNames{"positioner", "positioner"};
     recording.encoder_zero.reset();
@@ -150,7 +150,8 @@ TEST(ReferToTravel, StatedZero_IsTaken_IfItIsKnownToHalfACount) {
     EXPECT_EQ(refer_to_travel(recording, reference_rig()), PlacesFrom::tags);
 }
 
-/// Counted from the right end without a tag, places are relative: no effect that acts at one is tried.
+/// Without a tag, positions that are counted from the right end are relative, so that no effect at a place is
+/// tried.
 TEST(SlowUnknownPlaces, EffectsThatActAtAPlace_AreNotDetermined_AndItIsSaid) {
     const auto names_tried = [](const Recording& recording) {
         const Diagnosis diagnosis = diagnose(Evidence(reference_rig(), {recording}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What frames themselves show of exposure and readout, and which detections are clear: against formulas.
+// Exposure and readout times from the frames themselves, and which detections are sharp, against formulas.
 #include "gap/links/shutter.h"
 
 #include "core/rig.h"
@@ -22,7 +22,7 @@ const CameraParameters& camera() {
     return reference;
 }
 
-/// Of a rig that was recorded at rest and in motion.
+/// The shutter of a camera that was recorded at rest and in motion.
 Shutter seen(const plant::CameraDeviation& truth, double speed_px_per_s = testing::looks_px_per_s) {
     std::array recordings{looks_in_even_motion(truth, 0.0), looks_in_even_motion(truth, speed_px_per_s)};
     std::array images{image_run(recordings[0], camera()), image_run(recordings[1], camera())};
@@ -42,7 +42,7 @@ TEST(Shutter, ReadoutOfEitherSign_IsSeenInWhatMoves) {
     EXPECT_EQ(seen({.readout_s = 8e-3}, 100.0).readout_s, 0.0);
 }
 
-/// Times of the detections that are clear of a carriage that has one velocity.
+/// Times of the detections that count as sharp for a carriage of constant velocity.
 std::vector<TimeNs> clear_of(Recording recording, double velocity_mm_per_s, double exposure_s) {
     const std::vector<double> velocities(recording.rows.size(), velocity_mm_per_s);
     drop_unclear(recording, velocities, reference_rig(), exposure_s, smeared_tags(recording));

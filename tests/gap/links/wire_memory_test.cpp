@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings that begin with a warm wire, of whose history nothing is known.
+// Recordings that begin with a warm wire of unknown history.
 #include "core/rig.h"
 #include "gap/evidence.h"
 #include "tests/gap/effects.h"
@@ -42,7 +42,7 @@ std::size_t hall_windows(const Evidence& evidence) {
 
 struct Beginning {
     std::string_view kind;
-    std::size_t first;  ///< row with which the recording begins
+    std::size_t first;  ///< row of the original with which the recording begins
 };
 
 void PrintTo(const Beginning& beginning, std::ostream* stream) {
@@ -72,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(Starts, WarmWire,
                                            Beginning{"micro-triangle", 3300}, Beginning{"micro-servo", 4000},
                                            Beginning{"integrated", 5000}));
 
-/// A wire that was heated and reads nearly as a cold one may be taken for one now and then: what tells them
-/// apart is how it goes on, and a rig that differs from its file goes on otherwise, too.
+/// A wire that was heated and reads nearly as a cold one may occasionally be taken for a cold one: they only
+/// differ in what follows, which is also different for a rig that differs from its file.
 TEST(SlowWarmWire, NominalRig_IsAtTheFloor_WhereverItsRecordingBegins_ButOneInTwenty) {
     int all = 0, off = 0;
     for (const std::string_view kind : {"micro-triangle", "micro-steps", "micro-servo"}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the errors of a carriage depend on that is driven or braked by a law that no effect has.
+// The quantity on which a carriage's errors depend if it is driven or braked by a law that is no effect of
+// the catalogue.
 #include "core/dead_zone.h"
 #include "core/rig.h"
 #include "gap/diagnose.h"
@@ -23,12 +24,12 @@ namespace {
 using namespace gap;
 using ::testing::HasSubstr;
 
-/// A carriage at some instant.
+/// The state of a carriage.
 struct Carriage {
     double place_mm, velocity_mm_per_s, way_mm, stood_s;
 };
 
-/// What acts on it at a command: the drive's push, and dry friction.
+/// The forces at a command: the drive's, and dry friction.
 struct Forces {
     double drive_V, friction_V;
 };
@@ -73,7 +74,7 @@ std::vector<Recording> recordings_under(const std::function<Forces(double, const
     return recordings;
 }
 
-/// @param dependence  that the errors are to have first
+/// @param dependence  the expected first quantity on which the errors depend
 void expect_accused(const std::function<Forces(double, const Carriage&)>& forces,
                     const std::string& dependence, const std::string& block) {
     const Diagnosis diagnosis = diagnose(Evidence(reference_rig(), recordings_under(forces)),

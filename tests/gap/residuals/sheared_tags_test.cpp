@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tags of a camera whose rows are exposed one after the other, and of cameras that are off otherwise.
+// Tags of a camera with a rolling shutter, and of cameras with other defects.
 #include "gap/residuals/sheared_tags.h"
 
 #include "core/rig.h"
@@ -39,7 +39,7 @@ TEST(ShearedTags, ReadoutOfEitherSign_Shears) {
     EXPECT_TRUE(shows_shear(effects({"rolling_shutter:readout_ms=-15"})));
 }
 
-/// Tags take turns in the list of detections where frames show two of them.
+/// Where frames show two tags, these alternate in the list of detections.
 TEST(ShearedTags, TwoTagsInEachFrame_ShearToo) {
     for (const double readout_ms : {0.0, 8.0}) {
         const Hypothesis truth = effects({fmt::format("rolling_shutter:readout_ms={}", readout_ms)});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a remainder depends on, and which block that accuses, where the effect is withheld.
+// If the true effect is withheld from the search: the quantity on which the remaining errors are found to
+// depend, and the block that is accused.
 #include "core/hall.h"
 #include "core/random.h"
 #include "core/rig.h"
@@ -25,7 +26,7 @@ namespace {
 using namespace gap;
 using ::testing::HasSubstr;
 
-/// With no effect to try that could explain what is recorded.
+/// A diagnosis that may not try any effect which could explain the recordings.
 Diagnosis unnamed(const Rig& true_rig, const Hypothesis& truth, std::initializer_list<std::string_view> kinds,
                   const std::string& tried) {
     return diagnose(testing::campaign(truth, kinds, true_rig),
@@ -134,7 +135,7 @@ TEST(SlowSurrogate, PeriodOfTheReading_IsToldFromThatOfAForce) {
     EXPECT_EQ(force.where.front().block, "macro.mechanics") << first_dependence(force);
 }
 
-/// Strong ones among them, which let the carriage go by jumps.
+/// Some of them are strong and make the carriage move in jumps.
 TEST(SlowSurrogate, ForcesOnTheCarriage_AccuseTheirBlock) {
     struct Case {
         std::string_view effect, block, dependence;
@@ -162,7 +163,7 @@ TEST(Surrogate, BodyThatStoresHeat_AccusesTheHeater) {
     EXPECT_EQ(diagnosis.where.front().block, "micro.heater") << first_dependence(diagnosis);
 }
 
-/// It hardly contracts, as if its stroke were short.
+/// Such a wire hardly contracts, which could be mistaken for a small stroke.
 TEST(SlowSurrogate, WireThatIsHeatedFarTooLittle_AccusesTheHeater) {
     for (const char* effect : {"heater_gain:factor=0.7", "heater_gain:factor=0.55", "airflow:factor=0.5"}) {
         const Diagnosis diagnosis = unnamed(reference_rig(), testing::effects({effect}),
@@ -172,10 +173,10 @@ TEST(SlowSurrogate, WireThatIsHeatedFarTooLittle_AccusesTheHeater) {
     }
 }
 
-/// A longer stroke is no other heater, though a warmer wire contracts further too.
+/// A longer stroke must not be taken for another heater, although a warmer wire contracts further, too.
 using Change = std::function<void(Recording&)>;
 
-/// Of recordings of the reference rig that are changed, at recorded commands.
+/// The diagnosis of recordings of the reference rig after a change of their values.
 Diagnosis of_changed(std::initializer_list<std::string_view> kinds, const Change& change) {
     std::vector<Recording> recordings = testing::recordings_of({}, kinds);
     for (Recording& recording : recordings) change(recording);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All smooth candidates at once, and what the data need of them.
+// The joint fit of all smooth candidates, and which of them the data need.
 #include "gap/search/everything.h"
 
 #include "gap/evidence/halves.h"

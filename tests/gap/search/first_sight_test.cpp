@@ -46,7 +46,7 @@ TEST(FirstSight, WindowsThatHoldEachOtherBack_AreLeftBehindByGoingOn) {
     EXPECT_LT(x, 1.2);
 }
 
-/// A wire that is cold goes one way only: an offset of the other sign spoils windows that are at their
+/// A cold wire can only move in one direction: an offset of the other sign worsens windows that are at their
 /// floors.
 TEST(FirstSight, SizeThatDoesHarmToOneSide_IsLookedAtToTheOther) {
     const std::vector<Window> windows = testing::equal_windows(80, 5);

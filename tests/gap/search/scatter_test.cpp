@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Losses that are level but for steps: no slope leads from one valley to the next.
+// Piecewise constant losses: no gradient leads from one local minimum to the next.
 #include "gap/search/scatter.h"
 
 #include "core/random.h"
@@ -23,7 +23,7 @@ namespace {
 using namespace gap;
 using testing::effects;
 
-/// Valleys beside each other: a loss that is level but within a little of the truth, and slopes there.
+/// Neighbouring minima: a loss that is constant except near the truth, where it has a gradient.
 TEST(Scatter, Spring_IsFoundWhereNoSlopeLeads) {
     const Hypothesis truth = effects({"cable_force:stiffness_V_per_mm=0.002,centre_mm=90,hardening=2"}),
                      start = effects({"cable_force:stiffness_V_per_mm=0.0025,centre_mm=80,hardening=1"});
@@ -43,7 +43,7 @@ TEST(Scatter, Spring_IsFoundWhereNoSlopeLeads) {
     EXPECT_NEAR(found.hypothesis[0].values[2], 2.0, 0.5);
 }
 
-/// How far a wave is from another one, in what is drawn of it at first.
+/// The distance of two waves in those of their parameters that are drawn first.
 std::array<double, 5> way_between(const plant::EffectSetting& one, const plant::EffectSetting& other) {
     constexpr double endless_mm = std::numeric_limits<double>::infinity();
     const auto middle_rad = [](const plant::EffectSetting& wave) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A weak wave of force, which shows in no balance of forces, by which way the carriage goes.
+// A weak periodic force that does not show in the balance of forces, only in the direction that the carriage
+// takes.
 #include "gap/search/wave_scan.h"
 
 #include "core/rig.h"
@@ -39,7 +40,7 @@ std::optional<plant::EffectSetting> scanned(const Hypothesis& truth, const Hypot
     return scan_for_wave(predictor, evidence.windows(), far_off, known, *cogging, evidence.rig().macro);
 }
 
-/// Within half a step of the scan and a sixth of a turn in the middle of the rail.
+/// Within half a step of the scan, and a sixth of a period in the middle of the rail.
 void expect_is_wave(const std::optional<plant::EffectSetting>& found, double amplitude_V, double period_mm,
                     double phase_rad) {
     ASSERT_TRUE(found);

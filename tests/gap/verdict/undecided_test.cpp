@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a diagnosis says that it cannot decide.
+// What a diagnosis reports as undecidable.
 #include "core/input_error.h"
 #include "core/random.h"
 #include "gap/diagnose.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Windows in which where a carriage stands within a count decides which way it goes.
+// Windows in which the position within a count decides into which direction the carriage goes.
 #include "gap/verdict/unpredictable.h"
 
 #include "core/rig.h"
@@ -30,7 +30,7 @@ TEST(Unpredictable, RigAsItsFileSays_GoesWhereItIsPredictedTo) {
     EXPECT_EQ(unpredictable(evidence, {}), 0);
 }
 
-/// What a wrong model is off by is no matter of where it began.
+/// The error of a wrong model does not depend on where the window began.
 TEST(Unpredictable, ErrorsOfAnotherModel_AreNoneOfTheStart) {
     const Evidence evidence(
         reference_rig(), recordings_of(effects({"drive_gain:factor=0.9"}), {"macro-pulses", "macro-square"}));

@@ -9,14 +9,14 @@
 
 namespace fidservo::plant {
 
-/// The reference rig with one effect, as --effect would state it.
+/// The reference rig with one effect, given as for the option --effect.
 inline StagePlant plant_with(std::string_view effect) {
     const EffectSetting setting = parse_effect(effect);
     return make_stage_plant(reference_rig(), {&setting, 1});
 }
 
-/// The carriage with effects, on an endless rail, so that only their own physics shows. Without dead zone the
-/// command is the voltage.
+/// The carriage with effects, on an infinite rail, so that nothing else acts. Without dead zone the command
+/// is the effective voltage.
 inline MacroAxis endless_axis_with(std::span<const EffectSetting> effects, bool dead_zone = false) {
     PlantParameters plant = plant_parameters(macro_only_rig());
     if (!dead_zone) plant.axis.dead_zone = {};

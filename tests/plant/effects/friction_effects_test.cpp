@@ -47,7 +47,7 @@ TEST(CoulombFriction, OnlyCoasting_BrakesWhereTheDriveHasNoVoltageAndNowhereElse
         const MacroAxisState driven = after(axis, start(axis, 0.0), command_V, 400),
                              as_driven = after(nominal, start(nominal, 0.0), command_V, 400);
         EXPECT_NEAR(driven.position_mm, as_driven.position_mm, 1e-6);
-        // Commanded back while it moves it is driven, too.
+        // If it is commanded back while it moves, it counts as driven, too.
         EXPECT_NEAR(after(axis, driven, -command_V, 20).position_mm,
                     after(nominal, as_driven, -command_V, 20).position_mm, 1e-6);
 
@@ -101,7 +101,7 @@ TEST(StribeckFriction, WithCreepSpeed_LetsTheCarriageCreepWhereItWouldHold) {
     EXPECT_NEAR(v, gain * (0.1 - 0.2 * std::exp(-v / 12.0) * std::tanh(v / 0.4)), 1e-5);
 }
 
-/// Slow or fast, and in the same way where it slides in closed form.
+/// At low and at high speed, and also where sliding has a closed form.
 TEST(CoulombFriction, WithCreepSpeed_CreepsBelowItsLevelAndSlidesAsWithoutAboveIt) {
     const MacroAxis creeping = endless_axis_with("coulomb_friction:level_V=0.2,creep_mm_per_s=0.4");
     const MacroAxis rigid = endless_axis_with("coulomb_friction:level_V=0.2");
@@ -164,7 +164,7 @@ TEST(Presliding, AboveBreakAway_SlidesAgainstTheLevel) {
     EXPECT_NEAR(after(axis, start(axis, 0.0), 0.3, 1500).velocity_mm_per_s, gain * 0.2, 1e-5);
 }
 
-/// By hand: LuGre with a constant stiffness, in steps of 2 us.
+/// Against an integration of LuGre's equations with a constant stiffness in steps of 2 us.
 TEST(Presliding, BesideOtherFriction_IsLuGreOfConstantStiffness) {
     const std::vector effects{parse_effect("presliding:level_V=0.1,distance_um=200"),
                               parse_effect("rail_patch:level_V=0.08,centre_mm=3,width_mm=2"),
@@ -192,7 +192,7 @@ TEST(Presliding, BesideOtherFriction_IsLuGreOfConstantStiffness) {
     }
 }
 
-/// By hand, in steps of 2 us.
+/// Against an integration in steps of 2 us.
 TEST(Presliding, OfSprings_IsElasticUntilItSlides) {
     for (const double damping_V_s_per_mm : {0.0, 0.004}) {
         const MacroAxis axis =
@@ -218,8 +218,8 @@ TEST(Presliding, OfSprings_IsElasticUntilItSlides) {
     }
 }
 
-/// By hand, in steps of 2 us. Springs that were bent further while it coasted give way when the drive is
-/// back.
+/// Against an integration in steps of 2 us. While the carriage coasts, friction is larger and springs bend
+/// further; they yield when the drive is back.
 TEST(Presliding, OfSpringsBesideFrictionOfCoasting_IsElasticUntilItSlides) {
     const std::vector effects{
         parse_effect("presliding:level_V=0.1,distance_um=200,springs=1"),
@@ -251,8 +251,8 @@ TEST(Presliding, OfSpringsBesideFrictionOfCoasting_IsElasticUntilItSlides) {
     }
 }
 
-/// Damping acts on bristles that bend. Where friction that falls with speed is all but gone, rounding must
-/// not decide whether they do: steps would become as short as they may.
+/// Damping acts on bristles while they bend. Where the friction that falls with speed has nearly vanished,
+/// rounding must not decide whether they bend: steps would become as short as possible.
 TEST(Presliding, OfDampedSpringsThatSlideBesideStribeckFriction_IsFollowedInFewSteps) {
     const std::vector effects{
         parse_effect("presliding:level_V=0.0065,distance_um=6.5,springs=1,damping_V_s_per_mm=0.05"),
@@ -266,7 +266,7 @@ TEST(Presliding, OfDampedSpringsThatSlideBesideStribeckFriction_IsFollowedInFewS
     EXPECT_GT(std::abs(state.position_mm), 1.0);
 }
 
-/// Within a tick it would swing back.
+/// Within a tick it would oscillate back.
 TEST(Presliding, OfStiffSprings_SlidesWhereItIsFast) {
     const MacroAxis axis = endless_axis_with("presliding:level_V=0.1,distance_um=0.1,springs=1");
     const MacroAxis rigid = endless_axis_with("coulomb_friction:level_V=0.1");
@@ -275,7 +275,7 @@ TEST(Presliding, OfStiffSprings_SlidesWhereItIsFast) {
     EXPECT_NEAR(after(axis, state, 0.0, 100).position_mm, after(rigid, slid, 0.0, 100).position_mm, 1e-3);
 }
 
-/// It turns several times a tick.
+/// It reverses several times in a tick.
 TEST(Presliding, OfStiffSprings_SwingsAsADampedOscillatorDoes) {
     constexpr double level_V = 0.1, distance_mm = 1e-4, tick_s = 1e-3;
     const MacroAxis axis = endless_axis_with("presliding:level_V=0.1,distance_um=0.1,springs=1");

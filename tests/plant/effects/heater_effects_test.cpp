@@ -36,7 +36,7 @@ TEST(SecondThermalMass, CoolingAfterALongHold_HasTheTwoRatesOfThePair) {
     EXPECT_NEAR(state.micro->heater.mass_rise_degC[0], 272.0 * 0.3, 1e-6);
     const double sum = 1.4 + 1.0 / 15.0, product = 1.0 / 15.0;
     const double fast = 0.5 * (sum + std::sqrt(sum * sum - 4.0 * product)), slow = product / fast;
-    const double start_degC = 272.0 * 0.3, slope = -start_degC;  // both start equally hot
+    const double start_degC = 272.0 * 0.3, slope = -start_degC;  // both start at the same temperature
     const double P = -(slope + slow * start_degC) / (fast - slow), Q = start_degC - P;
     for (int k = 1; k <= 60000; ++k) {
         advance(plant, state, 0.0, 0.0);
@@ -46,8 +46,8 @@ TEST(SecondThermalMass, CoolingAfterALongHold_HasTheTwoRatesOfThePair) {
     }
 }
 
-/// The published equations of a mount that is the wire's surroundings, and of one that exchanges heat as fast
-/// as the wire heats, by Euler's method in steps of 1 us.
+/// Against Euler's method, in steps of 1 us, for the published equations of a mount that is the wire's
+/// surroundings, and of one that exchanges heat as fast as the wire heats.
 TEST(SecondThermalMass, AsSurroundingsOrWithinTheWiresOwnRate_FollowsThoseEquations) {
     constexpr double share = 0.2, mass_tau_s = 5.0, heating_tau_s = 0.55, cooling_tau_s = 1.0, step_s = 1e-6;
     const auto rise_after = [&](bool surrounds) {
@@ -74,7 +74,7 @@ TEST(SecondThermalMass, AsSurroundingsOrWithinTheWiresOwnRate_FollowsThoseEquati
                 1e-3);
 }
 
-/// The equations of a mount that only gives back, by Euler's method in steps of 1 us.
+/// Against Euler's method, in steps of 1 us, for the equations of a mount that only gives heat back.
 TEST(SecondThermalMass, AsASource_FollowsThoseEquations) {
     constexpr double share = 0.19, mass_tau_s = 7.0, heating_tau_s = 0.55, cooling_tau_s = 1.0, step_s = 1e-6;
     double wire = 0.0, mass = 0.0;
@@ -93,7 +93,7 @@ TEST(SecondThermalMass, AsASource_FollowsThoseEquations) {
     }
 }
 
-/// Settles where what the wire is given is lost by it and, through the mass, by that: by conductances in
+/// At equilibrium, the heat that the wire receives is lost directly and through the mass, by conductances in
 /// series.
 TEST(SecondThermalMass, ThatLosesHeatToTheRoom_SettlesByConductancesInSeries) {
     constexpr double conductance = 0.4, to_room = 0.6;
@@ -147,7 +147,8 @@ TEST(HeaterDelay, WithASecondMass_DelaysTheWholePair) {
 TEST(StressShift, Transformation_HappensThatMuchLater) {
     const StagePlant nominal = make_stage_plant(reference_rig());
     const StagePlant loaded = plant_with("stress_shift:shift_degC=6");
-    // A cold room's wire under a command that is hotter by as much has the same place in the table.
+    // A wire in a cold room under a command that heats it more by the same amount has the same place in the
+    // table.
     const StagePlant warm = plant_with("ambient_temperature:shift_degC=-6");
     for (const int ticks : {200, 400, 3000}) {
         const StageState state = after(loaded, 1.8, ticks);

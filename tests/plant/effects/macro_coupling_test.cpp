@@ -10,8 +10,8 @@
 namespace fidservo::plant {
 namespace {
 
-/// Deflection of the platform after the carriage was brought to speed and left to coast: ringing and the
-/// coasting's own deceleration.
+/// Deflection of the platform after the carriage was brought to speed and left to coast: the ringing plus the
+/// effect of the coasting's deceleration.
 std::vector<double> ringing_mm(const StagePlant& plant, int ticks) {
     StageState state = start(plant, 50.0, 1);
     for (int k = 0; k < 200; ++k) advance(plant, state, 5.0, 0.0);
@@ -71,7 +71,8 @@ TEST(MacroCoupling, EvenJerk_IsFollowedLate) {
     EXPECT_NEAR(state.velocity_mm_per_s, -0.7 * jerk_mm_per_s3 / (w * w), 1e-9);
 }
 
-/// A quarter of a radian a tick: the mean over it would be late or early by up to 12 % of the ringing.
+/// The phase advances by a quarter of a radian per tick, so that a mean over the tick would be wrong by up to
+/// 12 % of the ringing.
 TEST(MacroCoupling, StopWithinATick_RingsFromThereOn) {
     constexpr double speed_mm_per_s = 240.0, tick_s = 0.001, frequency_Hz = 40.0, zeta = 0.03;
     const double w = 2.0 * std::numbers::pi * frequency_Hz, wd = w * std::sqrt(1.0 - zeta * zeta);
@@ -93,7 +94,7 @@ TEST(MacroCoupling, StopWithinATick_RingsFromThereOn) {
 TEST(MacroCoupling, Ringing_HasTheResonanceFrequencyAndDecay) {
     const StagePlant plant = plant_with("macro_coupling:gain=0.5,frequency_Hz=25,damping_ratio=0.03");
     const std::vector<double> course = ringing_mm(plant, 1500);
-    // After 0.5 s the coasting is over (tau = 23.5 ms): what is left is the platform alone.
+    // After 0.5 s coasting has ended (tau = 23.5 ms); only the platform still moves.
     std::vector<double> crossings_s, peaks_mm;
     double peak = 0.0;
     for (std::size_t k = 500; k + 1 < course.size(); ++k) {
@@ -109,7 +110,8 @@ TEST(MacroCoupling, Ringing_HasTheResonanceFrequencyAndDecay) {
     const double frequency_Hz = periods / (crossings_s.back() - crossings_s.front());
     EXPECT_NEAR(frequency_Hz, 25.0 * std::sqrt(1.0 - 0.03 * 0.03), 0.005);
     const double decrement = std::log(peaks_mm[1] / peaks_mm.back()) / (periods - 1.0);
-    // Peaks are seen at ticks only: up to half a tick of 40 beside, 0.3 % of the first and last one.
+    // Peaks are seen at ticks only, up to half a tick (of 40 in a period) off: 0.3 % of the first and last
+    // one.
     EXPECT_NEAR(decrement, 2.0 * std::numbers::pi * 0.03 / std::sqrt(1.0 - 0.03 * 0.03),
                 0.006 / (periods - 1.0));
 }

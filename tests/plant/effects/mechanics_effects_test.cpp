@@ -32,7 +32,7 @@ TEST(Cogging, FreeCarriage_ComesToRestWhereTheForceTurnsItBack) {
     EXPECT_NEAR(after(axis, start(axis, 1.5), 0.0, 4000).position_mm, 2.5, 1e-6);
 }
 
-/// A wave that the carriage crosses a hundred thousand times between two ticks.
+/// A wave of which the carriage crosses a hundred thousand periods between two ticks.
 TEST(Cogging, TooFineToBeFollowed_IsRefused) {
     PlantParameters plant = plant_parameters(macro_only_rig());
     plant.axis.dead_zone = {};
@@ -67,7 +67,7 @@ TEST(CableForce, SpringThatHardens_IsBalancedByTheRootOfItsCubic) {
 TEST(BeltCompliance, Swing_HasTheStatedFrequencyAndDamping) {
     const MacroAxis axis = endless_axis_with("belt_compliance:stretch_um_per_V=50,damping_ratio=0.05");
     const double w = natural_frequency_rad_per_s(axis.parameters.belt, gain, axis.parameters.time_constant_s);
-    // The motor's back-EMF damps the swing by 1/(2 tau) too, as its share of the motion, one half, is damped.
+    // The motor's back-EMF adds 1/(2 tau) to the oscillation's damping, as half of the motion is the motor's.
     const double decay = 0.05 * w + 0.5 / axis.parameters.time_constant_s;
     const double swing = w * std::sqrt(1.0 - 0.05 * 0.05);
     MacroAxisState state = start(axis, 0.0);
@@ -170,7 +170,8 @@ TEST(Mechanism, EndOfTravel_StopsTheCarriageDeadWhateverTheEffects) {
     EXPECT_LT(state.axis.position_mm, 190.0);
 }
 
-/// Its motor still swings on the belt: the carriage must not creep on in steps that no longer move it.
+/// The motor still oscillates on the belt: the integration must not end up with steps that no longer move the
+/// carriage.
 TEST(Mechanism, CarriageThatRunsIntoTheEndItStandsAt_TakesFewSteps) {
     const MacroAxis axis = plant_with("belt_compliance").axis;
     for (const double side : {-1.0, 1.0}) {

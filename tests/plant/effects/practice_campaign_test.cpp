@@ -18,8 +18,8 @@
 namespace fidservo::plant {
 namespace {
 
-/// The value of an effect's only parameter with the smallest Hall residual: golden-section search, the
-/// residual grows to either side.
+/// The value of an effect's only parameter that minimises the Hall residual: a golden-section search, as the
+/// residual increases to both sides.
 double estimated_value(const Effect& effect, const Recording& recording) {
     double low = effect.parameters[0].low, high = effect.parameters[0].high;
     const double shrink = 1.0 / std::numbers::phi;
@@ -73,8 +73,8 @@ TEST_P(PracticeCampaign, ValueOfOneRecording_ExplainsTheOthersToTheNoiseFloor) {
 INSTANTIATE_TEST_SUITE_P(MicroStage, PracticeCampaign, ::testing::Values("airflow", "hall_nonlinearity"),
                          [](const auto& instance) { return std::string(instance.param); });
 
-/// R.m.s. of position minus recorded count, in counts, about its mean: where in the first count the carriage
-/// stood is not known.
+/// R.m.s. of position minus recorded count, in counts, about its mean, as the position within the first count
+/// is unknown.
 double encoder_rms_count(const StagePlant& plant, const Recording& recording) {
     const double count_mm = plant.encoder.resolution_mm;
     StageState state =

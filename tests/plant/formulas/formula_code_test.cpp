@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a formula may say, and what is answered to one that says something else.
+// What a formula may contain, and the messages on others.
 #include "plant/formulas/formula_code.h"
 
 #include "core/input_error.h"

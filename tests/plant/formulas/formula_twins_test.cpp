@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Effects of the catalogue written as formulas: the same rig.
+// Effects of the catalogue written as formulas give the same rig.
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
@@ -19,7 +19,7 @@ namespace fidservo::plant {
 namespace {
 
 struct Twin {
-    const char* listed;  ///< as --effect takes it
+    const char* listed;  ///< as for the option --effect
     const char* acts_on;
     const char* block;
     const char* formula;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What formulas add, and what they remember, against closed forms.
+// The contributions and memories of formulas, against closed forms.
 #include "plant/formulas/formulas.h"
 
 #include "core/input_error.h"
@@ -32,7 +32,7 @@ std::array<double, carriage_variable::count> at_speed(double mm_per_s) {
     return variables;
 }
 
-/// A friction of a quantity that remembers.
+/// A friction that depends on a quantity with memory.
 FormulaEffect remembering(Kind kind, const std::string& of, const std::string& by = {}) {
     FormulaEffect text =
         formula_text("macro.friction", "macro.friction", "a * z", {{"a", 1.0}, {"b", 0.02, "shape"}});
@@ -130,7 +130,7 @@ TEST(Formulas, Delay_IsWhatWasThenByStraightLines) {
             formulas.begin_tick(memory, at_speed(k), tick_s);
             EXPECT_NEAR(memory.values[0], std::max(0.0, k - delay_s / tick_s), 1e-9) << delay_s << ' ' << k;
         }
-        // A look between ticks neither writes nor reads the past.
+        // Looking at a time between ticks neither writes nor reads the past values.
         FormulaMemory between = memory;
         formulas.begin_tick(between, at_speed(1e3), 0.3 * tick_s);
         EXPECT_EQ(between.values[0], memory.values[0]);

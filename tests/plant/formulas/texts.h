@@ -9,14 +9,14 @@
 
 namespace fidservo::plant {
 
-/// A parameter whose typical value acts, or of a shape, which it has.
+/// A parameter and its typical value, which acts; or a shape with its value.
 struct Number {
     std::string name;
     double value;
     std::string role = "size";
 };
 
-/// @param numbers  of the effect; bounds reach far to both sides
+/// @param numbers  the effect's parameters, with wide bounds
 inline FormulaEffect formula_text(std::string acts_on, std::string block, std::string formula,
                                   const std::vector<Number>& numbers) {
     FormulaEffect text;

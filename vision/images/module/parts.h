@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The parts of the module, as vision/images/media.h says.
+// The functions behind the module's table in vision/images/media.h.
 #include "vision/images/media.h"
 
 namespace fidservo::vision {

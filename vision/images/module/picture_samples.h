@@ -11,13 +11,13 @@ extern "C" {
 
 namespace fidservo::vision {
 
-/// Whether samples of such pixels have 16 bits of which no one says how many are used.
+/// Whether the pixel format has 16-bit samples, and it is not stated how many of the bits are in use.
 /// @param stated_bits  as the stream states them; 0: it does not
 bool has_open_range_of(const AVPixFmtDescriptor& kind, int stated_bits);
 
-/// The luma of a frame; of red, green and blue their luma (ITU-R BT.601). Where black and white are those of
-/// television (16 and 235 of 255), they become 0 and 255, as ITU-R BT.601 has them.
-/// Fails for pixels that are neither (Bayer's patterns, floating point, those that only hardware holds).
+/// The luma of a frame, which for RGB is computed by ITU-R BT.601. Limited-range video levels (black 16 and
+/// white 235 of 255) are expanded to 0 and 255. Fails for other pixels (Bayer patterns, floating point, those
+/// in hardware surfaces).
 Result<StoredImage> grey_samples(const AVFrame& frame, int stated_bits);
 
 }  // namespace fidservo::vision

@@ -4,7 +4,7 @@
 
 namespace fidservo::vision {
 
-/// How many bytes a Matroska (WebM) or AVI file must have by the lengths that its outermost elements state; 0
+/// The length in bytes of a Matroska (WebM) or AVI file by the lengths that its outermost elements state; 0
 /// if it is of another kind or does not state them.
 std::uint64_t stated_length(const char* file);
 

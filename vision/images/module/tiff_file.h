@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A TIFF's bytes as libtiff reads them.
+// Access to a TIFF's bytes for libtiff.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace fidservo::vision {
 
-/// An open TIFF. What libtiff complains of is kept, the first of it.
+/// An open TIFF. The first of libtiff's error messages is kept.
 class Tiff {
   public:
-    /// @param page  the place of a directory, which then is the first of the file: libtiff would otherwise
-    /// walk through all that stand before it, and complain of what is wrong there. 0: the file's own first
-    /// one
+    /// @param page  the file offset of a directory that is presented to libtiff as the file's first one:
+    /// otherwise libtiff would walk through all directories before it and report what is wrong there. 0: the
+    /// file's own first one
     explicit Tiff(const char* file, std::uint64_t page = 0);
     ~Tiff();
     Tiff(const Tiff&) = delete;
@@ -40,7 +40,7 @@ class Tiff {
 
     int descriptor_;
     std::uint64_t size_ = 0, at_ = 0;
-    std::array<unsigned char, 16> header_{};  ///< stands in for the file's own
+    std::array<unsigned char, 16> header_{};  ///< presented to libtiff in place of the file's own header
     std::size_t header_bytes_ = 0;
     std::string why_;
     TIFF* tiff_ = nullptr;

@@ -25,24 +25,24 @@
 
 namespace fidservo::fleet {
 
-/// Whose a deviation is.
+/// To whom a deviation belongs.
 enum class Whose { all, group, unit };
 
-/// A share of a deviation.
+/// A deviation that belongs to a set of units.
 struct Share {
     Whose whose = Whose::all;
-    std::size_t which = 0;     ///< the group's or the unit's number
-    Level size;                ///< m, beside the other shares, floors
-    double log_odds = 0.0;     ///< natural, against there being none of it
-    double probability = 0.0;  ///< among this one, none, and all other sets in its place
+    std::size_t which = 0;     ///< index of the group or unit
+    Level size;                ///< m, given the other deviations, floors
+    double log_odds = 0.0;     ///< natural log odds against its absence
+    double probability = 0.0;  ///< probability among this set, none, and all other sets
     /// Natural logarithms of the likelihood ratios of the best set of each kind in its place, against none.
     double log_all = 0.0, log_group = 0.0, log_unit = 0.0;
 };
 
-/// What an explanation comes to.
+/// An explanation of all units' levels.
 struct Attribution {
     std::vector<Share> shares;  ///< in the order in which they were found
-    double spread = 0.0;        ///< tau, the likeliest, floors: what units differ by beside the shares
+    double spread = 0.0;        ///< tau, most probable value, floors: the units' other differences
 };
 
 /// @param levels  of all units, three at least; fewer cannot be told apart, and have no shares

@@ -19,24 +19,25 @@
 
 namespace fidservo::fleet {
 
-/// log P(|x| < limit) of x ~ N(mean, std^2).
+/// log P(|x| < limit) for x ~ N(mean, std^2).
 double log_within(double limit, double mean, double std);
 
-/// Mean and variance of x ~ N(mean, std^2) where |x| < limit.
+/// Mean and variance of x ~ N(mean, std^2) given |x| < limit.
 Moments moments_within(double limit, double mean, double std);
 
 /// The likelihood of points by their level, and by the size of a change that adds `size * column` to each.
-/// What is named is a parabola; what is not, and is alike, one factor to the power of its number.
+/// Values of named points combine to a quadratic; identical limits of points that are not named are one
+/// factor with an exponent.
 class LevelLikelihood {
   public:
     void add(const Point& point, double variance, double column = 0.0);
 
-    /// Natural.
+    /// Natural logarithm.
     double log_at(double level, double size = 0.0) const;
-    /// The level that is likeliest where all that is not named counts as 0, and the least std that it may
-    /// have.
+    /// An approximate level, with points that are not named taken as 0, and a lower bound of its standard
+    /// deviation.
     Level rough_level() const { return {product_ / weights_, 1.0 / std::sqrt(weights_)}; }
-    /// Of the size of the change, given the level, likewise.
+    /// The same for the size of the change, given the level.
     Level rough_size(double level) const;
     bool all_named() const { return unseen_.empty(); }
 
@@ -46,22 +47,22 @@ class LevelLikelihood {
     };
     double weights_ = 0.0, product_ = 0.0, column_weights_ = 0.0, column_squares_ = 0.0,
            column_product_ = 0.0;
-    /// The same of what is named alone, with the squares of its values, and the logarithms of its factors.
+    /// Sums over the named points: weights, weighted values and squares, and logarithms of their factors.
     double named_ = 0.0, named_product_ = 0.0, named_column_ = 0.0, named_column_square_ = 0.0,
            named_column_product_ = 0.0, named_square_ = 0.0, log_factors_ = 0.0;
     std::vector<Unseen> unseen_;
 };
 
 /// The likelihood of the level that points share, over the level.
-/// @param extra_variance  that each has beside the square of its std, floors^2
-/// @param times  that their variances count
+/// @param extra_variance  added to the square of each std, floors^2
+/// @param times  factor on their variances
 Nodes over_level(std::span<const Point> points, double extra_variance, double times = 1.0);
 
-/// As a normal law: one that is not named allows all values up to its limit alike, with the variance L^2/3,
-/// and s^2 of its error.
+/// The level as a normal distribution: one that is not named is uniform up to its limit L, with the variance
+/// L^2/3 plus s^2 of its error.
 Level as_normal(const Level& level);
 
-/// Likewise.
+/// The same for a point.
 Point as_normal(const Point& point);
 
 }  // namespace fidservo::fleet

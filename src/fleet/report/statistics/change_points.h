@@ -37,26 +37,26 @@
 
 namespace fidservo::fleet {
 
-/// In which way.
+/// The kind of a change.
 enum class ChangeKind {
     step,   ///< from one diagnosis to the next
-    trend,  ///< a little more each week
+    trend,  ///< by the same amount each week
 };
 
 /// A change of one unit's quantity.
 struct Change {
     ChangeKind kind = ChangeKind::step;
-    std::size_t first = 0;                 ///< the first point that has it
-    std::size_t earliest = 0, latest = 0;  ///< likewise, the ends of 95 %
-    std::size_t found = 0;                 ///< the point with which it was found
+    std::size_t first = 0;                 ///< index of the first point with the change
+    std::size_t earliest = 0, latest = 0;  ///< 95 % interval of that index
+    std::size_t found = 0;                 ///< index of the point with which the change was found
     double size = 0.0, std = 0.0;          ///< floors, or floors a week
     double log_evidence = 0.0;             ///< log(M / A) with all points, 0 at least
 };
 
-/// A.
-/// @param quantities  that are looked at in a unit
-/// @param looks_a_year  how often a unit is diagnosed
-/// @param rate  of false alarms, for one unit and year
+/// The alarm bound A.
+/// @param quantities  tested in a unit
+/// @param looks_a_year  diagnoses of a unit per year
+/// @param rate  of false alarms, per unit and year
 double alarm_bound(double quantities, double looks_a_year, double rate);
 
 /// @param points  of one unit, by time
@@ -65,8 +65,8 @@ double alarm_bound(double quantities, double looks_a_year, double rate);
 /// By time.
 std::vector<Change> find_changes(std::span<const Point> points, const Scatter& scatter, double bound);
 
-/// What the last point's value is by all points since, and with, the changes. Where none of these names it,
-/// it has a limit.
+/// The present value, from the points and their changes. If no point since the last change is named, the
+/// value is a limit.
 Level level_now(std::span<const Point> points, const Scatter& scatter, std::span<const Change> changes);
 
 }  // namespace fidservo::fleet

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The likelihood of a change at each time, beside changes that are known (change_points.h).
+// The likelihood of a change at each time, in addition to known changes (change_points.h).
 #include "src/fleet/report/statistics/change_points.h"
 
 #include <span>
@@ -8,22 +8,24 @@
 
 namespace fidservo::fleet {
 
-/// What a change of size 1 adds, over time.
+/// The contribution of a change of size 1, over time.
 struct ChangeColumn {
     ChangeKind kind;
-    double since_weeks;  ///< of a step, the first time that has it; of a trend, the last that has not
+    /// For a step, the time of the first point with the change; for a trend, of the last one without.
+    double since_weeks;
 
-    /// 0 before; 1, or the weeks gone since.
+    /// 0 before the change; then 1 for a step, or the weeks since for a trend.
     double at(double time_weeks) const {
         if (kind == ChangeKind::step) return time_weeks >= since_weeks ? 1.0 : 0.0;
         return time_weeks > since_weeks ? time_weeks - since_weeks : 0.0;
     }
 };
 
-/// Of a change that a point is the first to have. @param first  1 at least
+/// The column of a change whose first point is given.
+/// @param first  1 at least
 ChangeColumn column_of(ChangeKind kind, std::span<const Point> points, std::size_t first);
 
-/// The likeliest date of a change and where 95 % of the weight of all dates is; the first point that has it.
+/// The most probable date of a change and its 95 % interval, as indices of the first point with the change.
 struct ChangeDates {
     std::size_t likeliest, earliest, latest;
 };
@@ -34,13 +36,13 @@ class ChangeScan {
     explicit ChangeScan(std::size_t points)
         : step_(points, none), trend_(points, none), step_best_(points, none), trend_best_(points, none) {}
 
-    /// log M: the sum over all k, each the mean of step and trend.
+    /// log M: the sum over all dates k, each the mean of step and trend.
     double log_sum() const;
-    /// log of the sum of all dates of one kind.
+    /// log of the sum over all dates of one kind.
     double log_weight(ChangeKind kind) const;
     ChangeDates dates(ChangeKind kind) const;
 
-    /// @param log_ratio  log E_k of that kind alone
+    /// @param log_ratio  log E_k for that kind
     /// @param log_best  log of the likelihood with the best size
     void set(ChangeKind kind, std::size_t first, double log_ratio, double log_best);
     /// What a stretch of the points says of itself. @param begin  its first point's place
@@ -48,10 +50,11 @@ class ChangeScan {
 
   private:
     static constexpr double none = -1e300;
-    std::vector<double> step_, trend_, step_best_, trend_best_;  ///< by the first point that has the change
+    /// by the index of the first point with the change.
+    std::vector<double> step_, trend_, step_best_, trend_best_;
 };
 
-/// The laws that sizes of changes are drawn from: their standard deviations, floors or floors a week.
+/// The prior standard deviations of a change's size, floors or floors per week.
 std::span<const double> laws_of(ChangeKind kind);
 
 /// Points that are not named count by their limits (limited_scan.h); beside a trend, and where nothing is

@@ -10,7 +10,8 @@
 
 namespace fidservo::fleet {
 
-/// Between nodes, of the least std that a law may have: the sum's error is then 4e-14.
+/// Distance of nodes relative to the function's least standard deviation: the sum's relative error is then
+/// 4e-14.
 inline constexpr double step_of_std = 0.8;
 
 /// A mean and a variance.
@@ -18,14 +19,14 @@ struct Moments {
     double mean = 0.0, variance = 0.0;
 };
 
-/// A function of one variable at places that are equally distant: logarithms of value times distance.
+/// A function of one variable at equidistant nodes: logarithms of value times distance.
 struct Nodes {
     std::vector<double> places, log_weights;
 
     /// log of the integral.
     double log_integral() const { return log_of_sum(log_weights); }
 
-    /// Of the variable, the function being its density but for a factor.
+    /// Mean and variance, with the function as an unnormalised density.
     Moments moments() const {
         const double all = log_integral();
         double mean = 0.0, squares = 0.0;
@@ -36,13 +37,14 @@ struct Nodes {
     }
 };
 
-/// Nodes from a place on in both directions until nothing is left. The sum over them is the integral but for
-/// a part of about exp(-2 pi^2 / (step / std)^2) of it. Source: Trefethen, Weideman, SIAM Review 56, 2014.
+/// Places nodes from a start in both directions until the function is negligible. The sum over them is the
+/// integral to a relative error of about exp(-2 pi^2 / (step / std)^2) of it. Source: Trefethen, Weideman,
+/// SIAM Review 56, 2014.
 /// @param log_of  the logarithm of a log-concave function
-/// @param step  the least std that the function may have, as a density, or less
+/// @param step  at most the least standard deviation that the function may have as a density
 template <class LogFunction>
 Nodes nodes_of(double start, double step, const LogFunction& log_of) {
-    constexpr double nothing = 30.0;  // below the largest: exp(-30) is 1e-13
+    constexpr double nothing = 30.0;  // below the maximum: exp(-30) is 1e-13
     constexpr int most = 4000;
     const double log_step = std::log(step), first = log_of(start);
     Nodes nodes{{start}, {first + log_step}};

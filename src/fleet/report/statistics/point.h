@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What is known of one quantity of one unit at one time, in floors: 0 is what the rig file says, 1 what by
-// itself makes a gap as large as the noise floor.
+// A value of one quantity of one unit at one time, in floors: 0 is the rig file's value, 1 a deviation that
+// alone causes a gap as large as the noise floor.
 
 namespace fidservo::fleet {
 
 /// One diagnosis.
 struct Point {
-    double time_weeks;  ///< since any time that all points share
-    /// Floors. Of one that does not name the quantity the value is 0, and the std that of those that do.
+    double time_weeks;  ///< in a time scale that all points share
+    /// Floors. If the diagnosis does not name the quantity, value is 0 and std that of diagnoses that do.
     double value, std;
-    /// Of one that does not name it: it saw nothing of this size or more, floors; otherwise 0.
+    /// If the diagnosis does not name the quantity: the size from which it would have been named, floors;
+    /// otherwise 0.
     double limit = 0.0;
 
     bool named() const { return limit == 0.0; }
@@ -19,7 +20,8 @@ struct Point {
 /// A value with its standard error, floors.
 struct Level {
     double value = 0.0, std = 0.0;
-    /// Above 0: there is no value, but the true one and an error of `std` together are within this.
+    /// If positive, there is no value; the true value plus an error of standard deviation `std` is within
+    /// +-limit.
     double limit = 0.0;
 
     bool named() const { return limit == 0.0; }

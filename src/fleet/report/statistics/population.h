@@ -25,16 +25,16 @@
 
 namespace fidservo::fleet {
 
-/// What units are draws from.
+/// The population from which units are drawn.
 struct Population {
     double mean = 0.0, mean_std = 0.0;  ///< mu and its standard error
-    double spread = 0.0;                ///< tau, from unit to unit
+    double spread = 0.0;                ///< tau, the standard deviation between units
 };
 
-/// Of one unit at least. Of a single one the spread is 0.
+/// Demands at least one unit; for a single one the spread is 0.
 Population population_of(std::span<const Level> units);
 
-/// A unit's value, given the fleet; of one that is not named, too.
+/// A unit's value, given the fleet; also for one that is not named.
 Level pooled(const Level& unit, const Population& population);
 
 }  // namespace fidservo::fleet

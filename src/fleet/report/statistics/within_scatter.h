@@ -29,30 +29,31 @@
 
 namespace fidservo::fleet {
 
-/// How a unit that does not change scatters.
+/// The scatter of a unit that does not change.
 struct Scatter {
     double std = 0.0;      ///< sigma, floors
-    double degrees = 0.0;  ///< nu; 0: nothing is known of the scale beforehand
+    double degrees = 0.0;  ///< nu; 0: the scale has no prior knowledge
 };
 
-/// What phi may be where it is summed over, not integrated.
+/// The values of phi over which sums are taken instead of integrals.
 inline constexpr std::array scatter_scales{0.25, 0.5, 1.0, 2.0, 4.0};
 
-/// The logarithms of their weights, by the density of log(phi): nu / phi ~ chi^2(nu); of no degrees, all
-/// alike.
+/// The logarithms of their weights, by the density of log(phi) with nu / phi ~ chi^2(nu); for nu = 0 all are
+/// equal.
 std::array<double, scatter_scales.size()> log_weights_of_scales(double degrees);
 
 /// The scatter of one quantity in all units.
 class WithinScatter {
   public:
-    /// @param units  their points, by time
+    /// @param units  the points of each unit, by time
     explicit WithinScatter(std::span<const std::vector<Point>> units);
 
-    /// By all units. @param common  common_scatter()
+    /// The scatter from all units.
+    /// @param common  of common_scatter()
     Scatter of_all(const Scatter& common) const;
-    /// By all but one, and but those whose history is left out.
+    /// The scatter from all units but one, and without those left out.
     Scatter without(std::size_t unit, const Scatter& common) const;
-    /// Leaves a unit out for all: it was found to change.
+    /// Leaves a unit out from now on, since it was found to change.
     void leave_out(std::size_t unit);
 
   private:
@@ -63,7 +64,8 @@ class WithinScatter {
     std::vector<std::vector<double>> of_unit_;  ///< log L_u over the grid of sigma and nu
     std::vector<double> contrasts_of_unit_;
     std::vector<double> unnamed_of_unit_,
-        unnamed_variance_of_unit_;  ///< how many, and the sum of their variances
+        /// For each unit, the number of points that are not named, and the sum of their variances.
+        unnamed_variance_of_unit_;
     std::vector<double> sum_;
     double contrasts_ = 0.0;
 };
