@@ -24,4 +24,7 @@ struct RoundingLoss {
 /// @param noise_count  standard deviation before rounding, positive
 RoundingLoss rounding_loss(double error_count, double noise_count);
 
+/// Its value alone, at less than half the cost.
+double rounding_loss_value(double error_count, double noise_count);
+
 }  // namespace fidservo::calib

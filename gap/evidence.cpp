@@ -3,9 +3,9 @@
 
 #include "core/demand.h"
 #include "core/input_error.h"
+#include "core/parallel.h"
 #include "core/rig.h"
 #include "gap/candidates/coupling.h"
-#include "gap/evidence/parallel.h"
 #include "gap/evidence_parts.h"
 #include "gap/residuals/wire_path.h"
 #include "plant/effects/catalogue.h"

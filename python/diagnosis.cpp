@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // diagnose: in a thread of its own, while Python's own looks after signals and tells how it goes.
-#include "gap/evidence/parallel.h"
+#include "core/parallel.h"
 #include "python/bindings.h"
 #include "src/diagnose/diagnose_recordings.h"
 #include "src/diagnose/diagnosis_json.h"
@@ -136,7 +136,7 @@ std::string diagnose_all(const HeldRig& rig, const std::vector<RecordingPointer>
                                                                 .matters = std::move(matters)},
                                                                rig.rig);
     diagnose::keep_memory();
-    gap::use_cores(effort_s ? 1 : std::thread::hardware_concurrency());
+    use_cores(effort_s ? 1 : std::thread::hardware_concurrency());
     return run(
         [&](Errand& errand) {
             const diagnose::Conduct conduct{

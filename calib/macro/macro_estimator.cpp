@@ -3,9 +3,11 @@
 
 #include "calib/rounding_likelihood.h"
 #include "core/demand.h"
+#include "core/parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -126,15 +128,16 @@ double MacroEstimator::loss(const MacroPoint& point) const {
     MacroVector deviation = vector_of(point.motion);
     deviation[macro_index::log_time_constant] -= prior_log_time_constant;
     double total = 0.5 * deviation.cwiseQuotient(prior_std_).squaredNorm();
-    for (std::size_t w = 0; w < windows_.size(); ++w) {
-        total += start_loss(w, point);
+    std::vector<double> of_window(windows_.size());
+    parallel_for(windows_.size(), [&](std::size_t w) {
         const std::vector<double> place_count = predict(w, point.motion, point.starts[w]);
+        double sum = start_loss(w, point);
         for (std::size_t k = 0; k < place_count.size(); ++k)
-            total +=
-                rounding_loss(place_count[k] - windows_[w].position_mm[k] / resolution_mm_, point.noise_count)
-                    .value;
-    }
-    return total;
+            sum += rounding_loss_value(place_count[k] - windows_[w].position_mm[k] / resolution_mm_,
+                                       point.noise_count);
+        of_window[w] = sum;
+    });
+    return std::accumulate(of_window.begin(), of_window.end(), total);
 }
 
 double MacroEstimator::residual_count(const MacroPoint& point) const {
@@ -221,20 +224,21 @@ MacroEstimator::Sums MacroEstimator::sum_up(const Terms& terms, std::size_t w,
     return sums;
 }
 
-void MacroEstimator::refine(MacroPoint& point, const MacroActive& active, int most_iterations) const {
-    constexpr double least_gain = 1e-6, easiest = 1e-9, hardest = 1e9;
+void MacroEstimator::refine(MacroPoint& point, const MacroActive& active, int most_iterations,
+                            double wanted) const {
+    constexpr double least_gain = 1e-6, easiest = 1e-9, hardest = 1e9, most_that_follows = 10.0;
     double damping = 1e-3, here = loss(point);
     for (int iteration = 0; iteration < most_iterations && damping < hardest; ++iteration) {
-        std::vector<Sums> sums;
-        sums.reserve(windows_.size());
+        std::vector<Sums> sums(windows_.size());
+        parallel_for(windows_.size(),
+                     [&](std::size_t w) { sums[w] = sum_up(terms(w, point, active), w, point); });
         MacroMatrix curvature = prior_std_.cwiseAbs2().cwiseInverse().asDiagonal();
         MacroVector centre = vector_of(point.motion);
         centre[macro_index::log_time_constant] -= prior_log_time_constant;
         MacroVector gradient = centre.cwiseQuotient(prior_std_.cwiseAbs2());
-        for (std::size_t w = 0; w < windows_.size(); ++w) {
-            sums.push_back(sum_up(terms(w, point, active), w, point));
-            curvature += sums.back().curvature;
-            gradient += sums.back().gradient;
+        for (const Sums& of_window : sums) {
+            curvature += of_window.curvature;
+            gradient += of_window.gradient;
         }
         for (int i = 0; i < macro_parameter_count; ++i)
             if (!active[static_cast<std::size_t>(i)]) gradient[i] = 0.0;
@@ -270,7 +274,7 @@ void MacroEstimator::refine(MacroPoint& point, const MacroActive& active, int mo
             damping = better ? std::max(easiest, 0.1 * damping) : 10.0 * damping;
             if (better) gained = here - there, point = std::move(next), here = there;
         }
-        if (gained < least_gain) return;
+        if (gained < least_gain || here - most_that_follows * gained > wanted) return;
     }
 }
 

@@ -12,6 +12,7 @@
 #include "calib/macro/macro_trace.h"
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -69,7 +70,10 @@ class MacroEstimator {
     double loss(const MacroPoint& point) const;
 
     /// Levenberg-Marquardt on the active parameters and all initial states.
-    void refine(MacroPoint& point, const MacroActive& active, int most_iterations) const;
+    /// Ends early once the loss would stay above `wanted` even if the iterations that are left gained ten
+    /// times what the last one did; Gauss-Newton steps near a minimum gain less each time.
+    void refine(MacroPoint& point, const MacroActive& active, int most_iterations,
+                double wanted = std::numeric_limits<double>::infinity()) const;
 
     /// Root mean square of prediction minus reading, counts.
     double residual_count(const MacroPoint& point) const;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/balance/balanced_springs.h"
 
+#include "core/parallel.h"
 #include "gap/balance/balance_fit.h"
-#include "gap/evidence/parallel.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/balance/balanced_waves.h"
 
+#include "core/parallel.h"
 #include "core/rig.h"
 #include "gap/balance/balance_fit.h"
-#include "gap/evidence/parallel.h"
 #include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 

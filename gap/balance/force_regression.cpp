@@ -2,12 +2,12 @@
 #include "gap/balance/force_regression.h"
 
 #include "core/median.h"
+#include "core/parallel.h"
 #include "core/rig.h"
 #include "gap/balance/balance_fit.h"
 #include "gap/balance/period_search.h"
 #include "gap/candidates/coupling.h"
 #include "gap/candidates/wave.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/score.h"
 #include "plant/effects/catalogue.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/balance/period_search.h"
 
+#include "core/parallel.h"
 #include "gap/balance/carriage_forces.h"
 #include "gap/balance/rail_stretch.h"
-#include "gap/evidence/parallel.h"
 
 #include <algorithm>
 #include <array>

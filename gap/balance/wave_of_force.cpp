@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/balance/wave_of_force.h"
 
-#include "gap/evidence/parallel.h"
+#include "core/parallel.h"
 
 #include <algorithm>
 #include <cmath>

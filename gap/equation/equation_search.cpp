@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/equation/equation_search.h"
 
+#include "core/parallel.h"
 #include "gap/balance/period_search.h"
 #include "gap/candidates/coupling.h"
 #include "gap/equation/scan.h"
 #include "gap/equation/screening.h"
 #include "gap/evidence/halves.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/gap_size.h"
 #include "gap/fit/score.h"
 #include "gap/residuals/accusation.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/equation/kinds_left_out.h"
 
+#include "core/parallel.h"
 #include "gap/candidates/coupling.h"
 #include "gap/evidence/halves.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/incremental_prediction.h"
 #include "gap/search/search.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/equation/scan.h"
 
+#include "core/parallel.h"
 #include "gap/equation/losing.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/score.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"

@@ -2,6 +2,7 @@
 #include "gap/equation/screening.h"
 
 #include "core/dead_zone.h"
+#include "core/parallel.h"
 #include "core/random.h"
 #include "core/rig.h"
 #include "gap/balance/carriage_forces.h"
@@ -9,7 +10,6 @@
 #include "gap/equation/losing.h"
 #include "gap/equation/visited.h"
 #include "gap/evidence/halves.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/regression.h"
 #include "gap/fit/score.h"
 #include "gap/residuals/surrogate.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/fit/cross_fit.h"
 
+#include "core/parallel.h"
 #include "gap/evidence/halves.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/incremental_prediction.h"
 
 #include <algorithm>

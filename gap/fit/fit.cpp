@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/fit/fit.h"
 
+#include "core/parallel.h"
 #include "gap/candidates/scaled_parameters.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/minimum_norm.h"
 #include "gap/fit/score.h"
 #include "gap/fit/slopes.h"

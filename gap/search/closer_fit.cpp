@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How a search fits one effect closely: one way of going on after the other, as long as something is left.
-#include "gap/evidence/parallel.h"
+#include "core/parallel.h"
 #include "gap/search/contender.h"
 #include "gap/search/scatter.h"
 #include "gap/search/search.h"

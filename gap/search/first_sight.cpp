@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/first_sight.h"
 
-#include "gap/evidence/parallel.h"
+#include "core/parallel.h"
 #include "gap/fit/minimum_norm.h"
 #include "gap/fit/score.h"
 #include "gap/fit/slopes.h"

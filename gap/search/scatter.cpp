@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/scatter.h"
 
+#include "core/parallel.h"
 #include "core/random.h"
 #include "gap/balance/balanced_springs.h"
 #include "gap/candidates/wave.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/score.h"
 
 #include <algorithm>

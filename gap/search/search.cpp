@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/search.h"
 
-#include "gap/evidence/parallel.h"
+#include "core/parallel.h"
 #include "gap/fit/gap_size.h"
 #include "gap/search/contender.h"
 #include "gap/search/starts.h"

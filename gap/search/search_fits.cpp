@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How a search fits those it tries: simple ones first, the second half for leaders, closely for the best.
-#include "gap/evidence/parallel.h"
+#include "core/parallel.h"
 #include "gap/fit/polish.h"
 #include "gap/fit/score.h"
 #include "gap/search/contender.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An explanation of the carriage from where its forces balance.
+#include "core/parallel.h"
 #include "core/rig.h"
 #include "gap/balance/force_regression.h"
 #include "gap/evidence/halves.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/polish.h"
 #include "gap/fit/score.h"
 #include "gap/search/everything.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An effect and what it comes to at a limit, each fitted from the other.
+#include "core/parallel.h"
 #include "core/rig.h"
-#include "gap/evidence/parallel.h"
 #include "gap/search/contender.h"
 #include "gap/search/search.h"
 

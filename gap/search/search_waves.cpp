@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Waves along the rail, whose losses have a valley for each way in which a carriage may go.
+#include "core/parallel.h"
 #include "core/rig.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/score.h"
 #include "gap/search/contender.h"
 #include "gap/search/scatter.h"

@@ -2,8 +2,8 @@
 #include "gap/search/wave_scan.h"
 
 #include "core/macro_parameters.h"
+#include "core/parallel.h"
 #include "gap/candidates/wave.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/score.h"
 
 #include <algorithm>

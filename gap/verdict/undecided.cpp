@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/verdict/undecided.h"
 
+#include "core/parallel.h"
 #include "core/rig.h"
 #include "gap/candidates/coupling.h"
 #include "gap/evidence/halves.h"
-#include "gap/evidence/parallel.h"
 #include "gap/evidence/plate_tag.h"
 #include "gap/fit/gap_size.h"
 #include "gap/links/carriage_run.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/cli/self_check.h"
 
+#include "core/parallel.h"
 #include "core/rig.h"
-#include "gap/evidence/parallel.h"
 #include "src/cli/commands.h"
 #include "src/files/disk/durable_file.h"
 #include "src/files/rig/rig_file.h"
@@ -90,7 +90,7 @@ int run_self_check(const SelfCheckRequest& request, const std::filesystem::path&
         .settles_ties = request.settles_ties};
     const auto kinds = kinds_by_name();
     for (const std::string& name : request.kinds) options.kinds.push_back(kinds.at(name));
-    if (request.by_effort) gap::use_cores(1);
+    if (request.by_effort) use_cores(1);
     watch_for_interrupts();
     const auto after_case = [&](const selfcheck::SelfCheck& so_far) {
         print_last_case(so_far);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/design/discrimination.h"
 
-#include "gap/evidence/parallel.h"
+#include "core/parallel.h"
 #include "gap/fit/score.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ class Adjustment {
     Adjusted foreseen() const {
         constexpr double secant = 0.5;
         std::vector<gap::Errors> slopes(static_cast<std::size_t>(z_.size()));
-        gap::parallel_for(slopes.size(), [&](std::size_t k) {
+        parallel_for(slopes.size(), [&](std::size_t k) {
             Eigen::VectorXd beside = z_;
             beside(static_cast<Eigen::Index>(k)) += secant;
             slopes[k] = predicted(beside);

@@ -2,10 +2,10 @@
 #include "src/design/explanations.h"
 
 #include "core/demand.h"
+#include "core/parallel.h"
 #include "core/random.h"
 #include "gap/candidates/candidate.h"
 #include "gap/candidates/scaled_parameters.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/fit.h"
 #include "gap/fit/score.h"
 #include "src/design/exchanges.h"
@@ -195,7 +195,7 @@ OpenQuestion open_question(const gap::Evidence& evidence, const gap::Diagnosis& 
     question.explanations.resize(others.size() + 1);
     question.explanations.front() = {own, diagnosis.hypothesis, {}, {}, {diagnosis.hypothesis}};
     if (!others.empty())
-        gap::parallel_for(question.explanations.size(), [&](std::size_t k) {
+        parallel_for(question.explanations.size(), [&](std::size_t k) {
             question.explanations[k] =
                 k == 0 ? explained(evidence, own, diagnosis.hypothesis)
                        : explained(evidence, others[k - 1].name, others[k - 1].hypothesis);

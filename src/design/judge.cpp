@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/design/judge.h"
 
+#include "core/parallel.h"
 #include "gap/evidence.h"
-#include "gap/evidence/parallel.h"
 #include "src/design/discrimination.h"
 #include "src/record/foresight.h"
 #include "src/simulation/simulate.h"
@@ -66,7 +66,7 @@ Judgement Judge::judge(const Experiment& experiment, const Depth& depth) const {
         for (std::size_t draw = all - draws_of[truth]; draw < all; ++draw) places.push_back({truth, draw});
     }
     std::vector<OfDraw> of_draws(places.size());
-    gap::parallel_for(places.size(), [&](std::size_t k) {
+    parallel_for(places.size(), [&](std::size_t k) {
         of_draws[k] = judge_draw(experiment, places[k].truth, places[k].draw, depth);
     });
     for (const OfDraw& of_draw : of_draws)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/frame_looks.h"
 
+#include "core/parallel.h"
 #include "gap/budget.h"
-#include "gap/evidence/parallel.h"
 #include "src/images/grey_range.h"
 #include "src/images/image_frame.h"
 #include "vision/images/image_file.h"
@@ -139,7 +139,7 @@ std::vector<std::string> measure_frames(std::span<Recording> recordings,
                              .detections = detections.at(frame.time_ns)});
         decide_bits(std::span(tasks).subspan(first));
     }
-    gap::parallel_for(tasks.size(), [&](std::size_t k) {
+    parallel_for(tasks.size(), [&](std::size_t k) {
         if (interrupted && interrupted()) throw gap::BudgetEnded(gap::Ended::interrupted);
         measure(tasks[k]);
     });

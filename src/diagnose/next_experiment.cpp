@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/next_experiment.h"
 
+#include "core/parallel.h"
 #include "gap/evidence/halves.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/fit.h"
 #include "gap/fit/score.h"
 #include "src/design/design_experiment.h"
@@ -55,7 +55,7 @@ std::optional<Proposal> best_proposal(const Rig& rig, const gap::Diagnosis& diag
         if (experiment.duration_s <= design::longest_s) proposals.push_back({std::move(experiment)});
     }
     if (proposals.empty()) return {};
-    gap::parallel_for(proposals.size(), [&](std::size_t k) {
+    parallel_for(proposals.size(), [&](std::size_t k) {
         Proposal& proposal = proposals[k];
         for (const design::Exchange& exchange : exchanges)
             proposal.separation =

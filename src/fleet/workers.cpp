@@ -2,7 +2,7 @@
 #include "src/fleet/workers.h"
 
 #include "core/input_error.h"
-#include "gap/evidence/parallel.h"
+#include "core/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -70,7 +70,7 @@ void become_worker(pid_t parent, std::uint64_t memory_bytes) {
         ::setrlimit(RLIMIT_DATA, &data);
     }
     spdlog::set_level(spdlog::level::off);
-    gap::use_cores(1);
+    use_cores(1);
     cv::setNumThreads(1);
 }
 

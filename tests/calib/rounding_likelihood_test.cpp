@@ -53,5 +53,24 @@ TEST(RoundingLoss, Derivatives_AreThoseOfTheValue) {
     }
 }
 
+TEST(RoundingLoss, Value_IsThatOfBothTails_AlsoAlone) {
+    for (const double noise : {0.05, 0.11, 0.3, 1.0, 1.9})
+        for (double error = -1.5; error <= 1.5; error += 0.013) {
+            if ((std::abs(error) - 0.5) / noise > 6.0) continue;
+            const auto tail = [&](double edge) {
+                return 0.5L *
+                       std::erfc(static_cast<long double>(edge / noise) / std::numbers::sqrt2_v<long double>);
+            };
+            const long double probability = tail(std::abs(error) - 0.5) - tail(std::abs(error) + 0.5);
+            const auto expected = static_cast<double>(-std::log(probability));
+            EXPECT_NEAR(rounding_loss(error, noise).value, expected, 1e-13 * (1.0 + expected))
+                << "noise " << noise << " error " << error;
+            EXPECT_EQ(rounding_loss_value(error, noise), rounding_loss(error, noise).value);
+        }
+    for (const double noise : {0.05, 1.0, 5.0})
+        for (const double error : {-40.0, -7.0, 8.0})
+            EXPECT_EQ(rounding_loss_value(error, noise), rounding_loss(error, noise).value);
+}
+
 }  // namespace
 }  // namespace fidservo::calib

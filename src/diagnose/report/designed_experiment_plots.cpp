@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/diagnose/report/designed_experiment_plots.h"
 
+#include "core/parallel.h"
 #include "core/rig.h"
 #include "core/time.h"
-#include "gap/evidence/parallel.h"
 #include "gap/fit/score.h"
 #include "src/design/discrimination.h"
 #include "src/diagnose/words.h"
@@ -153,7 +153,7 @@ std::string designed_experiment_html(const Rig& rig, const DesignedNext& next) {
     const Experiment experiment = design::experiment_of(next.candidate.design, next.name, rig);
     const std::vector<design::Explanation>& explanations = next.question.explanations;
     std::vector<Recording> recordings(explanations.size());
-    gap::parallel_for(recordings.size(), [&](std::size_t k) {
+    parallel_for(recordings.size(), [&](std::size_t k) {
         recordings[k] = simulate(rig, explanations[k].hypothesis, experiment, next.name, shown_noise);
     });
     report::TimeAxis axis;
@@ -179,8 +179,8 @@ std::string designed_experiment_html(const Rig& rig, const DesignedNext& next) {
                             [](const StageRow& row) { return row.hall_adc; });
     }
     std::vector<ShownDuel> duels(next.question.duels.size());
-    gap::parallel_for(duels.size(),
-                      [&](std::size_t k) { duels[k] = shown_duel(rig, next, experiment, k, axis.time_s); });
+    parallel_for(duels.size(),
+                 [&](std::size_t k) { duels[k] = shown_duel(rig, next, experiment, k, axis.time_s); });
     for (std::size_t k = 0; k < duels.size(); ++k) {
         const std::string truth = name_in_plots(explanations[next.question.duels[k].truth]),
                           rival = name_in_plots(explanations[next.question.duels[k].rival]);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/selfcheck/draw/campaign.h"
 
+#include "core/parallel.h"
 #include "core/rig.h"
-#include "gap/evidence/parallel.h"
 #include "src/simulation/simulate_reference.h"
 
 namespace fidservo::selfcheck {
@@ -18,7 +18,7 @@ std::vector<Recording> record_campaign(const Rig& nominal, const TrueRig& true_r
                                        std::optional<int> substeps) {
     const std::vector<CampaignRun> runs = campaign_runs(nominal);
     std::vector<Recording> recordings(runs.size());
-    gap::parallel_for(runs.size(), [&](std::size_t k) {
+    parallel_for(runs.size(), [&](std::size_t k) {
         recordings[k] = record_run(nominal, true_rig, runs[k], seed, substeps);
     });
     return recordings;

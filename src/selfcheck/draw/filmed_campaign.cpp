@@ -2,9 +2,9 @@
 #include "src/selfcheck/draw/filmed_campaign.h"
 
 #include "core/input_error.h"
+#include "core/parallel.h"
 #include "core/rig.h"
 #include "core/tag_families.h"
-#include "gap/evidence/parallel.h"
 #include "reference/tag_picture.h"
 #include "src/simulation/run_experiment.h"
 #include "src/simulation/simulate_reference.h"
@@ -87,7 +87,7 @@ std::vector<Recording> film_campaign(const Rig& nominal, const TrueRig& true_rig
     const reference::PictureModel model{*true_rig.rig.camera, *true_rig.rig.fiducials,
                                         true_rig.departures.image, cells_of};
     std::vector<Recording> recordings(runs.size());
-    gap::parallel_for(runs.size(), [&](std::size_t k) {
+    parallel_for(runs.size(), [&](std::size_t k) {
         const auto [kind, from_s] = runs[k];
         const std::string name = fmt::format("{}-{}", kind, k + 1);
         Experiment experiment = make_experiment(kind, nominal, seed, name);

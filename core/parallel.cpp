@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gap/evidence/parallel.h"
+#include "core/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace fidservo::gap {
+namespace fidservo {
 namespace {
 
 std::atomic<std::size_t> idle_cores = std::max(1U, std::thread::hardware_concurrency()) - 1;
@@ -52,4 +52,4 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
     if (failed) std::rethrow_exception(failed);
 }
 
-}  // namespace fidservo::gap
+}  // namespace fidservo

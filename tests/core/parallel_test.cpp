@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gap/evidence/parallel.h"
+#include "core/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fidservo::gap {
+namespace fidservo {
 namespace {
 
 TEST(ParallelFor, Nested_DoesEachOnce) {
@@ -65,4 +65,4 @@ TEST(ParallelFor, WorkThatFails_ThrowsOnceAllHaveEnded_AndGivesItsCoresBack) {
 }
 
 }  // namespace
-}  // namespace fidservo::gap
+}  // namespace fidservo

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace fidservo::gap {
+namespace fidservo {
 
 /// Calls work(0) ... work(count - 1) in any order, on the caller's core and those that are idle then: work
 /// may call it again. The first exception is thrown again once all have ended.
@@ -13,4 +13,4 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
 /// called while none is under way.
 void use_cores(std::size_t count);
 
-}  // namespace fidservo::gap
+}  // namespace fidservo
