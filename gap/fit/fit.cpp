@@ -164,7 +164,7 @@ class Linearised : public ceres::EvaluationCallback {
             slopes_.clear();
             return;
         }
-        kept_ = {parameters_.at(values_), errors, slopes_};
+        kept_ = {parameters_.at(values_), errors, std::move(slopes_)};
     }
 
     void condense(const std::vector<Errors>& by_parameter) {

@@ -22,10 +22,17 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr double carried_std_degC = 0.003;
 constexpr double most_stds = 3.0;
 
+/// Whether a tick that changes neither temperatures nor contraction is followed by such ticks as long as the
+/// command stays: nothing depends on the time, on the carriage or on earlier commands.
+bool depends_on_state_alone(const plant::MicroStage& stage) {
+    return stage.heater.delay_s == 0.0 && stage.hall_disturbance.is_none() && !stage.feels_carriage() &&
+           !stage.formulas.any();
+}
+
 class Pass {
   public:
     Pass(const PlatformModel& model, const PlatformRun& run, const CarriagePath* carriage)
-        : model_(model), run_(run), carriage_(carriage) {
+        : model_(model), run_(run), carriage_(carriage), may_rest_(depends_on_state_alone(model.stage)) {
         const std::size_t rows = run.command_V.size();
         found_ = {std::vector(rows, not_known), std::vector(rows, not_known), std::vector(rows, not_known)};
     }
@@ -95,10 +102,22 @@ class Pass {
     }
 
     void walk(plant::MicroStageState& state, std::size_t first, std::size_t end) {
+        bool rests = false;
         for (std::size_t k = first; k < end; ++k) {
+            if (rests && run_.command_V[k] == run_.command_V[k - 1]) {
+                found_.path_lsb[k] = found_.path_lsb[k - 1];
+                found_.temperature_degC[k] = found_.temperature_degC[k - 1];
+                state.time_ns += run_.ticks[k] * model_.stage.tick_ns;
+                continue;
+            }
             found_.path_lsb[k] = reading_lsb(state);
             found_.temperature_degC[k] = state.heater.temp_degC;
+            const plant::HeaterState before = state.heater;
+            const double before_mm = state.wire.contraction_mm;
             step(state, k);
+            rests = may_rest_ && state.heater.temp_degC == before.temp_degC &&
+                    state.heater.mass_rise_degC == before.mass_rise_degC &&
+                    state.wire.contraction_mm == before_mm;
         }
     }
 
@@ -144,6 +163,7 @@ class Pass {
     const PlatformModel& model_;
     const PlatformRun& run_;
     const CarriagePath* carriage_;
+    bool may_rest_;
     double beside_mm_ = 0.0;  ///< of the platform, by what the wire remembers from before the recording
     PlatformPrediction found_;
 };
