@@ -29,7 +29,7 @@ double noise_inside_lsb(const std::vector<Recording>& recordings, const HallRang
 
 /// The largest number of equal readings in a row that noise can explain.
 double longest_chance(double noise_lsb) {
-    constexpr double log_of_chance = -20.7;  // 1e-9
+    constexpr double log_of_chance = -20.7;  // of a probability of 1e-9
     if (noise_lsb <= 0.0) return std::numeric_limits<double>::infinity();
     const double repeats = std::erf(0.5 / (std::numbers::sqrt2 * noise_lsb));
     return repeats < 1.0 ? log_of_chance / std::log(repeats) : std::numeric_limits<double>::infinity();

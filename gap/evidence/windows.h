@@ -27,10 +27,10 @@ struct WindowRows {
 enum class LeadIn { none, estimates_state };
 
 /// Stretches of usable rows that follow each other at the recording's tick.
-/// @param usable  one value a row
+/// @param usable  a flag for each row
 std::vector<Stretch> stretches(const Recording& recording, const std::vector<bool>& usable);
 
-/// The windows of a stretch; each begins where the one before ended. Empty if it is too short.
+/// The windows of a stretch; each begins where the one before ended. None if the stretch is too short.
 std::vector<WindowRows> cut(const Stretch& stretch, double tick_s, LeadIn lead_in);
 
 /// Number of rows in the 100 ms before a window.

@@ -72,7 +72,7 @@ class LossOfPart : public cv::MinProblemSolver::Function {
     const Places& places_;
     Hypothesis part_;
     ScaledParameters parameters_;
-    std::vector<std::size_t> free_;  ///< of the parameters
+    std::vector<std::size_t> free_;  ///< indices of the parameters that are fitted
 };
 
 /// Minimises over a single parameter: steps to either side while the loss decreases, then halves the step.
@@ -95,7 +95,7 @@ Fit stepped(const LossOfPart& loss, double best, double least, double step, doub
 Fit polish(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
            const Hypothesis& start, const Places& places) {
     const int most_predictions = 100;
-    constexpr double first_step = 0.1, enough = 1e-3;  // scales
+    constexpr double first_step = 0.1, enough = 1e-3;  // in scales
     const auto loss = cv::makePtr<LossOfPart>(predict, windows, counted, start, places);
     std::vector<double> best = loss->start();
     const double loss_at_start = loss->calc(best.data());

@@ -23,7 +23,7 @@ struct Column {
 
 /// The inner products of a window's columns and errors.
 struct CondensedWindow {
-    std::size_t window;    ///< its place in Evidence::windows()
+    std::size_t window;    ///< index in Evidence::windows()
     std::uint8_t half;     ///< 0 or 1 (gap/evidence/halves.h)
     double count;          ///< number of values
     Eigen::MatrixXd gram;  ///< G above: of the columns, then the errors

@@ -20,7 +20,7 @@ namespace fidservo::gap {
 /// refused.
 std::vector<double> mean_squares(std::span<const Window> windows, const Errors& errors);
 
-/// l_w of S_w.
+/// The loss l_w of a window with the mean square S_w.
 double window_loss(double mean_square);
 
 /// Sum of the windows' losses; windows without values (NaN) do not count.

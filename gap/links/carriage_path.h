@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The carriage along a whole recording, put together from the runs of its windows.
+// The carriage along a whole recording, composed of the simulations of its windows.
 #include "gap/links/carriage_run.h"
 #include "plant/encoder.h"
 

@@ -200,7 +200,8 @@ ImageRun image_run(Recording& recording, const CameraParameters& camera) {
 std::vector<ImageErrors> image_errors(const ImageModel& model, const Recording& recording,
                                       const ImageRun& run) {
     std::vector<ImageErrors> errors;
-    std::vector<Mean> lights(run.sightings.empty() ? 0 : run.sightings.back().second + 1);  // by second
+    // One for each second.
+    std::vector<Mean> lights(run.sightings.empty() ? 0 : run.sightings.back().second + 1);
     for (std::size_t i = 0; i < run.sightings.size(); ++i) {
         const ImageSighting& sighting = run.sightings[i];
         const TagAppearance& seen = recording.appearances[i];

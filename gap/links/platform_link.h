@@ -38,14 +38,14 @@ struct PlatformRun {
     double tick_s = 0.0;
     std::shared_ptr<const Budget> budget;  ///< checked by what simulates along the recording; may be null
     std::vector<double> command_V;         ///< the last command where a row has none
-    std::vector<double> macro_command_V;   ///< likewise
+    std::vector<double> macro_command_V;   ///< the same for the macro stage
     std::vector<double> hall_adc;          ///< NaN where missing, or at an end of the range
     std::vector<int> ticks;                ///< number of ticks to the next row
-    std::vector<WindowRows> windows;       ///< by time
+    std::vector<WindowRows> windows;       ///< sorted by time
     /// For each window, whether the platform is offset from its prediction by a constant that the rows before
     /// the window tell (gap/links/wire_memory.h); empty: no window is.
     std::vector<bool> is_beside;
-    WireStart start = WireStart::cold;  ///< gap/links/wire_start.h
+    WireStart start = WireStart::cold;  ///< what is known of the wire (gap/links/wire_start.h)
     double floor_lsb = 0.0;
 };
 

@@ -48,8 +48,9 @@ using CornerValues = Eigen::Matrix<double, corner_values, 1>;
 /// A detection that is judged.
 struct TagSighting {
     double stamp_s = 0.0;                                 ///< time since the recording's first row
-    Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();  ///< of its tag, on the plate
-    std::array<Eigen::Vector2d, 4> corners_mm{centre_mm, centre_mm, centre_mm, centre_mm};  ///< likewise
+    Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();  ///< centre of its tag, on the plate
+    /// Corners of its tag, on the plate.
+    std::array<Eigen::Vector2d, 4> corners_mm{centre_mm, centre_mm, centre_mm, centre_mm};
     CornerValues corners_px = CornerValues::Zero();
     CornerValues mirror = CornerValues::Zero();     ///< normal of the reflection
     CornerValues floors_px = CornerValues::Zero();  ///< of the reflected values
@@ -78,7 +79,7 @@ struct TagNoise {
 };
 
 /// @param path    of the carriage, by the rig file's model
-/// @param reading empty for a rig without micro stage
+/// @param reading null for a rig without a micro stage
 TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& path,
                const CarriageRun& carriage, const PlatformRun* platform, const SmoothedReading* reading,
                const TagNoise& noise);

@@ -34,9 +34,9 @@ constexpr double cooling_taus = 3.0;
 
 /// Errors from a first state until a warm wire would have cooled.
 struct Cooling {
-    double square = 0.0;    ///< sum, LSB^2
+    double square = 0.0;    ///< sum of squared errors, LSB^2
     double variance = 0.0;  ///< about their mean, LSB^2
-    double count = 0.0;     ///< of errors
+    double count = 0.0;     ///< number of errors
     double passed_s = 0.0;  ///< until then, or until the sum of squares exceeded the limit
 };
 
@@ -263,7 +263,8 @@ double zero_of_sensor_lsb(const PlatformModel& nominal, std::span<const Platform
 }
 
 WireStart wire_start(const PlatformModel& nominal, const PlatformRun& run, double zero_lsb) {
-    constexpr double at_the_floor = 4.0;  // times its variance
+    // Errors with a mean square of so many squared floors count as at the floor.
+    constexpr double at_the_floor = 4.0;
     const Excess excess = first_excess(nominal, run, zero_lsb);
     const Trend trend = first_trend(nominal, run);
     const ColdOrWarm way = cold_or_warm(nominal, run, excess.mean_lsb);

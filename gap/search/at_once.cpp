@@ -104,7 +104,7 @@ bool adds_the_first_of(const Chain& whole, const Chain& chain, const std::vector
 /// find, and that brings the signal to its floor, is not fitted more closely.
 /// @return whether the effects of `whole` were accepted
 bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal, std::vector<Trial>* alone) {
-    constexpr double nearly = 0.9;  // of what the whole gains
+    constexpr double nearly = 0.9;  // share of the gain of `whole`
     if (whole.choices.size() <= chain.choices.size() || !is_better(search, whole, chain)) return false;
     const auto take_whole = [&] {
         chain = std::move(whole);

@@ -5,10 +5,12 @@
 //
 // Where several small causes act together, none of them predicts well alone, and the first one accepted
 // stands in for the others. All sizes together, with a prior of a few typical sizes about zero, are found in
-// some steps of Levenberg-Marquardt (gap/fit/fit.h). Far from the optimum, errors up to a floors count as
-// noise there, a^2 = 1 + the median of S_w. How much loss effects save beside the others then follows without
-// another fit, from the loss to second order: with t their sizes, and C the inverse of the matrix of second
-// derivatives,
+// some steps of Levenberg-Marquardt (gap/fit/fit.h); far from the optimum, errors up to a level of a floors,
+// a^2 = 1 + the median of S_w, count as noise in it. The loss that effects save beside the others (their
+// worth) then follows without another fit, from the loss to second order: with t their sizes, and C the
+// inverse of the matrix of second derivatives (C_tt: its block for t),
+//
+//     worth = 1/2 t' C_tt^-1 t
 //
 // (Wald's statistic; Hosmer, Jovanovic, Lemeshow, Biometrics 45, 1989, for the choice of subsets by it).
 #include "gap/candidates/candidate.h"
@@ -51,7 +53,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
 /// all others (gap/search/shape_screening.h), best first: one for each candidate, with at least half of the
 /// best one's gain.
 /// @param waves  settings of waves along the rail to be screened as well; no grid contains their periods
-/// @param beside, wanted  of the first half; otherwise as above
+/// @param beside, wanted  of the first half; like the other parameters as in needed_of_everything()
 Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,
                             std::span<const plant::EffectSetting> waves, const Hypothesis& beside,
                             const Hypothesis& begun, const Wanted& wanted);

@@ -24,7 +24,7 @@ struct Surroundings {
     Errors moved;
 };
 
-/// @param counted  windows that `predict` predicts
+/// @param counted  the windows that `predict` predicts
 Surroundings surroundings(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
                           const Hypothesis& base, const Errors& base_errors, const Places& places);
 

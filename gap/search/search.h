@@ -21,13 +21,14 @@ namespace fidservo::gap {
 /// cross fit.
 struct Trial {
     const Candidate* candidate = nullptr;
-    double promised = 0.0;   ///< estimated loss saved, without a fit, in the windows to be fitted
-    double gain = 0.0;       ///< loss saved in the held-out windows
-    bool is_leader = false;  ///< fitted on both halves; otherwise on the first, judged on some of the second
+    double promised = 0.0;  ///< estimated loss saved, without a fit, in the windows to be fitted
+    double gain = 0.0;      ///< loss saved in the held-out windows
+    /// Fitted on both halves; otherwise on the first one at most, and judged on some of the second.
+    bool is_leader = false;
     CrossFit fitted = {};
 };
 
-/// How many candidates of those that promise most a step fits, and how many of these on both halves.
+/// How many of the most promising candidates a step fits, and how many of these on both halves.
 struct Effort {
     std::size_t fits = 8, leaders = 4;
     /// Whether the best wave or spring is also fitted from many drawn values if it leaves a gap.

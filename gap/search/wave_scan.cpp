@@ -88,7 +88,7 @@ std::optional<plant::EffectSetting> scan_for_wave(const std::function<Predict(Wa
                                                   std::span<const Window> windows, const Wanted& asked,
                                                   const Hypothesis& base, const Candidate& candidate,
                                                   const MacroParameters& macro) {
-    constexpr std::size_t at_first = 5, then = 15;  // windows
+    constexpr std::size_t at_first = 5, then = 15;  // numbers of windows
     constexpr std::size_t most_then = 240, most_valleys = 12, most_at_last = 60;
     const std::vector<std::size_t> order = spread_over_windows(asked);
     if (order.empty()) return {};
