@@ -130,7 +130,7 @@ class Evidence {
     struct Parts;  ///< gap/evidence_parts.h
 
     /// @param rig  as its file describes it, with the effects that the file states
-    /// @param budget  checked by all that takes long; null: unlimited
+    /// @param budget  the time budget, which all lengthy computations check; null: unlimited
     /// Throws InputError where a recording cannot be of this rig (columns that it cannot have, another tick),
     /// and BudgetEnded.
     Evidence(const Rig& rig, std::vector<Recording> recordings, std::shared_ptr<const Budget> budget = {});
@@ -140,7 +140,7 @@ class Evidence {
 
     /// The rig as its file describes it.
     const Rig& rig() const;
-    /// The budget, which all that takes long checks.
+    /// The time budget, which all lengthy computations check.
     const std::shared_ptr<const Budget>& budget() const;
     /// The recordings in the given order; those that continue another one are joined to it
     /// (gap/links/power_on.h).

@@ -49,13 +49,14 @@ struct Evidence::Parts {
     std::vector<TagsInFrames> smeared;  ///< for each recording
     Shutter shutter{0.0, 0.0};
     std::vector<Window> windows;
-    std::vector<std::size_t> first_window;  ///< index for each run, and the number of windows
+    /// For each run, index of its first window; then the number of windows.
+    std::vector<std::size_t> first_window;
     std::size_t values = 0;
     std::array<double, signal_count> floors{};
     HallRange hall_range;
     std::vector<Omission> omissions;
     std::vector<Course> courses;
-    Errors nominal;  ///< of the rig as its file describes it
+    Errors nominal;  ///< errors without any effects beyond the rig file
 };
 
 /// Throws InputError where a recording cannot be of this rig.

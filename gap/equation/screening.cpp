@@ -195,7 +195,7 @@ class RandomHalves {
     bool is_second_ = false;
 };
 
-/// The first of some terms, one of each family, as many as an equation may have.
+/// The selected terms, in their order, but one of each family only, and as many as an equation may have.
 std::vector<int> admitted(const std::vector<Term>& terms, const std::vector<int>& taken) {
     std::vector<int> kept;
     std::size_t coefficients = 0, shapes = 0;

@@ -54,7 +54,8 @@ class Linearised : public ceres::EvaluationCallback {
         use_slopes();
     }
 
-    /// Replaces updated derivatives by numerical ones at this very point.
+    /// Computes the derivatives at the present point by differences, if they were only updated from those of
+    /// another point.
     void differentiate() {
         if (errors.empty() || is_exact_) return;
         find_slopes();
@@ -79,7 +80,7 @@ class Linearised : public ceres::EvaluationCallback {
     KnownSlopes taken_slopes() { return std::move(kept_); }
 
     Errors errors;
-    std::vector<WindowProducts> condensed;  ///< of the windows counted
+    std::vector<WindowProducts> condensed;  ///< one for each counted window
 
   private:
     void find_slopes() {

@@ -34,8 +34,9 @@ inline constexpr double usual_step = 0.01, close_step = 0.001;
 /// Derivatives of the errors with respect to a hypothesis's parameters, from which a fit nearby can start.
 struct KnownSlopes {
     Hypothesis at;
-    Errors errors;                     ///< under this hypothesis
-    std::vector<Errors> by_parameter;  ///< one for each parameter in order, per scale; empty: not known
+    Errors errors;  ///< under this hypothesis
+    /// One for each parameter in order, per scale of the parameter; empty: not known.
+    std::vector<Errors> by_parameter;
 };
 
 struct FitOptions {

@@ -4,7 +4,9 @@
 // its columns, from which any subset of the columns can be fitted on some windows and judged on others.
 //
 // In a window with regressor columns X, errors e and nuisance columns N (the response to its unknown initial
-// state), X and e are projected onto the orthogonal complement of N: A = (X, e), G = A'A - A'N (N'N)^-1 N'A.
+// state), A = (X, e) is projected onto the orthogonal complement of N. The inner products are then
+//
+//     G = A'A - A'N (N'N)^-1 N'A
 #include "gap/evidence.h"
 
 #include <cstdint>
@@ -26,7 +28,7 @@ struct CondensedWindow {
     std::size_t window;    ///< index in Evidence::windows()
     std::uint8_t half;     ///< 0 or 1 (gap/evidence/halves.h)
     double count;          ///< number of values
-    Eigen::MatrixXd gram;  ///< G above: of the columns, then the errors
+    Eigen::MatrixXd gram;  ///< the inner products G, of the columns first, then of the errors
 };
 
 /// Condensed windows of one signal. Windows whose errors are orders of magnitude larger than most are left

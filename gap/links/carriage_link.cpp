@@ -18,7 +18,7 @@ const plant::MacroAxis& axis_of(const CarriageModel& model, const CarriageRun& r
     return run.is_homed ? model.axis : model.endless_axis;
 }
 
-/// Whether nothing moves. Bristles and belts never come to rest quite, but swing by less than a thousandth of
+/// Whether nothing moves. Bristles and belts never quite come to rest, but swing by less than a thousandth of
 /// a count.
 bool is_at_rest(const plant::MacroAxis& axis, const plant::MacroAxisState& state) {
     constexpr double rest_mm_per_s = 1e-4;

@@ -139,8 +139,8 @@ ImageSighting sighting_of(const TagAppearance& seen, const ImageMotion& motion,
     const double still_px2 = std::pow(camera.blur_px, 2) + pixel_variance_px2;
     for (std::size_t k = 0; k < sides; ++k) {
         const TagSide& side = seen.sides[k];
-        // The share of motion in the width, from the measurement, but no more than the longest exposure can
-        // cause: the exposure is what is in question.
+        // The part of the edge's variance that is due to motion: as measured, but limited to what the longest
+        // possible exposure can cause, since the exposure itself is in question.
         const double along = std::abs(side.normal.dot(motion.velocity_px_per_s));
         const double longest_px = (camera.exposure_s + most_extra_s) * (along + motion.std_px_per_s);
         const double moved_px2 =
@@ -200,7 +200,7 @@ ImageRun image_run(Recording& recording, const CameraParameters& camera) {
 std::vector<ImageErrors> image_errors(const ImageModel& model, const Recording& recording,
                                       const ImageRun& run) {
     std::vector<ImageErrors> errors;
-    // One for each second.
+    // The mean error of light in each second.
     std::vector<Mean> lights(run.sightings.empty() ? 0 : run.sightings.back().second + 1);
     for (std::size_t i = 0; i < run.sightings.size(); ++i) {
         const ImageSighting& sighting = run.sightings[i];

@@ -45,7 +45,7 @@ struct ImageSighting {
 
 /// A frame as a window of its own, since the errors of successive frames are independent.
 struct ImageWindow {
-    std::size_t first_row, end_row;  ///< Rows of the recording, up to the next frame that is judged.
+    std::size_t first_row, end_row;  ///< rows of the recording, up to the next frame that is judged
     std::size_t first, end;          ///< range of its sightings
     double expected_square;          ///< mean over its sightings
 };

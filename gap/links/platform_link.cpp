@@ -165,7 +165,7 @@ void leave_out_unknown_wire(const Recording& recording, const HeaterParameters& 
     constexpr double longest_pause_s = 0.1, cold_taus = 5.0;
     const double longest_under_way_s = std::max(0.01, 1.5 * recording.tick_s);
     bool is_known = true;
-    // Of the latest row with a command.
+    // Time of the latest row with a command.
     TimeNs last_ns = recording.rows.empty() ? 0 : recording.rows.front().time_ns;
     double last_V = std::numeric_limits<double>::quiet_NaN();
     double cold_s = std::numeric_limits<double>::infinity();

@@ -42,7 +42,7 @@
 
 namespace fidservo::gap {
 
-/// U and v of the first corner, of the second one, ...
+/// Coordinates u and v of the first corner, of the second one, and so on.
 using CornerValues = Eigen::Matrix<double, corner_values, 1>;
 
 /// A detection that is judged.
@@ -87,7 +87,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
 /// The camera of a hypothesis, and the sensors that tell its position.
 struct TagModel {
     CameraGeometry nominal;
-    plant::ActualCamera camera;  ///< where its geometry does not change with time or position
+    plant::ActualCamera camera;  ///< its geometry, if that does not change with time or position
     plant::CameraDeviation deviation;
     double exposure_s;
     double resolution_mm;

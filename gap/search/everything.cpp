@@ -255,7 +255,7 @@ bool is_smooth_of_carriage(const Candidate& candidate) {
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
                                       const std::array<Wanted, 2>& wanted) {
-    // Iterations: most candidates that are not needed show before the values are known precisely.
+    // Numbers of iterations: most candidates that are not needed show before the values are known precisely.
     constexpr int at_first = 4, then = 15;
     std::array<IncrementalPrediction, 2> incremental{IncrementalPrediction(evidence, beside[0], wanted[0]),
                                                      IncrementalPrediction(evidence, beside[1], wanted[1])};

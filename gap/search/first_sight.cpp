@@ -165,7 +165,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         if (place && !is_hopeless(*place)) places.push_back(*std::move(place));
     }
     std::ranges::sort(places, std::greater{}, &Place::expected_gain);
-    if (places.size() > most_places / 2)  // the others by a gain that is not extrapolated
+    if (places.size() > most_places / 2)  // the further ones are ranked by gains that are not extrapolated
         std::ranges::sort(places.begin() + most_places / 2, places.end(), std::greater{}, &Place::probe_gain);
     std::vector<Promise> starts;
     for (std::size_t p = 0; p < std::min(places.size(), most_places); ++p) {

@@ -8,7 +8,7 @@
 namespace fidservo::gap {
 
 struct Growth {
-    std::size_t most_effects;  ///< of the chain when it has grown
+    std::size_t most_effects;  ///< the largest number of effects of the chain
     /// Whether a weak wave is scanned for where the first effect on the carriage leaves the encoder far off.
     bool scans = true;
 };

@@ -47,8 +47,8 @@ class DrawnSizes {
     std::vector<std::size_t> sizes_;
 };
 
-/// The parameters that are drawn of a wave or a spring. Moves are changes from the start, of the first size
-/// in its logarithm.
+/// The parameters that are drawn of a wave or a spring. Moves are changes from the start; that of the first
+/// one, amplitude or stiffness, is a change of its logarithm.
 class DrawnForce {
   public:
     explicit DrawnForce(const plant::EffectSetting& start)

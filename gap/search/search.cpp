@@ -293,8 +293,8 @@ bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
 }
 
 bool Search::clears_what_is_far_off(const CrossFit& without, const CrossFit& with) const {
-    // For tags a small excess may remain: a readout of row after row leaves the shapes of some tags that
-    // shake off. Nothing in shapes is released by jumps, as a carriage is by friction.
+    // For tags a small excess may remain, since a rolling shutter leaves some shapes off when the stage
+    // shakes. Unlike the carriage's motion, shapes do not depend on stick-slip.
     constexpr double next_to_nothing = 1e-3;
     const SignalExcess before = fitter_.excess(without.mean_squares),
                        after = fitter_.excess(with.mean_squares);
@@ -307,7 +307,7 @@ bool Search::clears_what_is_far_off(const CrossFit& without, const CrossFit& wit
 }
 
 bool Search::is_far_off(const CrossFit& cross, Signal signal) const {
-    // Of windows, and of shapes of tags.
+    // Least numbers of windows, and of shapes of tags.
     constexpr Enough windows_enough{3, 6}, shapes_enough{6, 12};
     std::array<std::vector<std::size_t>, 2> runs, runs_of_shapes;
     const std::vector<Window>& windows = fitter_.evidence().windows();

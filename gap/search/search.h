@@ -23,7 +23,8 @@ struct Trial {
     const Candidate* candidate = nullptr;
     double promised = 0.0;  ///< estimated loss saved, without a fit, in the windows to be fitted
     double gain = 0.0;      ///< loss saved in the held-out windows
-    /// Fitted on both halves; otherwise on the first one at most, and judged on some of the second.
+    /// Whether it was fitted on both halves; otherwise it was fitted on the first one at most, and judged on
+    /// some windows of the second.
     bool is_leader = false;
     CrossFit fitted = {};
 };
@@ -40,7 +41,7 @@ struct Effort {
 inline constexpr double in_its_valley = 0.999;
 
 struct SearchOptions {
-    std::size_t windows = 48;  ///< most windows of one signal and one half that are fitted
+    std::size_t windows = 48;  ///< the largest number of windows of one signal and one half that are fitted
     /// Effort (Evidence::effort) after which the search is exhausted: 12 to 25 s on two cores for recordings
     /// of 5 minutes.
     double most_effort = 5'000.0;
@@ -64,8 +65,8 @@ class Search {
     Search(const Search&) = delete;
     Search& operator=(const Search&) = delete;
 
-    /// Throws SearchExhausted if the evidence's budget has ended during a refinement, what had been found
-    /// being kept.
+    /// Throws SearchExhausted if the evidence's budget has ended during a refinement, whose best result was
+    /// kept.
     void throw_if_over() const;
 
     /// Whether the effort is limited: it is not for the first effect, nor where known effects are refitted
@@ -262,7 +263,7 @@ class Search {
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
     /// Loss in all windows of a half from which the candidate's parameters are estimated.
     double loss_on_half(std::size_t side, const Hypothesis& whole, const Candidate& taught) const;
-    /// Corrected for all that was tried.
+    /// Whether a gain is significant, corrected for all that was tried.
     bool is_significant(const Comparison& comparison, double times = 1.0) const;
     /// Whether some signal loses this share of its excess, and either comes near its floor or loses
     /// `share_of_first` of the excess that it had before any effect.
@@ -277,9 +278,10 @@ class Search {
     /// For each detection of a half whose shape is far off, as predicted by the fit to the other half: its
     /// run.
     std::vector<std::size_t> runs_of_shapes_far_off(const CrossFit& cross, std::size_t side) const;
-    /// Index, among leaders sorted by gain, of the one with the fewest parameters that ties with the best,
-    /// brings the signals of that one to their floors, or is its simpler form and not worse by a real gain.
-    /// (Bristles that deflect over no distance are Coulomb friction, fitted a little better.)
+    /// Index, among leaders sorted by gain, of the one with the fewest parameters that ties with the best, or
+    /// brings the best one's signals to their floors, or is the best one's simpler form if the latter's gain
+    /// over it is not real. (Bristles that deflect over no distance are Coulomb friction, fitted a little
+    /// better.)
     std::size_t simplest(std::span<const Contender> leaders) const;
 
     bool is_exhausted() const;

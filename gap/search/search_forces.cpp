@@ -173,8 +173,8 @@ class FollowedHalf {
     Predict predict_;
 };
 
-/// Both halves, each drawn around that half's settings which predict it better: the other half may have found
-/// a deeper minimum.
+/// Settings for both halves, each drawn around those of the two halves' settings that predict it better: the
+/// other half may have found a deeper minimum.
 std::array<Hypothesis, 2> drawn_around(const FollowedHalf& first, const FollowedHalf& second,
                                        const std::array<Hypothesis, 2>& settings, std::size_t windows) {
     const auto of = [&](const FollowedHalf& half, const Hypothesis& own, const Hypothesis& other) {

@@ -23,7 +23,7 @@ struct Finding {
     std::vector<Promise> starts;       ///< best first
     /// On each half: the settings that are fitted with the candidate, then the candidate; empty before.
     std::array<Hypothesis, 2> fitted;
-    /// How a closer fit was sought already, so that the same way finds no better one.
+    /// The most thorough way in which a closer fit was sought; none is left to be found in this way.
     Sought sought = Sought::nowhere;
 };
 

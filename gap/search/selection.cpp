@@ -234,7 +234,7 @@ CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
 }  // namespace
 
 Fit fit_to_all(const Evidence& evidence, const CrossFit& cross) {
-    constexpr int most_iterations = 6;  // since it starts from a fit to half of them
+    constexpr int most_iterations = 6;  // few, since it starts from a fit to one half
     const Wanted wanted = everything(evidence);
     IncrementalPrediction predict(evidence, {}, wanted);
     return fit(std::ref(predict), evidence.windows(), wanted, cross.of_half[0],

@@ -11,7 +11,7 @@
 namespace fidservo::gap {
 
 struct Selection {
-    std::vector<Choice> choices;  ///< the one that alone would make the largest gap first
+    std::vector<Choice> choices;  ///< sorted by the gap that each alone would make, largest first
     std::vector<CrossFit> steps;  ///< cross fits with the first 0, 1, 2 ... of them
     std::vector<Trial> alone;     ///< trials of single effects, best first
     /// Simpler forms (Candidate::is_limit) that were accepted and left nothing unexplained; they are not
@@ -22,7 +22,7 @@ struct Selection {
 };
 
 struct SelectionOptions {
-    std::size_t most_effects = 4;  ///< most effects that are added one by one
+    std::size_t most_effects = 4;  ///< the largest number of effects that are added one by one
     SearchOptions search;
 };
 

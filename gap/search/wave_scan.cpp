@@ -24,7 +24,7 @@ constexpr double longest_wave_mm = 25.0;
 constexpr int phases = 6;
 constexpr double step_rad = 2.0 * std::numbers::pi / phases;
 constexpr std::array speeds_mm_per_s{0.7, 1.5, 4.0};
-constexpr double speed_factor = 1.8;  // between neighbouring speeds
+constexpr double speed_factor = 1.8;  // about half way from one speed to the next
 
 struct Scanned {
     double speed_mm_per_s, per_mm, middle_rad;  ///< phase in the middle of the rail
