@@ -46,7 +46,7 @@ struct PredictedCounts {
 PredictedCounts predicted_counts(const CarriageModel& model, const CarriageRun& run,
                                  std::span<const std::uint8_t> wanted);
 
-/// The same for all windows; stores the path, too.
+/// Readings for all windows. Stores the path, too.
 PredictedCounts predicted_counts(const CarriageModel& model, const CarriageRun& run, CarriagePath& path);
 
 }  // namespace fidservo::gap

@@ -46,7 +46,9 @@ bool claims_controller(const Recording& recording);
 ControllerRun macro_controller_run(const Recording& recording, const Rig& rig,
                                    const std::vector<bool>& left_out = {});
 
-/// The same for the micro stage's controller, a PI with anti-windup.
+/// The micro stage's controller, a PI with anti-windup. Without windows where the recording does not claim it
+/// or the rig file states no gains.
+/// @param left_out  rows in which the controller did not run; empty: none
 ControllerRun micro_controller_run(const Recording& recording, const Rig& rig,
                                    const std::vector<bool>& left_out = {});
 

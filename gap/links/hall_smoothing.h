@@ -7,9 +7,10 @@
 // differences. h is the largest of 2, 4, .. 128 for which the intervals (fit +- its standard deviation) of
 // all h up to it have a point in common (then the median of 17 neighbours): the rule of Goldenshluger and
 // Nemirovski, Math. Methods of Statistics 6, 1997. Motion that the model lacks, such as a swing, makes h
-// small and is kept. Wider intervals would remove more noise, but also more of what the model lacks: with 2.5
-// standard deviations the tags of the practice campaign with airflow stay at 1.23 floors under the truth;
-// with 1 they stay at 1.02, since the stated std is a quarter larger to allow for it.
+// small and is kept. Wider intervals would remove more noise, but also more of what the model lacks: under
+// the truth, the tags of the practice campaign with airflow stay at 1.23 floors with intervals of 2.5
+// standard deviations; with 1, and a stated std that is a quarter larger to allow for the rest, they stay at
+// 1.02.
 #include "gap/links/platform_link.h"
 
 #include <span>

@@ -80,8 +80,8 @@ class CameraPlace {
         return reading_ == nullptr ? y_mm : y_mm + platform_mm(at, at_s);
     }
 
-    /// How far the simulation that leads into a window is from the path at a time before it; that path is
-    /// mainly the simulation of the window before.
+    /// In the 100 ms before a window: how far the simulation that leads into it is from the path, which is
+    /// there faded over from the window before; 0 elsewhere.
     double entering_mm(double at_s) const {
         const std::size_t row = moment_at(run_, at_s).row;
         const double entering = path_.entering_mm[row];

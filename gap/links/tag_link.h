@@ -53,7 +53,7 @@ struct TagSighting {
     std::array<Eigen::Vector2d, 4> corners_mm{centre_mm, centre_mm, centre_mm, centre_mm};
     CornerValues corners_px = CornerValues::Zero();
     CornerValues mirror = CornerValues::Zero();     ///< normal of the reflection
-    CornerValues floors_px = CornerValues::Zero();  ///< of the reflected values
+    CornerValues floors_px = CornerValues::Zero();  ///< floors of the reflected values
     double offset_weight = 0.0;                     ///< weight in the estimate of the offset, 1/px^2
     bool is_known = false;                          ///< the plate has this tag
 };

@@ -86,7 +86,7 @@ Excess first_excess(const PlatformModel& model, const PlatformRun& run, double z
     return excess;
 }
 
-/// The stage with a wire that is heated from cold until the reading exceeds a cold one's by so much.
+/// The stage with a wire that is heated from cold until the reading has risen by `excess_lsb`.
 plant::MicroStageState heated_to(const PlatformModel& model, double excess_lsb) {
     constexpr double resolution_degC = 1e-3;
     const plant::MicroStageState cold = plant::start(model.stage, 0);

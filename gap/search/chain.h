@@ -11,7 +11,7 @@ namespace fidservo::gap {
 /// An effect accepted into the explanation.
 struct Choice {
     const Candidate* candidate = nullptr;
-    double loss_without = 0.0;                ///< of the explanation to which it was added
+    double loss_without = 0.0;                ///< loss of the explanation to which it was added
     std::vector<Trial> alternatives = {};     ///< what was tried in its place, itself first
     std::vector<const Candidate*> ties = {};  ///< alternatives that explain as well
     /// Gap that it alone would make in the rig as its file describes it, in floors; 1: not computed.

@@ -24,7 +24,7 @@ Hypothesis moved(const ScaledParameters& parameters, const Eigen::VectorXd& scal
     return parameters.at(values);
 }
 
-/// The same, followed by the candidate.
+/// The settings that may be refitted, changed by the given numbers of scales, followed by the candidate.
 Hypothesis moved(const Surroundings& beside, const Eigen::VectorXd& scales, plant::EffectSetting added) {
     Hypothesis part = moved(beside.parameters, scales);
     part.push_back(std::move(added));
@@ -131,8 +131,8 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
     struct Place {
         std::vector<double> shape;
         Eigen::VectorXd steps;  ///< scales of what may be refitted, then shares of the sizes
-        double expected_gain;   ///< by linear extrapolation
-        double probe_gain;      ///< of the size used to compute the response, by prediction
+        double expected_gain;   ///< gain of the steps, by linear extrapolation
+        double probe_gain;      ///< gain of a small size, by a prediction
     };
     const std::vector<double> base_squares = mean_squares(windows, beside.errors);
     const double without =

@@ -90,8 +90,8 @@ class Search {
     };
     Together everything_beside(const CrossFit& base) const;
 
-    /// The same with one further effect that has a shape of its own: one result for each of those that
-    /// promise most in the signals that the base leaves off their floors.
+    /// Explanations like that of everything_beside(), with one further effect that has a shape of its own:
+    /// one for each of those that promise most in the signals that the base leaves off their floors.
     std::vector<Together> shaped_beside(const CrossFit& base) const;
 
     /// Effects on the carriage beside a base that has none. Of the models from the balance of forces

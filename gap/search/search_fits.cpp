@@ -109,8 +109,8 @@ void Search::fit_first_half(const CrossFit& base, std::span<Contender* const> co
         const Contender& contender = *attempts[k].contender;
         attempts[k].fitted = fitter_.fit_places(0, contender.placed(base, 0, attempts[k].promise->start),
                                                 contender.fitted_places(base), base.mean_squares);
-        // Some of a wave's many local minima fit the few windows that are fitted: count all windows of the
-        // half.
+        // The few windows that are fitted may suit a wrong local minimum of a wave: its loss is compared over
+        // all windows of the half.
         if (contender.trial.candidate->wave)
             attempts[k].fitted.loss =
                 loss_on_half(0, attempts[k].fitted.hypothesis, *contender.trial.candidate);

@@ -21,7 +21,8 @@ struct Finding {
     bool is_looked_at = false;         ///< whether start values were looked for
     bool is_scanned = false;           ///< for a wave: whether all possible waves were scanned
     std::vector<Promise> starts;       ///< best first
-    /// On each half: the settings that are fitted with the candidate, then the candidate; empty before.
+    /// The settings that are fitted with the candidate, then the candidate, as fitted on each half; empty
+    /// before the fit.
     std::array<Hypothesis, 2> fitted;
     /// The most thorough way in which a closer fit was sought; none is left to be found in this way.
     Sought sought = Sought::nowhere;
