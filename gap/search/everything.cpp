@@ -63,8 +63,8 @@ Wanted windows_off(const Evidence& evidence, const Wanted& wanted, const Errors&
     return furthest;
 }
 
-/// Fits from a distant start, step by step until nothing improves, with errors up to the median of those left
-/// counting as noise.
+/// Fits from a distant start in several steps, until nothing improves. In each step errors up to the present
+/// median count as noise.
 Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
                       const Wanted& leading, Hypothesis start, double sizes, KnownSlopes& slopes) {
     constexpr int most_levels = 6, iterations_a_level = 8;

@@ -22,8 +22,9 @@ bool replaces(const Search& search, const Trial& other, const Chain& chain, std:
     return other.fitted.loss < chain.fitted.loss - least_gain;
 }
 
-/// The rest with another effect, but without one of its own, if that explains as well as the chain: two
-/// effects may have been accepted in place of one.
+/// The rest of a chain without one effect, with an effect that is new to the chain instead, and without a
+/// second one of the chain's: returned if it explains as well as the chain, since the two may have been
+/// accepted in place of the new one.
 std::optional<Chain> shorter_with_another(const Search& search, const Chain& chain, const Chain& rest,
                                           const std::vector<Trial>& trials) {
     constexpr double as_good = 0.75;  // share of the gain, before the other effect is fitted closely
