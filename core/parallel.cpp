@@ -13,7 +13,7 @@ namespace {
 
 std::atomic<std::size_t> idle_cores = std::max(1U, std::thread::hardware_concurrency()) - 1;
 
-/// @return how many of the idle cores it has taken, as many as wanted at most
+/// @return how many idle cores it has taken, at most `wanted`
 std::size_t take_cores(std::size_t wanted) {
     std::size_t idle = idle_cores, taken = 0;
     do taken = std::min(wanted, idle);

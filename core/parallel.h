@@ -5,12 +5,12 @@
 
 namespace fidservo {
 
-/// Calls work(0) ... work(count - 1) in any order, on the caller's core and those that are idle then: work
-/// may call it again. The first exception is thrown again once all have ended.
+/// Calls work(0) ... work(count - 1) in any order, on the caller's core and on cores that are idle at the
+/// time; `work` may itself call this function. Rethrows the first exception once all calls have ended.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work);
 
-/// On how many cores of the machine all calls together work from now on, at least 1; at first on all. To be
-/// called while none is under way.
+/// Sets on how many cores all calls of parallel_for() together work, at least 1; initially on all of the
+/// machine. Must not be called while a parallel_for() runs.
 void use_cores(std::size_t count);
 
 }  // namespace fidservo

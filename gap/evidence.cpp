@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, signal_count> signal_names{"encoder",    
                                                                   "macro_command", "micro_command", "image"};
 constexpr std::array<std::string_view, signal_count> signal_units{"count", "adc", "px", "V", "V", "floor"};
 
-/// A hypothesis as the plants of the signal chain.
+/// The models of the signal chain's stretches under a hypothesis.
 struct Models {
     CarriageModel carriage;
     std::optional<PlatformModel> platform;
@@ -50,7 +50,7 @@ Models models_of(const Rig& rig, const Hypothesis& hypothesis) {
     return models;
 }
 
-/// Which predictions a hypothesis can change, and whether the carriage moves otherwise.
+/// Which signals a hypothesis can change, and whether it changes the carriage's motion.
 struct Touched {
     std::array<bool, signal_count> signals{};
     bool carriage = false;
@@ -70,7 +70,7 @@ Touched touched_by(const Hypothesis& hypothesis, const Models& models) {
     return touched;
 }
 
-/// An error, floors. What is further off is as wrong as can be: kept finite, so that sums of squares are.
+/// An error in floors as it is stored: clipped at 1e9, so that sums of squares stay finite.
 float stored(double error) {
     constexpr double most = 1e9;
     return static_cast<float>(std::clamp(error, -most, most));
@@ -86,13 +86,13 @@ void write_detections(Errors& errors, const Window& window, const TagRun& run,
     }
 }
 
-/// What is spent on a window whether it is wanted or not, in rows of a carriage followed in closed form.
+/// Cost of a window, wanted or not, in rows of a carriage that is simulated by its closed-form solution.
 constexpr std::size_t rows_worth_a_window = 20;
 
 /// Predicts those signals of a run that are asked for.
 class RunPredictor {
   public:
-    /// @param known  the path of a carriage that moves otherwise; null: to be found
+    /// @param known  the path of a carriage that moves otherwise than the rig file's; null: to be computed
     RunPredictor(const Evidence::Parts& parts, std::size_t run, const Wanted& wanted, const Models& models,
                  bool other_carriage, const CarriagePath* known = nullptr)
         : parts_(parts),
@@ -106,7 +106,7 @@ class RunPredictor {
           known_path_(known),
           all_rows_(parts.recordings[run].rows.size()) {}
 
-    /// @return the effort, in rows
+    /// @return the cost, in rows
     std::size_t predict(const std::array<bool, signal_count>& touched, Errors& errors) {
         std::array<bool, signal_count> signals{};
         for (std::size_t w = 0; w < windows_.size(); ++w) {
@@ -127,7 +127,7 @@ class RunPredictor {
         if (signals[index_of(Signal::image)] && models_.image) predict_images(errors);
         for (const Signal signal : {Signal::macro_command, Signal::micro_command})
             if (signals[index_of(signal)]) replay(signal, errors);
-        constexpr std::size_t of_hall = 3;  // by how long it takes (bench/gap_bench.cpp)
+        constexpr std::size_t of_hall = 3;  // by the time that it takes (bench/gap_bench.cpp)
         return predicted.effort + (hall ? of_hall * all_rows_ : 0) + (tag ? all_rows_ : 0);
     }
 
@@ -192,7 +192,7 @@ class RunPredictor {
         });
     }
 
-    /// @param error  of a row, in floors
+    /// @param error  function of a row; in floors
     template <class RowError>
     void for_rows(Signal signal, Errors& errors, RowError error) const {
         for (std::size_t w = 0; w < windows_.size(); ++w) {
@@ -203,7 +203,7 @@ class RunPredictor {
         }
     }
 
-    /// The flags of a signal's windows, which follow each other.
+    /// The flags of a signal's windows, which are contiguous.
     std::span<const std::uint8_t> wanted_of(Signal signal) const {
         const auto is_own = [signal](const Window& window) { return window.signal == signal; };
         const auto first = std::ranges::find_if(windows_, is_own);

@@ -13,12 +13,13 @@
 //     macro_setpoint, encoder              -> macro_command   controllers
 //     micro_setpoint, hall                 -> micro_command
 //
-// Predictions run over windows of 1 s. The state in which a window begins is estimated from the 100 ms before
-// it, by the hypothesis itself; what cannot be seen in 100 ms (hysteresis memory, temperature, play,
-// bristles, commands on their way) is carried over from the windows before. Nothing is differentiated and no
-// reading inside a window is fed back.
+// Predictions run freely over windows of 1 s. The state in which a window begins is estimated from the 100 ms
+// before it, under the hypothesis itself; states that 100 ms do not reveal (hysteresis memory, temperature,
+// play, bristle deflection, delayed commands) are carried over from the windows before. No measurement is
+// differentiated, and no reading inside a window is fed back.
 //
-// The floor of a signal is what remains under the truth: floor^2 = noise^2 + quantum^2 / 12.
+// The floor of a signal is the r.m.s. error that remains under the truth, by noise and rounding: floor^2 =
+// noise^2 + quantum^2 / 12.
 #include "core/recording.h"
 #include "gap/budget.h"
 #include "plant/effects/effect.h"
@@ -53,70 +54,74 @@ constexpr std::size_t index_of(Signal signal) {
     return static_cast<std::size_t>(signal);
 }
 
-/// As files have it.
+/// The name that files use.
 std::string_view name_of(Signal signal);
-std::string_view unit_of(Signal signal);  ///< count, adc, px, V, V, floor
+std::string_view unit_of(Signal signal);  ///< in the order of Signal: count, adc, px, V, V, floor
 
-/// What a rig is claimed to have beyond its file.
+/// The effects that a rig is claimed to have beyond its file, with their parameters.
 using Hypothesis = std::vector<plant::EffectSetting>;
 
-/// u and v of a tag's four corners.
+/// Number of values of a detection: u and v of the tag's four corners.
 inline constexpr std::size_t corner_values = 8;
 
-/// What is predicted of a tag's appearance (gap/links/image_link.h).
+/// Number of values that describe a tag's appearance in a frame (gap/links/image_link.h).
 inline constexpr std::size_t image_values = 10;
 
 /// A stretch of one recording over which one signal is predicted from the state at its start.
 struct Window {
-    std::size_t run = 0;                  ///< which recording
-    Signal signal = Signal::encoder;      ///< which
-    TimeNs start_ns = 0;                  ///< its first tick
-    std::size_t first_row = 0, rows = 0;  ///< of the recording
-    std::size_t begin = 0, end = 0;  ///< its values in Errors: one a row; of tags, corner_values a detection;
-                                     ///< of images, image_values an appearance
-    std::size_t first_detection = 0;  ///< of the recording's, for tags; sorted by time. Of images: appearance
-    /// Mean square of its errors under the truth, floors^2: less than 1 where the encoder's reading stands,
-    /// and of images.
+    std::size_t run = 0;                  ///< index of the recording
+    Signal signal = Signal::encoder;      ///< the signal that is predicted
+    TimeNs start_ns = 0;                  ///< time of its first tick
+    std::size_t first_row = 0, rows = 0;  ///< rows of the recording
+    /// Range of its values in Errors: one value for each row; for tags, corner_values for each detection; for
+    /// images, image_values for each appearance.
+    std::size_t begin = 0, end = 0;
+    /// For tags, index of its first detection among those of the recording, sorted by time; for images, of
+    /// its first appearance.
+    std::size_t first_detection = 0;
+    /// Mean square of its errors under the truth, floors^2: 1, but less for images and where the encoder's
+    /// reading is constant.
     double expected_square = 1.0;
 };
 
-/// Prediction minus recording in floors, window after window; NaN where a value does not count (a tag that
-/// the plate does not have).
+/// Prediction minus recording, in floors, window after window; NaN where a value does not count (such as that
+/// of a tag that the plate does not have).
 ///
-/// Counts: where the encoder's reading stands, a place that rounds to it is as good as any other, and the
-/// error is what lies beyond half a count; a recording at rest thus counts less than a floor.
+/// Encoder: while the reading is constant, every place that rounds to it is as good as any other, so that the
+/// error is what exceeds half a count. A recording at rest thus has errors below its floor.
 ///
-/// A detection's eight corner coordinates are turned so that the first value lies along the stage's motion in
-/// the image; the other seven do not move with it (gap/links/tag_link.h). Their floor is the corner noise,
-/// floor(Signal::tag). The first value's own floor also holds what is uncertain of the camera's position.
+/// Tags: the eight corner coordinates of a detection are transformed such that the first value lies along the
+/// stage's motion in the image and the other seven do not change with that motion (gap/links/tag_link.h). The
+/// floor of these is the corner noise, floor(Signal::tag); that of the first value also contains the
+/// uncertainty of the camera's position.
 ///
-/// Images: logarithms of ratios, each over its own floor (gap/links/image_link.h).
+/// Images: logarithms of predicted over measured values, each in its own floors (gap/links/image_link.h).
 ///
-/// Commands: gap/links/controller_link.h. They are near 0 under the truth.
+/// Commands: see gap/links/controller_link.h. Under the truth their errors are near 0.
 using Errors = std::vector<float>;
 
-/// What moved the rig while it was predicted, row by row of a recording: what errors may depend on. All from
-/// the recording and the rig file's model. NaN where the rig has no micro stage.
+/// Motion and temperature along a recording, on which errors may depend: one value for each row, from the
+/// recording and the rig file's model. The wire's values are NaN where the rig has no micro stage.
 struct Course {
-    std::vector<float> position_mm, velocity_mm_per_s;  ///< of the carriage, smoothed over the counts
-    std::vector<float> temperature_degC;                ///< of the wire, by the rig file's heater
-    std::vector<float> contraction_mm;                  ///< by the Hall reading, smoothed
+    std::vector<float> position_mm, velocity_mm_per_s;  ///< of the carriage, without the steps of the counts
+    std::vector<float> temperature_degC;                ///< of the wire, by the rig file's heater model
+    std::vector<float> contraction_mm;                  ///< of the wire, by the smoothed Hall reading
 };
 
-/// A signal of a recording that was not judged, or a part of one, and why.
+/// A signal of a recording, or a part of it, that was not judged.
 struct Omission {
-    std::string recording;  ///< which
-    /// What was not judged, and why.
+    std::string recording;  ///< its name
+    /// What was not judged, and the reason.
     std::string signal, why;
-    double left_out_s = 0.0, recorded_s = 0.0;  ///< 0 where it is not a matter of time
+    double left_out_s = 0.0, recorded_s = 0.0;  ///< 0 if the omission has no duration
 };
 
-/// What is to be predicted: a flag for each of Evidence::windows().
+/// Which windows to predict: a flag for each of Evidence::windows().
 using Wanted = std::vector<std::uint8_t>;
 
 struct TagSighting;
 
-/// Where a hypothesis has the carriage go along each recording (gap/evidence_parts.h).
+/// The carriage's motion along each recording under a hypothesis (gap/evidence_parts.h).
 struct CarriagePaths;
 
 /// Recordings of a rig, and what hypotheses predict of them.
@@ -124,52 +129,53 @@ class Evidence {
   public:
     struct Parts;  ///< gap/evidence_parts.h
 
-    /// @param rig  as its file describes it; its stated effects belong to it
-    /// @param budget  asked by all that takes long; empty: no end
+    /// @param rig  as its file describes it, with the effects that the file states
+    /// @param budget  the time budget, which all lengthy computations check; null: unlimited
     /// Throws InputError where a recording cannot be of this rig (columns that it cannot have, another tick),
-    /// BudgetEnded.
+    /// and BudgetEnded.
     Evidence(const Rig& rig, std::vector<Recording> recordings, std::shared_ptr<const Budget> budget = {});
     ~Evidence();
-    /// Takes over all that the other has.
+    /// Leaves the other one without content.
     Evidence(Evidence&&) noexcept;
 
-    /// As its file describes it.
+    /// The rig as its file describes it.
     const Rig& rig() const;
-    /// Asked by all that takes long; may be empty.
+    /// The time budget, which all lengthy computations check.
     const std::shared_ptr<const Budget>& budget() const;
-    /// In the order in which they were given.
+    /// The recordings in the given order; those that continue another one are joined to it
+    /// (gap/links/power_on.h).
     const std::vector<Recording>& recordings() const;
-    /// By run, then by signal, then by time.
+    /// Sorted by run, then by signal, then by time.
     const std::vector<Window>& windows() const;
-    /// In the signal's unit; 1 for images, whose errors have none. NaN for signals that no window has.
+    /// The floor in the signal's unit; 1 for images, whose errors are relative to their own floors; NaN for
+    /// signals without windows.
     double floor(Signal signal) const;
     /// What is not judged, and why.
     const std::vector<Omission>& omissions() const;
-    /// Whether it is known where on the rail the carriage is in a recording (gap/links/power_on.h).
+    /// Whether the carriage's position on the rail is known in a recording (gap/links/power_on.h).
     bool knows_places(std::size_t run) const;
-    /// What moved the rig in a recording.
+    /// Motion and temperature along a recording.
     const Course& course(std::size_t run) const;
     /// One of a recording's detections, in the order of Window::first_detection (gap/links/tag_link.h).
     const TagSighting& sighting(std::size_t run, std::size_t detection) const;
 
-    /// Whether the Hall reading depends on what the carriage does, and so on all that moves the carriage.
+    /// Whether, under a hypothesis, the carriage's motion affects the Hall reading.
     bool platform_feels_carriage(const Hypothesis& hypothesis) const;
 
-    /// Predictions of a hypothesis; values of windows that are not wanted are NaN.
-    /// Deterministic, const and safe to call from several threads at once.
-    /// Empty if the hypothesis is none that a rig can have (the plant refuses it). Throws BudgetEnded.
-    /// @param start_offset_count  by which the carriage begins each window beside the place that fits best
-    /// @param known  paths that are followed where the hypothesis moves the carriage as theirs does; may be
-    ///               null
+    /// Errors of a hypothesis's predictions; NaN in windows that are not wanted. Empty if the plant refuses
+    /// the hypothesis. Deterministic, const and safe to call from several threads at once. Throws
+    /// BudgetEnded.
+    /// @param start_offset_count  added to the carriage's best-fitting position at the start of each window
+    /// @param known  paths that are used if the hypothesis moves the carriage as theirs does; may be null
     Errors errors(const Hypothesis& hypothesis, const Wanted& wanted, double start_offset_count = 0.0,
                   const CarriagePaths* known = nullptr) const;
 
-    /// Where a hypothesis has the carriage go; null where its predictions need no path of their own, or the
-    /// plant refuses it. Throws BudgetEnded.
+    /// The carriage's motion under a hypothesis; null where the hypothesis does not change it, no wanted
+    /// prediction needs it, or the plant refuses the hypothesis. Throws BudgetEnded.
     std::shared_ptr<const CarriagePaths> paths(const Hypothesis& hypothesis, const Wanted& wanted) const;
 
-    /// What all predictions since it was made have cost, whatever the machine: 1 is a carriage that was
-    /// followed in closed form for 5 minutes, or along all recordings where they are longer.
+    /// The cost of all predictions so far, independent of the machine. Its unit is the cost of simulating a
+    /// carriage by its closed-form solution for 5 minutes, or along all recordings if they are longer.
     double effort() const;
 
   private:
@@ -179,7 +185,7 @@ class Evidence {
 /// All windows.
 Wanted everything(const Evidence& evidence);
 
-/// The signals whose prediction an effect can change, by its block.
+/// The signals whose prediction an effect can change, by the block of the signal chain on which it acts.
 std::vector<Signal> reach_of(const plant::Effect& effect);
 
 }  // namespace fidservo::gap

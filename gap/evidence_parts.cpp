@@ -20,7 +20,7 @@ namespace fidservo::gap {
 
 namespace {
 
-/// What the rig file's model makes of a recording.
+/// Motion and temperature along a recording, by the rig file's model.
 Course course_of(const Rig& rig, const RunLinks& links, const PlatformPrediction* platform) {
     Course course;
     const std::size_t rows = links.carriage.command_V.size();
@@ -38,7 +38,7 @@ Course course_of(const Rig& rig, const RunLinks& links, const PlatformPrediction
 }
 
 /// Appends a recording's windows of one signal.
-/// @param expected_square  of each
+/// @param expected_square  mean square of a window's errors under the truth, floors^2
 void add_windows(
     Evidence::Parts& parts, std::size_t run, Signal signal, const std::vector<WindowRows>& all,
     const std::function<double(const WindowRows&)>& expected_square = [](const WindowRows&) { return 1.0; }) {
@@ -51,8 +51,8 @@ void add_windows(
     }
 }
 
-/// Share of a window's rows in which the carriage's reading does not stand; not 0, as a reading may flicker
-/// between two counts.
+/// Share of a window's rows in which the carriage's reading changes (CarriageRun::stands is false); at least
+/// 0.05, as a reading may flicker between two counts.
 double moving_share(const CarriageRun& run, const WindowRows& window) {
     std::size_t moving = 0;
     for (std::size_t k = window.first; k < window.end; ++k) moving += run.stands[k] ? 0 : 1;
@@ -80,7 +80,7 @@ void add_image_windows(Evidence::Parts& parts, std::size_t run) {
     }
 }
 
-/// What is not judged of a signal that a recording has.
+/// Notes how much of a signal that was recorded is not judged.
 void note_rows(Evidence::Parts& parts, std::size_t run, std::string_view signal, std::size_t recorded,
                const std::vector<WindowRows>& windows, std::string_view why) {
     constexpr double worth_telling_s = 0.5;
@@ -152,7 +152,7 @@ void note_omissions(Evidence::Parts& parts, std::size_t run) {
 }
 
 void drop_unclear_detections(Evidence::Parts& parts, std::size_t run) {
-    constexpr double worth_telling = 0.05;  // of all
+    constexpr double worth_telling = 0.05;  // share of all detections
     Recording& recording = parts.recordings[run];
     const auto all = static_cast<double>(recording.detections.size());
     drop_unclear(recording, parts.links[run].path.velocity_mm_per_s, parts.rig,
@@ -197,8 +197,8 @@ void find_noise(Evidence::Parts& parts) {
         parts.floors[index_of(Signal::hall)] =
             floor_of(noise_before_rounding(hall).value_or(parts.rig.micro->hall.noise_lsb));
     if (!parts.rig.camera) return;
-    // What the detector is off by in the same way in every frame, optics, print, the pixels' unequal gains:
-    // the noise from frame to frame does not show it.
+    // Errors of the detector that are the same in every frame (optics, print, unequal gains of the pixels) do
+    // not show in the noise from frame to frame.
     constexpr double detector_px = 0.01;
     const CameraParameters& camera = *parts.rig.camera;
     parts.floors[index_of(Signal::tag)] = std::max(

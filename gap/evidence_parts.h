@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What Evidence holds: every recording prepared for every stretch of the signal chain.
+// What Evidence holds: every recording, prepared for all links of the signal chain (gap/links).
 #include "core/rig.h"
 #include "gap/evidence.h"
 #include "gap/evidence/clear_detections.h"
@@ -23,54 +23,56 @@
 
 namespace fidservo::gap {
 
-/// One recording.
+/// One recording, prepared for the links.
 struct RunLinks {
     CarriageRun carriage;
-    std::optional<PlatformRun> platform;      ///< empty without micro stage
-    std::optional<SmoothedReading> smoothed;  ///< likewise
+    std::optional<PlatformRun> platform;      ///< empty without a micro stage
+    std::optional<SmoothedReading> smoothed;  ///< the Hall reading, smoothed; empty without a micro stage
     TagRun tags;
     ControllerRun macro, micro;
-    CarriagePath path;  ///< of the rig file's carriage
+    CarriagePath path;  ///< of the carriage, by the rig file's model
 };
 
 struct CarriagePaths {
-    Hypothesis moving;                ///< what of the hypothesis moves the carriage
-    std::vector<CarriagePath> along;  ///< each recording
+    Hypothesis moving;                ///< the settings that move the carriage
+    std::vector<CarriagePath> along;  ///< the path in each recording
 };
 
 struct Evidence::Parts {
     Rig rig;
     std::shared_ptr<const Budget> budget;
     std::vector<Recording> recordings;
-    std::vector<LateTicks> late;     ///< of each recording
-    std::vector<PlacesFrom> places;  ///< of each recording
+    std::vector<LateTicks> late;     ///< for each recording
+    std::vector<PlacesFrom> places;  ///< for each recording
     std::vector<RunLinks> links;
-    std::vector<ImageRun> images;       ///< of each recording
-    std::vector<TagsInFrames> smeared;  ///< of each recording
+    std::vector<ImageRun> images;       ///< for each recording
+    std::vector<TagsInFrames> smeared;  ///< for each recording
     Shutter shutter{0.0, 0.0};
     std::vector<Window> windows;
-    std::vector<std::size_t> first_window;  ///< of each run, and one past the last
+    /// For each run, index of its first window; then the number of windows.
+    std::vector<std::size_t> first_window;
     std::size_t values = 0;
     std::array<double, signal_count> floors{};
     HallRange hall_range;
     std::vector<Omission> omissions;
     std::vector<Course> courses;
-    Errors nominal;  ///< without a hypothesis
+    Errors nominal;  ///< errors without any effects beyond the rig file
 };
 
 /// Throws InputError where a recording cannot be of this rig.
 void check(const Rig& rig, const Recording& recording);
 
-/// Noise of all sensors, from all recordings: sets their floors.
+/// Estimates the noise of all sensors from all recordings, and sets the floors by it.
 void find_noise(Evidence::Parts& parts);
 
-/// How tags look in all recordings, and what that says of the shutter.
+/// Evaluates how tags look in all recordings, and estimates the shutter from that.
 void find_looks(Evidence::Parts& parts);
 
-/// Prepares what all recordings say of the platform, and finds in which state each finds the wire.
+/// Prepares the Hall readings of all recordings, and finds out what is known of the wire's initial state in
+/// each.
 void find_wires(Evidence::Parts& parts);
 
-/// Prepares the rest of a recording, lists its windows, and notes what is left out.
+/// Prepares the other links of a recording, lists its windows, and notes what is left out.
 void add_run(Evidence::Parts& parts, std::size_t run);
 
 }  // namespace fidservo::gap

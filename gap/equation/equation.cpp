@@ -18,7 +18,8 @@ namespace fidservo::gap {
 
 namespace {
 
-/// Empty where all recordings are of one kind, or time ended.
+/// The part of the gap that an equation removes from each kind of experiment when fitted to the other kinds;
+/// empty where all recordings are of one kind, or the time has ended.
 std::optional<double> removed_of_kinds_left_out(const Evidence& evidence, std::span<const double> before,
                                                 const CrossFit& fitted) {
     try {

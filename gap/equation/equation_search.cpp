@@ -32,8 +32,8 @@ namespace {
 
 using plant::Port;
 
-/// The ports of a block's stage in three parts: those that are the block's own, those that its effects may be
-/// at as well, and the others. None where no port is of the block.
+/// The ports of a block's stage in three groups: the block's own ones, those at which its effects may act,
+/// too, and the others. None where no port belongs to the block.
 std::array<std::vector<Port>, 3> ports_for(std::string_view block) {
     std::array<std::vector<Port>, 3> parts;
     for (const plant::PortDescription& port : plant::ports()) {
@@ -88,7 +88,7 @@ class EquationSearch {
             simplify(*best);
         } catch (const BudgetEnded& end) {
             if (!best || end.how() == Ended::interrupted) throw;
-            evidence_.budget()->prolong(working_out_s);  // what was found until then is worked out
+            evidence_.budget()->prolong(working_out_s);  // to complete what was found until then
         }
         const bool is_something =
             signs_agree(*best) && is_no_chance(base_.mean_squares, best->fitted.mean_squares);
@@ -110,7 +110,7 @@ class EquationSearch {
                least_floors;
     }
 
-    /// By sparse regression.
+    /// Sketches by sparse regression.
     /// @param errors  of the base
     std::vector<Sketch> screened_at(const std::vector<Port>& ports, const Errors& errors) {
         std::vector<Sketch> sketches;
@@ -123,7 +123,7 @@ class EquationSearch {
         return sketches;
     }
 
-    /// By larger amounts.
+    /// Sketches by trials of larger coefficients.
     std::vector<Sketch> scanned_at(const std::vector<Port>& ports) const {
         std::vector<Sketch> sketches;
         for (const Port port : ports)
@@ -133,14 +133,14 @@ class EquationSearch {
         return sketches;
     }
 
-    /// A sketch, and what it saves on the second half, to which it was not fitted.
+    /// A sketch, and the loss that it saves on the second half, to which it was not fitted.
     struct Promise {
         double gain = 0.0;
         Sketch sketch;
     };
 
-    /// Those that save most beside an explanation where they were not fitted, with the values of that fit;
-    /// best first. Of many, only those are fitted that do best as they are.
+    /// Sketches fitted to the first half, those that save most on the second half first. If there are many,
+    /// only those are fitted that save most as they are.
     std::vector<Promise> most_promising(const std::vector<Sketch>& sketches, const CrossFit& beside) const {
         constexpr double any = -std::numeric_limits<double>::infinity();
         std::vector<Sketch> fitted = sketches;
@@ -155,7 +155,7 @@ class EquationSearch {
                        [&](const Sketch& sketch) { return promised(sketch, beside); });
     }
 
-    /// What the rival saves on the second half, in the windows that a sketch is judged in.
+    /// Loss that the rival saves on the second half, in the windows in which a sketch is judged.
     double gain_of_rival(const Sketch& sketch) const {
         const Wanted others =
             only_of(evidence_.windows(), fitter_.half(1), reached_by({with(sketch).back()}));
@@ -167,7 +167,7 @@ class EquationSearch {
         return gain;
     }
 
-    /// Judges sketches, and takes the best ones that save more than the least, best first.
+    /// Judges sketches, and returns those that save more than `least`, best first.
     static std::vector<Promise> best_of(const std::vector<Sketch>& sketches, std::size_t count, double least,
                                         const std::function<Promise(const Sketch&)>& judge) {
         std::vector<Promise> promises(sketches.size());
@@ -180,7 +180,7 @@ class EquationSearch {
         return promises;
     }
 
-    /// Of those that differ by the values of coefficients alone the first one stays.
+    /// Keeps only the first of those sketches that differ merely in the values of their coefficients.
     static void drop_repeated(std::vector<Sketch>& sketches) {
         std::set<std::string> seen;
         std::erase_if(sketches, [&](const Sketch& sketch) {
@@ -193,7 +193,7 @@ class EquationSearch {
         });
     }
 
-    /// A sketch, as it is, beside the base.
+    /// The present base with a sketch as it is.
     Hypothesis with(const Sketch& sketch) const {
         Hypothesis whole = beside_.of_half[0];
         whole.push_back(plant::typical_setting(plant::effect_of(formula_of(sketch, block_, name_))));
@@ -208,7 +208,7 @@ class EquationSearch {
         return saved(sketch, fit.hypothesis, beside);
     }
 
-    /// On the second half.
+    /// The loss that is saved on the second half.
     Promise saved(const Sketch& sketch, const Hypothesis& hypothesis, const CrossFit& beside) const {
         const Wanted others = only_of(evidence_.windows(), fitter_.half(1), reached_by({hypothesis.back()}));
         return {
@@ -216,7 +216,7 @@ class EquationSearch {
             with_values(sketch, hypothesis.back().values)};
     }
 
-    /// Of a hypothesis, in the windows that are judged.
+    /// Errors of a hypothesis, in the windows that are judged.
     Errors judged_errors(const Hypothesis& hypothesis) const {
         Errors errors = evidence_.errors(hypothesis, everything(evidence_));
         for (std::size_t w = 0; w < base_.mean_squares.size(); ++w)
@@ -227,7 +227,8 @@ class EquationSearch {
         return errors;
     }
 
-    /// Further terms of the same port, screened beside what is fitted, as long as they are no chance.
+    /// Adds further terms of the same port, screened beside the present formula, as long as each is
+    /// significant.
     void grow(FittedSketch& trial) {
         for (;;) {
             const Hypothesis& whole = trial.fitted.of_half[0];
@@ -253,12 +254,13 @@ class EquationSearch {
         }
     }
 
-    /// With the values that were fitted to the first half.
+    /// The sketch with the values that were fitted to the first half.
     static Sketch fitted_values(const FittedSketch& trial) {
         return with_values(trial.sketch, trial.fitted.of_half[0].back().values);
     }
 
-    /// Whether all coefficients have the same sign on both halves.
+    /// Whether the coefficient of each term has the same sign on both halves; waves, with two coefficients,
+    /// are not tested.
     static bool signs_agree(const FittedSketch& trial) {
         std::size_t value = 0;
         for (const Term& term : trial.sketch.terms) {
@@ -294,7 +296,7 @@ class EquationSearch {
         return trial;
     }
 
-    /// Names had to make up for what the formula now says: their values and its own are fitted together.
+    /// Refits named effects together with the formula, for whose lack their values had to compensate before.
     void fit_together(FittedSketch& trial) const {
         if (base_.of_half[0].empty()) return;
         CrossFit together = trial.fitted;
@@ -302,7 +304,7 @@ class EquationSearch {
         if (together.loss < trial.fitted.loss) trial.fitted = std::move(together);
     }
 
-    /// What is tried from now on is beside the names as they are with this formula.
+    /// From now on formulas are tried beside the named effects as refitted with this formula.
     void go_on_beside(const FittedSketch& trial) {
         if (base_.of_half[0].empty()) return;
         beside_ = trial.fitted;
@@ -310,8 +312,8 @@ class EquationSearch {
         fitter_.judge(beside_);
     }
 
-    /// Whether a credible rival predicts as well as a formula in its place once it has the same formula
-    /// beside it: then what it says may stand, and a formula has to be looked for beside it.
+    /// Whether a credible rival with the formula added to it predicts as well as the formula alone. The rival
+    /// may then be right, and a formula has to be sought in addition to it.
     bool is_made_up_for_beside_rival(const FittedSketch& trial) const {
         if (!rival_ || !rival_->is_credible) return false;
         const std::optional<FittedSketch> beside = tried_beside(rival_->explanation, fitted_values(trial));
@@ -325,7 +327,7 @@ class EquationSearch {
                    significance_bound(comparison.blocks, std::max(1, terms_tried_), tail_);
     }
 
-    /// Gives up terms without which it is as good, the one that is missed least first.
+    /// Removes terms as long as the formula remains as good, the least important ones first.
     void shorten(FittedSketch& trial) const {
         while (trial.sketch.terms.size() > 1) {
             std::optional<FittedSketch> shortest;
@@ -343,7 +345,7 @@ class EquationSearch {
         return sketch.coefficients.size() + sketch.shapes();
     }
 
-    /// Of all that was fitted, the one with the fewest parameters that is as good.
+    /// Replaces the formula by the one with the fewest parameters, of all that were fitted, that is as good.
     void simplify(FittedSketch& trial) const {
         const FittedSketch* simplest = &trial;
         for (const FittedSketch& other : fitted_) {
@@ -359,7 +361,7 @@ class EquationSearch {
 
     const Evidence& evidence_;
     const CrossFit& base_;
-    CrossFit beside_;  ///< the base, its values as they are with the best formula
+    CrossFit beside_;  ///< the base, refitted together with the best formula
     std::optional<Rival> rival_;
     std::string_view block_;
     std::string name_;

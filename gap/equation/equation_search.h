@@ -21,14 +21,15 @@ struct FittedSketch {
 /// Another explanation of what a base leaves unexplained; a formula has to be more promising.
 struct Rival {
     const CrossFit& explanation;
-    bool is_credible;  ///< if it is, only the accused block's own ports are tried against it
+    bool is_credible;  ///< if it is, only ports of the block that is probably wrong are tried against it
 };
 
 /// The formula that predicts best when added to an explanation, extended and shortened; empty where no
 /// formula of the stage's ports predicts significantly better.
 /// @param base  the explanation to which it is added
-/// @param block  the accused block: its ports come first, and others only if these do not explain everything
-/// @param name  of the effect
+/// @param block  the block that is probably wrong: its ports come first, and others only if these do not
+/// explain everything
+/// @param name  name of the formula effect
 /// @param tail  probability of proposing anything where there is nothing, over the whole search
 /// @param rival  a formula that predicts held-out data worse than it is dropped; if it is credible, also one
 /// that predicts no better than rival and formula together

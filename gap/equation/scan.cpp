@@ -17,7 +17,7 @@ namespace fidservo::gap {
 
 namespace {
 
-/// Of a quantity that is off by much, in the port's unit.
+/// A large error of the quantity at a port, in the port's unit.
 double usual_amount(plant::Port port) {
     switch (port) {
         case plant::Port::heater_power:

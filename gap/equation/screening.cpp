@@ -26,18 +26,18 @@
 
 namespace fidservo::gap {
 
-/// What a port's terms do to the errors of a signal, and the errors that they may explain.
+/// The responses of a signal's errors to a port's terms, and the errors that these may explain.
 struct PortResponses {
     Signal signal = Signal::encoder;
-    std::vector<Column> columns;  ///< group: a term's place; one for each of its texts, or none
+    std::vector<Column> columns;  ///< group: index of the term; one column for each of its texts, or none
     Errors errors;
-    /// Of a column's factor in the errors: the coefficient that takes them away.
+    /// The coefficient of a term, divided by the factor that the regression gives its column.
     double coefficient_per_factor = -1.0;
 };
 
 namespace {
 
-/// One of a term's expressions as an effect, with its coefficient.
+/// One expression of a term as an effect, with a coefficient.
 const plant::Effect& effect_of_text(plant::Port port, const Term& term, std::size_t text,
                                     double coefficient) {
     return plant::effect_of(
@@ -81,8 +81,9 @@ PortResponses carriage_responses(const Evidence& evidence, const Errors& errors,
     return responses;
 }
 
-/// A little, in a port's unit: what its term is when its response is taken. Of places that the camera sees
-/// several counts, since where the encoder's zero is found by tags it takes up whole ones.
+/// A small value, in a port's unit, of the term whose response is computed. For positions that the camera
+/// sees it is several counts: where the encoder's zero is found from tags, the zero can only shift by whole
+/// counts.
 double a_little_of(plant::Port port, const Rig& rig) {
     constexpr double counts = 4.0;
     switch (port) {
@@ -144,8 +145,8 @@ PortResponses simulated_responses(const Evidence& evidence, const Hypothesis& ba
     return responses;
 }
 
-/// Random halves of the recordings, in pairs that complement each other; of few recordings, of stretches of
-/// four windows.
+/// Random halves of the recordings, in complementary pairs; if there are few recordings, of stretches of four
+/// windows.
 class RandomHalves {
   public:
     static constexpr int count = 20;
@@ -164,7 +165,7 @@ class RandomHalves {
         }
     }
 
-    /// Whether each window is in the next half.
+    /// For each window, whether it belongs to the next half.
     std::vector<std::uint8_t> next() {
         if (is_second_) {
             is_second_ = false;
@@ -194,7 +195,7 @@ class RandomHalves {
     bool is_second_ = false;
 };
 
-/// The first terms, one of each family, up to the most that an equation has.
+/// The selected terms, in their order, but one of each family only, and as many as an equation may have.
 std::vector<int> admitted(const std::vector<Term>& terms, const std::vector<int>& taken) {
     std::vector<int> kept;
     std::size_t coefficients = 0, shapes = 0;
@@ -215,8 +216,8 @@ std::vector<int> admitted(const std::vector<Term>& terms, const std::vector<int>
 
 constexpr double as_good = 0.8;
 
-/// Of each term taken, the share of random halves in which its family is taken in, the first factor's sign
-/// the same.
+/// For each selected term, the share of random halves in which its family is selected again and its first
+/// factor has the same sign.
 std::vector<double> shares_of_halves(const Evidence& evidence, const Regression& regression,
                                      const std::vector<Term>& terms, const std::vector<int>& taken,
                                      double tail) {

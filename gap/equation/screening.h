@@ -2,12 +2,13 @@
 #pragma once
 // Selects the terms of a port that predict the residuals of an explanation, by sparse regression.
 //
-// The effect of a term on the prediction is linear in its coefficient while that is small. For the carriage
-// its column is the mean force over short supports, in the weak form (gap/balance/carriage_forces.h), which
-// needs no simulation; elsewhere it is the change of the prediction for a small coefficient. Terms are added
-// one after the other as long as held-out errors decrease significantly (gap/fit/regression.h), and kept if
-// they are selected again, with the same sign, on most random halves of the recordings (stability selection:
-// Meinshausen, Buehlmann, J. Royal Statistical Society B 72, 2010).
+// The effect of a term on the prediction is linear in its coefficient while that is small. The term's column
+// in the regression is, for the carriage, the mean force over short supports, in the weak form
+// (gap/balance/carriage_forces.h), which needs no simulation; elsewhere it is the change of the prediction
+// for a small coefficient. Terms are added one after the other as long as held-out errors decrease
+// significantly (gap/fit/regression.h), and kept if they are selected again, with the same sign, on most
+// random halves of the recordings (stability selection: Meinshausen, Buehlmann, J. Royal Statistical Society
+// B 72, 2010).
 #include "gap/equation/sketch.h"
 #include "gap/evidence.h"
 

@@ -82,7 +82,7 @@ void TermLibrary::add_powers(const KnownVariable& of, int highest, const std::st
     }
 }
 
-/// Of the family of the square about the origin, which was added last.
+/// Adds squares about other centres to the family of the square about the origin, which was added last.
 void TermLibrary::add_squares_elsewhere(const KnownVariable& of, const std::string& factor) {
     Term square = terms_.back();
     square.texts = {times(factor, fmt::format("({} - shape)^2", of.clipped()))};

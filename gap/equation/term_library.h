@@ -44,9 +44,9 @@ class TermLibrary {
     /// squares about other centres, which are a shape. All are multiplied by a factor of order 1.
     void add_powers(const KnownVariable& of, int highest, const std::string& factor = {});
     void add_product(const KnownVariable& left, const KnownVariable& right);
-    /// Adds one function with several values of its shape.
+    /// Adds one function with several start values of its shape.
     /// @param texts  expressions that contain `shape`
-    /// @param shape  its value is not used
+    /// @param shape  its unit and its range; its value is not used
     void add_shaped(const std::vector<std::string>& texts, const TermShape& shape,
                     std::span<const double> values, const std::string& words);
     /// Adds sine and cosine of a position, for each period.
@@ -56,10 +56,10 @@ class TermLibrary {
     struct Bend {
         double width, centre;
     };
-    /// Adds steps, tanh, and bells, exp(-x^2), of a variable; widths and centres are shapes.
+    /// Adds steps (tanh) and bells (exp(-x^2)) of a variable; widths and centres are shapes.
     void add_steps_and_bells(const KnownVariable& of, std::span<const Bend> bends,
                              const std::string& factor = {});
-    /// Adds a wide one about the middle of the covered range, and narrow ones over all of it.
+    /// Adds a wide step and bell in the middle of the covered range, and narrow ones over all of it.
     void add_steps_and_bells(const KnownVariable& of);
     /// Adds functions that begin at a value of a variable, which is a shape.
     /// @param text  an expression that contains `shape`
@@ -67,10 +67,10 @@ class TermLibrary {
     /// Adds exp(-time / shape), times a factor of order 1.
     void add_fading(const std::string& factor, const std::string& words);
     /// Adds the value of a variable a while ago minus its present value.
-    /// @param shape  the delay in s; its value is not used
+    /// @param shape  unit and range of the delay in s; its value is not used
     void add_delayed(const KnownVariable& of, const TermShape& shape, std::span<const double> delays_s);
     /// Adds the variable behind a first-order lag minus its present value.
-    /// @param shape  the time constant in s; its value is not used
+    /// @param shape  unit and range of the time constant in s; its value is not used
     void add_lagging(const KnownVariable& of, const TermShape& shape,
                      std::span<const double> time_constants_s);
 

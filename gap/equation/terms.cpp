@@ -17,7 +17,8 @@ namespace fidservo::gap {
 
 namespace {
 
-/// Of each variable of a site, what its formulas saw in all recordings; nothing of what is nowhere known.
+/// For each variable of a site, the range of its values in all recordings; 0 to 0 for a variable without
+/// values.
 std::array<Covered, plant::most_variables> covered_by(const Evidence& evidence, plant::Site site) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     std::array<Covered, plant::most_variables> ranges{};
@@ -34,7 +35,7 @@ std::array<Covered, plant::most_variables> covered_by(const Evidence& evidence, 
     return ranges;
 }
 
-/// Along the rail, of a twelfth of what was covered and of a quarter, side by side.
+/// Bends that cover a range side by side: twelve, and four wider ones.
 std::vector<TermLibrary::Bend> bends_along(const Covered& range) {
     std::vector<TermLibrary::Bend> bends;
     for (const int count : {12, 4}) {

@@ -15,7 +15,7 @@ namespace fidservo::gap {
 
 namespace {
 
-/// Readings of a recording as a carriage's or a wire's formula sees them.
+/// The rows of a recording, as variables for formulas of the carriage and of the wire.
 class RowsSeen {
   public:
     RowsSeen(const Evidence& evidence, std::size_t run)

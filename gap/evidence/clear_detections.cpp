@@ -14,7 +14,7 @@
 namespace fidservo::gap {
 namespace {
 
-constexpr double most_cells = 0.15;  // of smear
+constexpr double most_cells = 0.15;  // smear above which a detection is dropped
 
 double cell_px(const TagDetection& tag) {
     return (tag.corners_px[1] - tag.corners_px[0]).norm() / tag.print.outline_cells();
@@ -65,7 +65,7 @@ void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_
     constexpr double least_border_cells = 0.5, late = 1.5;
     const CameraParameters& camera = *rig.camera;
     std::vector<TagDetection>& detections = recording.detections;
-    std::vector<double> smear_cells(detections.size());  // while a frame is exposed
+    std::vector<double> smear_cells(detections.size());  // by which the tag moves during the exposure
     std::vector<bool> is_cut(detections.size());
     std::vector<int> neighbours(detections.size());
     std::map<int, std::size_t> last;
@@ -90,7 +90,8 @@ void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_
         ++neighbours[k];
         ++neighbours[at];
     }
-    // A program that looks for a tag when it wants to, and keeps no frames, sees it now and then.
+    // A program that looks for tags only now and then, and stores no frames, gives detections without
+    // neighbours.
     const int least_neighbours = recording.appearances.empty() ? 0 : 2;
     const bool refines = refines_corners(recording);
     std::vector<TagDetection> judged;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which detections say where a tag was.
+// Which detections tell a tag's position reliably.
 #include "core/recording.h"
 
 #include <set>
@@ -13,21 +13,24 @@ struct Rig;
 
 namespace fidservo::gap {
 
-/// Frame and tag.
+/// Pairs of a frame's time and a tag's id.
 using TagsInFrames = std::set<std::pair<TimeNs, int>>;
 
-/// Whether some of a recording's corners are known to be refined. Beside these, the others are not judged.
+/// Whether a recording marks any detection's corners as refined. If so, detections whose corners could not be
+/// refined are not judged.
 bool refines_corners(const Recording& recording);
 
-/// Those that look smeared, along their motion or whatever it is, by more than 0.15 cells w: the squares of
-/// their edges' widths differ by w^2 / 12, or some edges are too wide to be measured and others are not.
+/// Tags that look smeared in one direction, by motion or anything else, by more than w = 0.15 cells: the
+/// variances of their edges differ by more than w^2 / 12, or some but not all edges are too wide to be
+/// measured.
 TagsInFrames smeared_tags(const Recording& recording);
 
-/// Takes out of a recording the detections that say little of where the tag was: those of frames in which it
-/// moves by more than 0.15 cells while they are exposed, by the carriage's velocity (one value a row), by
-/// where the frames before and after show it and by how it looks; where frames were measured, those that one
-/// of these frames does not show; those nearer than half a cell to the image's border, which may have cut it;
-/// and, of a recording that refines corners, those that could not be refined.
+/// Removes the detections that tell a tag's position badly:
+/// - those whose tag moves by more than 0.15 cells during the exposure, by the carriage's velocity (one value
+///   for each row), by its positions in the neighbouring frames, or by its look (`smeared`);
+/// - where frames were measured, those whose tag is missing in the frame before or after;
+/// - those nearer than half a cell to the image's border, which may cut the tag;
+/// - in a recording that refines corners, those that could not be refined.
 void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_s, const Rig& rig,
                   double exposure_s, const TagsInFrames& smeared);
 

@@ -9,8 +9,8 @@
 namespace fidservo::gap {
 namespace {
 
-/// Noise before rounding, of readings between their extremes, by second differences d of neighbouring ones:
-/// mean d^2 = 6 (noise^2 + 1/12), as long as the platform's own acceleration is small beside it.
+/// Noise before rounding, in LSB, of readings between their extremes, by second differences d of neighbouring
+/// readings: mean d^2 = 6 (noise^2 + 1/12), as long as the platform's acceleration contributes little to d.
 double noise_inside_lsb(const std::vector<Recording>& recordings, const HallRange& extremes) {
     constexpr double most_lsb = 8.0, fewest = 1000.0;
     double squares = 0.0, count = 0.0;
@@ -27,9 +27,9 @@ double noise_inside_lsb(const std::vector<Recording>& recordings, const HallRang
     return count < fewest ? 0.0 : std::sqrt(std::max(0.0, squares / count / 6.0 - 1.0 / 12.0));
 }
 
-/// How often in a row a reading may be the same.
+/// The largest number of equal readings in a row that noise can explain.
 double longest_chance(double noise_lsb) {
-    constexpr double log_of_chance = -20.7;  // 1e-9
+    constexpr double log_of_chance = -20.7;  // of a probability of 1e-9
     if (noise_lsb <= 0.0) return std::numeric_limits<double>::infinity();
     const double repeats = std::erf(0.5 / (std::numbers::sqrt2 * noise_lsb));
     return repeats < 1.0 ? log_of_chance / std::log(repeats) : std::numeric_limits<double>::infinity();

@@ -14,7 +14,7 @@ namespace {
 
 using RunOfSignal = std::pair<Signal, std::size_t>;
 
-/// @param half_of  runs that are not in it go by stretches
+/// @param half_of  the half of a run; runs that are missing here are divided into stretches
 std::vector<std::uint8_t> halves(const Evidence& evidence,
                                  const std::map<RunOfSignal, std::uint8_t>& half_of) {
     constexpr std::size_t windows_in_stretch = 4;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What is fitted and what is judged.
+// Which windows are fitted, and which are judged.
 #include "gap/evidence.h"
 
 #include <cstdint>
@@ -9,17 +9,18 @@
 
 namespace fidservo::gap {
 
-/// Which half of the windows a window belongs to. Hypotheses are fitted on one half and judged on the other,
-/// both ways. Of a signal, the runs of one experiment that show it go to different halves; where one run
-/// shows it, stretches of four windows do.
+/// The half (0 or 1) to which each window belongs: hypotheses are fitted to one half and judged on the other,
+/// both ways. The runs of an experiment that contain a signal are assigned to the halves alternately; where
+/// only one run contains it, stretches of four windows are.
 std::vector<std::uint8_t> halves(const Evidence& evidence);
 
-/// The same by stretches of every run: for what has a value of its own in each run.
+/// The halves if stretches of four windows alternate in every run: for parameters that have a value of their
+/// own in each run.
 std::vector<std::uint8_t> halves_of_each_run(const Evidence& evidence);
 
-/// Windows from which a fit learns most, of those eligible: of each signal at most `most`, half of them
-/// of all sizes of error above the median (the largest ones are beyond what a fit can follow at first), the
-/// others evenly spread in time.
+/// The eligible windows from which a fit learns most, of each signal at most `most`. One half of them covers
+/// all sizes of error above the median, since the largest errors are beyond what a fit can follow at first;
+/// the other half is evenly spread in time.
 /// @param mean_squares  of all windows under what is known already; NaN: has no values
 Wanted instructive(std::span<const Window> windows, const Wanted& eligible,
                    std::span<const double> mean_squares, std::size_t most);

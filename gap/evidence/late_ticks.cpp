@@ -8,9 +8,10 @@ namespace fidservo::gap {
 
 namespace {
 
-/// Whole ticks left out between a row and the next; 0 where the time between is not a number of ticks.
+/// Number of ticks missing between a row and the next; 0 where the time between them is not a whole number of
+/// ticks, or more than 0.1 s.
 std::size_t ticks_between(const StageRow& row, const StageRow& next, double tick_s) {
-    constexpr double off_time = 0.1;  // ticks
+    constexpr double off_time = 0.1;  // in ticks
     constexpr double longest_s = 0.1;
     const double pause_s = seconds(next.time_ns - row.time_ns);
     const double ticks = pause_s / tick_s, whole = std::round(ticks);

@@ -103,7 +103,7 @@ std::optional<double> corner_noise_px(const std::vector<Recording>& recordings, 
     constexpr double late = 1.5, mad_of_normal = 0.6744897501960817;
     std::vector<double> sizes;
     for (const Recording& recording : recordings) {
-        std::map<int, const TagDetection*> seen;  // last, by tag
+        std::map<int, const TagDetection*> seen;  // latest detection of each tag
         const bool refines = refines_corners(recording);
         for (const TagDetection& now : recording.detections) {
             if (refines && !now.is_refined.value_or(true)) continue;

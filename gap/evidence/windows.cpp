@@ -20,7 +20,7 @@ std::size_t rows_of(double time_s, double tick_s) {
 
 std::vector<Stretch> stretches(const Recording& recording, const std::vector<bool>& usable) {
     FIDSERVO_DEMAND(usable.size() == recording.rows.size());
-    constexpr double late = 1.5;  // ticks between rows from which on one is missing
+    constexpr double late = 1.5;  // ticks between two rows from which on a row is missing
     std::vector<Stretch> found;
     bool open = false;
     for (std::size_t k = 0; k < usable.size(); ++k) {

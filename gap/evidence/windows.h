@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which rows of a recording are judged, in windows.
+// The windows of a recording that are judged.
 //
-// A stretch is a run of usable rows, one a tick. It is cut into windows of 1 s, the last one shorter where at
-// least 0.3 s are left. Where a model needs a state to begin with, the stretch's first 100 ms are only there
-// to find it, as the last 100 ms of each window are for the next one.
+// A stretch is a sequence of usable rows, one for each tick. It is cut into windows of 1 s; the last one may
+// be shorter, down to 0.3 s. Where a model needs an initial state, this is estimated from the 100 ms before a
+// window; the first 100 ms of the stretch serve for that only.
 #include "core/recording.h"
 
 #include <cstddef>
@@ -18,7 +18,8 @@ struct Stretch {
     std::size_t rows() const { return end - first; }
 };
 
-/// A window's rows, and where the rows before it begin from which its first state is estimated.
+/// A window of the rows from `first` up to, not including, `end`; its initial state is estimated from the
+/// rows from `lead` to `first`.
 struct WindowRows {
     std::size_t lead, first, end;
 };
@@ -26,13 +27,13 @@ struct WindowRows {
 enum class LeadIn { none, estimates_state };
 
 /// Stretches of usable rows that follow each other at the recording's tick.
-/// @param usable  one value a row
+/// @param usable  a flag for each row
 std::vector<Stretch> stretches(const Recording& recording, const std::vector<bool>& usable);
 
-/// The windows of a stretch; each begins where the one before ended. Empty if it is too short.
+/// The windows of a stretch; each begins where the one before ended. None if the stretch is too short.
 std::vector<WindowRows> cut(const Stretch& stretch, double tick_s, LeadIn lead_in);
 
-/// Rows that make up the 100 ms before a window.
+/// Number of rows in the 100 ms before a window.
 std::size_t lead_rows(double tick_s);
 
 }  // namespace fidservo::gap

@@ -13,48 +13,55 @@
 
 namespace fidservo::gap {
 
-/// A hypothesis fitted on each half of the windows (gap/evidence/halves.h).
+/// The fits of a hypothesis to each half of the windows (gap/evidence/halves.h), each judged on the other
+/// half.
 struct CrossFit {
     std::array<Hypothesis, 2> of_half;
-    std::vector<double> mean_squares;  ///< S_w of every window, predicted by what was fitted without its half
-    double loss = 0.0;                 ///< of them all
+    /// S_w of every window (gap/fit/score.h), predicted by the fit to the half without it.
+    std::vector<double> mean_squares;
+    double loss = 0.0;  ///< total loss of all windows
 };
 
-/// What each signal's mean square exceeds the floor by; 0 up to 5 % above the floor.
+/// Each signal's mean square error over that expected under the truth, minus 1; 0 where this ratio is at most
+/// 1.1, which is 5 % in r.m.s.
 using SignalExcess = std::array<double, signal_count>;
 
 class CrossFitter {
   public:
-    /// @param windows  of a signal and a half, that are fitted
-    /// @param stop  asked at every prediction; once true, what is returned is worth nothing
+    /// @param windows  the largest number of windows of one signal and one half that are fitted
+    /// @param stop  asked before every prediction; once it returns true, predictions are empty and results
+    /// meaningless
     CrossFitter(const Evidence& evidence, std::size_t windows, std::function<bool()> stop);
 
     const Evidence& evidence() const { return evidence_; }
     Wanted half(std::size_t side) const;
     Predict predictor(Wanted wanted) const;
 
-    /// Those windows of a half, of some signals, from which most is learnt where a base leaves mean squares.
+    /// The most instructive windows of a half, of some signals (gap/evidence/halves.h).
+    /// @param mean_squares  of all windows under what is known already
     Wanted instructive_of(std::size_t side, const SignalFlags& signals,
                           std::span<const double> mean_squares) const;
 
-    /// Fits the settings at some places on a half, the others being as they are.
+    /// Fits the settings at some places of a hypothesis to the instructive windows of a half; the other
+    /// settings keep their values.
     Fit fit_places(std::size_t side, const Hypothesis& start, const Places& places,
                    std::span<const double> mean_squares, const FitOptions& options = {}) const;
 
-    /// Fits all parameters, from where they are, of the parts of the hypothesis that meet some signals.
+    /// Refits, from their present values, those settings of a cross fit that are estimated from any of the
+    /// given signals or coupled with such ones, and judges the result.
     void fit_again(CrossFit& cross, const SignalFlags& signals) const;
 
     void judge(CrossFit& cross) const;
-    /// Judges the signals that some settings change, in which the cross fit differs from a base; the rest is
-    /// as there.
+    /// Judges only the signals that the settings `different` can change, by which a cross fit differs from a
+    /// base; mean squares of the other signals are taken over from the base.
     void judge_beside(const CrossFit& base, const Hypothesis& different, CrossFit& cross) const;
 
-    /// Signals at whose fits an effect has a say: its teachers, and the Hall reading where the effect moves a
-    /// carriage that the platform feels.
+    /// Signals whose fits an effect influences: those from which it is estimated, and the Hall reading where
+    /// the effect moves a carriage whose motion affects the platform.
     SignalFlags concerned_by(const plant::Effect& effect, const Hypothesis& whole) const;
 
-    /// Settings of a base on which the fit of a further one depends: those `coupled` with it, and what moves
-    /// the carriage where the platform feels that.
+    /// Settings of a base on which the fit of a further setting depends: those `coupled` with it and, if it
+    /// is estimated from a Hall reading that the carriage's motion affects, those that move the carriage.
     Places met_by(const Hypothesis& base, const plant::EffectSetting& further, Places coupled) const;
 
     SignalExcess excess(std::span<const double> mean_squares) const;

@@ -19,8 +19,8 @@
 namespace fidservo::gap {
 namespace {
 
-/// A window's counted values e and their derivatives J at one point, in what fits need of them: n values,
-/// sum of their squares, and the inner products of (J, e).
+/// A window condensed to what fits need. With its counted values e and their derivatives J at one point: the
+/// number of values, the sum of squares of e, and the inner products of the columns (J, e).
 struct WindowProducts {
     double count = 0.0;
     double squares = 0.0;
@@ -54,14 +54,15 @@ class Linearised : public ceres::EvaluationCallback {
         use_slopes();
     }
 
-    /// Slopes as differences show them at this very point.
+    /// Computes the derivatives at the present point by differences, if they were only updated from those of
+    /// another point.
     void differentiate() {
         if (errors.empty() || is_exact_) return;
         find_slopes();
         use_slopes();
     }
 
-    /// What is minimised.
+    /// The function that is minimised: the windows' loss, and the prior if there is one.
     double loss() const {
         const double scale = options_.scale_floors * options_.scale_floors;
         double sum = 0.0;
@@ -75,11 +76,11 @@ class Linearised : public ceres::EvaluationCallback {
         return sum;
     }
 
-    /// The slopes that were used last, where they are kept.
+    /// The derivatives used last; empty unless they are kept.
     KnownSlopes taken_slopes() { return std::move(kept_); }
 
     Errors errors;
-    std::vector<WindowProducts> condensed;  ///< of the windows counted
+    std::vector<WindowProducts> condensed;  ///< one for each counted window
 
   private:
     void find_slopes() {
@@ -90,9 +91,9 @@ class Linearised : public ceres::EvaluationCallback {
         is_exact_ = true;
     }
 
-    /// For each parameter of a hypothesis, its place among the parameters fitted, or none where its effect is
-    /// not fitted. Nothing where a parameter is fitted that it does not have, has in other scales, or without
-    /// a slope.
+    /// For each parameter of another hypothesis, its index among the fitted parameters, or none where its
+    /// effect is not fitted. Empty if the other hypothesis lacks a fitted parameter, or has it in another
+    /// scale, or only one of the two has a derivative with respect to it.
     std::optional<std::vector<std::optional<std::size_t>>> places_of(const ScaledParameters& others) const {
         std::vector<std::optional<std::size_t>> places(others.size());
         const auto is_same = [&](std::size_t own, std::size_t other) {
@@ -109,10 +110,10 @@ class Linearised : public ceres::EvaluationCallback {
         return places;
     }
 
-    /// Takes slopes over from nearby, corrected by what the errors have changed from there.
-    /// @return whether they predicted it
+    /// Takes the derivatives over from a point nearby, updated by how the errors have changed from there.
+    /// @return false if they mispredict that change and are not taken
     bool go_on_from(const KnownSlopes& nearby) {
-        constexpr double well = 0.1;  // of the squares of the change, that they have missed
+        constexpr double well = 0.1;  // share of the change's sum of squares that may be mispredicted
         if (nearby.by_parameter.empty() || nearby.errors.empty()) return false;
         const ScaledParameters there(nearby.at);
         const auto places = places_of(there);
@@ -191,8 +192,8 @@ class Linearised : public ceres::EvaluationCallback {
         });
     }
 
-    /// Whether a parameter is at a bound and the loss falls beyond it: there the others are fitted as if it
-    /// were known.
+    /// Whether a parameter is at a bound beyond which the loss would fall: the others are then fitted with
+    /// this one held fixed.
     bool is_held(std::size_t k) const {
         if (!parameters_.at_bound(k)) return false;
         double slope_of_loss = 0.0;
@@ -217,14 +218,14 @@ class Linearised : public ceres::EvaluationCallback {
     std::span<const Window> windows_;
     FitOptions options_;
     std::vector<std::size_t> counted_;
-    std::vector<double> values_;  ///< that errors are of
+    std::vector<double> values_;  ///< at which the errors were computed
     bool has_derivatives_ = false, is_exact_ = false;
-    std::vector<Errors> slopes_;  ///< by parameter
+    std::vector<Errors> slopes_;  ///< one for each parameter
     KnownSlopes kept_;
 };
 
-/// A window as one residual a parameter and one more, which have the inner products of all of its values over
-/// the root of their number, so that the sum of their squares is S_w: a triangular factor of these.
+/// A window as one residual for each parameter and one more: the triangular factor of its matrix of inner
+/// products, divided by the number of values, so that the squared residuals sum to S_w.
 class WindowErrors : public ceres::CostFunction {
   public:
     WindowErrors(const Linearised& at, std::size_t which, std::size_t parameters) : at_(at), which_(which) {
@@ -257,7 +258,8 @@ class WindowErrors : public ceres::CostFunction {
     std::size_t which_;
 };
 
-/// By how many standard deviations sizes are beside nothing, weighed as the windows' losses are.
+/// The prior as residuals: the sizes' distances from zero effect in standard deviations, weighted as the
+/// windows' losses are.
 class ExpectedSizes : public ceres::CostFunction {
   public:
     ExpectedSizes(const ScaledParameters& parameters, const FitOptions& options)
@@ -284,7 +286,7 @@ class ExpectedSizes : public ceres::CostFunction {
     double weight_;
 };
 
-/// Of all parameters from those of the free ones, in their own units; 0 for the others.
+/// The matrix of all parameters in their own units, from that of the free ones in scales; 0 for the others.
 Eigen::MatrixXd of_all(const Eigen::MatrixXd& of_free, const std::vector<Eigen::Index>& free,
                        const ScaledParameters& parameters) {
     const auto all = static_cast<Eigen::Index>(parameters.size());
@@ -296,8 +298,8 @@ Eigen::MatrixXd of_all(const Eigen::MatrixXd& of_free, const std::vector<Eigen::
     return matrix;
 }
 
-/// Sets the covariances: H^-1 (sum of g g') H^-1 over windows, and H^-1; parameters at their bounds count as
-/// known.
+/// Sets the covariances H^-1 (sum over windows of g g') H^-1 and, with the prior in H, H^-1: g are the
+/// windows' gradients, H is the matrix of second derivatives. Parameters at their bounds count as known.
 void find_covariances(const Linearised& at, const ScaledParameters& parameters, const FitOptions& options,
                       Fit& result) {
     std::vector<Eigen::Index> free;
@@ -332,7 +334,7 @@ void find_covariances(const Linearised& at, const ScaledParameters& parameters, 
 
 Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
         const Hypothesis& start, const FitOptions& options) {
-    constexpr double least_loss = 1.0;  // that an improvement is a share of
+    constexpr double least_loss = 1.0;  // improvements are relative to the loss, or to this if it is less
     ScaledParameters parameters(start);
     const std::vector<double> values_at_start = parameters.values;
     Linearised linearised(predict, parameters, windows, counted, options);
@@ -345,7 +347,8 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
 
     ceres::Problem::Options how;
     how.evaluation_callback = &linearised;
-    how.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;  // it takes none of what no block uses
+    // Ceres would not take a loss that no block uses.
+    how.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::CauchyLoss loss(options.scale_floors);
     ceres::Problem problem(how);
     for (std::size_t c = 0; c < linearised.condensed.size(); ++c)
@@ -365,7 +368,8 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
     solver.function_tolerance =
         std::max(options.tolerance, options.least_improvement / std::max(loss_at_start, least_loss));
     solver.parameter_tolerance = std::min(options.tolerance, FitOptions{}.tolerance);
-    solver.max_num_line_search_step_size_iterations = 0;  // a step beyond a bound is cut, no more
+    // A step beyond a bound is cut, without a line search.
+    solver.max_num_line_search_step_size_iterations = 0;
     solver.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);

@@ -16,51 +16,55 @@ using Predict = std::function<Errors(const Hypothesis&)>;
 
 struct Fit {
     Hypothesis hypothesis;
-    double loss = 0.0;  ///< of the windows fitted, as in gap/fit/score.h
-    /// Of all parameters in order, from the scatter of the windows' gradients (sandwich), which holds where
-    /// errors within a window are not independent. Zero for parameters at a bound, and where it was not asked
-    /// for.
+    double loss = 0.0;  ///< total loss of the fitted windows (gap/fit/score.h), without the prior
+    /// Covariance of all parameters in order, by the sandwich estimator from the scatter of the windows'
+    /// gradients, which remains valid where errors within a window are dependent. Zero for parameters at a
+    /// bound; all zero unless FitOptions::with_covariance is set.
     Eigen::MatrixXd covariance;
-    /// Inverse of the loss's second derivatives by the slopes of the errors alone, with the expected sizes in
-    /// it; likewise.
+    /// Inverse of the loss's second derivatives in the Gauss-Newton approximation, including the prior of the
+    /// sizes; zero in the same cases.
     Eigen::MatrixXd curvature_covariance = {};
 };
 
-/// Steps of differences, in scales of a parameter: from afar, above what friction's events and float errors
-/// scatter; near the best values, where such a step reaches beyond those that a place within its count leaves
-/// equally good.
+/// Steps of numerical derivatives, in scales of a parameter. The usual step is larger than the scatter from
+/// stick-slip and float rounding. The close step serves near the optimum, where the usual one would leave the
+/// small range of values that predict the carriage's readings, rounded to counts, equally well.
 inline constexpr double usual_step = 0.01, close_step = 0.001;
 
-/// How errors change with each parameter of a hypothesis, for a fit that goes on near it.
+/// Derivatives of the errors with respect to a hypothesis's parameters, from which a fit nearby can start.
 struct KnownSlopes {
     Hypothesis at;
-    Errors errors;                     ///< of that hypothesis
-    std::vector<Errors> by_parameter;  ///< per scale of each parameter, in order; empty: not known
+    Errors errors;  ///< under this hypothesis
+    /// One for each parameter in order, per scale of the parameter; empty: not known.
+    std::vector<Errors> by_parameter;
 };
 
 struct FitOptions {
     int most_iterations = 12;
-    double tolerance = 1e-4;  ///< of the loss, and of parameters if less, relative, at which a fit ends
-    /// Loss by which an iteration has to improve for another one to follow; 0: as the tolerance says.
+    /// Relative change of the loss, and of parameters (1e-4 at most), at which a fit ends.
+    double tolerance = 1e-4;
+    /// Decrease of the loss in one iteration below which the fit ends, where the tolerance demands less; 0:
+    /// only the tolerance counts.
     double least_improvement = 0.0;
-    bool with_covariance = false;  ///< costs a prediction a parameter
-    /// Whether slopes are kept while they predict what a step changes, and are corrected by it (Broyden,
-    /// Math. Comp. 19, 1965): of predictions that change smoothly.
+    bool with_covariance = false;  ///< costs one prediction for each parameter
+    /// Whether derivatives are kept from one iteration to the next as long as they predict how the errors
+    /// change, with Broyden's rank-one update (Math. Comp. 19, 1965); for predictions that change smoothly.
     bool keeps_slopes = false;
-    /// With slopes that are kept: from where a fit may begin, of the same windows and of at least the same
-    /// effects; what it ends with is left here. Null: none.
+    /// With keeps_slopes: derivatives from which the fit starts, of the same windows and of at least the same
+    /// effects; at the end those used last are stored here. Null: none.
     KnownSlopes* known_slopes = nullptr;
-    double step_scales = usual_step;  ///< of differences
-    /// Errors up to this many floors count as noise: the loss is 1/2 a^2 log(1 + S_w / a^2) with this a. A
-    /// fit that starts far off follows all windows with an a of what is left, not just those nearest to it.
+    double step_scales = usual_step;  ///< step of numerical derivatives, in scales of a parameter
+    /// Errors up to this many floors, a, count as noise: the loss is 1/2 a^2 log(1 + S_w / a^2). With a at
+    /// the level of the present errors a distant start is drawn by all windows, not only by those with the
+    /// smallest errors.
     double scale_floors = 1.0;
-    /// Standard deviation that sizes are expected to have about nothing, in typical ones: what the windows
-    /// cannot tell apart stays small. 0: any size is as good.
+    /// Prior standard deviation of sizes about zero effect, in typical sizes; keeps small what the windows
+    /// cannot distinguish. 0: no prior.
     double expected_sizes = 0.0;
 };
 
-/// Minimises the windows' total loss over all parameters of the hypothesis, from the values given, within
-/// their bounds: Levenberg-Marquardt on the windows' errors, reweighted by the loss (Ceres).
+/// Minimises the windows' total loss over all parameters of the hypothesis, from the given values and within
+/// their bounds, by Levenberg-Marquardt on the windows' errors, reweighted by the loss (Ceres).
 /// @param counted  which windows to fit
 Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
         const Hypothesis& start, const FitOptions& options = {});

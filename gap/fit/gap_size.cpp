@@ -10,7 +10,7 @@
 namespace fidservo::gap {
 namespace {
 
-/// Of squared ratios to the floor, none of them below it.
+/// Means over signals of squared gaps, each of which counts as 1 (the floor) at least.
 class MeanOverSignals {
   public:
     void add(double before_square, double after_square) {
@@ -19,7 +19,7 @@ class MeanOverSignals {
         count_ += 1.0;
     }
 
-    /// At the floor without signals.
+    /// 1 (the floor) where no signal was added.
     TotalGap root() const {
         if (count_ == 0.0) return {1.0, 1.0};
         return {std::sqrt(before_ / count_), std::sqrt(after_ / count_)};
@@ -29,7 +29,8 @@ class MeanOverSignals {
     double before_ = 0.0, after_ = 0.0, count_ = 0.0;
 };
 
-/// Sums over windows: squared errors in floors, and the number of values.
+/// For each signal, sums over windows of the squared errors in floors before and after, of the number of
+/// values, and of the squares expected under the truth.
 struct Sums {
     std::array<double, signal_count> before{}, after{}, values{}, expected{};
 

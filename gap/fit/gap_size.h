@@ -2,9 +2,10 @@
 #pragma once
 // How large a gap is, and how much of it an explanation removes.
 //
-// Of a signal: r.m.s. error over all values of held-out windows, against its floor. Of a rig: r.m.s. of these
-// ratios over the signals, where a signal below its floor (a carriage at rest within its count) counts as at
-// it. What is removed is counted in what exceeds the floor:
+// Of a signal, the gap is the r.m.s. error over all values of held-out windows, divided by its floor. Of a
+// rig, it is the r.m.s. of the signals' gaps, where a signal below its floor (a carriage at rest within a
+// count) counts as at it. The part of a rig's gap that an explanation removes refers to the excess over the
+// floor:
 //
 //     removed = 1 - (after^2 - 1) / (before^2 - 1),  clipped to 0 .. 1
 #include "gap/diagnosis.h"
@@ -17,22 +18,25 @@
 
 namespace fidservo::gap {
 
-/// A remainder below this is not worth a finding, whatever its significance.
+/// A gap below this many floors is not worth a finding, however significant it is.
 inline constexpr double least_floors = 1.1;
 
-/// The discrepancy is 0 where what is left is below least_floors of what noise leaves.
+/// The gap of each signal before and after an explanation, from the mean squares of all windows. The
+/// discrepancy is 0 where the r.m.s. error that remains is below least_floors times that expected under the
+/// truth.
 std::vector<SignalGap> signal_gaps(const Evidence& evidence, std::span<const double> before,
                                    std::span<const double> after);
 
 TotalGap total_gap(std::span<const SignalGap> signals);
 
-/// 95 % interval of what is removed, by drawing the windows again in blocks of three (bootstrap, 400 draws).
+/// 95 % interval of the part of the gap that is removed, by a bootstrap of blocks of three windows (400
+/// draws).
 std::pair<double, double> removed_interval(const Evidence& evidence, std::span<const double> before,
                                            std::span<const double> after);
 
-/// How far a signal's windows typically are from its floor, sqrt(exp(mean log(1 + S_w)) - 1); 1 at least, and
-/// of a signal without windows. A window in which the carriage let go that should have held weighs no more
-/// than others here.
+/// How far a signal's windows typically are from its floor, in floors: sqrt(exp(mean log(1 + S_w)) - 1), at
+/// least 1; 1 for signals without windows. By the logarithm, a window in which the carriage broke loose but
+/// should have stuck does not dominate.
 std::array<double, signal_count> typical_floors(std::span<const Window> windows,
                                                 std::span<const double> mean_squares);
 

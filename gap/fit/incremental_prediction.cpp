@@ -11,7 +11,7 @@
 namespace fidservo::gap {
 namespace {
 
-/// Where a hypothesis differs from another one of the same effects, or has one more at its end.
+/// Indices at which a hypothesis differs from another one that has the same effects, or all but its last.
 std::vector<std::size_t> differences(const Hypothesis& hypothesis, const Hypothesis& other) {
     std::vector<std::size_t> places;
     for (std::size_t k = 0; k < hypothesis.size(); ++k)

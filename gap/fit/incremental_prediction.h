@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Predictions for a fit. A hypothesis that differs from an earlier one in a single setting, or has one more,
-// is predicted again in those windows alone that this setting reaches, and the carriage is followed again
-// only where it moves otherwise. The values are those of Evidence::errors, whatever was predicted before.
+// Predictions for a fit. If a hypothesis differs from an earlier one in a single setting, or has one more,
+// only the windows that this setting reaches are predicted again, and the carriage is simulated again only
+// where the setting changes its motion. The errors are the same as those of Evidence::errors.
 #include "gap/evidence.h"
 
 #include <memory>
@@ -12,16 +12,16 @@ namespace fidservo::gap {
 
 class IncrementalPrediction {
   public:
-    /// @param beside  settings that stand before all that are asked for
+    /// @param beside  settings that precede those of every prediction
     IncrementalPrediction(const Evidence& evidence, Hypothesis beside, Wanted wanted)
         : evidence_(evidence), beside_(std::move(beside)), wanted_(std::move(wanted)) {}
 
-    /// Errors with some settings beside the known ones, as Evidence::errors has them. Safe to call from
-    /// several threads at once. Throws BudgetEnded.
+    /// Errors under the preceding settings followed by these. Safe to call from several threads at once.
+    /// Throws BudgetEnded.
     Errors operator()(const Hypothesis& settings);
 
   private:
-    /// A prediction, and where it has the carriage go.
+    /// A prediction from which later ones are derived, with the carriage's paths.
     struct Known {
         Hypothesis settings;
         Errors errors;

@@ -30,7 +30,7 @@ class LossOfPart : public cv::MinProblemSolver::Function {
     int getDims() const override { return static_cast<int>(free_.size()); }
     double calc(const double* scaled) const override {
         const double loss = total_loss(windows_, counted_, predict_(at(scaled)));
-        return std::min(loss, 1e12);  // of what the plant refuses it is infinite
+        return std::min(loss, 1e12);  // it is infinite for values that the plant refuses
     }
 
     Hypothesis at(const double* scaled) const {
@@ -47,7 +47,8 @@ class LossOfPart : public cv::MinProblemSolver::Function {
     }
 
   private:
-    /// All but what a wave is without: a harmonic.
+    /// All parameters but those of waves on which the loss does not depend locally, such as an absent
+    /// harmonic.
     static std::vector<std::size_t> free_of(const Hypothesis& part, const ScaledParameters& parameters) {
         std::vector<std::size_t> free;
         std::size_t k = 0;
@@ -57,7 +58,7 @@ class LossOfPart : public cv::MinProblemSolver::Function {
         return free;
     }
 
-    /// Turns a wave's phase with its period.
+    /// Changes a wave's phase with its period such that it stays in phase in the middle of the rail.
     static void keep_in_step(const plant::EffectSetting& from, std::vector<double>& values) {
         if (const std::optional<WaveParameters> wave = wave_of(*from.effect))
             values[wave->phase] =
@@ -71,10 +72,10 @@ class LossOfPart : public cv::MinProblemSolver::Function {
     const Places& places_;
     Hypothesis part_;
     ScaledParameters parameters_;
-    std::vector<std::size_t> free_;  ///< of the parameters
+    std::vector<std::size_t> free_;  ///< indices of the parameters that are fitted
 };
 
-/// A simplex of one parameter: steps to either side as long as one leads down, then shorter ones.
+/// Minimises over a single parameter: steps to either side while the loss decreases, then halves the step.
 Fit stepped(const LossOfPart& loss, double best, double least, double step, double enough) {
     while (step > enough) {
         const auto better = [&](double there) {
@@ -94,7 +95,7 @@ Fit stepped(const LossOfPart& loss, double best, double least, double step, doub
 Fit polish(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
            const Hypothesis& start, const Places& places) {
     const int most_predictions = 100;
-    constexpr double first_step = 0.1, enough = 1e-3;  // scales
+    constexpr double first_step = 0.1, enough = 1e-3;  // in scales
     const auto loss = cv::makePtr<LossOfPart>(predict, windows, counted, start, places);
     std::vector<double> best = loss->start();
     const double loss_at_start = loss->calc(best.data());

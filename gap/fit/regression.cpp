@@ -17,11 +17,12 @@
 namespace fidservo::gap {
 namespace {
 
-/// Standard deviations of its lead up to which the best group is not told from others.
+/// A best group's lead over another group is not significant up to this many standard deviations.
 constexpr double column_tie_significance = 3.0;
 
-/// Of the columns' own weight: enough to hold columns that hardly differ from each other. Of the mean weight
-/// in their group: enough to hold those that the fitted half hardly has, as places that it does not visit.
+/// The ridge is a share of the column's own diagonal element of the normal matrix, enough to determine
+/// columns that are nearly collinear, plus a share of the mean diagonal element of its group, enough to
+/// restrain columns that nearly vanish in the fitted half, such as those of places that it does not visit.
 constexpr double own_ridge = 1e-3, group_ridge = 3e-3;
 
 Eigen::MatrixXd gram_of(const Window& window, const Errors& errors, std::span<const Column> columns,
@@ -60,14 +61,14 @@ double square_of(const CondensedWindow& window, std::span<const Eigen::Index> co
     return std::max(0.0, square) / window.count;
 }
 
-/// Mean square of what the nuisances leave.
+/// Mean square after the projection that removes the nuisances.
 double square_of(const CondensedWindow& window) {
     return window.gram(window.gram.rows() - 1, window.gram.cols() - 1) / window.count;
 }
 
-/// Windows that are wrong by orders of magnitude more than most wrong ones: the carriage stood where it
-/// should have gone, or went where it should have stood. Any column makes them a little less wrong; no linear
-/// model explains them.
+/// Drops windows that are wrong by orders of magnitude more than most wrong ones: the carriage stood where
+/// the prediction moves, or moved where the prediction stands. Any column makes them a little less wrong; no
+/// linear model explains them.
 void drop_gross_windows(std::vector<CondensedWindow>& windows) {
     constexpr double wrong = 2.0, ratio = 100.0;
     std::vector<double> squares;

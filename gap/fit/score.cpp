@@ -9,16 +9,17 @@
 namespace fidservo::gap {
 namespace {
 
-/// Windows that the errors of slow states connect are one observation. What a frame is off by says nothing of
-/// the next one (gap/links/image_link.h).
+/// Windows in a block: errors of neighbouring windows are correlated through slow states, those of
+/// neighbouring frames are not (gap/links/image_link.h).
 std::size_t windows_in_block(Signal signal) {
     return signal == Signal::image ? 1 : 3;
 }
 
 constexpr int fewest_blocks = 4;
 
-/// t with P(T > t) = tail: Fisher's expansion (Abramowitz and Stegun, Handbook of Mathematical Functions,
-/// 1964, 26.7.5). For tails down to 1e-4 some per cent low at 4 degrees of freedom, 1e-3 from 10 on.
+/// The t with P(T > t) = tail, T being Student-distributed: Fisher's expansion (Abramowitz and Stegun,
+/// Handbook of Mathematical Functions, 1964, 26.7.5). For tails down to 1e-4 it is some per cent low at 4
+/// degrees of freedom, and by 1e-3 from 10 on.
 double student_bound(double freedom, double tail) {
     const double z = calib::normal_bound(tail), z2 = z * z;
     const double first = z * (z2 + 1.0) / 4.0;
@@ -28,7 +29,7 @@ double student_bound(double freedom, double tail) {
     return z + (first + (second + (third + fourth / freedom) / freedom) / freedom) / freedom;
 }
 
-/// NaN where nothing is judged.
+/// NaN where no value counts.
 double mean_square(const Window& window, const Errors& errors) {
     double sum = 0.0, count = 0.0;
     for (std::size_t k = window.begin; k < window.end; ++k) {

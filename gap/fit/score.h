@@ -2,13 +2,13 @@
 #pragma once
 // How well predictions do, window by window, and whether one hypothesis does better than another.
 //
-// A window w of S_w, the mean square of its errors in floors, has the loss
+// A window w with the mean square error S_w, in floors squared, has the loss
 //
 //     l_w = 1/2 log(1 + S_w)
 //
-// per independent value: the negative logarithm of a normal density of unknown scale whose least scale is the
-// floor. So a window that is wrong by a hundred floors does not outvote those that the hypothesis explains,
-// as it would with squares.
+// for each independent value: the negative logarithm of a normal density whose unknown standard deviation is
+// at least the floor. Unlike a sum of squares, it does not let a window that is wrong by a hundred floors
+// outvote those that the hypothesis explains.
 #include "gap/evidence.h"
 
 #include <span>
@@ -16,41 +16,42 @@
 
 namespace fidservo::gap {
 
-/// S_w; NaN where no value counts, and everywhere for errors of a hypothesis that the plant refused.
+/// S_w of each window; NaN where no value counts, and everywhere for errors of a hypothesis that the plant
+/// refused.
 std::vector<double> mean_squares(std::span<const Window> windows, const Errors& errors);
 
-/// l_w of S_w.
+/// The loss l_w of a window with the mean square S_w.
 double window_loss(double mean_square);
 
-/// Sum of the windows' losses; those without values count nothing.
+/// Sum of the windows' losses; windows without values (NaN) do not count.
 double total_loss(std::span<const double> mean_squares);
 
-/// Of the windows counted. Infinite for errors of a hypothesis that the plant refused.
+/// Total loss of the counted windows; infinite for errors of a hypothesis that the plant refused.
 double total_loss(std::span<const Window> windows, const Wanted& counted, const Errors& errors);
 
-/// Loss that errors save over mean squares of other ones in the windows counted that both predict; minus
-/// infinity where the plant refused it.
+/// By how much errors lower the loss below that of a base's mean squares, in the counted windows that both
+/// predict; minus infinity if the plant refused their hypothesis.
 double gained(std::span<const Window> windows, const Wanted& counted, std::span<const double> base_squares,
               const Errors& errors);
 
-/// Of two hypotheses on the same windows.
+/// How a second hypothesis compares with a first one on the same windows.
 struct Comparison {
-    double gain = 0.0;  ///< sum of the losses that the second one saves
-    /// gain over its standard deviation, from the scatter of the windows' gains with three neighbouring
-    /// windows of a run taken together, frames each by itself; 0 where nothing differs.
+    double gain = 0.0;  ///< sum over windows of the loss that the second one saves
+    /// gain over its standard deviation, estimated from the scatter of the gains of blocks: three
+    /// neighbouring windows of a signal in a run, or one frame. 0 where fewer than two blocks differ.
     double significance = 0.0;
-    int blocks = 0;  ///< of windows in which they differ
+    int blocks = 0;  ///< number of blocks in which the two differ
 };
 
 Comparison compare(std::span<const Window> windows, std::span<const double> first,
                    std::span<const double> second);
 
-/// Least held-out loss that a cause has to save, whatever its significance: what makes the error of a window
-/// far above its floor smaller by the factor 1.6.
+/// Least held-out loss that a cause has to save, whatever its significance. Dividing the error of one window
+/// far above its floor by 1.6 saves as much.
 inline constexpr double least_gain = 0.5;
 
-/// Smallest significance that is no chance, at level `tail` over `trials` comparisons: Student's law with a
-/// degree of freedom less than blocks. Infinite for fewer than three blocks.
+/// The significance that any of `trials` comparisons exceeds by chance with probability `tail` (Bonferroni),
+/// by Student's t distribution with blocks - 1 degrees of freedom. Infinite for fewer than four blocks.
 double significance_bound(int blocks, int trials, double tail);
 
 }  // namespace fidservo::gap

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How errors change with parameters.
+// Numerical derivatives of errors with respect to parameters.
 #include "gap/candidates/scaled_parameters.h"
 #include "gap/fit/fit.h"
 
 namespace fidservo::gap {
 
-/// Change of the errors with parameter k, a scale of it: a difference over a step. 0 where the plant refuses
-/// the value beside.
+/// The derivative with respect to parameter k, per scale of it, by a one-sided difference. 0 for a parameter
+/// on which the errors do not depend locally, and where the plant refuses the neighbouring value.
 Errors slope(const Predict& predict, const ScaledParameters& parameters, std::size_t k, const Errors& errors,
              double step_scales = usual_step);
 

@@ -18,7 +18,8 @@ const plant::MacroAxis& axis_of(const CarriageModel& model, const CarriageRun& r
     return run.is_homed ? model.axis : model.endless_axis;
 }
 
-/// Whether nothing moves. Bristles and belts swing on for ever, by less than a thousandth of a count.
+/// Whether nothing moves. Bristles and belts never quite come to rest, but swing by less than a thousandth of
+/// a count.
 bool is_at_rest(const plant::MacroAxis& axis, const plant::MacroAxisState& state) {
     constexpr double rest_mm_per_s = 1e-4;
     const plant::MechanismState& mechanism = state.mechanism;
@@ -28,14 +29,15 @@ bool is_at_rest(const plant::MacroAxis& axis, const plant::MacroAxisState& state
                      std::abs(mechanism.stretching_mm_per_s)}) <= rest_mm_per_s;
 }
 
-/// Runs the plant over rows; what it shows at row k, or its place alone, goes to element k - origin.
-/// @return the effort, in rows
+/// Simulates the plant over some rows. Its motion at row k, or only its position, is stored at index k -
+/// origin.
+/// @return the cost, in rows
 std::size_t run_rows(const CarriageModel& model, const CarriageRun& run, std::size_t first, std::size_t end,
                      plant::MacroAxisState& state, CarriagePath& motion, std::size_t origin = 0) {
-    // By how long it takes beside a row in closed form (bench/gap_bench.cpp).
+    // Costs relative to a row in closed form, by their times (bench/gap_bench.cpp).
     constexpr std::size_t of_step = 20, of_belt_step = 25, of_series_step = 14, of_rippled_row = 2;
     const plant::MacroAxis& axis = axis_of(model, run);
-    // Else commands are on their way, or time goes on.
+    // Otherwise delayed commands may still arrive, or forces change with time.
     const bool may_rest = axis.parameters.delay_s == 0.0 && !axis.parameters.formulas.any();
     const bool only_places = motion.velocity_mm_per_s.empty();
     bool was_at_rest = false, rests = false;
@@ -60,8 +62,8 @@ std::size_t run_rows(const CarriageModel& model, const CarriageRun& run, std::si
            static_cast<std::size_t>(steps.in_series) * of_series_step;
 }
 
-/// The state in which a stretch begins, before its counts correct it: at its first count; at rest, or as fast
-/// as its first counts are; with what the way until then has left behind.
+/// The state in which a stretch begins, before its counts correct it: at the first count; at rest, or with
+/// the velocity of the first counts; with what the mechanism remembers of the motion before.
 plant::MacroAxisState first_state(const CarriageModel& model, const CarriageRun& run, std::size_t row) {
     const std::size_t glance = std::min<std::size_t>(20, lead_rows(run.tick_s));
     auto state = plant::start(model.axis, position_mm(model.encoder, run.reading_count[row]));
@@ -78,7 +80,7 @@ plant::MacroAxisState first_state(const CarriageModel& model, const CarriageRun&
     return state;
 }
 
-/// The rows before a window, run from a state that the counts correct.
+/// The rows before a window, simulated from a state that their counts correct.
 class Lead {
   public:
     Lead(const CarriageModel& model, const CarriageRun& run, Followed followed)
@@ -88,9 +90,9 @@ class Lead {
           trial_(motion_),
           errors_(motion_.position_mm.size()) {}
 
-    /// From where it was carried to. At the start of a recording, where that does not lead through the
-    /// counts, also from rest and from other places in the first count: over a force along the rail these
-    /// decide which way it goes.
+    /// Simulates from the carried state. At the start of a recording, where this does not reproduce the
+    /// counts, also simulates from rest and from other positions in the first count: with a force along the
+    /// rail these decide which way the carriage goes.
     /// @return the state at the window's first row
     plant::MacroAxisState enter(const WindowRows& window, const plant::MacroAxisState& carried) {
         constexpr double enough = 1.0;
@@ -173,15 +175,16 @@ class Lead {
     const CarriageRun& run_;
     CarriagePath motion_, trial_;
     std::vector<double> errors_;
-    std::size_t effort_ = 0;  ///< so far, in rows
+    std::size_t effort_ = 0;  ///< cost so far, in rows
 };
 
-/// A run's window, and how the carriage comes there.
+/// A run's window, and how the carriage comes to it.
 struct Passage {
     WindowRows window;
     std::size_t stretch;
     bool ends_stretch;
-    /// Whether the window before leads there: behind an end of travel where something is remembered.
+    /// Whether the window before leads to it; through an end of travel only where the mechanism remembers its
+    /// motion.
     bool follows;
 };
 
@@ -197,8 +200,8 @@ std::vector<Passage> passages(const plant::MacroAxis& axis, const CarriageRun& r
     return all;
 }
 
-/// Which windows to run: those wanted; those before them from where the counts say what the mechanism
-/// remembers; with a belt also one before them, in which its swing dies down.
+/// The windows to simulate: those wanted; those before them, back to where the counts tell what the mechanism
+/// remembers; with a belt also one before each wanted one, in which the belt's swing dies down.
 /// @param wanted  a flag for each window; empty: all
 std::vector<bool> needed_windows(const CarriageModel& model, const CarriageRun& run,
                                  std::span<const Passage> all, std::span<const std::uint8_t> wanted) {

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// From the macro command to the encoder: a hypothesis's carriage along a recording.
+// From the macro command to the encoder: the carriage along a recording, under a hypothesis.
 //
-// In each window the plant runs freely under the recorded commands. It enters the 100 ms before the window
-// with what the window before has carried there (commands on their way, play, bristles, belt; through an end
-// of travel too), or where that one is not run with what the counts tell of it (gap/links/counted_way.h), at
-// the place and the velocity that fit these 100 ms best: each count says that the carriage was within half a
-// count of it, and the carried state is a weak prior. So a carriage at rest within its count stays where it
-// was carried to, and gets no velocity out of rounding. Least squares of what lies beyond half a count of
+// In each window the plant runs freely under the recorded commands. It enters the 100 ms before the window in
+// the state that the window before has carried there (delayed commands, play, bristles, belt), also through
+// an end of travel; where that window is not simulated, the counts tell what the mechanism remembers
+// (gap/links/counted_way.h). Position and velocity are corrected such that they fit these 100 ms best: each
+// count says that the carriage was within half a count of it, and the carried state is a weak prior.
+// Therefore a carriage at rest within its count stays where it was carried to, and rounding gives it no
+// velocity. The corrections dy and dv minimise the squares of what exceeds half a count in
 //
-//     e_k + dy + tau (1 - exp(-t_k / tau)) dv          e: prediction minus count; dy, dv: corrections
+//     e_k + dy + tau (1 - exp(-t_k / tau)) dv          e_k: prediction minus count at t_k, tau: time constant
 //
-// by Newton's method; where the plant has no closed form or the encoder a ripple, again from what the
-// corrected plant shows.
+// by Newton's method; where the plant has no closed-form solution or the encoder a ripple, this is repeated
+// with the corrected plant's errors.
 #include "gap/links/carriage_path.h"
 #include "gap/links/carriage_run.h"
 #include "plant/stage_plant.h"
@@ -24,28 +25,28 @@
 
 namespace fidservo::gap {
 
-/// Axis and encoder of a hypothesis.
+/// The axis and the encoder of a hypothesis.
 struct CarriageModel {
     plant::MacroAxis axis;
     plant::MacroAxis endless_axis;  ///< without ends of travel, for readings from an unknown origin
     plant::Encoder encoder;
-    double start_offset_count = 0.0;  ///< by which windows begin beside the place that fits best
+    double start_offset_count = 0.0;  ///< added to the position at the start of each window
 };
 
 /// Throws InputError as make_macro_axis does.
 CarriageModel carriage_model(const plant::PlantParameters& parameters);
 
-/// Readings before rounding, and what it took to predict them.
+/// Readings before rounding, and the cost of predicting them.
 struct PredictedCounts {
-    std::vector<double> counts;  ///< for the rows of the windows wanted; NaN elsewhere, or there too
-    std::size_t effort = 0;      ///< in rows of a carriage that is followed in closed form
+    std::vector<double> counts;  ///< in all rows of the wanted windows; other rows may be NaN
+    std::size_t effort = 0;      ///< cost, in rows of a carriage that is simulated in closed form
 };
 
-/// @param wanted  a flag for each of the run's windows, stretch after stretch
+/// @param wanted  a flag for each of the run's windows, in the order of CarriageRun::windows
 PredictedCounts predicted_counts(const CarriageModel& model, const CarriageRun& run,
                                  std::span<const std::uint8_t> wanted);
 
-/// For all windows, and the path.
+/// Readings for all windows. Stores the path, too.
 PredictedCounts predicted_counts(const CarriageModel& model, const CarriageRun& run, CarriagePath& path);
 
 }  // namespace fidservo::gap

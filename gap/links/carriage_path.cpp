@@ -9,7 +9,8 @@ namespace fidservo::gap {
 
 namespace {
 
-/// Straight lines between known values, the first and last one before and after them; 0 where none is known.
+/// Interpolates unknown values linearly between known ones; before the first and after the last known value
+/// it holds that. 0 where none is known.
 void bridge(std::vector<double>& values) {
     const auto end = values.end();
     auto before = end;

@@ -13,7 +13,7 @@ namespace fidservo::gap {
 
 namespace {
 
-/// A run of rows with one reading.
+/// Successive rows with the same reading.
 struct Dwell {
     std::size_t first, end;
     double reading_count;
@@ -29,7 +29,8 @@ std::vector<Dwell> dwells(const std::vector<double>& reading_count) {
     return all;
 }
 
-/// Behind the last dwell from `first` on that has one of this one's and the next one's readings.
+/// Index behind the last dwell of a flicker: from `first` on, readings alternate between those of the first
+/// two dwells.
 std::size_t end_of_flicker(const std::vector<Dwell>& all, std::size_t first) {
     if (first + 1 == all.size() || std::abs(all[first + 1].reading_count - all[first].reading_count) != 1.0)
         return first + 1;
@@ -38,7 +39,8 @@ std::size_t end_of_flicker(const std::vector<Dwell>& all, std::size_t first) {
     return end;
 }
 
-/// Whether, 50 ms before and after each row, the reading is the same or goes to and fro between two counts.
+/// For each row, whether the reading is constant or alternates between two counts in the 50 ms before and
+/// after it.
 std::vector<bool> standing_rows(const CarriageRun& run) {
     const std::size_t rows = run.reading_count.size(), reach = lead_rows(run.tick_s) / 2;
     std::vector<bool> stands(rows, false);
@@ -57,7 +59,7 @@ std::vector<bool> standing_rows(const CarriageRun& run) {
     return stands;
 }
 
-/// Where in a usable stretch the carriage is free of the ends of travel.
+/// Which rows of a usable stretch are free of the ends of travel.
 std::vector<bool> free_rows(const CarriageRun& run, const Stretch& stretch, const MacroParameters& macro,
                             const calib::Travel& travel) {
     calib::MacroTrace trace{{}, run.tick_s, {}, {}};

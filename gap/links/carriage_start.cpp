@@ -13,10 +13,11 @@ namespace fidservo::gap {
 
 namespace {
 
-/// Standard deviation of what lies outside of its count. Within it all places are equally good, also where a
-/// carriage at rest says so a hundred times.
+/// Standard deviation of the carriage's distance from its count. Within the count all positions are equally
+/// good, even if a carriage at rest shows the same count a hundred times.
 constexpr double noise_count = 0.05;
-/// How far the carried state may be trusted: in place by what rounding hides, in velocity by a count's way.
+/// Standard deviations of the carried state: of the position by what rounding hides, of the velocity by a
+/// distance of one count.
 constexpr double place_std_count = 0.3, coast_std_count = 1.0;
 constexpr double place_weight = 1.0 / (place_std_count * place_std_count);
 constexpr double coast_weight = 1.0 / (coast_std_count * coast_std_count);

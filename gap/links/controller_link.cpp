@@ -22,9 +22,9 @@ namespace {
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double no_limit_V = std::numeric_limits<double>::infinity();
 
-/// The rig file's controllers. A recording that names one claims that one; one that names none but is of an
-/// experiment that is defined by the file's controllers (src/simulation/experiments.h) claims that it was one
-/// of them.
+/// Experiments that the rig file's controllers define (src/simulation/experiments.h). A recording that names
+/// a controller claims that one; a recording of such an experiment that names none claims that it was one of
+/// the file's.
 constexpr std::array<std::string_view, 3> closed_loop_experiments{"macro-square", "micro-servo",
                                                                   "integrated"};
 
@@ -33,7 +33,7 @@ bool claims(const Recording& recording, std::string ControllerNames::*stage, std
     return std::ranges::find(closed_loop_experiments, recording.experiment) != closed_loop_experiments.end();
 }
 
-/// Of the rows that it says something of; infinite where that is none.
+/// Mean square of the errors that are known; infinite where none is.
 double mean_square_of_finite(const std::vector<double>& errors) {
     double sum = 0.0, count = 0.0;
     for (const double error : errors) {
@@ -44,10 +44,11 @@ double mean_square_of_finite(const std::vector<double>& errors) {
     return count > 0.0 ? sum / count : std::numeric_limits<double>::infinity();
 }
 
-/// In which state a stretch may find a controller.
+/// The state of a controller at the start of a stretch: newly started, or running before.
 enum class Start { fresh, under_way };
 
-/// Both where the recording begins with it: whoever made it may have begun in the middle.
+/// Whether a stretch may find the controller in such a state; where the recording begins with it both are
+/// possible, as it may have been begun while the controller ran.
 bool may_start(Start start, const Recording& recording, const Stretch& stretch,
                double StageRow::*setpoint_mm) {
     if (stretch.first == 0) return true;
@@ -55,11 +56,11 @@ bool may_start(Start start, const Recording& recording, const Stretch& stretch,
     return goes_on == (start == Start::under_way);
 }
 
-/// Errors of a stretch's rows, replayed minus recorded command; NaN where the controller's state is not known
-/// yet, and none where the stretch cannot begin so.
+/// Gives a stretch's errors, replayed minus recorded command: NaN while the controller's state is not known;
+/// no errors where the stretch cannot find it in the assumed state.
 using Replay = std::function<std::vector<double>(const Stretch&)>;
 
-/// Fills a run with what the best of several replays leaves in each stretch.
+/// A run with the errors of that one of several replays which fits best, in each stretch.
 ControllerRun best_run(const Recording& recording, const std::vector<bool>& usable,
                        const std::vector<Replay>& candidates) {
     ControllerRun run;
@@ -82,23 +83,24 @@ ControllerRun best_run(const Recording& recording, const std::vector<bool>& usab
     return run;
 }
 
-/// How a firmware may come from a setpoint and a count to an error in counts.
+/// How firmware may compute an error in counts from a setpoint and a reading.
 struct CountReading {
-    bool truncates;          ///< the setpoint to whole counts; else it rounds
-    std::size_t delay_rows;  ///< by which the count is an older one
+    bool truncates;          ///< the setpoint to whole counts; otherwise it is rounded
+    std::size_t delay_rows;  ///< age of the reading
 };
 
 constexpr std::array<CountReading, 4> count_readings{{{false, 0}, {true, 0}, {false, 1}, {true, 1}}};
 
-/// The counts that a setpoint may have become: more than one where the file's last digit leaves it open.
+/// The counts to which a setpoint may have been converted: several where the file's last digit leaves that
+/// open.
 struct SetpointCounts {
     double low, stated, high;
 };
 
-/// @param step_mm  of the file's last digit
+/// @param step_mm  value of the file's last digit
 SetpointCounts setpoint_counts(double setpoint_mm, double step_mm, double resolution_mm,
                                const CountReading& reading) {
-    constexpr double slack_counts = 1e-9;  // of the division
+    constexpr double slack_counts = 1e-9;  // for the rounding of the division
     const double counts = setpoint_mm / resolution_mm + (reading.truncates ? 0.0 : 0.5);
     const double open_counts = 0.5 * step_mm / resolution_mm + slack_counts;
     return {std::floor(counts - open_counts), std::floor(counts), std::floor(counts + open_counts)};
@@ -107,8 +109,8 @@ SetpointCounts setpoint_counts(double setpoint_mm, double step_mm, double resolu
 /// The PD along a stretch.
 struct PdReplay {
     const MacroParameters* macro;
-    bool restarts;  ///< with each setpoint
-    bool is_known;  ///< whether the last error is
+    bool restarts;  ///< whether it restarts with each setpoint
+    bool is_known;  ///< whether the last error is known
     control::PdState state{};
 
     double command_V(double error_count, bool is_new_setpoint, double /*recorded_V*/) {
@@ -118,8 +120,8 @@ struct PdReplay {
     }
 };
 
-/// The benchmark PID along a stretch; under way its integral follows from the first command that is not
-/// saturated.
+/// The benchmark PID along a stretch. If it ran before, its integral follows from the first command that is
+/// not saturated.
 struct PidReplay {
     const MacroParameters* macro;
     double tick_s;
@@ -144,13 +146,13 @@ struct PidReplay {
     }
 };
 
-/// The rows of a recording in which a controller was asked.
+/// The rows of a recording in which a controller ran.
 struct Asked {
     const Recording& recording;
-    const std::vector<bool>& left_out;  ///< the others; empty: none
+    const std::vector<bool>& left_out;  ///< the other rows; empty: none
 
     bool at(std::size_t row) const { return left_out.empty() || !left_out[row]; }
-    /// The row whose reading it had at a row of a stretch.
+    /// The row whose reading the controller used at a row of a stretch.
     std::size_t sampled(const Stretch& stretch, std::size_t row, std::size_t delay_rows) const {
         std::size_t read = std::max(stretch.first, row - std::min(row, delay_rows));
         while (read > stretch.first && !at(read)) --read;
@@ -158,16 +160,16 @@ struct Asked {
     }
 };
 
-/// Errors of one held setpoint.
+/// A controller's replay while one setpoint is held.
 template <class Controller>
 struct Held {
-    Controller controller;  ///< behind it
+    Controller controller;  ///< in its state at the end
     std::vector<double> error_V;
 };
 
-/// A controller along a stretch. Where a setpoint leaves its count open, the one that fits best is taken as
-/// long as it is held: the farther a count is from that one, the farther are the commands, so that it is
-/// found by going on as long as they come nearer.
+/// A controller along a stretch. Where a setpoint leaves its count open, the count that fits best is used as
+/// long as the setpoint is held. The errors grow with the distance from the best count, so that the search
+/// from the stated count to either side ends as soon as they do.
 template <class Controller>
 std::vector<double> replayed(const Asked& asked, const Stretch& stretch, double resolution_mm,
                              const CountReading& reading, Controller controller) {
@@ -209,8 +211,9 @@ std::vector<double> replayed(const Asked& asked, const Stretch& stretch, double 
     return errors;
 }
 
-/// The PI along a stretch; under way its integral follows from the first command that is not saturated.
-/// @param delay_rows  by which the reading is an older one
+/// The PI along a stretch. If it ran before, its integral follows from the first command that is not
+/// saturated.
+/// @param delay_rows  age of the reading that it uses
 std::vector<double> replayed_pi(const Asked& asked, const Stretch& stretch, const MicroParameters& micro,
                                 std::size_t delay_rows, bool is_known) {
     const Recording& recording = asked.recording;

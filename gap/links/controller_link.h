@@ -3,19 +3,21 @@
 // From setpoints and readings to commands: the rig file's controllers, replayed on what was recorded.
 //
 // A controller is deterministic: with the gains that the rig file states it gives the recorded command to the
-// last digit of the file, and there is no noise to compare a difference with. Its floor is therefore set: 0.1
-// mV, or the file's digits where they are coarser. A millivolt is 10 floors, and no single value counts more,
-// so that a rig with another controller says so without drowning what else is wrong with it. Under the truth
-// the errors are near 0, not near 1.
+// last digit of the file, so that there is no noise to compare a difference with. Its floor is therefore set
+// to 0.1 mV, or to the rounding of the file's digits where that is coarser. Errors are limited to 10 floors,
+// a millivolt, so that a rig with another controller shows that without hiding its other errors. Under the
+// truth the errors are near 0, not near 1 floor.
 //
-// Only a recording that claims a controller can show that it is another one: Recording::controllers names it,
-// or the recording is of an experiment that the file's controllers define. All other commands are given.
+// A recording can show that its controller is another one only if it claims one: Recording::controllers names
+// it, or the recording is of an experiment that the file's controllers define. All other commands are not
+// judged, but taken as given.
 //
-// Firmware is free to round a setpoint to whole counts or to cut it off, and to take this tick's reading or
-// the last one's; and a setpoint may have become any count that its last digit in the file leaves open
-// (RecordingHeader::macro_setpoint_step_mm). Of all these readings the one that fits best counts.
+// Firmware may round a setpoint to whole counts or truncate it, and may use the reading of this tick or of
+// the last one; and where the last digit of a setpoint in the file leaves its count open
+// (RecordingHeader::macro_setpoint_step_mm), several counts are possible. Of all these combinations the one
+// that fits best is used.
 //
-// After rows that are missing a controller is under way: the last error is known a row later, and the
+// After missing rows the state of a controller is not known: its last error is known one row later, and its
 // integral follows from the first command that is not saturated.
 #include "core/recording.h"
 #include "gap/evidence/windows.h"
@@ -30,27 +32,30 @@ namespace fidservo::gap {
 
 /// One controller along a recording.
 struct ControllerRun {
-    std::vector<WindowRows> windows;  ///< where its setpoint is in force
+    std::vector<WindowRows> windows;  ///< where the controller has a setpoint
     std::vector<double> error_V;      ///< replayed minus recorded command, row by row; NaN outside of windows
 };
 
 /// Whether a recording claims that a controller of the rig file was in charge of a stage.
 bool claims_controller(const Recording& recording);
 
-/// The PD, the PD started anew with each setpoint, or the benchmark PID, as far as they are claimed: in each
-/// stretch the one that fits best. No windows where none is claimed or the rig file states no gains.
-/// @param left_out  rows in which the controller was not asked; empty: none. It goes on behind them.
+/// The nonlinear PD, the PD that restarts with each setpoint, or the benchmark PID, as far as the recording
+/// claims them: in each stretch the one that fits best. Without windows where none is claimed or the rig file
+/// states no gains.
+/// @param left_out  rows in which the controller did not run; empty: none. Its state is kept over these rows.
 ControllerRun macro_controller_run(const Recording& recording, const Rig& rig,
                                    const std::vector<bool>& left_out = {});
 
-/// The PI with anti-windup, likewise.
+/// The micro stage's controller, a PI with anti-windup. Without windows where the recording does not claim it
+/// or the rig file states no gains.
+/// @param left_out  rows in which the controller did not run; empty: none
 ControllerRun micro_controller_run(const Recording& recording, const Rig& rig,
                                    const std::vector<bool>& left_out = {});
 
-/// What the file's digits leave of a command, at least 0.1 mV.
+/// The rounding of a command by its digits in the file, r.m.s., but at least 0.1 mV.
 double controller_floor_V(const std::vector<double>& command_V);
 
-/// Error in floors, as it counts.
+/// An error in floors, limited to 10 floors.
 double counted_floors(double error_V, double floor_V);
 
 }  // namespace fidservo::gap

@@ -11,13 +11,14 @@ namespace fidservo::gap {
 
 namespace {
 
-/// The turns before a row; the last of them begins the way that leads there. None before the first reading.
+/// Number of turns up to a row, the last of which begins the motion that leads there. 0 before the first
+/// reading.
 std::size_t turns_before(const CountedWay& way, std::size_t row) {
     const auto behind = std::ranges::upper_bound(way.turns, row, {}, &Turn::row);
     return static_cast<std::size_t>(behind - way.turns.begin());
 }
 
-/// A way that leaves of what was before it one part in a million.
+/// A distance that reduces the memory of earlier motion to one part in a million.
 double forgetting_way_mm(const plant::MacroAxis& axis) {
     constexpr double lengths = 14.0;
     const double bristles_mm = axis.has_bristles ? lengths * axis.parameters.friction.bristle_mm : 0.0;

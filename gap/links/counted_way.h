@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The way that a carriage has covered by its counts, and what its mechanism remembers of it: how far its
-// bristles are bent (plant/friction.h), and on which side of its play it is (plant/transmission.h). Both
-// follow from the way alone, so that counts tell them where no simulation has come from: at the start of a
-// stretch, or behind windows that nobody wants.
+// The distance that a carriage has covered according to its counts, and what its mechanism remembers of it:
+// how far its bristles are deflected (plant/friction.h), and on which side of its play it is
+// (plant/transmission.h). Both follow from the motion alone, so that counts tell them where no simulation
+// leads: at the start of a stretch, or after windows that are not wanted.
 //
-// Where a count changes, the carriage is at the border of two counts. Between, its place is taken to be the
-// nearest to the last one that rounds to the count (a play operator one count wide).
+// Where the count changes, the carriage is at the border of two counts. In between, its position is taken to
+// be the one nearest to the last position that rounds to the count (a play operator one count wide).
 #include "plant/macro_axis.h"
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace fidservo::gap {
 
-/// Where the carriage turned round, or began.
+/// A row at which the carriage reversed, or the first one.
 struct Turn {
     std::size_t row;
     double place_count;
@@ -22,25 +22,26 @@ struct Turn {
 
 struct CountedWay {
     std::vector<double> place_count;  ///< row by row; NaN before the first reading
-    std::vector<Turn> turns;          ///< by row
+    std::vector<Turn> turns;          ///< sorted by row
 };
 
 /// @param reading_count  row by row, NaN where missing
 CountedWay counted_way(const std::vector<double>& reading_count);
 
-/// How much way was covered up to a row, whichever way it went, in counts.
+/// The distance covered up to a row, in both directions together, in counts.
 double covered_count(const CountedWay& way, std::size_t row);
 
-/// Whether a mechanism, or a formula, remembers anything of its way.
+/// Whether a mechanism, or a formula, depends on its past motion.
 bool remembers(const plant::MacroAxis& axis);
 
-/// What a mechanism remembers at a row, whose bristles were straight, and whose play was in its middle, where
-/// the counts begin.
+/// What a mechanism remembers at a row, if its bristles were straight and its play was centred at the first
+/// count.
 plant::MechanismState remembered(const CountedWay& way, const plant::MacroAxis& axis, double mm_per_count,
                                  std::size_t row);
 
-/// Whether that is as certain as a simulation: there is nothing to remember, or the carriage is on its way
-/// there and beyond, and has been for long enough to have forgotten all that was before.
+/// Whether the result of remembered() is as certain as a simulation: there is nothing to remember, or the
+/// carriage moves in one direction through the row and has covered enough distance to forget all that was
+/// before.
 bool is_remembered(const CountedWay& way, const plant::MacroAxis& axis, double mm_per_count, std::size_t row);
 
 }  // namespace fidservo::gap

@@ -12,10 +12,11 @@ namespace {
 
 constexpr std::array<std::size_t, 7> half_widths{2, 4, 8, 16, 32, 64, 128};
 constexpr double interval_stds = 1.0;
-/// What the rule lets pass of the error of a straight line, on top of the noise.
+/// Factor of the standard deviation by noise alone, for the deviations from a straight line that the rule
+/// admits.
 constexpr double bias_share = 1.25;
 
-/// Sums from the first value on, to fit straight lines over any rows.
+/// Cumulative sums of values, from which straight lines can be fitted to any rows.
 class LineFits {
   public:
     explicit LineFits(const std::vector<double>& values)
@@ -26,7 +27,7 @@ class LineFits {
         }
     }
 
-    /// At `at`, of the line through rows first .. end.
+    /// The value at row `at` of the line fitted to the rows from `first` up to, not including, `end`.
     double line(std::size_t at, std::size_t first, std::size_t end) const {
         const double count = static_cast<double>(end - first);
         const double centre = 0.5 * static_cast<double>(first + end - 1);
@@ -35,7 +36,7 @@ class LineFits {
         return mean + moment / spread(count) * (static_cast<double>(at) - centre);
     }
 
-    /// Variance of line() per variance of a value.
+    /// Variance of line(), relative to the variance of a single value.
     static double variance(std::size_t at, std::size_t first, std::size_t end) {
         const double count = static_cast<double>(end - first);
         const double off = static_cast<double>(at) - 0.5 * static_cast<double>(first + end - 1);
@@ -62,12 +63,12 @@ std::vector<Stretch> pieces_of(const PlatformRun& run) {
     return pieces;
 }
 
-/// Rows on either side, as far as there are.
+/// The rows up to `half` rows away, as far as they exist.
 Stretch stretch_around(std::size_t at, std::size_t half, std::size_t rows) {
     return {at < half ? 0 : at - half, std::min(rows, at + half + 1)};
 }
 
-/// Which of the half widths the rule chooses.
+/// Index of the half width that the rule chooses.
 std::size_t width_at(const LineFits& fits, std::size_t at, std::size_t rows, double floor_lsb) {
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = 0; i < half_widths.size(); ++i) {
@@ -82,7 +83,7 @@ std::size_t width_at(const LineFits& fits, std::size_t at, std::size_t rows, dou
     return half_widths.size() - 1;
 }
 
-/// Medians over 17 rows: noise alone makes the rule stop early here and there.
+/// Medians over 17 rows, since noise alone makes the rule choose too small a width in places.
 std::vector<std::size_t> medians(const std::vector<std::size_t>& widths) {
     constexpr std::size_t reach = 8;
     std::vector<std::size_t> found(widths.size());
@@ -121,7 +122,7 @@ void smooth(const PlatformRun& run, const Stretch& piece, std::span<const double
     }
 }
 
-/// Gives rows without a value what the row before has; the first ones, what the first that has one has.
+/// Gives rows without a value that of the row before, and the first rows the first known value.
 void hold(std::vector<double>& values, double none) {
     const auto known = std::ranges::find_if(values, [](double value) { return std::isfinite(value); });
     double last = known == values.end() ? none : *known;

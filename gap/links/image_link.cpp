@@ -19,13 +19,13 @@ constexpr double pixel_variance_px2 = 1.0 / 12.0, rounding_grey2 = 1.0 / 12.0, w
 constexpr std::size_t sides = 4, first_light = sides, white_noise = 2 * sides, black_noise = white_noise + 1;
 static_assert(black_noise + 1 == image_values);
 
-/// What the measurements may be off by beyond their noise, as shares (tests/vision/tag_appearance_test.cpp).
+/// Allowances for systematic errors of the measurements, as shares (tests/vision/tag_appearance_test.cpp).
 constexpr double edge_allowance = 0.02, light_allowance = 2e-3, noise_allowance = 0.06;
 
-/// Of an exposure beyond the rig file's (plant/effects/motion_blur.cpp).
+/// The longest exposure beyond the rig file's (plant/effects/motion_blur.cpp).
 constexpr double most_extra_s = 0.015;
 
-/// Of what was measured.
+/// Mean of the values that were measured (not NaN).
 class Mean {
   public:
     void add(double value) {
@@ -91,7 +91,7 @@ double edge_variance_px2(const ImageModel& model, const Eigen::Vector2d& normal,
            pixel_variance_px2 + std::pow(exposure_s * normal.dot(velocity_px_per_s), 2) / 12.0;
 }
 
-/// Mean over the strip, by Gauss's two points.
+/// Mean light over the strip, by Gaussian quadrature with two points.
 double light(const ImageModel& model, const TagSide& side) {
     const CameraGeometry& geometry = model.camera.geometry;
     plant::Light light;
@@ -120,7 +120,8 @@ std::map<int, TagTrack> tracks_of(const Recording& recording) {
     return tracks;
 }
 
-/// Of a measured value that is worth nothing, as the spread of a strip that is one grey: NaN.
+/// Logarithm of predicted over measured; NaN for a measured value that tells nothing, such as a spread of 0
+/// in a strip of a single grey level.
 double log_ratio(double predicted, double measured) {
     const double ratio = std::log(predicted / measured);
     return std::isfinite(ratio) ? ratio : std::numeric_limits<double>::quiet_NaN();
@@ -138,7 +139,8 @@ ImageSighting sighting_of(const TagAppearance& seen, const ImageMotion& motion,
     const double still_px2 = std::pow(camera.blur_px, 2) + pixel_variance_px2;
     for (std::size_t k = 0; k < sides; ++k) {
         const TagSide& side = seen.sides[k];
-        // What motion adds, by what was measured and as far as any exposure can: it is what is in question.
+        // The part of the edge's variance that is due to motion: as measured, but limited to what the longest
+        // possible exposure can cause, since the exposure itself is in question.
         const double along = std::abs(side.normal.dot(motion.velocity_px_per_s));
         const double longest_px = (camera.exposure_s + most_extra_s) * (along + motion.std_px_per_s);
         const double moved_px2 =
@@ -198,7 +200,8 @@ ImageRun image_run(Recording& recording, const CameraParameters& camera) {
 std::vector<ImageErrors> image_errors(const ImageModel& model, const Recording& recording,
                                       const ImageRun& run) {
     std::vector<ImageErrors> errors;
-    std::vector<Mean> lights(run.sightings.empty() ? 0 : run.sightings.back().second + 1);  // by second
+    // The mean error of light in each second.
+    std::vector<Mean> lights(run.sightings.empty() ? 0 : run.sightings.back().second + 1);
     for (std::size_t i = 0; i < run.sightings.size(); ++i) {
         const ImageSighting& sighting = run.sightings[i];
         const TagAppearance& seen = recording.appearances[i];

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How a tag looks in its frame: blur, light and noise, from what the camera is claimed to be.
+// A tag's appearance in its frame: blur, light and noise, predicted from a hypothesis's camera.
 //
-// Measured (core/appearance.h) and predicted are positive, and compared by the logarithm of their ratio:
+// Measured (core/appearance.h) and predicted values are positive, and compared by the logarithm of their
+// ratio:
 //
 //     edge     ln (blur^2 + extra blur^2 + 1/12 + (n . v)^2 T^2 / 12),   n the edge's normal
-//     light    ln (L at the strip beside the edge), less the mean of these in the second
+//     light    ln (L at the strip beside the edge), minus the mean of this error over each second
 //     noise    ln (k g + (k r)^2 + (spread g)^2 + 1/12),   k = 255 / full well, for white and for black
 //
-// with T the exposure, r the read noise, g the measured grey level, L of plant/view/view_options.h. How
-// bright the lamp and the paper are no rig file says, so light is compared within a second only. v is how the
-// tag moves in the image, px/s, from where it is seen two frames before to two frames after, by the
-// five-point formula; it depends on no model of the stages. Where those frames do not show the tag, edges are
-// not judged; nor where their differences over one and over two frames are too far apart for the motion to be
-// even, first differences (which jerk sets apart) or second ones (which a jump of the velocity does).
+// with T the exposure, r the read noise, g the measured grey level, and L the light of
+// plant/view/view_options.h. No rig file states how bright lamp and paper are, so that light is compared
+// within a second only. v is the tag's velocity in the image, px/s, by the five-point formula from its
+// positions two frames before to two frames after; it depends on no model of the stages. A tag is not judged
+// in a frame where any of these frames does not show it, or where the differences over one and over two
+// frames are too far apart for an even motion: the first differences (by jerk) or the second differences (by
+// a jump of the velocity).
 //
-// floor^2 of a logarithm = (the measurement's own noise)^2 + allowance^2 + (what v is uncertain of)^2
+// floor^2 of a logarithm = (the measurement's own noise)^2 + allowance^2 + (effect of v's uncertainty)^2
 //
-// Allowances bound what measurements are off by beyond their noise: under the truth, evenly spread within
-// them, a mean square is (floor^2 - 2/3 allowance^2) / floor^2.
+// Allowances bound the systematic errors of the measurements: if these are evenly spread within them, the
+// mean square under the truth is (floor^2 - 2/3 allowance^2) / floor^2.
 #include "core/camera/camera_parameters.h"
 #include "core/recording.h"
 #include "gap/evidence.h"
@@ -32,28 +34,28 @@
 
 namespace fidservo::gap {
 
-/// An appearance's motion and floors.
+/// The motion and the floors of an appearance.
 struct ImageSighting {
-    std::array<Eigen::Vector2d, 4> corners_px;  ///< of its detection
+    std::array<Eigen::Vector2d, 4> corners_px;  ///< corners of the tag's detection
     Eigen::Vector2d velocity_px_per_s;
-    std::array<double, image_values> floors;  ///< of the logarithms
-    double expected_square;                   ///< mean under the truth, floors^2
-    std::size_t second;                       ///< since the recording's first row
+    std::array<double, image_values> floors;  ///< floors of the logarithms of the ratios
+    double expected_square;                   ///< mean square of its errors under the truth, floors^2
+    std::size_t second;                       ///< number of whole seconds since the recording's first row
 };
 
-/// A frame: what one is off by says nothing of the next one.
+/// A frame as a window of its own, since the errors of successive frames are independent.
 struct ImageWindow {
-    std::size_t first_row, end_row;  ///< of the recording: those until the next frame that is judged
-    std::size_t first, end;          ///< sightings
-    double expected_square;          ///< mean of theirs
+    std::size_t first_row, end_row;  ///< rows of the recording, up to the next frame that is judged
+    std::size_t first, end;          ///< range of its sightings
+    double expected_square;          ///< mean over its sightings
 };
 
 struct ImageRun {
-    std::vector<ImageSighting> sightings;  ///< of the recording's appearances
+    std::vector<ImageSighting> sightings;  ///< one for each of the recording's appearances
     std::vector<ImageWindow> windows;
 };
 
-/// Empty for a recording without appearances. Takes those out of it that are not judged.
+/// Removes from the recording the appearances that are not judged. Empty for a recording without appearances.
 ImageRun image_run(Recording& recording, const CameraParameters& camera);
 
 struct ImageModel {
@@ -61,11 +63,11 @@ struct ImageModel {
     plant::CameraDeviation deviation;
 };
 
-/// In floors, prediction minus measurement: four edges, four strips of light, noise of white and of black.
+/// Prediction minus measurement, in floors: four edges, four strips of light, noise of white and of black.
 /// NaN where a value was not measured.
 using ImageErrors = std::array<double, image_values>;
 
-/// Of all sightings.
+/// The errors of all sightings.
 std::vector<ImageErrors> image_errors(const ImageModel& model, const Recording& recording,
                                       const ImageRun& run);
 

@@ -15,10 +15,11 @@ namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-/// What the carried temperature is trusted to. Where the wire is flat, readings say little of its
-/// temperature, and the noise that a looser trust lets in shows when the wire gets steep (50 LSB per degree
-/// on the reference rig): under the truth the errors of the practice campaign are then 1.01 floors with
-/// 0.02, 3.8 with 0.1 and 20 with 0.3. What is wrong with a heater goes on being wrong.
+/// Standard deviation of the carried temperature. Where the wire's curve is flat, readings tell little of its
+/// temperature, and the noise that a larger value lets in shows as soon as the curve gets steep (50 LSB per
+/// degree on the reference rig): under the truth the errors of the practice campaign are then 1.01 floors
+/// with 0.02, 3.8 with 0.1 and 20 with 0.3. A small value also keeps the error of a wrong heater from being
+/// corrected away.
 constexpr double carried_std_degC = 0.003;
 constexpr double most_stds = 3.0;
 
@@ -71,7 +72,7 @@ class Pass {
         gap::step(model_, run_, carriage_, k, state);
     }
 
-    /// The reading of a platform that is beside where its wire puts it.
+    /// The reading with the platform's offset.
     double reading_lsb(plant::MicroStageState& state) const {
         if (beside_mm_ == 0.0) return mean_reading_lsb(model_.stage, state);
         const double position_mm = state.position_mm;
@@ -81,7 +82,7 @@ class Pass {
         return reading_lsb;
     }
 
-    /// How far the platform is beside its path in the rows before a window, least squares to first order.
+    /// Estimates the platform's offset in the rows before a window, by linearised least squares.
     void find_beside(const WindowRows& window, const plant::MicroStageState& carried) {
         constexpr double trial_mm = 0.01;
         constexpr int rounds = 2;
@@ -121,7 +122,8 @@ class Pass {
         }
     }
 
-    /// The stage at a window's first row as it was carried there, beside its path by what its readings say.
+    /// The stage at a window's first row as it was carried there, with the offset that the readings before it
+    /// tell.
     plant::MicroStageState beside(const WindowRows& window, const plant::MicroStageState& carried) {
         find_beside(window, carried);
         plant::MicroStageState state = carried;
@@ -129,7 +131,8 @@ class Pass {
         return state;
     }
 
-    /// The stage at a window's first row, and the path before it faded into the one that leads there.
+    /// The stage at a window's first row, with its temperature corrected. The path before the window is faded
+    /// into the one that leads there.
     plant::MicroStageState corrected(const WindowRows& window, const plant::MicroStageState& carried) {
         beside_mm_ = 0.0;
         constexpr double trial_degC = 0.05;
@@ -150,7 +153,7 @@ class Pass {
         return state;
     }
 
-    /// Follows a stage through the rows before a window, into whose path it fades.
+    /// Simulates a stage through the rows before a window, and fades the path into this one.
     void fade(const WindowRows& window, plant::MicroStageState& state) {
         const auto rows = static_cast<double>(window.first - window.lead);
         for (std::size_t k = window.lead; k < window.first; ++k) {
@@ -164,23 +167,26 @@ class Pass {
     const PlatformRun& run_;
     const CarriagePath* carriage_;
     bool may_rest_;
-    double beside_mm_ = 0.0;  ///< of the platform, by what the wire remembers from before the recording
+    /// Offset of the platform, by what the wire remembers from before the recording.
+    double beside_mm_ = 0.0;
     PlatformPrediction found_;
 };
 
-/// Ticks from one row to the next; what is longer than anything that the wire remembers is cut.
+/// Number of ticks from one row to the next. Pauses longer than anything that the wire remembers are
+/// shortened to 60 s.
 int ticks_between(TimeNs from_ns, TimeNs to_ns, double tick_s) {
     constexpr double longest_s = 60.0;
     return std::max(1, static_cast<int>(std::lround(std::min(longest_s, seconds(to_ns - from_ns)) / tick_s)));
 }
 
-/// Marks the rows where the wire's memory is not known.
+/// Marks the rows in which the wire's memory is not known as unusable.
 void leave_out_unknown_wire(const Recording& recording, const HeaterParameters& heater,
                             std::vector<bool>& usable) {
     constexpr double longest_pause_s = 0.1, cold_taus = 5.0;
     const double longest_under_way_s = std::max(0.01, 1.5 * recording.tick_s);
     bool is_known = true;
-    TimeNs last_ns = recording.rows.empty() ? 0 : recording.rows.front().time_ns;  // with a command
+    // Time of the latest row with a command.
+    TimeNs last_ns = recording.rows.empty() ? 0 : recording.rows.front().time_ns;
     double last_V = std::numeric_limits<double>::quiet_NaN();
     double cold_s = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < recording.rows.size(); ++k) {

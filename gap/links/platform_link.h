@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// From the micro command to the Hall reading: a hypothesis's wire, platform and sensor along a recording.
+// From the micro command to the Hall reading: wire, platform and sensor of a hypothesis along a recording.
 //
-// One pass from the start of the recording carries temperature, hysteresis memory, swing and drift. Before
-// each window the temperature is corrected by the readings of the 100 ms before it, as a Kalman filter would
-// (Maybeck, Stochastic Models, Estimation, and Control 1, 1979, ch. 5): with h the change of the prediction
-// per degree and r the reading minus the prediction,
+// One simulation from the start of the recording carries temperature, hysteresis memory, swing and drift.
+// Before each window the temperature is corrected by the readings of the 100 ms before it, as a Kalman filter
+// would (Maybeck, Stochastic Models, Estimation, and Control 1, 1979, ch. 5): with h the derivative of the
+// prediction with respect to temperature, r the reading minus the prediction, and std the standard deviation
+// of the carried temperature,
 //
 //     dT = (sum h r / floor^2) / (1 / std^2 + sum h^2 / floor^2)
 //
-// at most three times std, what the carried temperature is trusted to. Where the wire does not move with its
-// temperature nothing is corrected. The correction slides the end of the branch on which the wire is: no turn
-// is remembered that never was.
+// limited to three times std. Where the wire does not move with its temperature nothing is corrected. The
+// correction shifts the end of the hysteresis branch on which the wire is, so that its memory stores no
+// reversal that never happened.
 #include "core/micro_parameters.h"
 #include "core/recording.h"
 #include "gap/budget.h"
@@ -32,24 +33,24 @@ enum class WireStart {
     warm,     ///< neither its temperature nor its memory is known
 };
 
-/// What a recording says of the platform, row by row.
+/// The platform's part of a recording, row by row.
 struct PlatformRun {
     double tick_s = 0.0;
-    std::shared_ptr<const Budget> budget;  ///< asked by what runs along the recording; may be empty
-    std::vector<double> command_V;         ///< what was last commanded where a row has none
-    std::vector<double> macro_command_V;   ///< likewise
+    std::shared_ptr<const Budget> budget;  ///< checked by what simulates along the recording; may be null
+    std::vector<double> command_V;         ///< the last command where a row has none
+    std::vector<double> macro_command_V;   ///< the same for the macro stage
     std::vector<double> hall_adc;          ///< NaN where missing, or at an end of the range
-    std::vector<int> ticks;                ///< to the next row
-    std::vector<WindowRows> windows;       ///< by time
-    /// Of each window, whether the platform is beside its prediction by a constant that the rows before it
-    /// tell (gap/links/wire_memory.h); empty: none is.
+    std::vector<int> ticks;                ///< number of ticks to the next row
+    std::vector<WindowRows> windows;       ///< sorted by time
+    /// For each window, whether the platform is offset from its prediction by a constant that the rows before
+    /// the window tell (gap/links/wire_memory.h); empty: no window is.
     std::vector<bool> is_beside;
-    WireStart start = WireStart::cold;  ///< gap/links/wire_start.h
+    WireStart start = WireStart::cold;  ///< what is known of the wire (gap/links/wire_start.h)
     double floor_lsb = 0.0;
 };
 
-/// After a pause in the rows or commands of more than 0.1 s, or 10 ms where the command is another one then,
-/// nobody knows what a warm wire remembers: windows begin again when it has been cold for five cooling time
+/// What a warm wire remembers is not known after a pause of rows or commands of more than 0.1 s, or of 10 ms
+/// if the command has changed: windows are then left out until the wire has been cold for five cooling time
 /// constants.
 PlatformRun platform_run(const Recording& recording, const MicroParameters& micro, const HallRange& range,
                          double floor_lsb);
@@ -59,16 +60,16 @@ struct PlatformModel {
     plant::MacroAxisParameters axis;
 };
 
-/// Demands a micro stage.
+/// Requires a micro stage.
 PlatformModel platform_model(const plant::PlantParameters& parameters);
 
 struct PlatformPrediction {
-    std::vector<double> reading_lsb;       ///< mean reading for the rows of all windows; NaN elsewhere
-    std::vector<double> path_lsb;          ///< for all rows, each window faded into the next
-    std::vector<double> temperature_degC;  ///< of the wire, likewise, not faded
+    std::vector<double> reading_lsb;  ///< mean reading in the rows of all windows; NaN elsewhere
+    std::vector<double> path_lsb;  ///< in all rows, faded into each window's path over the 100 ms before it
+    std::vector<double> temperature_degC;  ///< of the wire in all rows, not faded
 };
 
-/// @param carriage  none where the platform does not feel it
+/// @param carriage  null where it does not affect the platform
 PlatformPrediction predicted_readings(const PlatformModel& model, const PlatformRun& run,
                                       const CarriagePath* carriage);
 

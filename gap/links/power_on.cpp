@@ -46,8 +46,8 @@ bool overlap(const Recording& a, const Recording& b) {
            b.rows.front().time_ns <= a.rows.back().time_ns;
 }
 
-/// Of each recording, whether another one covers some of its time: a rig does one thing at a time, so that
-/// their clocks are not one.
+/// For each recording, whether another one covers some of the same time. Since a rig does one thing at a
+/// time, their clocks then differ.
 std::vector<bool> on_own_clocks(const std::vector<Recording>& recordings) {
     std::vector<bool> on_own(recordings.size(), false);
     for (std::size_t i = 0; i < recordings.size(); ++i)
@@ -73,7 +73,8 @@ void append(Recording& run, Recording next) {
     add(run.appearances, std::move(next.appearances));
 }
 
-/// Where the rig file's camera stands when it sees a tag there, mm; empty for a tag that the plate has not.
+/// Position of the rig file's camera, mm, from which it sees a tag where it was detected; empty for a tag
+/// that the plate does not have.
 std::optional<double> camera_place_mm(const Recording& recording, const TagDetection& detection,
                                       const Rig& rig) {
     const auto tag = plate_tag(recording, rig, detection.tag_id);
@@ -81,16 +82,16 @@ std::optional<double> camera_place_mm(const Recording& recording, const TagDetec
     Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
     for (const Eigen::Vector2d& corner_px : detection.corners_px) middle_px += 0.25 * corner_px;
     double s_mm = tag->centre_mm.x();
-    constexpr int rounds = 3;  // an oblique axis changes the distance on the way
+    constexpr int rounds = 3;  // with an oblique axis the distance changes on the way
     for (int round = 0; round < rounds; ++round)
         s_mm += tag->centre_mm.x() - back_project(rig.camera->geometry, middle_px, s_mm).x();
     return s_mm;
 }
 
-/// What a detection says of the encoder.
+/// What a detection tells of the encoder's zero.
 struct SeenPlace {
-    double read_mm;    ///< place of the carriage by its count
-    double offset_mm;  ///< how far the camera is from where the readings put it
+    double read_mm;    ///< position of the carriage by its count
+    double offset_mm;  ///< camera's position by the tag, minus that by the readings
 };
 
 std::vector<SeenPlace> seen_places(const Recording& recording, const Rig& rig) {
@@ -116,8 +117,8 @@ SeenPlace median_place(std::span<const SeenPlace> places) {
     return {median_of(std::move(read_mm)), median_of(std::move(offset_mm))};
 }
 
-/// The offset at count 0: of an encoder whose scale is off, offsets grow with the place. By a line through
-/// the medians of the lower and the upper third of the places, where these are far apart.
+/// The offset at count 0. With a wrong scale of the encoder offsets grow with the position: then by a line
+/// through the medians of the lower and the upper third of the positions, if these are far enough apart.
 double offset_at_zero_mm(std::vector<SeenPlace> places) {
     constexpr double far_mm = 20.0;
     std::ranges::sort(places, {}, &SeenPlace::read_mm);
@@ -129,8 +130,8 @@ double offset_at_zero_mm(std::vector<SeenPlace> places) {
     return low.offset_mm - per_mm * low.read_mm;
 }
 
-/// Whether all readings lie within the travel that the rig file states. An encoder whose scale is off reads
-/// too much at the far end.
+/// Whether all readings lie in the travel that the rig file states, with a margin at the far end for an
+/// encoder with a wrong scale.
 bool lies_in_travel(const Recording& recording, const MacroParameters& macro) {
     constexpr double beyond_mm = 1.0, most_off = 0.05;
     const double lowest_mm = macro.low_mm - beyond_mm;
@@ -152,7 +153,7 @@ void shift(Recording& recording, double counts, double resolution_mm) {
 std::vector<Recording> joined(std::vector<Recording> recordings, const Rig& rig) {
     constexpr std::size_t none = static_cast<std::size_t>(-1);
     std::vector<std::size_t> next(recordings.size(), none);
-    std::vector<bool> is_continued(recordings.size(), false);  // another one leads to it
+    std::vector<bool> is_continued(recordings.size(), false);  // it continues another one
     const std::vector<bool> is_apart = on_own_clocks(recordings);
     for (std::size_t i = 0; i < recordings.size(); ++i)
         for (std::size_t k = 0; k < recordings.size() && next[i] == none; ++k)

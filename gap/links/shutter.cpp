@@ -15,7 +15,8 @@ namespace {
 constexpr double least_px_per_s = 300.0;
 constexpr std::size_t fewest = 5;
 
-/// By how much wider an edge across a tag's motion is than one along it; none where that is not seen.
+/// Adds the exposure that explains by how much an edge across a tag's motion is wider than one along it; adds
+/// nothing where it is not wider or the tag is too slow.
 void add_exposure(std::vector<double>& exposures_s, const TagAppearance& seen,
                   const Eigen::Vector2d& velocity_px_per_s) {
     const auto along = [&](const TagSide& side) { return std::abs(side.normal.dot(velocity_px_per_s)); };

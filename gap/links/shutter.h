@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How a camera exposes its frames, as far as the frames themselves show it before anything is fitted.
+// A camera's exposure and readout times, as far as its frames show them before anything is fitted.
 //
 //     exposure  T^2 = 12 (variance of an edge across the motion - variance of one along it) / speed^2
-//     readout   what a tag is sheared by, its lower corners against its upper ones, along the motion, over
-//               speed times the share of the image's rows between them
+//     readout   displacement of a tag's lower corners against its upper ones along the motion, over speed
+//               times the share of the image's rows between them
 //
-// each the median over the sightings whose tags move by more than 300 px/s.
+// each the median over the sightings of tags that move by more than 300 px/s.
 #include "core/recording.h"
 #include "gap/links/image_link.h"
 
@@ -15,11 +15,11 @@
 namespace fidservo::gap {
 
 struct Shutter {
-    double exposure_s;  ///< the rig file's, or what is seen where that is longer
+    double exposure_s;  ///< the rig file's, or the observed one where that is longer
     double readout_s;   ///< from the first row's exposure to the last one's; 0 where too few tags move
 };
 
-/// @param images  of each of the recordings
+/// @param images  measured appearances, one entry for each recording
 Shutter seen_shutter(std::span<const Recording> recordings, std::span<const ImageRun> images,
                      const CameraParameters& camera);
 

@@ -15,19 +15,19 @@ namespace fidservo::gap {
 
 namespace {
 
-/// The carriage's path is uncertain by this share of the way since its offset was found.
+/// Standard deviation of the carriage's path, as a share of the distance covered since its offset was found.
 constexpr double way_share = 0.02;
-/// Standard deviation of what rounding hides, in counts.
+/// Standard deviation of a position within its count, in counts.
 const double hidden_count = 1.0 / std::sqrt(12.0);
 
 /// A time between two rows.
 struct Moment {
     std::size_t row;
-    double share;  ///< of the way to the next row
-    bool is_tick;  ///< whether that is a tick away
+    double share;  ///< of the time to the next row
+    bool is_tick;  ///< whether the next row is one tick away
 };
 
-/// Times before the first and after the last row count as theirs.
+/// Times before the first row count as that row's, times after the last one as that one's.
 Moment moment_at(const TagRun& run, double at_s) {
     const std::vector<double>& time_s = run.time_s;
     const std::size_t last = time_s.size() - 1;
@@ -45,7 +45,7 @@ std::size_t nearest_row(const TagRun& run, double at_s) {
     return at.share < 0.5 ? at.row : at.row + 1;
 }
 
-/// Cubic through the path's places with its velocities (Hermite); straight where rows are missing.
+/// Cubic interpolation by the path's positions and velocities (Hermite); linear where rows are missing.
 double carriage_mm(const CarriagePath& path, const Moment& at, double tick_s) {
     const double t = at.share;
     if (t == 0.0) return path.position_mm[at.row];
@@ -57,7 +57,7 @@ double carriage_mm(const CarriagePath& path, const Moment& at, double tick_s) {
     return a + t * (va + t * (3.0 * way - 2.0 * va - vb + t * (va + vb - 2.0 * way)));
 }
 
-/// Cubic through four neighbours (Catmull and Rom).
+/// Cubic interpolation by four neighbours (Catmull and Rom).
 double between(const std::vector<double>& values, const Moment& at) {
     const std::size_t i = at.row, last = values.size() - 1;
     if (at.share == 0.0) return values[i];
@@ -67,7 +67,7 @@ double between(const std::vector<double>& values, const Moment& at) {
     return b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
 }
 
-/// Where the camera is, by its time since the recording's first row.
+/// The camera's position as a function of the time since the recording's first row.
 class CameraPlace {
   public:
     CameraPlace(const TagModel& model, const TagRun& run, const CarriagePath& path,
@@ -80,16 +80,16 @@ class CameraPlace {
         return reading_ == nullptr ? y_mm : y_mm + platform_mm(at, at_s);
     }
 
-    /// By how much the run that enters a window is beside the path before it, which is still that of the
-    /// window before.
+    /// In the 100 ms before a window: how far the simulation that leads into it is from the path, which is
+    /// there faded over from the window before; 0 elsewhere.
     double entering_mm(double at_s) const {
         const std::size_t row = moment_at(run_, at_s).row;
         const double entering = path_.entering_mm[row];
         return std::isfinite(entering) ? entering - path_.position_mm[row] : 0.0;
     }
 
-    /// In the middle of a frame's exposure; in images the mean over it. With a longer exposure than the rig
-    /// file's the mean over the one less that over the other is added.
+    /// The position that a frame shows: that in the middle of its exposure or, in images, the mean over it.
+    /// For a longer exposure than the rig file's, the difference of the means over the two is added.
     double seen_s_mm(double at_s) const {
         const double extra_s = model_.deviation.extra_exposure_s;
         const double middle_mm = s_mm(at_s);
@@ -118,7 +118,7 @@ class CameraPlace {
                                                              : hall_position_mm(micro.hall, voltage_V);
     }
 
-    /// The place at which the sensor's curve and what formulas add to it give a voltage.
+    /// The position at which the sensor's curve, with what formulas add to it, gives a voltage.
     double behind_formulas_mm(double voltage_V, const Moment& at, double at_s) const {
         const plant::MicroStageParameters& micro = *model_.micro;
         plant::HallSight seen;
@@ -144,8 +144,8 @@ class CameraPlace {
     const SmoothedReading* reading_;
 };
 
-/// Where a camera sees a tag's corners from s.
-/// @param beside_mm  where the tag lies beside where it should
+/// The corners of a tag as a camera at position s sees them.
+/// @param beside_mm  displacement of the tag from its stated place
 CornerValues seen(const plant::ActualCamera& camera, const TagSighting& sighting, double s_mm,
                   const Eigen::Vector2d& beside_mm = Eigen::Vector2d::Zero()) {
     CornerValues corners;
@@ -155,7 +155,7 @@ CornerValues seen(const plant::ActualCamera& camera, const TagSighting& sighting
     return corners;
 }
 
-/// The camera at a moment.
+/// The camera at a time and a position.
 plant::ActualCamera camera_at(const TagModel& model, double time_s, double s_mm) {
     return plant::geometry_changes(model.deviation)
                ? plant::actual_camera(model.nominal, plant::deviation_at(model.deviation, time_s, s_mm))
@@ -169,7 +169,7 @@ CornerValues seen_slope(const plant::ActualCamera& camera, const TagSighting& si
            (2.0 * step_mm);
 }
 
-/// Prediction of one sighting, with the carriage off by an offset.
+/// The corners that are predicted for a detection if the carriage's position is off by an offset.
 CornerValues predicted(const TagModel& model, const CameraPlace& place, const TagSighting& sighting,
                        double offset_mm) {
     const double true_s = plant::exposed_s(model.deviation, sighting.stamp_s);
@@ -190,13 +190,13 @@ CornerValues predicted(const TagModel& model, const CameraPlace& place, const Ta
     return corners;
 }
 
-/// What makes a detection's first value the one along the slope. The slope is never along the first axis
-/// alone.
+/// Normal of the reflection that turns the direction of the slope into the first axis. The slope never has
+/// that direction itself, because all corners move.
 CornerValues mirror_of(const CornerValues& slope) {
     return (slope.normalized() - CornerValues::Unit(0)).normalized();
 }
 
-/// When the rows of a tag's corners are exposed, since the middle of the frame.
+/// Times at which the rows of a tag's corners are exposed, relative to the middle of the frame.
 Eigen::Vector4d row_delays_s(const TagSighting& sighting, const CameraGeometry& camera, double readout_s) {
     plant::CameraDeviation deviation;
     deviation.readout_s = readout_s;
@@ -206,7 +206,8 @@ Eigen::Vector4d row_delays_s(const TagSighting& sighting, const CameraGeometry& 
     return late_s;
 }
 
-/// Adds to the floors that the error of s changes from the first corner's time to the last one's.
+/// Adds to the floors that the error of s changes by `changed_mm` from the first corner's time to the last
+/// one's.
 void add_change(TagSighting& sighting, const CornerValues& slope, const Eigen::Vector4d& late_s,
                 double changed_mm) {
     CornerValues off_px = slope * changed_mm / (late_s.maxCoeff() - late_s.minCoeff());
@@ -214,12 +215,12 @@ void add_change(TagSighting& sighting, const CornerValues& slope, const Eigen::V
     sighting.floors_px = (sighting.floors_px.cwiseAbs2() + turned(sighting, off_px).cwiseAbs2()).cwiseSqrt();
 }
 
-/// Leaves out the rows beside a pause of the Hall readings: lines through the readings of one side only tell
-/// less of where the platform is than those through both (gap/links/hall_smoothing.h).
+/// Leaves out the rows next to a pause of the Hall readings: lines through the readings of one side only tell
+/// the platform's position less precisely than lines through both (gap/links/hall_smoothing.h).
 void leave_out_rims(const Recording& recording, const PlatformRun& platform, std::vector<bool>& usable) {
     constexpr std::size_t rim_rows = 64;
     constexpr double longest_ticks = 10.5;
-    std::size_t last = 0;  // row with a reading
+    std::size_t last = 0;  // latest row with a reading
     for (std::size_t k = 1; k < usable.size(); ++k) {
         if (std::isnan(platform.hall_adc[k])) continue;
         const double pause_s = seconds(recording.rows[k].time_ns - recording.rows[last].time_ns);
@@ -284,7 +285,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
         const std::size_t last = rows.end - 1;
         TagWindow window{rows, sighting_at(rows.lead), sighting_at(rows.first), sighting_at(last)};
         if (window.end == window.first) continue;
-        double weights = 0.0, weighted_strayed = 0.0, weighted_platform = 0.0;  // 1/px^2, 1/px^2, 1
+        double weights = 0.0, weighted_strayed = 0.0, weighted_platform = 0.0;  // units: 1/px^2, 1/px^2, 1
         for (std::size_t i = window.lead; i < window.end; ++i) {
             TagSighting& sighting = run.sightings[i];
             const Moment at = moment_at(run, sighting.stamp_s);
@@ -293,7 +294,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
             const double strayed_mm = std::min(hidden_mm, way_share * (way_mm[at.row] - way_mm[rows.lead]));
             const double platform_px = slope.norm() * platform_mm, strayed_px = slope.norm() * strayed_mm;
             if (i < window.first) {
-                // How the run that enters the window begins dies out.
+                // An error of the start of the simulation that leads into the window dies out.
                 const double since_s = sighting.stamp_s - run.time_s[rows.lead];
                 const double begun_px = slope.norm() * hidden_mm * std::exp(-since_s / tau_s);
                 const double strayed_square = noise.corner_px * noise.corner_px + strayed_px * strayed_px;
@@ -344,7 +345,7 @@ double zero_offset_mm(const TagModel& model, const TagRun& run, const CarriagePa
                       const SmoothedReading* reading) {
     if (!run.zero_is_seen) return 0.0;
     constexpr std::size_t most = 201;
-    constexpr int rounds = 2;  // the picture of a tag is not quite linear in its place
+    constexpr int rounds = 2;  // the image of a tag is not quite linear in the position
     const CameraPlace place(model, run, path, reading);
     const std::size_t step = 1 + run.sightings.size() / most;
     double offset_mm = 0.0;

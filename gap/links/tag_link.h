@@ -2,28 +2,32 @@
 #pragma once
 // From encoder and Hall sensor to the tags in the image.
 //
-// The camera is at s(t) = y(t) + x(t): y the carriage's path (carriage_link.h), x the platform by the
-// smoothed Hall reading (hall_smoothing.h), through the inverse of the hypothesis's sensors. A corner of a
-// tag is seen at s of the time at which its row was exposed, through the hypothesis's camera.
+// The camera's position is s(t) = y(t) + x(t): y is the carriage's path (gap/links/carriage_link.h), x the
+// platform's position by the smoothed Hall reading (gap/links/hall_smoothing.h), through the inverse of the
+// hypothesis's sensors. The hypothesis's camera sees a corner of a tag from its position s at the time at
+// which the corner's row was exposed.
 //
-// Where in its count the carriage stands, 12 px on the reference rig, the encoder does not say. The
-// detections of the 100 ms before a window do: they give an offset of y, of at most a count, for the window,
-// against the run that enters it; the later ones more, as how that run begins dies out.
+// The encoder does not tell where within its count the carriage is; a count is 12 px on the reference rig.
+// The detections of the 100 ms before a window do: they give an offset of y for the window, of at most a
+// count, relative to the simulation that leads into it. Later detections weigh more, since an error of that
+// simulation's start dies out.
 //
-// Where the encoder's zero is known by the tags alone (gap/links/power_on.h), each hypothesis finds anew what
-// it is off by: with another camera, or another scale of the counts, the same detections say another zero.
+// Where the encoder's zero is known from the tags alone (gap/links/power_on.h), each hypothesis estimates the
+// zero's error anew: with another camera, or another scale of the counts, the same detections give another
+// zero.
 //
-// A detection has eight values. They are turned (a reflection) so that the first one lies along the motion of
-// the stage in the image, u of all four corners; what is uncertain of s enters this one alone:
+// The eight values of a detection are reflected such that the first one lies along the stage's motion in the
+// image (u of all four corners). The uncertainty of s enters this one alone:
 //
 //     floor^2 = corner noise^2 + |d corners / ds|^2 (std of x ^2 + std of y ^2)
 //
-// The std of x is the smoothed reading's. That of y grows with the way since the window's 100 ms began, as a
-// share of it, to what rounding hides; this is what it is, too, where no detection gave the offset.
+// The std of x is the smoothed reading's. That of y grows from the start of the 100 ms before the window as a
+// share of the distance covered, up to what rounding hides. Where no detection gave the offset it is as large
+// as that from the start.
 //
-// Where rows are exposed one after the other, s of one corner is wrong by another amount than s of the next:
-// the other values' floors then hold what the smoothed reading's error changes by from the first of these
-// times to the last one, and that share of the carriage's way between them.
+// With a rolling shutter, which exposes rows one after the other, the error of s differs from corner to
+// corner. The floors of the other values then contain the change of the smoothed reading's error from the
+// first of these times to the last one, and the same share of the carriage's distance between them.
 #include "gap/evidence.h"
 #include "gap/links/carriage_link.h"
 #include "gap/links/hall_smoothing.h"
@@ -38,49 +42,52 @@
 
 namespace fidservo::gap {
 
-using CornerValues = Eigen::Matrix<double, corner_values, 1>;  ///< u and v of the corners in turn
+/// Coordinates u and v of the first corner, of the second one, and so on.
+using CornerValues = Eigen::Matrix<double, corner_values, 1>;
 
 /// A detection that is judged.
 struct TagSighting {
-    double stamp_s = 0.0;                                 ///< since the recording's first row
-    Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();  ///< of its tag, on the plate
-    std::array<Eigen::Vector2d, 4> corners_mm{centre_mm, centre_mm, centre_mm, centre_mm};  ///< likewise
+    double stamp_s = 0.0;                                 ///< time since the recording's first row
+    Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();  ///< centre of its tag, on the plate
+    /// Corners of its tag, on the plate.
+    std::array<Eigen::Vector2d, 4> corners_mm{centre_mm, centre_mm, centre_mm, centre_mm};
     CornerValues corners_px = CornerValues::Zero();
-    CornerValues mirror = CornerValues::Zero();     ///< normal of the reflection that turns the values
-    CornerValues floors_px = CornerValues::Zero();  ///< of the turned values
-    double offset_weight = 0.0;                     ///< in finding the offset, 1/px^2
+    CornerValues mirror = CornerValues::Zero();     ///< normal of the reflection
+    CornerValues floors_px = CornerValues::Zero();  ///< floors of the reflected values
+    double offset_weight = 0.0;                     ///< weight in the estimate of the offset, 1/px^2
     bool is_known = false;                          ///< the plate has this tag
 };
 
 struct TagWindow {
     WindowRows rows;
-    std::size_t lead, first, end;  ///< detections: those before the window, those in it
+    /// First detection before the window; first detection in it, and the one after its last.
+    std::size_t lead, first, end;
 };
 
 struct TagRun {
-    std::vector<double> time_s;  ///< of the rows, since the first
+    std::vector<double> time_s;  ///< time of the rows since the first one
     std::vector<TagSighting> sightings;
     std::vector<TagWindow> windows;
     double tick_s = 0.0;
-    bool is_seen = false;       ///< in a camera's images, which show the mean over their exposure
-    bool zero_is_seen = false;  ///< what the encoder's zero is off by is found anew by each hypothesis
+    bool is_seen = false;       ///< detected in a camera's images, which show the mean over their exposure
+    bool zero_is_seen = false;  ///< each hypothesis estimates the error of the encoder's zero anew
 };
 
-/// What makes detections uncertain: their corners' own noise, and what is seen of the readout.
+/// What makes detections uncertain: the noise of a corner coordinate, and the readout time that was observed.
 struct TagNoise {
     double corner_px, readout_s;
 };
 
-/// @param path    of the rig file's carriage
-/// @param reading empty for a rig without micro stage
+/// @param path    of the carriage, by the rig file's model
+/// @param reading null for a rig without a micro stage
 TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& path,
                const CarriageRun& carriage, const PlatformRun* platform, const SmoothedReading* reading,
                const TagNoise& noise);
 
-/// The camera and the sensors by which it is known where it is.
+/// The camera of a hypothesis, and the sensors that tell its position.
 struct TagModel {
     CameraGeometry nominal;
-    plant::ActualCamera camera;  ///< without formulas
+    plant::ActualCamera camera;  ///< its geometry, if that does not change with time or position
     plant::CameraDeviation deviation;
     double exposure_s;
     double resolution_mm;
@@ -88,19 +95,19 @@ struct TagModel {
     double drive_gain;
 };
 
-/// Demands a camera.
+/// Requires a camera.
 TagModel tag_model(const plant::PlantParameters& parameters, const Rig& rig);
 
-/// Values of a detection turned as its errors are.
+/// Values of a detection, reflected as its errors are.
 CornerValues turned(const TagSighting& sighting, const CornerValues& values);
 
-/// By how much the carriage is beside where its encoder's zero puts it, mm: the median over detections spread
-/// evenly over the recording; 0 where the zero is known without them.
+/// The carriage's position minus that by its encoder's zero, mm: the median over detections spread evenly
+/// over the recording; 0 where the zero is known without them.
 double zero_offset_mm(const TagModel& model, const TagRun& run, const CarriagePath& path,
                       const SmoothedReading* reading);
 
-/// The turned values, prediction minus recording in px, of a window's detections one after the other.
-/// @param zero_mm  zero_offset_mm()
+/// Prediction minus recording, in px, of the reflected values of a window's detections.
+/// @param zero_mm  result of zero_offset_mm()
 std::vector<CornerValues> tag_errors(const TagModel& model, const TagRun& run, const TagWindow& window,
                                      const CarriagePath& path, const SmoothedReading* reading,
                                      double zero_mm);

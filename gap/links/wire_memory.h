@@ -2,23 +2,24 @@
 #pragma once
 // What is known of the memory of a wire that is warm when its recording begins.
 //
-// The wire is a sum of relays, each of which goes up when the temperature passes its upper threshold and down
-// when it passes its lower one (Mayergoyz, Mathematical Models of Hysteresis, 1991, ch. 1). Once the
-// temperature has been at M and at m, all relays are known but those whose thresholds lie above M and below
-// m: these have kept what they were before the recording began. They are worth
+// The wire is a sum of relays, each of which switches up when the temperature rises above its upper
+// threshold, and down when it falls below its lower one (Mayergoyz, Mathematical Models of Hysteresis, 1991,
+// ch. 1). Once the temperature has been at a highest value M and a lowest value m, the states of all relays
+// are known except of those with thresholds above M and below m, which are still in the states from before
+// the recording. These contribute to the contraction at most
 //
 //     w = f(high, m) - f(M, m)     mm, f: the table of first-order descending curves, high: its upper end
 //
 // As long as the temperature stays between m and M none of them switches, and the contraction is known up to
-// a constant of at most w, whatever went before (congruency, ibid.). Where w is next to nothing the memory is
-// known.
+// a constant of at most w, whatever happened before (congruency, ibid.). Where w is next to nothing the
+// memory is known.
 #include "gap/links/platform_link.h"
 
 namespace fidservo::gap {
 
-/// Of a run whose wire is warm at its start, keeps the windows in which no relay switches of which nothing is
-/// known, and marks those that are beside their prediction by a constant. The temperature counts from when
-/// what it was at the start is forgotten. A run whose wire remembers nothing at its start stays as it is.
+/// If a run's wire is warm at its start, keeps only the windows in which no relay in an unknown state
+/// switches, and marks those in which the platform is offset by an unknown constant. Temperatures count only
+/// once the unknown first one is forgotten. Other runs stay as they are.
 /// @param nominal  the rig file's stage
 void keep_known_memory(PlatformRun& run, const PlatformModel& nominal);
 

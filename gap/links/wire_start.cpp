@@ -13,7 +13,8 @@ namespace fidservo::gap {
 
 namespace {
 
-/// Moves the end of the branch on which a wire is to another temperature, as far as the branch goes.
+/// Moves the end of the hysteresis branch on which a wire is to another temperature, as far as the branch
+/// reaches.
 void slide_wire(const FodTable& table, PreisachMemory& wire, double temp_degC) {
     const bool heating = wire.last_peak_degC == wire.temp_degC;
     if (heating == (temp_degC > wire.temp_degC)) {
@@ -28,18 +29,18 @@ void slide_wire(const FodTable& table, PreisachMemory& wire, double temp_degC) {
                           table.contraction_mm(wire.last_peak_degC, valley_degC);
 }
 
-/// By then a warm wire has cooled.
+/// Cooling time constants after which a warm wire has cooled.
 constexpr double cooling_taus = 3.0;
 
-/// Errors from a first state on until a warm wire would have cooled.
+/// Errors from a first state until a warm wire would have cooled.
 struct Cooling {
-    double square = 0.0;    ///< sum, LSB^2
+    double square = 0.0;    ///< sum of squared errors, LSB^2
     double variance = 0.0;  ///< about their mean, LSB^2
-    double count = 0.0;     ///< of errors
-    double passed_s = 0.0;  ///< until the end, or until the sum of squares was more than was asked for
+    double count = 0.0;     ///< number of errors
+    double passed_s = 0.0;  ///< until then, or until the sum of squares exceeded the limit
 };
 
-/// @param most_square  LSB^2, beyond which a sum of squares is not wanted
+/// @param most_square  limit of the sum of squares, LSB^2, at which the simulation ends
 Cooling while_cooling(const PlatformModel& model, const PlatformRun& run, plant::MicroStageState state,
                       double most_square = std::numeric_limits<double>::infinity()) {
     const double enough_s = cooling_taus * model.stage.heater.parameters.cooling_tau_s;
@@ -63,10 +64,10 @@ Cooling while_cooling(const PlatformModel& model, const PlatformRun& run, plant:
 struct Excess {
     double mean_lsb = 0.0;
     int readings = 0;
-    bool is_clear = false;  ///< more than noise and rounding
+    bool is_clear = false;  ///< more than noise and rounding explain
 };
 
-/// @param zero_lsb  by which the sensor is known to read otherwise
+/// @param zero_lsb  known offset of the sensor
 Excess first_excess(const PlatformModel& model, const PlatformRun& run, double zero_lsb = 0.0) {
     constexpr std::size_t glance = 20;
     constexpr double clear = 5.0, least_lsb = 1.0;
@@ -85,7 +86,7 @@ Excess first_excess(const PlatformModel& model, const PlatformRun& run, double z
     return excess;
 }
 
-/// A wire heated from cold to where a reading is.
+/// The stage with a wire that is heated from cold until the reading has risen by `excess_lsb`.
 plant::MicroStageState heated_to(const PlatformModel& model, double excess_lsb) {
     constexpr double resolution_degC = 1e-3;
     const plant::MicroStageState cold = plant::start(model.stage, 0);
@@ -106,11 +107,12 @@ plant::MicroStageState heated_to(const PlatformModel& model, double excess_lsb) 
     return heated(low);
 }
 
-/// How readings go while those of a cold wire would stand still; a warm one's can only where it is heated.
+/// Whether the first readings change while those of a cold wire would be constant; those of a warm wire are
+/// constant only if it is heated.
 enum class Trend { unknown, still, drifting };
 
-/// From the start until a cold wire is warm enough to move, or the motor's voltage, of which some may leak
-/// into the readings, is another one.
+/// Evaluates the first readings until a cold wire would be warm enough to move, or the motor's voltage
+/// changes, of which some may leak into the readings.
 Trend first_trend(const PlatformModel& nominal, const PlatformRun& run) {
     constexpr double longest_s = 1.0, still_lsb = 0.3, same_V = 0.1, clear = 5.0;
     constexpr double least_readings = 10.0, least_still_s = 0.3;
@@ -139,12 +141,13 @@ Trend first_trend(const PlatformModel& nominal, const PlatformRun& run) {
     return passed_s >= least_still_s && !is_heated ? Trend::still : Trend::unknown;
 }
 
-/// Errors fall to a quarter: three independent stretches, one for each time constant of the cooling, whose
-/// errors are half as large, are seven times as likely.
+/// Ratio of squared errors from which on a prediction is far better. With half the errors, three independent
+/// stretches (one for each time constant of the cooling) are seven times as likely.
 constexpr double far_better = 0.25;
 
-/// How a cold wire and the best of the warmer ones that can read what is read first predict what follows,
-/// whatever the sensor's zero is: variances of the errors, LSB^2.
+/// Variances of the errors, LSB^2, with which the following readings are predicted from a cold wire, and from
+/// the best of those warmer ones that are compatible with the first readings. Variances do not depend on the
+/// sensor's offset.
 struct ColdOrWarm {
     double cold = 0.0, warm = 0.0;
     bool is_warm() const { return warm < far_better * cold; }
@@ -166,14 +169,14 @@ ColdOrWarm cold_or_warm(const PlatformModel& nominal, const PlatformRun& run, do
     return found;
 }
 
-/// A wire that reads as a cold one does, at the temperature from which what follows is predicted best, or
-/// cold if no other one is far better.
+/// The stage with a wire that reads as a cold one does, at the temperature from which the following readings
+/// are predicted best, or cold if no other temperature is far better.
 plant::MicroStageState unmoved(const PlatformModel& model, const PlatformRun& run) {
     constexpr double resolution_degC = 0.5, golden = 0.6180339887498949, not_seen_lsb = 1.0;
     const plant::MicroStageState cold = plant::start(model.stage, 0);
     const Cooling from_cold = while_cooling(model, run, cold);
     const double bound = far_better * from_cold.square;
-    // Noise alone is more than what would be far better.
+    // Noise alone has larger errors than would count as far better.
     if (bound < from_cold.count * run.floor_lsb * run.floor_lsb) return cold;
     const auto warmer = [&](double by_degC) {
         plant::MicroStageState warm = cold;
@@ -181,7 +184,7 @@ plant::MicroStageState unmoved(const PlatformModel& model, const PlatformRun& ru
         return warm;
     };
     const auto found = [&](double by_degC) { return while_cooling(model, run, warmer(by_degC), bound); };
-    // Of two that miss the bound, that which misses it later.
+    // If the errors of both exceed the bound, the one that exceeds it later is better.
     const auto is_better = [&](const Cooling& one, const Cooling& other) {
         return std::min(one.square, other.square) > bound ? one.passed_s > other.passed_s
                                                           : one.square < other.square;
@@ -229,7 +232,7 @@ void step(const PlatformModel& model, const PlatformRun& run, const CarriagePath
 
 void slide(const plant::MicroStage& stage, plant::MicroStageState& state, double by_degC) {
     if (by_degC == 0.0) return;
-    // By steps over which the load of a contracting wire hardly changes.
+    // In steps over which the load of a contracting wire changes little.
     constexpr double longest_degC = 0.25;
     const double steps =
         stage.table_shift_degC_per_mm == 0.0 ? 1.0 : std::ceil(std::abs(by_degC) / longest_degC);
@@ -260,7 +263,8 @@ double zero_of_sensor_lsb(const PlatformModel& nominal, std::span<const Platform
 }
 
 WireStart wire_start(const PlatformModel& nominal, const PlatformRun& run, double zero_lsb) {
-    constexpr double at_the_floor = 4.0;  // times its variance
+    // Errors with a mean square of so many squared floors count as at the floor.
+    constexpr double at_the_floor = 4.0;
     const Excess excess = first_excess(nominal, run, zero_lsb);
     const Trend trend = first_trend(nominal, run);
     const ColdOrWarm way = cold_or_warm(nominal, run, excess.mean_lsb);

@@ -12,7 +12,7 @@
 namespace fidservo::gap {
 namespace {
 
-/// A chain, explained so far as `together` has it, with what was needed there as its last choices.
+/// A chain with the cross fit of `together`, whose candidates are appended as choices.
 Chain with_together(Chain chain, Search::Together together) {
     chain.fitted = std::move(together.fitted);
     for (std::size_t k = 0; k < together.candidates.size(); ++k) {
@@ -29,7 +29,8 @@ bool is_off(const Search& search, const Chain& chain, Signal signal) {
     return search.off(chain.fitted)[index_of(signal)];
 }
 
-/// A chain with what was found of everything in place of those of its effects that were fitted again.
+/// A chain with the cross fit of `together`. Effects of the chain that are in this fit stay; those that were
+/// fitted anew are replaced by the candidates of `together`.
 Chain with_everything(const Chain& chain, Search::Together together) {
     const auto stays = [&](const Choice& choice) {
         const Hypothesis& found = together.fitted.of_half[0];
@@ -42,7 +43,8 @@ Chain with_everything(const Chain& chain, Search::Together together) {
     return with_together(std::move(rest), std::move(together));
 }
 
-/// A chain with what is needed of everything in place of its smooth effects, if that is more than it has.
+/// A chain with all smooth effects that are needed in place of its own ones, if that makes it longer; else
+/// the chain itself.
 Chain with_all_that_is_smooth(const Search& search, const Chain& chain) {
     Chain all = with_everything(chain, search.everything_beside(chain.fitted));
     return all.choices.size() > chain.choices.size() ? all : chain;
@@ -52,9 +54,9 @@ bool is_view_or_wire_off(const Search& search, const Chain& chain) {
     return is_off(search, chain, Signal::hall) || is_off(search, chain, Signal::tag);
 }
 
-/// A chain with further effects that have a shape of their own, one after the other and each time with all
-/// that is smooth, as long as Hall reading or tags stay off their floors and each is no chance.
-/// @param chain  is better each time that it is changed
+/// Adds effects with a shape of their own one after the other, each together with all smooth effects that are
+/// then needed, as long as Hall reading or tags are off their floors and the longer chain is better.
+/// @param chain  each change is an improvement, so that it may be used whenever this ends
 void add_shapes(const Search& search, Chain& chain) {
     while (is_view_or_wire_off(search, chain)) {
         std::optional<Chain> best;
@@ -67,7 +69,7 @@ void add_shapes(const Search& search, Chain& chain) {
     }
 }
 
-/// Adds those choices of a chain, with their settings, whose effects are wanted.
+/// Appends those choices of a chain, with their settings, whose effects satisfy `wants`.
 template <class Wants>
 void add_choices(Chain& to, const Chain& from, const Wants& wants) {
     for (std::size_t k = 0; k < from.choices.size(); ++k) {
@@ -78,7 +80,7 @@ void add_choices(Chain& to, const Chain& from, const Wants& wants) {
     }
 }
 
-/// A chain with nothing of how the carriage moves. How it is read, tags tell as well.
+/// A chain without effects on the carriage's motion. Effects on its reading stay, since tags show them, too.
 Chain without_carriage(const Search& search, const Chain& chain) {
     Chain rest;
     add_choices(rest, chain,
@@ -87,22 +89,22 @@ Chain without_carriage(const Search& search, const Chain& chain) {
     return rest;
 }
 
-/// What explains a signal at once, of more effects than this, needs no search.
+/// Explanations of a signal by more effects than this, found at once, are accepted without a search.
 constexpr std::size_t most_one_by_one = 2;
 
-/// Whether a whole chain is another one with the first of those that were tried beside it.
+/// Whether `whole` has the effects of `chain`, followed by the first of the trials that were made beside it.
 bool adds_the_first_of(const Chain& whole, const Chain& chain, const std::vector<Trial>& trials) {
     std::vector<const Candidate*> expected = chain.candidates();
     expected.push_back(trials.front().candidate);
     return whole.candidates() == expected;
 }
 
-/// A signal that is off its floor is explained by one effect, or by those that a whole chain has found at
-/// once where these do better. Many that were needed together need no comparison; a smooth effect that both
-/// ways come to, and that leaves nothing, no closer fit.
-/// @return whether the whole stands
+/// Explains a signal that is off its floor by one effect, or by those that `whole` found at once if these do
+/// better. More than two such effects are not compared with a single one. A smooth effect that both ways
+/// find, and that brings the signal to its floor, is not fitted more closely.
+/// @return whether the effects of `whole` were accepted
 bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal, std::vector<Trial>* alone) {
-    constexpr double nearly = 0.9;  // of what the whole gains
+    constexpr double nearly = 0.9;  // share of the gain of `whole`
     if (whole.choices.size() <= chain.choices.size() || !is_better(search, whole, chain)) return false;
     const auto take_whole = [&] {
         chain = std::move(whole);
@@ -140,10 +142,10 @@ bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal,
     return false;
 }
 
-/// Small causes of wire, sensors and view are many more often than one that does what they do: where more are
-/// needed together than could be found one by one, they stand.
-/// @param all  the chain with all that is smooth
-/// @return whether they do
+/// Several small causes in wire, sensors and view are much more common than a single one that does the same:
+/// if more are needed together than could be found one by one, they are accepted.
+/// @param all  the chain with all smooth effects
+/// @return whether they were accepted
 bool explain_by_many(const Search& search, Chain& chain, const Chain& all) {
     if (all.choices.size() <= chain.choices.size() + most_one_by_one || !is_better(search, all, chain))
         return false;
@@ -151,9 +153,10 @@ bool explain_by_many(const Search& search, Chain& chain, const Chain& all) {
     return true;
 }
 
-/// What moves the wire, or what is seen, has causes that stand in for each other: all of them are looked at
+/// Explains Hall reading and tags. Their causes can stand in for each other, so that all are looked at
 /// together.
-/// @param all  the chain with all that is smooth
+/// @param all  the chain with all smooth effects
+/// @return whether effects found at once were accepted
 bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, std::vector<Trial>* alone) {
     if (!is_view_or_wire_off(search, chain)) return false;
     const Signal signal = is_off(search, chain, Signal::hall) ? Signal::hall : Signal::tag;
@@ -166,10 +169,10 @@ bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, std:
     return explain_by_one_or(search, chain, std::move(all), signal, alone);
 }
 
-/// What moves the carriage adds up in the balance of its forces. What balances them and leaves the encoder
-/// off its floor stands for the time being.
-/// @param aside  that, where it does
-/// @return whether what balances them brings the encoder to its floor
+/// Explains the encoder by a model from the balance of the carriage's forces, in which effects simply add up.
+/// If the model leaves the encoder off its floor, it is accepted for the time being.
+/// @param aside  receives the chain with the model in that case
+/// @return whether the model brings the encoder to its floor and was accepted
 bool explain_carriage_at_once(Search& search, Chain& chain, std::optional<Chain>& aside,
                               std::vector<Trial>* alone) {
     if (!is_off(search, chain, Signal::encoder)) return false;
@@ -181,11 +184,11 @@ bool explain_carriage_at_once(Search& search, Chain& chain, std::optional<Chain>
     return false;
 }
 
-/// Where many do not explain the Hall reading at once, they are looked for one by one, and once more together
-/// with what that has found. The wire is searched apart from the carriage; where both are off, each has its
-/// share of the effort.
-/// @param alone  what was tried first
-/// @return whether several were taken in at a time
+/// Where no effects found at once explain the Hall reading, looks for effects one by one, and then again for
+/// all smooth ones beside these. Effects of the wire are searched apart from those of the carriage; if both
+/// signals are off, each search gets half of the effort.
+/// @param alone  receives the trials of the first step
+/// @return whether several effects were accepted in one step
 bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
     constexpr double equal_share = 0.5;
     if (!is_off(search, chain, Signal::hall)) return false;

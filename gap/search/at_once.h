@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What is found of many causes at once, before any is looked for one by one.
+// Explanations by several effects fitted at once, made before effects are looked for one by one.
 #include "gap/search/chain.h"
 
 #include <optional>
@@ -9,22 +9,22 @@
 namespace fidservo::gap {
 
 struct AtOnce {
-    bool is_balanced;  ///< what balances the carriage's forces brings the encoder to its floor and stands
-    bool are_several;  ///< more than one effect was taken in at a time
+    bool is_balanced;  ///< the model from the balance of forces brings the encoder to its floor and is kept
+    bool are_several;  ///< more than one effect was accepted in one step
 };
 
-/// Explains view and wire by all that is smooth, the carriage by what balances its forces, and what is left
-/// of Hall reading and tags by effects with a shape of their own; each of them by one effect where that does
-/// as well.
-/// @param aside  the whole with what balances the forces, where that leaves the encoder off its floor: the
-///               chain then knows nothing of how the carriage moves, so that a search for it may begin anew
-/// @param alone  what was tried alone; what is tried here is added
+/// Explains Hall reading and tags by all smooth effects at once, the encoder by a model from the balance of
+/// the carriage's forces, and what is left of Hall reading and tags by effects with a shape of their own;
+/// each of these by a single effect where that does as well.
+/// @param aside  receives the whole chain if that model leaves the encoder off its floor; the chain itself
+/// then loses its effects on the carriage's motion, so that the search for these can begin afresh
+/// @param alone  trials of single effects; those made here are added
 AtOnce explain_at_once(Search& search, Chain& chain, std::optional<Chain>& aside, std::vector<Trial>& alone);
 
-/// A chain with what another one has of the carriage and its encoder instead of its own.
+/// A chain whose effects on the carriage's motion or its encoder are replaced by those of another chain.
 Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& other);
 
-/// Adds what was tried later for signals of which nothing was tried before; best first.
+/// Adds later trials: of candidates that were not tried before, or with a larger gain. Sorts all, best first.
 void add_tried(std::vector<Trial>& alone, std::vector<Trial> later);
 
 }  // namespace fidservo::gap

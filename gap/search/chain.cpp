@@ -22,7 +22,8 @@ std::vector<const Candidate*> only_in(const Chain& one, const Chain& other) {
     return found;
 }
 
-/// Whether a chain is another one with a richer effect in the place of its limit.
+/// Whether two chains differ only in one effect, which is richer in the first and in its simpler form in the
+/// second.
 bool refines(const Chain& richer, const Chain& plainer) {
     const auto more = only_in(richer, plainer), less = only_in(plainer, richer);
     return more.size() == 1 && less.size() == 1 && is_limit_of(*less.front()->effect, *more.front()->effect);

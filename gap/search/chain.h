@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An explanation as it grows.
+// An explanation while effects are added to it.
 #include "gap/search/search.h"
 
 #include <cstddef>
@@ -8,17 +8,18 @@
 
 namespace fidservo::gap {
 
-/// An effect that was taken in.
+/// An effect accepted into the explanation.
 struct Choice {
     const Candidate* candidate = nullptr;
-    double loss_without = 0.0;                ///< of what it was tried beside, alone
-    std::vector<Trial> alternatives = {};     ///< everything that was tried in its place, itself first
-    std::vector<const Candidate*> ties = {};  ///< of these, what does as well
-    double gap_alone = 1.0;  ///< that it would make beside the rig file, in floors; 1: not worked out
-    CrossFit left_out = {};  ///< the whole explanation without it, fitted anew; empty: not worked out
+    double loss_without = 0.0;                ///< loss of the explanation to which it was added
+    std::vector<Trial> alternatives = {};     ///< what was tried in its place, itself first
+    std::vector<const Candidate*> ties = {};  ///< alternatives that explain as well
+    /// Gap that it alone would make in the rig as its file describes it, in floors; 1: not computed.
+    double gap_alone = 1.0;
+    CrossFit left_out = {};  ///< the explanation without it; empty: not computed
 };
 
-/// Effects, and the rig as it is explained with all of them.
+/// The effects of an explanation, and their cross fit.
 struct Chain {
     std::vector<Choice> choices;
     CrossFit fitted;
@@ -28,24 +29,25 @@ struct Chain {
 
 bool has_room_for_two(const Chain& chain, std::size_t most_effects);
 
-/// What was tried beside a cross fit, the first of it taken in.
+/// The choice of the first of these trials, each of which was added to the explanation `beside`.
 Choice choice_of(const Search& search, const CrossFit& beside, std::vector<Trial> trials);
 
-/// Whether anything tried is worth taking in.
+/// Whether the first trial is a leader: fitted on both halves, as those are that gain most.
 bool has_leader(const std::vector<Trial>& trials);
 
-/// A chain with one more effect, the first of those tried. What has learnt from signals to which that effect
-/// only passes its change on is fitted again: a platform that feels the carriage, where that moves otherwise.
+/// A chain with one more effect, the first of the trials. If that effect moves a carriage whose motion
+/// affects the platform, effects estimated from the Hall reading are refitted.
 Chain grown(const Search& search, Chain chain, std::vector<Trial> trials);
 
-/// The chain without one of its effects, fitted anew.
+/// The chain without one of its effects; those that depend on it are refitted.
 Chain without(const Search& search, const Chain& chain, std::size_t left_out);
 
-/// The chain without what has a say in some signals.
+/// The chain without the effects that are estimated from any of the given signals.
 Chain rest_of(const Search& search, const Chain& chain, const SignalFlags& signals);
 
-/// Whether another chain explains better: the shorter or plainer one unless the other one's gain is no
-/// chance.
+/// Whether another chain explains better. If one of the two is shorter, or has the simpler form of the
+/// other's effect, it is better unless the other one's gain is real (Search::is_real); otherwise the loss
+/// decides.
 bool is_better(const Search& search, const Chain& other, const Chain& chain);
 
 }  // namespace fidservo::gap

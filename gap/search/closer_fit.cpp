@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a search fits one effect closely: one way of going on after the other, as long as something is left.
+// The close fit of one effect: several methods, one after the other, as long as a gap is left.
 #include "core/parallel.h"
 #include "gap/search/contender.h"
 #include "gap/search/scatter.h"
@@ -14,7 +14,7 @@
 namespace fidservo::gap {
 namespace {
 
-/// Whether one half of the recordings has no use for a candidate.
+/// Whether a candidate's sizes vanish in the fit to one of the halves.
 bool vanishes_on_a_half(const Trial& trial) {
     return std::ranges::any_of(trial.fitted.of_half, [&](const Hypothesis& hypothesis) {
         const plant::EffectSetting& fitted = hypothesis.back();
@@ -24,19 +24,21 @@ bool vanishes_on_a_half(const Trial& trial) {
     });
 }
 
-/// Whether its effect displaces what the camera sees, by up to the end of a count.
+/// Whether an effect displaces tags in the image. The carriage's place within its count can compensate such
+/// an effect up to the count's end.
 bool moves_tags(const Candidate& candidate) {
     const plant::Part part = candidate.effect->part;
     return part == plant::Part::encoder || plant::is_of_camera(part);
 }
 
-/// Shares of a signal's excess that have to be cleared.
+/// Shares of a signal's excess that have to be removed before a close fit, a simplex, and the most costly
+/// methods are tried.
 constexpr double worth_it = 0.1, worth_a_simplex = 0.5, nearly_all = 0.98;
 
 }  // namespace
 
-/// One contender's close fit. Each round begins with the contender as it is; every way that is due is tried
-/// from the best of the round, whose place it takes where it gains more.
+/// The close fit of one contender. In each round every method that is due starts from the round's best result
+/// so far, and replaces that if it gains more.
 class Search::CloserFit {
   public:
     CloserFit(const Search& search, const CrossFit& base, Contender& contender, bool scatters,
@@ -67,8 +69,8 @@ class Search::CloserFit {
     }
 
   private:
-    /// @param has_gone_on  whether it has gone on from here before: it does so again only where scattering
-    ///                     finds nothing
+    /// @param has_gone_on  whether an earlier call has continued the fit from here already: that is then
+    /// repeated only where drawing many values gains nothing
     Contender after_a_round(bool has_gone_on) const {
         Contender best = contender_;
         const auto or_else = [&](Contender other) {
@@ -79,7 +81,7 @@ class Search::CloserFit {
         if (has_gone_on && best.gain() <= contender_.gain()) or_else(gone_on());
         if (!is_wave_ && is_off(best)) or_else(by_slopes(close_step));
         if (is_worth_refining(best)) or_else(search_.refined(base_, best));
-        // A spring once it is known whether it hardens.
+        // A spring is drawn once it is known whether it hardens.
         if (!is_wave_ && is_worth_scattering(best)) or_else(search_.scattered(base_, best));
         if (is_off(best)) or_else(search_.crossed(base_, best));
         if (is_worth_a_simplex(best)) or_else(by_simplex(best, itself()));
@@ -90,7 +92,7 @@ class Search::CloserFit {
     /// @return whether another round may gain more
     bool keep(Contender closer) {
         constexpr double worth_another = 4.0 * least_gain;
-        // Where a wave stays far off, more of the same does not help, but another valley.
+        // A wave that stays far off needs another local minimum, not further rounds.
         const bool is_of_another_valley = is_wave_ && !scatters_ && is_far_off(closer);
         const bool goes_on = !is_of_another_valley && closer.gain() >= contender_.gain() + worth_another;
         if (closer.gain() > contender_.gain()) {
@@ -121,8 +123,8 @@ class Search::CloserFit {
         return closer;
     }
 
-    /// In what it is taught by, and in what only passes the change on: tags can tell more closely how the
-    /// carriage moves than counts.
+    /// Whether a signal is off its floor that the candidate changes, directly or indirectly: tags can tell
+    /// more precisely than counts how the carriage moves.
     bool leaves_something() const {
         return meet(search_.off(contender_.trial.fitted),
                     reached_by({contender_.trial.fitted.of_half[0].back()}));
@@ -132,8 +134,9 @@ class Search::CloserFit {
         return is_in_valleys_ && scatters_ && is_far_off(best) && clears(best, nearly_all);
     }
 
-    /// Of a wave its harmonic, once it is in its valley or has been looked for among many values. Where
-    /// nothing is let go by jumps a form is seen from further off.
+    /// Whether optional parameters are worth a try: a wave's harmonic once the wave is in the right local
+    /// minimum or was drawn; those of other effects once most of the excess is removed, or half of it where
+    /// no stick-slip hides their influence.
     bool is_worth_refining(const Contender& best) const {
         if (!is_off(best) || is_worn_out() || (is_wave_ && !scatters_ && is_far_off(best))) return false;
         if (is_wave_ && !scatters_) return clears(best, in_its_valley);

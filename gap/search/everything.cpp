@@ -22,13 +22,15 @@
 namespace fidservo::gap {
 namespace {
 
-/// Standard deviation of sizes about nothing, in typical ones.
+/// Prior standard deviation of sizes about zero effect, in typical sizes.
 constexpr double expected_sizes = 3.0;
 
-/// What a size has to be worth to be kept: twice it is the square of a normal deviate, here of one in 200.
+/// Least loss that a size has to save to be kept. Twice the loss is the square of a normal deviate, here one
+/// that chance exceeds once in 200 cases.
 constexpr double least_worth = 4.0;
 
-/// A fit is near where half of the windows that were off at its start are at less than this mean square.
+/// A fit is close to the optimum once half of the windows that were off at its start have a mean square below
+/// this.
 constexpr double near_square = 2.0;
 
 double median_square(const std::vector<double>& all, const Wanted& leading) {
@@ -42,8 +44,8 @@ double median_square(const Evidence& evidence, const Errors& errors, const Wante
     return median_square(mean_squares(evidence.windows(), errors), leading);
 }
 
-/// The windows by which it is told how far off a fit still is: of the signal that is furthest off, those of
-/// which predictions are off at the start; what stands still is predicted by anything.
+/// The windows that tell how far a fit is from the optimum: of the signal that is furthest off, those whose
+/// predictions are off at the start. Windows in which nothing moves are predicted by any hypothesis.
 Wanted windows_off(const Evidence& evidence, const Wanted& wanted, const Errors& errors) {
     const std::vector<Window>& windows = evidence.windows();
     const std::vector<double> squares = mean_squares(windows, errors);
@@ -61,7 +63,8 @@ Wanted windows_off(const Evidence& evidence, const Wanted& wanted, const Errors&
     return furthest;
 }
 
-/// From wherever it begins to where nothing gets better, at levels that follow what is left.
+/// Fits from a distant start in several steps, until nothing improves. In each step errors up to the present
+/// median count as noise.
 Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
                       const Wanted& leading, Hypothesis start, double sizes, KnownSlopes& slopes) {
     constexpr int most_levels = 6, iterations_a_level = 8;
@@ -98,7 +101,8 @@ Fit fitted_closely(const Evidence& evidence, const Predict& predict, const Wante
                 .expected_sizes = sizes});
 }
 
-/// The places of each setting's sizes among all parameters, and their distances from nothing in scales.
+/// Indices of each setting's sizes among all parameters, and the distances of all parameters from their
+/// vanishing values, in their own units.
 struct Sizes {
     std::vector<std::vector<Eigen::Index>> at;
     Eigen::VectorXd typical;
@@ -117,7 +121,7 @@ struct Sizes {
         typical = Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
     }
 
-    /// What some candidates are worth together beside the others.
+    /// Loss that some candidates together save beside the others.
     double worth(const std::vector<std::size_t>& left_out, const Eigen::MatrixXd& covariance) const {
         std::vector<Eigen::Index> places;
         for (const std::size_t c : left_out) places.insert(places.end(), at[c].begin(), at[c].end());
@@ -127,14 +131,14 @@ struct Sizes {
     }
 };
 
-/// How much more than where noise is all that is left a candidate has to be worth: as many times as the
-/// windows that teach it are fewer independent ones, where something is left that they share.
+/// The loss that a candidate has to save. A discrepancy is shared by the windows of a recording, which then
+/// count as fewer independent ones (gap/fit/predictive_density.h); the demand is larger by that factor.
 class Demand {
   public:
-    /// Where noise is taken for all that is left.
+    /// The demand where only noise is left.
     Demand() { times_.fill(1.0); }
 
-    /// @param errors  in the windows wanted, by everything
+    /// @param errors  in the wanted windows, with all candidates fitted
     Demand(const Evidence& evidence, const Wanted& wanted, const Errors& errors) : Demand() {
         const std::vector<Window>& windows = evidence.windows();
         std::vector<double> squares = mean_squares(windows, errors);
@@ -155,7 +159,7 @@ class Demand {
                                                     expected[s] / count[s], left[s]);
     }
 
-    /// Of the signal that tells most of it.
+    /// The demand by the signal with the smallest factor among those from which the candidate is estimated.
     double worth_of(const Candidate& candidate) const {
         const SignalFlags teachers = teachers_of(*candidate.effect);
         double least = std::numeric_limits<double>::infinity();
@@ -168,8 +172,8 @@ class Demand {
     std::array<double, signal_count> times_{};
 };
 
-/// Those candidates that remain when what is worth least, over what is demanded of it, is taken away, one
-/// after the other.
+/// Indices of the candidates that remain when the one that saves least, relative to what is demanded of it,
+/// is removed again and again until all save enough.
 std::vector<std::size_t> kept(std::span<const Candidate* const> candidates, const Fit& fitted,
                               const Demand& demand) {
     const Sizes sizes(candidates, fitted);
@@ -198,7 +202,7 @@ std::vector<std::size_t> kept(std::span<const Candidate* const> candidates, cons
     return rest;
 }
 
-/// What every candidate is worth beside the others.
+/// Loss that each candidate saves beside the others.
 std::vector<double> worth_of_each(std::span<const Candidate* const> candidates, const Fit& fitted) {
     const Sizes sizes(candidates, fitted);
     std::vector<double> worth;
@@ -222,7 +226,7 @@ struct Chosen {
     }
 };
 
-/// All candidates without a shape of their own, as large as nothing, and those begun as they are.
+/// All candidates without a shape of their own, at size zero, and those in `begun` with their settings there.
 Chosen begun_with(std::span<const Candidate* const> candidates, const Hypothesis& begun) {
     Chosen chosen;
     for (const Candidate* candidate : candidates) {
@@ -251,7 +255,7 @@ bool is_smooth_of_carriage(const Candidate& candidate) {
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
                                       const std::array<Wanted, 2>& wanted) {
-    // Most of what is not needed shows before values are known closely.
+    // Numbers of iterations: most candidates that are not needed show before the values are known precisely.
     constexpr int at_first = 4, then = 15;
     std::array<IncrementalPrediction, 2> incremental{IncrementalPrediction(evidence, beside[0], wanted[0]),
                                                      IncrementalPrediction(evidence, beside[1], wanted[1])};
@@ -275,7 +279,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
         chosen.settings = fitted[0].hypothesis;
     };
     Demand demand;
-    /// Whether anything was taken away.
+    /// Removes candidates that are not needed. Returns whether there were any.
     const auto prune = [&] {
         const std::vector<std::size_t> rest = kept(chosen.candidates, fitted[0], demand);
         const bool is_less = rest.size() < chosen.candidates.size();
@@ -312,7 +316,8 @@ Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate*
                             std::span<const plant::EffectSetting> waves, const Hypothesis& beside,
                             const Hypothesis& begun, const Wanted& wanted) {
     constexpr double share_of_best = 0.5;
-    constexpr double worth_a_fit = 0.2;  // of the loss, of a wave: errors show one of many periods by chance
+    // Share of the loss that a wave has to save, since errors show one of many periods by chance.
+    constexpr double worth_a_fit = 0.2;
     IncrementalPrediction incremental(evidence, beside, wanted);
     const Predict predict = std::ref(incremental);
     const Chosen others = begun_with(candidates, begun);

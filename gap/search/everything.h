@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Beginning with everything: all candidates of signals whose predictions change smoothly with what is wrong,
-// fitted at once, and taken away what the data do not need.
+// Backward elimination: all candidates of signals whose predictions change smoothly with the candidates'
+// sizes are fitted at once; then those that the data do not need are removed.
 //
-// Where several small causes are at work, none of them predicts well alone, and what is taken in first stands
-// in for the others. All sizes together, each expected within a few typical ones of nothing, are found by
-// Levenberg-Marquardt in some steps (gap/fit/fit.h), from far off at a level that follows what is left:
-// a^2 = 1 + the median of S_w. What an effect is worth then follows without another fit, from the loss to
-// second order: with sizes t of those left out and the inverse C of its second derivatives,
+// Where several small causes act together, none of them predicts well alone, and the first one accepted
+// stands in for the others. All sizes together, with a prior of a few typical sizes about zero, are found in
+// some steps of Levenberg-Marquardt (gap/fit/fit.h); far from the optimum, errors up to a level of a floors,
+// a^2 = 1 + the median of S_w, count as noise in it. The loss that effects save beside the others (their
+// worth) then follows without another fit, from the loss to second order: with t their sizes, and C the
+// inverse of the matrix of second derivatives (C_tt: its block for t),
 //
 //     worth = 1/2 t' C_tt^-1 t
 //
@@ -22,37 +23,37 @@
 
 namespace fidservo::gap {
 
-/// What was needed of everything.
+/// The candidates that the data need.
 struct NeededCandidates {
     std::vector<const Candidate*> candidates;
-    std::array<Hypothesis, 2> of_half;  ///< as fitted on each half, one setting a candidate
-    std::vector<double> worth;          ///< of each, on both halves: loss that it saves beside the others
+    std::array<Hypothesis, 2> of_half;  ///< as fitted on each half, one setting for each candidate
+    std::vector<double> worth;  ///< for each, the loss that it saves beside the others, on both halves
 };
 
-/// Whether what the Hall reading or the tags tell of a candidate changes smoothly with its sizes: of the
-/// wire, the sensors and the view. A false scale of the encoder hides within its counts and shows in the
-/// tags.
+/// Whether predictions of the Hall reading or the tags change smoothly with a candidate's sizes: effects of
+/// wire, sensors and view. A scale error of the encoder is one of them, since tags show what hides within its
+/// counts.
 bool is_smooth(const Candidate& candidate);
 
-/// The same of a carriage that is predicted nearly right: without play, place or period, and what does not
-/// hide within the counts.
+/// Whether predictions of a carriage that is predicted nearly right change smoothly with a candidate's sizes:
+/// it acts as a force, without play, place or period, and does not hide within the counts.
 bool is_smooth_of_carriage(const Candidate& candidate);
 
-/// Of all candidates without a shape of their own, and those begun: fits the first half, keeps what is worth
-/// it there, fits that on the other half too, and keeps what is worth it on both.
-/// @param candidates  one of a class
-/// @param beside      what each half knows of what moves the carriage; stays as it is
-/// @param begun       of the candidates, what was found to be there already, with its values
-/// @param wanted      windows of the Hall reading and tags in each half
+/// Fits all candidates without a shape of their own, and those in `begun`, to the first half, keeps those
+/// that are worth it there, fits these to the other half, too, and keeps those that are worth it on both.
+/// @param candidates  one of each class
+/// @param beside      other settings of each half, which keep their values
+/// @param begun       settings of candidates that were found before, from which their fits start
+/// @param wanted      the windows that are fitted in each half
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
                                       const std::array<Wanted, 2>& wanted);
 
-/// Of those candidates that have a shape of their own and are not begun, the settings which promise most
-/// beside everything else (gap/search/shape_screening.h), best first: one a candidate, and none that promises
-/// less than half of the best.
-/// @param waves  along the rail, whose periods no grid has
-/// @param beside, wanted  of the first half; otherwise as above
+/// Settings of those candidates with a shape of their own that are not in `begun` which promise most beside
+/// all others (gap/search/shape_screening.h), best first: one for each candidate, with at least half of the
+/// best one's gain.
+/// @param waves  settings of waves along the rail to be screened as well; no grid contains their periods
+/// @param beside, wanted  of the first half; like the other parameters as in needed_of_everything()
 Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,
                             std::span<const plant::EffectSetting> waves, const Hypothesis& beside,
                             const Hypothesis& begun, const Wanted& wanted);

@@ -17,21 +17,21 @@
 namespace fidservo::gap {
 namespace {
 
-/// What moves, by some scales.
+/// The settings that may be refitted, changed by the given numbers of scales.
 Hypothesis moved(const ScaledParameters& parameters, const Eigen::VectorXd& scales) {
     std::vector<double> values = parameters.values;
     for (std::size_t k = 0; k < values.size(); ++k) values[k] += scales(static_cast<Eigen::Index>(k));
     return parameters.at(values);
 }
 
-/// What moves, by some scales, then the candidate.
+/// The settings that may be refitted, changed by the given numbers of scales, followed by the candidate.
 Hypothesis moved(const Surroundings& beside, const Eigen::VectorXd& scales, plant::EffectSetting added) {
     Hypothesis part = moved(beside.parameters, scales);
     part.push_back(std::move(added));
     return part;
 }
 
-/// Whether a size may lie to either side of none.
+/// Whether a size may lie on either side of the value at which the effect vanishes.
 bool has_other_side(const Candidate& candidate) {
     return std::ranges::any_of(candidate.sizes, [&](std::size_t k) {
         const plant::EffectParameter& parameter = candidate.effect->parameters[k];
@@ -39,7 +39,7 @@ bool has_other_side(const Candidate& candidate) {
     });
 }
 
-/// Errors with such shares of the changes.
+/// The base's errors plus the given shares of some changes.
 Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen::VectorXd& shares) {
     Errors sum = base;
     for (std::size_t k = 0; k < changes.size(); ++k)
@@ -48,7 +48,7 @@ Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen
     return sum;
 }
 
-/// Shares of some changes that make the errors smallest, weighted by the loss at the base.
+/// The shares of some changes that minimise the squares of the errors, weighted as in the loss at the base.
 Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& counted, const Errors& base,
                             const std::vector<Errors>& changes) {
     const auto width = static_cast<Eigen::Index>(changes.size());
@@ -121,7 +121,7 @@ Promise promise_of(plant::EffectSetting setting, const Predict& predict, std::sp
 std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
                                     const Wanted& counted, const Surroundings& beside,
                                     const Candidate& candidate) {
-    constexpr double probe = 0.25;  // of the typical size
+    constexpr double probe = 0.25;  // share of the typical size with which responses are computed
     constexpr double hopeless_gain = 0.4 * least_gain;
     constexpr double further = 2.5, furthest = 100.0;
     constexpr std::size_t most_places = 8, most_starts = 4;
@@ -130,9 +130,9 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
     const Eigen::VectorXd unmoved = Eigen::VectorXd::Zero(moving);
     struct Place {
         std::vector<double> shape;
-        Eigen::VectorXd steps;  ///< scales of what moves, then shares of the sizes
-        double expected_gain;   ///< if errors changed in proportion to them
-        double probe_gain;      ///< of a small size, really
+        Eigen::VectorXd steps;  ///< scales of what may be refitted, then shares of the sizes
+        double expected_gain;   ///< gain of the steps, by linear extrapolation
+        double probe_gain;      ///< gain of a small size, by a prediction
     };
     const std::vector<double> base_squares = mean_squares(windows, beside.errors);
     const double without =
@@ -160,12 +160,12 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
     };
     for (const std::vector<double>& shape : candidate.shapes) {
         std::optional<Place> place = probed(shape, probe);
-        // What a wire that is cold cannot do to one side says nothing of the other one.
+        // A cold wire cannot respond in one direction, which says nothing about the other one.
         if (place && is_hopeless(*place) && has_other_side(candidate)) place = probed(shape, -probe);
         if (place && !is_hopeless(*place)) places.push_back(*std::move(place));
     }
     std::ranges::sort(places, std::greater{}, &Place::expected_gain);
-    if (places.size() > most_places / 2)  // the others by what is not extrapolated
+    if (places.size() > most_places / 2)  // the further ones are ranked by gains that are not extrapolated
         std::ranges::sort(places.begin() + most_places / 2, places.end(), std::greater{}, &Place::probe_gain);
     std::vector<Promise> starts;
     for (std::size_t p = 0; p < std::min(places.size(), most_places); ++p) {
@@ -180,7 +180,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
             return is_best;
         };
         for (const double part : {1.0, 0.4}) look(part * with_rest, part * sizes);
-        // Far off, what is best nearby is too little by far: on as long as it becomes better.
+        // Far from the optimum the linear step is much too short: lengthen it as long as that helps.
         for (double part = further; part < furthest && look(part * with_rest, part * sizes);) part *= further;
         if (moving > 0) look(unmoved, sizes);
         if (best.gain - without < hopeless_gain) look(unmoved, Eigen::VectorXd::Ones(width));

@@ -12,40 +12,43 @@
 
 namespace fidservo::gap {
 
-/// What candidates are looked at beside: a base, of which those settings may move that they are coupled with.
+/// The base to which candidates are tentatively added. Its settings that are coupled with a candidate may be
+/// refitted with it.
 struct Surroundings {
     Hypothesis base;
     Errors errors;  ///< of the base
-    Places places;  ///< of the settings that may move
+    Places places;  ///< indices of the settings that may be refitted
     ScaledParameters parameters;
-    std::vector<Errors> slopes;  ///< of these parameters
-    Errors moved;                ///< of the base where these parameters alone fit best; empty: none moves
+    std::vector<Errors> slopes;  ///< derivatives of the errors with respect to these parameters
+    /// Errors of the base when these parameters are refitted to first order; empty if there are none.
+    Errors moved;
 };
 
-/// @param counted  windows that `predict` predicts
+/// @param counted  the windows that `predict` predicts
 Surroundings surroundings(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
                           const Hypothesis& base, const Errors& base_errors, const Places& places);
 
-/// A candidate at sizes that are shares of a shape's.
+/// A candidate whose sizes are the given shares of those at a point of its grid.
+/// @param shape  the point: values of all parameters
 plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>& shape,
                            const Eigen::VectorXd& shares);
 
 struct Promise {
-    Hypothesis start;  ///< the settings that may move, then the candidate
-    double gain;       ///< loss that it saves over the base, in the windows counted and predicted
+    Hypothesis start;  ///< the settings that may be refitted, then the candidate
+    double gain;       ///< loss that it saves, without a fit, in the counted windows
 };
 
-/// Of a setting beside the base as it is.
+/// What a setting promises beside the base as it is.
 /// @param base_squares  mean squares of the base's errors (gap/fit/score.h)
 Promise promise_of(plant::EffectSetting setting, const Predict& predict, std::span<const Window> windows,
                    const Wanted& counted, const Surroundings& beside, std::span<const double> base_squares);
 
-/// Along each shape of the grid the sizes that fit best, together with what moves, if errors changed in
-/// proportion to both: weighted least squares of the base's errors. (A base that was fitted without the
-/// candidate has taken over what it can of it. Where that misleads, as with a base of which only a product is
-/// well known, the candidate alone is tried.) Of the shapes that promise most by that at most four, best
-/// first; `gain` is what it really saves. None where the settings that may move save as much without the
-/// candidate.
+/// Start values of a candidate's fit, at most four, best first. At each point of its grid the sizes are found
+/// by weighted least squares of the base's errors, together with the parameters that may be refitted (since
+/// they have adapted to the missing candidate), as if errors changed linearly with all of these. Where that
+/// misleads, as with a base of which only a product of parameters is well known, the candidate is tried
+/// alone. `gain` is that of an actual prediction. Empty where the parameters that may be refitted save as
+/// much without the candidate.
 std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
                                     const Wanted& counted, const Surroundings& beside,
                                     const Candidate& candidate);

@@ -9,7 +9,7 @@
 namespace fidservo::gap {
 namespace {
 
-/// A chain with one more effect, whatever that costs: what has been found is not lost.
+/// A chain with one more effect, fitted without a limit of effort, so that what has been found is not lost.
 Chain grown_whatever(Search& search, const Chain& chain, std::vector<Trial> trials) {
     search.limit(false);
     Chain longer = grown(search, chain, std::move(trials));
@@ -17,9 +17,10 @@ Chain grown_whatever(Search& search, const Chain& chain, std::vector<Trial> tria
     return longer;
 }
 
-/// Takes in a weak wave that a scan has found, instead of the last effect; where that one gains more, since
-/// it stands in for the wave and something else, the wave together with what is best beside it.
-/// @return whether two effects took the place of the last one
+/// Replaces the last effect by a weak wave that a scan has found, if that gains more. If the last effect
+/// gains more, it may stand in for the wave and a further effect: the wave and the best effect beside it then
+/// replace it if these two explain better.
+/// @return whether two effects have replaced the last one
 bool take_in_scanned(Search& search, Chain& chain, const Chain& before, std::size_t most_effects) {
     constexpr Effort effort{.scatters = false};
     std::vector<Trial> trials = search.try_all(before.fitted, before.candidates(), effort);

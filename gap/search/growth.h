@@ -8,14 +8,16 @@
 namespace fidservo::gap {
 
 struct Growth {
-    std::size_t most_effects;  ///< that the chain may have
-    bool scans = true;         ///< for a weak wave, where the first effect of a carriage leaves it far off
+    std::size_t most_effects;  ///< the largest number of effects of the chain
+    /// Whether a weak wave is scanned for where the first effect on the carriage leaves the encoder far off.
+    bool scans = true;
 };
 
-/// Takes in what is best, as long as it is no chance. A weak wave is scanned for where the carriage stays far
-/// off; a wave or a spring that leaves much is looked for among many values before anything is looked for
-/// beside it.
-/// @return whether a wave and another effect took the place of one
+/// Accepts the best effect beside the chain, one after the other, as long as its gain is real
+/// (Search::is_real). Where the encoder stays far off, a weak wave is scanned for; and a wave or a spring
+/// that leaves much is fitted again from many drawn values before further effects are looked for.
+/// @param first_step  receives the trials of the first step; may be null
+/// @return whether a wave and another effect have replaced a single effect
 bool grow(Search& search, Chain& chain, const Growth& growth, std::vector<Trial>* first_step);
 
 }  // namespace fidservo::gap

@@ -18,7 +18,7 @@ namespace {
 
 using Moves = std::vector<double>;
 
-/// How large an effect that is no wave and no spring is, as moves from where it is.
+/// The sizes of an effect that is neither a wave nor a spring. Moves are changes of their logarithms.
 class DrawnSizes {
   public:
     explicit DrawnSizes(const plant::EffectSetting& start) : start_(start) {
@@ -47,7 +47,8 @@ class DrawnSizes {
     std::vector<std::size_t> sizes_;
 };
 
-/// A wave or a spring and what is drawn of it, as moves from where it is.
+/// The parameters that are drawn of a wave or a spring. Moves are changes from the start; that of the first
+/// one, amplitude or stiffness, is a change of its logarithm.
 class DrawnForce {
   public:
     explicit DrawnForce(const plant::EffectSetting& start)
@@ -97,7 +98,7 @@ class DrawnForce {
     std::vector<Refinement> refinements_;
 };
 
-/// The settings at some places of a hypothesis.
+/// The settings at some places of a hypothesis, with values that are drawn.
 class Drawn {
   public:
     Drawn(const Hypothesis& start, const Places& places) : start_(start) {
@@ -108,7 +109,7 @@ class Drawn {
                 sizes_.emplace_back(place, start[place]);
     }
 
-    /// Of the first generation.
+    /// Standard deviations of the moves in the first generation.
     Moves deviations() const {
         Moves all;
         for_each([&](std::size_t, const auto& drawn) {
@@ -145,7 +146,7 @@ struct Draw {
     double loss = 0.0;
 };
 
-/// Mean and standard deviations of moves, the best of which count most.
+/// Mean and standard deviations of the best moves, weighted by their ranks.
 class Elite {
   public:
     explicit Elite(Moves deviations) : mean_(deviations.size(), 0.0), deviations_(std::move(deviations)) {}
@@ -156,9 +157,9 @@ class Elite {
         return moves;
     }
 
-    /// @param best  sorted
+    /// @param best  sorted by loss
     void learn(std::span<const Draw> best) {
-        constexpr double wider = 1.2;  // a spread of few is too small, as a rule
+        constexpr double wider = 1.2;  // the scatter of a few values is usually too small
         for (std::size_t k = 0; k < mean_.size(); ++k) {
             const auto weighted = [&](const auto& value) {
                 double sum = 0.0, weights = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Forces of a carriage among many small valleys.
+// Fits of forces on a carriage whose loss has many local minima.
 #include "gap/candidates/candidate.h"
 #include "gap/candidates/coupling.h"
 #include "gap/fit/fit.h"
@@ -10,17 +10,18 @@
 
 namespace fidservo::gap {
 
-/// Whether an effect is such a force: a wave or a spring.
+/// Whether a candidate is such a force: a wave or a spring.
 bool has_valleys(const Candidate& candidate);
 
-/// Values of the settings at some places of a hypothesis that predict best among many drawn: where friction
-/// lets a carriage go by jumps, a small force along the rail decides each time whether it goes, and losses
-/// have a valley for each way in which it may. The nearer values are to the right ones, the more ways are
-/// right. So each generation is drawn around the mean of the best so far, as widely as these scatter: the
-/// cross-entropy method (Rubinstein, Methodology and Computing in Applied Probability 1, 1999) with the
-/// weights of Hansen and Ostermeier, Evolutionary Computation 9, 2001. Of other effects than a wave or a
-/// spring their sizes are drawn.
-/// @param spread  of the first generation: 1 around a guess, less where the start is known better
+/// Values of the settings at some places of a hypothesis that predict best among many drawn at random. Where
+/// friction releases a carriage in jumps, a small force along the rail decides each time whether it moves,
+/// and the loss has a local minimum for every possible course of the motion; the nearer the values are to the
+/// right ones, the more of the course is right. Each generation is therefore drawn around the mean of the
+/// best values so far, as widely as these scatter: the cross-entropy method (Rubinstein, Methodology and
+/// Computing in Applied Probability 1, 1999) with the weights of Hansen and Ostermeier, Evolutionary
+/// Computation 9, 2001. Of effects other than waves and springs only the sizes are drawn.
+/// @param spread  factor of the first generation's standard deviations: 1 around a guess, less around a
+/// better start
 Fit scatter(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
             const Hypothesis& start, const Places& places, double spread = 1.0);
 

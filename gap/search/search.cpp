@@ -21,11 +21,11 @@
 namespace fidservo::gap {
 namespace {
 
-/// A tie: what is behind the best by fewer standard deviations than this is not told from it.
+/// An effect ties with the best one if it is behind by fewer standard deviations than this.
 constexpr double effect_tie_significance = 2.0;
 
-/// Of what a signal exceeds its floor by where nothing is known: what an effect has to take away where it
-/// does not bring the signal to its floor.
+/// Share of the excess that a signal has before any effect: an effect has to remove as much if it does not
+/// bring the signal to its floor.
 constexpr double least_share_of_first = 1e-3;
 
 SignalFlags above(const SignalExcess& excess, double bound) {
@@ -34,7 +34,7 @@ SignalFlags above(const SignalExcess& excess, double bound) {
     return flags;
 }
 
-/// Of those sorted from the best on, the first that come near it, `most` at most.
+/// Of contenders sorted by their scores, best first, those that come near the best one, at most `most`.
 template <class Score>
 std::span<Search::Contender> near_best(std::span<Search::Contender> sorted, double share, double least,
                                        std::size_t most, const Score& score) {
@@ -45,12 +45,12 @@ std::span<Search::Contender> near_best(std::span<Search::Contender> sorted, doub
     return sorted.first(count);
 }
 
-/// How many of what is far off are no chance: in each half, or in one half and two recordings.
+/// Numbers of far-off windows or tags that are no chance: in each half, or in one half and two recordings.
 struct Enough {
     std::size_t of_each_half, of_one_half;
 };
 
-/// @param runs  of each that is far off, by half
+/// @param runs  for each half, the run of each window or tag that is far off
 bool are_enough(const std::array<std::vector<std::size_t>, 2>& runs, const Enough& enough) {
     constexpr std::size_t fewest_runs = 2;
     return std::ranges::all_of(runs,
@@ -61,7 +61,7 @@ bool are_enough(const std::array<std::vector<std::size_t>, 2>& runs, const Enoug
            });
 }
 
-/// What is looked for beside a base.
+/// Describes the step that looks for effects beside a base.
 std::string base_in_words(const CrossFit& base) {
     std::vector<std::string_view> names;
     for (const plant::EffectSetting& setting : base.of_half[0]) names.push_back(setting.effect->name);
@@ -293,7 +293,8 @@ bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
 }
 
 bool Search::clears_what_is_far_off(const CrossFit& without, const CrossFit& with) const {
-    // Of the shapes of tags, which nothing lets go by jumps: a shutter leaves some that shake.
+    // For tags a small excess may remain, since a rolling shutter leaves some shapes off when the stage
+    // shakes. Unlike the carriage's motion, shapes do not depend on stick-slip.
     constexpr double next_to_nothing = 1e-3;
     const SignalExcess before = fitter_.excess(without.mean_squares),
                        after = fitter_.excess(with.mean_squares);
@@ -306,7 +307,7 @@ bool Search::clears_what_is_far_off(const CrossFit& without, const CrossFit& wit
 }
 
 bool Search::is_far_off(const CrossFit& cross, Signal signal) const {
-    // Windows, and shapes of tags.
+    // Least numbers of windows, and of shapes of tags.
     constexpr Enough windows_enough{3, 6}, shapes_enough{6, 12};
     std::array<std::vector<std::size_t>, 2> runs, runs_of_shapes;
     const std::vector<Window>& windows = fitter_.evidence().windows();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// One step of a search: which effect, added to what is known, predicts best what was not fitted.
+// One step of a search: which effect, added to those known, predicts best the windows that were not fitted.
 #include "gap/candidates/candidate.h"
 #include "gap/fit/cross_fit.h"
 #include "gap/search/everything.h"
@@ -17,65 +17,72 @@
 
 namespace fidservo::gap {
 
-/// A candidate that was added to a hypothesis. What promised little was not fitted: no gain, no squares.
+/// A candidate that was added to a hypothesis. If it promised little it was not fitted: it has no gain and no
+/// cross fit.
 struct Trial {
     const Candidate* candidate = nullptr;
-    double promised = 0.0;   ///< loss saved at first sight, in the windows that it is fitted to
-    double gain = 0.0;       ///< loss saved in the held-out windows
-    bool is_leader = false;  ///< fitted on both halves; otherwise on the first, judged on some of the second
+    double promised = 0.0;  ///< estimated loss saved, without a fit, in the windows to be fitted
+    double gain = 0.0;      ///< loss saved in the held-out windows
+    /// Whether it was fitted on both halves; otherwise it was fitted on the first one at most, and judged on
+    /// some windows of the second.
+    bool is_leader = false;
     CrossFit fitted = {};
 };
 
-/// How many candidates of those that promise most a step fits, and how many of these on both halves.
+/// How many of the most promising candidates a step fits, and how many of these on both halves.
 struct Effort {
     std::size_t fits = 8, leaders = 4;
-    /// Whether the best wave is looked for among many values where it leaves something.
+    /// Whether the best wave or spring is also fitted from many drawn values if it leaves a gap.
     bool scatters = true;
-    bool refines = true;  ///< whether the leaders are fitted closer than from afar
+    bool refines = true;  ///< whether the leaders' first, coarse fits are followed by close ones
 };
 
-/// Share of a signal's excess that a wave takes away where its place and period are nearly right.
+/// Share of a signal's excess that a wave removes once its place and period are nearly right.
 inline constexpr double in_its_valley = 0.999;
 
 struct SearchOptions {
-    std::size_t windows = 48;  ///< of a signal and a half, that are fitted
-    /// After which it is exhausted (Evidence::effort): 12 to 25 s of two cores, for a campaign of 5 minutes.
+    std::size_t windows = 48;  ///< the largest number of windows of one signal and one half that are fitted
+    /// Effort (Evidence::effort) after which the search is exhausted: 12 to 25 s on two cores for recordings
+    /// of 5 minutes.
     double most_effort = 5'000.0;
-    /// Told what is tried next, in words.
+    /// Called with a description of what is tried next.
     std::function<void(std::string_view)> tell = {};
-    double tail = 0.01;  ///< of taking in anything where there is nothing, over the whole search
+    /// Probability of accepting anything where there is nothing, over the whole search.
+    double tail = 0.01;
 };
 
-/// The effort that a search may take was spent where it counts.
+/// Thrown when the effort of a search is spent, or its budget has ended.
 class SearchExhausted : public std::exception {
   public:
     const char* what() const noexcept override { return "the effort of the search was spent"; }
 };
 
-/// A search over one set of recordings. Counts what it tries, and does nothing twice.
+/// A search over one set of recordings. It counts what it tries, and does nothing twice
+/// (gap/search/search_memory.h).
 class Search {
   public:
     Search(const Evidence& evidence, const std::vector<Candidate>& candidates, const SearchOptions& options);
     Search(const Search&) = delete;
     Search& operator=(const Search&) = delete;
 
-    /// Throws SearchExhausted once the evidence's budget has ended while what was found last was refined.
+    /// Throws SearchExhausted if the evidence's budget has ended during a refinement, whose best result was
+    /// kept.
     void throw_if_over() const;
 
-    /// Whether the effort counts: not for the first effect, and not where what is known is fitted and judged
-    /// again. Where it counts and is spent, whatever fits throws SearchExhausted.
+    /// Whether the effort is limited: it is not for the first effect, nor where known effects are refitted
+    /// and judged. Once a limited effort is spent, all functions that fit throw SearchExhausted.
     void limit(bool is_limited) { is_limited_ = is_limited; }
 
-    /// Of which signals causes are looked for from now on, and with what share of all effort, counted from
-    /// the start; of all signals with all of it at first.
+    /// Restricts the search to causes that show in some signals, and to a share of the whole effort, counted
+    /// from the start of the search. Initially it includes all signals and the whole effort.
     void look_for_causes_in(const SignalFlags& signals, double share_of_effort) {
         focus_ = signals;
         share_of_effort_ = share_of_effort;
     }
 
-    /// What is needed of all smooth candidates of the Hall reading and the tags beside what a base knows of
-    /// the carriage, fitted at once (gap/search/everything.h), on both halves; the base's own settings of
-    /// these begin as they are. In the fit they are the last ones, in the order of the candidates.
+    /// Those of all smooth candidates of Hall reading and tags that are needed beside a base's other effects,
+    /// fitted at once on both halves (gap/search/everything.h), starting from the base's own settings of
+    /// these candidates. They are the last settings of the fit, in the order of `candidates`.
     struct Together {
         std::vector<const Candidate*> candidates;
         std::vector<double> worth;  ///< loss that each saves beside the others
@@ -83,90 +90,96 @@ class Search {
     };
     Together everything_beside(const CrossFit& base) const;
 
-    /// The same with one further effect that has a shape of its own: each time another one, of those that
-    /// promise most in the signals that the base leaves off.
+    /// Explanations like that of everything_beside(), with one further effect that has a shape of its own:
+    /// one for each of those that promise most in the signals that the base leaves off their floors.
     std::vector<Together> shaped_beside(const CrossFit& base) const;
 
-    /// The same of the carriage beside a base that knows nothing of it: from the models that balance its
-    /// forces (gap/balance/force_regression.h) the one that predicts best where it is followed, in the form
-    /// that does, with all that is smooth. The base where nothing balances them. Does not count as effort.
+    /// Effects on the carriage beside a base that has none. Of the models from the balance of forces
+    /// (gap/balance/force_regression.h), and of the forms of their effects, those are taken that predict best
+    /// when the carriage is simulated, with all further smooth effects that are needed. The base alone where
+    /// there is no such model. Does not count as effort.
     Together forces_beside(const CrossFit& base);
 
-    /// How the budget ended while something was refined that was kept.
+    /// How the budget ended, if it did during a refinement; what had been found until then was kept.
     std::optional<Ended> over() const { return over_; }
 
     CrossFit nothing() const;
 
-    /// Candidates added to a base, all of them but those `added` in it; leaders first, then by gain,
-    /// but of those that tie with the best, or leave it nothing, the one of fewest parameters first. What
-    /// could only improve signals that are at their floors is not fitted.
+    /// Tries all candidates except those in `added` as additions to a base. Leaders come first, then the
+    /// others by gain; of leaders that tie with the best, or bring its signals to their floors, the one with
+    /// the fewest parameters is first. Candidates that could only improve signals already at their floors are
+    /// not fitted.
     std::vector<Trial> try_all(const CrossFit& base, std::span<const Candidate* const> added,
                                const Effort& effort = {});
 
-    /// Looks for a weak wave of force beside a base among all that there may be (gap/search/wave_scan.h), by
-    /// windows that are far off. Returns whether one promises more than those that were known, so that
-    /// try_all would come to something else.
+    /// Scans all possible weak waves of force beside a base (gap/search/wave_scan.h), in windows that are far
+    /// off. Returns whether one promises more than the start values known before, so that try_all would come
+    /// to another result.
     bool scan_for_wave(const CrossFit& base, std::span<const Candidate* const> added);
 
-    /// The base with a candidate that try_all has tried beside it, fitted on both halves; none where no
-    /// prediction was possible: the plant refuses it, or the search was stopped.
+    /// The base with a candidate that try_all has tried beside it, fitted on both halves. Empty where no
+    /// prediction was possible, because the plant refuses the candidate or the search was stopped.
     std::optional<CrossFit> with(const CrossFit& base, const Candidate& candidate);
 
-    /// Takes over from a whole, which is the base and a candidate at a place, what it has found for that one:
-    /// try_all beside this base then fits only what promises about as much.
+    /// Stores the values of a candidate in a cross fit `whole`, of which it is the setting at index `at` and
+    /// the base is the rest: try_all beside this base then fits only candidates that promise about as much.
     void remember(const CrossFit& base, const Candidate& candidate, const CrossFit& whole, std::size_t at);
 
-    /// Fits those parameters of a cross fit again, from where they are, that meet some signals.
+    /// Refits, from their present values, the parameters of those settings that are estimated from any of the
+    /// given signals, or coupled with such settings.
     void fit_again(CrossFit& cross, const SignalFlags& signals) const;
 
-    /// Judges a cross fit as it is.
+    /// Judges a cross fit with its present values.
     void judge(CrossFit& cross) const { fitter_.judge(cross); }
 
-    /// A whole, whose last effect is a candidate, with that and what it meets fitted closer.
-    /// @param base  that it is told from: without the last effect at least
+    /// A cross fit whose last effect is a candidate, after a close fit of that effect and of those coupled
+    /// with it.
+    /// @param base  cross fit from which gains are counted; it lacks at least the last effect
     CrossFit closer(const CrossFit& base, CrossFit whole, const Candidate& last) const;
 
-    /// Signals at whose fits an effect of a cross fit has a say (gap/fit/cross_fit.h).
+    /// Signals whose fits an effect influences (gap/fit/cross_fit.h).
     SignalFlags concerned_by(const Candidate& candidate, const CrossFit& whole) const {
         return fitter_.concerned_by(*candidate.effect, whole.of_half[0]);
     }
 
-    /// Whether an effect's gain is more than chance, over all that was tried, and takes away a good part of
-    /// what a signal exceeds its floor by: where the true law differs a little from the catalogue's, many an
-    /// effect gains a little. So it does beside an effect whose law is not quite the true one: what leaves a
-    /// signal off its floor, by more than next to nothing, has to take away a thousandth of what the signal
-    /// exceeded it by at first. What one half of the data has taught and brings three windows or more of
-    /// either half, six of two runs, or the shapes of six tags, from far off to the floor is no chance
-    /// however few they are.
+    /// Whether an effect is to be accepted: its gain is significant, corrected for all that was tried, and it
+    /// removes a good part of some signal's excess over its floor. The latter is needed because many an
+    /// effect gains a little where the true law, or that of another effect in the explanation, differs
+    /// slightly from the catalogue's. For the same reason an effect that leaves the signal clearly off its
+    /// floor has to remove a thousandth of the excess that the signal had before any effect. The gain need
+    /// not be significant if a signal comes to its floor, predicted by what was fitted to the other half, of
+    /// which three windows of each half, or six of one half from two runs, or the shapes of twice as many
+    /// tags were far off: that is no chance, however few windows there are.
     bool is_real(const CrossFit& without, const CrossFit& with) const;
 
-    /// Whether an effect's gain is more than chance, over all that was tried, however much it leaves.
-    /// @param times  by how many times the significance that this takes
+    /// Whether an effect's gain is significant, corrected for all that was tried, however large a gap it
+    /// leaves.
+    /// @param times  factor by which the significance must exceed its bound
     bool is_no_chance(const CrossFit& without, const CrossFit& with, double times = 1.0) const;
 
-    /// Whether a signal loses a share of what it exceeds its floor by.
+    /// Whether an effect removes at least `share` of some signal's excess over its floor.
     bool nearly_clears(const CrossFit& without, const CrossFit& with, double share = 0.98) const;
 
-    /// Signals above their floors.
+    /// Signals that are off (above) their floors.
     SignalFlags off(const CrossFit& fitted) const;
 
-    /// Signals at some floors and more.
+    /// Signals whose r.m.s. error is more than this many floors.
     SignalFlags far_off(const CrossFit& fitted, double floors = 3.0) const;
 
-    /// How large a gap a setting alone would make beside the rig file, over all signals, in floors
-    /// (gap/fit/gap_size.h): by what the predictions change with it.
+    /// The gap over all signals, in floors (gap/fit/gap_size.h), that a setting alone would make in the rig
+    /// as its file describes it: by how much it changes the predictions.
     double gap_alone(const plant::EffectSetting& setting) const;
 
     /// Whether every signal is at its floor: nothing is left for another effect to explain.
     bool is_at_floor(const CrossFit& fitted) const;
 
-    /// Signals that exceed their floors by as much as a further effect has to take away of them.
+    /// Signals whose excess over their floors is larger than the least that a further effect has to remove.
     SignalFlags leaves_much(const CrossFit& fitted) const;
 
-    /// Whether no signal does.
+    /// Whether no signal has such an excess.
     bool leaves_little(const CrossFit& fitted) const;
 
-    /// Whether what the other lacks to the best is no more than chance.
+    /// Whether the lead of the best cross fit over another one is not significant.
     bool ties(const CrossFit& best, const CrossFit& other) const;
 
     struct Contender;
@@ -174,97 +187,106 @@ class Search {
   private:
     Together together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const;
     struct EverythingBeside;
-    /// @param of_tags_alone  only what the Hall reading does not tell of, the rest as it is known
+    /// @param of_tags_alone  only candidates that the Hall reading does not show; the others keep their
+    /// values
     EverythingBeside everything_of(const CrossFit& base, bool of_tags_alone = false) const;
     Together needed_of(const EverythingBeside& all) const;
-    /// Of the encoder, as its errors show them.
+    /// Settings of waves with the periods along the rail that the encoder's errors show.
     Hypothesis waves_of_reading(const CrossFit& base, std::span<const Candidate* const> candidates) const;
     Together balanced_beside(const CrossFit& base) const;
     class CloserFit;
-    /// By those encoder windows of the first half that are far off without a wave (gap/search/wave_scan.h).
-    /// None where the predicted carriage never runs away, as a weak wave shows by nothing else, and none of a
-    /// carriage on a belt, whose predictions are too dear.
+    /// The wave that a scan finds in those encoder windows of the first half that are far off without one
+    /// (gap/search/wave_scan.h). Empty unless the predicted carriage runs away in a few windows, by which
+    /// alone a weak wave shows; and empty for a carriage on a belt, whose predictions cost too much.
     std::optional<plant::EffectSetting> scanned_wave(const Hypothesis& beside, const Candidate& wave) const;
     Contender contender(const CrossFit& base, const Candidate& candidate);
-    /// Candidates that are not `added` and may improve a signal that is off.
+    /// Candidates that are not `added` and may improve a signal that is off its floor.
     std::vector<const Candidate*> in_question(const CrossFit& base,
                                               std::span<const Candidate* const> added) const;
     std::vector<Contender> contenders(const CrossFit& base, std::span<const Candidate* const> added);
-    /// Looks for values from which their fits may begin.
+    /// Finds start values for the fits of contenders.
     void look_at(const CrossFit& base, std::span<Contender> contenders);
     void fit_simple_first(const CrossFit& base, std::span<Contender> contenders) const;
-    /// From each of a contender's best starts; then judges it on some windows of the other half.
+    /// Fits a contender on the first half from each of its best start values, then judges it on some windows
+    /// of the other half.
     void fit_first_half(const CrossFit& base, std::span<Contender* const> contenders) const;
     void judge_first_half(const CrossFit& base, Contender& contender) const;
     void fit_second_half(const CrossFit& base, Contender& contender) const;
-    /// From what a richer effect, of which it is the limit, has found on both halves: beside what the richer
-    /// one has taken it may promise nothing by itself. Keeps what it had if that is better.
+    /// Fits the simpler form on both halves, starting from the richer effect's fit: beside a base that was
+    /// fitted without either, it may promise nothing by itself. Keeps the earlier fit if that is better.
     void fit_plain_form(const CrossFit& base, const Contender& richer, Contender& plain) const;
-    /// From what its limit has found, along the richer one's shapes: where it was fitted from afar it may
-    /// have ended at its limit. Keeps what it had if that is better.
+    /// Fits the richer effect over the grid of its shapes, starting from its simpler form's fit: a fit from a
+    /// distant start may have ended at that form. Keeps the earlier fit if that is better.
     void fit_rich_form(const CrossFit& base, const Contender& plain, Contender& richer) const;
-    /// The leaders, which come first and best first, with those others that are fitted now and gain as much
-    /// as a leader has to. @param fit  returns whether it has fitted one
+    /// The leaders, joined by others that are fitted now and gain enough for a leader; sorted by gain and
+    /// moved to the front.
+    /// @param fit  fits a contender if it is to be fitted, and returns whether it has
     static std::span<Contender> with_fitted(std::span<Contender> all, std::size_t leaders,
                                             const std::function<bool(Contender&)>& fit);
-    /// The leaders with the limits of the best one, fitted from it.
+    /// The leaders, joined by the simpler forms of the best one, fitted starting from it.
     std::span<Contender> with_limits(const CrossFit& base, std::span<Contender> all,
                                      std::size_t leaders) const;
-    /// The leaders with those of which the best one is the limit, fitted from it where it leaves something.
+    /// The leaders, joined by the richer effects of which the best leader is the simpler form, fitted
+    /// starting from it if it leaves a gap.
     std::span<Contender> with_richer(const CrossFit& base, std::span<Contender> all,
                                      std::size_t leaders) const;
-    /// Where a fit from afar leaves more than the floor: again from where it ended, to the windows that say
-    /// most there; of a wave by a simplex over all windows, as its losses have many minima. Where slopes do
-    /// not lead there, by a simplex too: of encoder and camera, as the place within a count gives way up to
-    /// its end, and of what leaves nearly nothing of a signal's gap. Ends after a share of the search's
-    /// effort: a single effect that is not close by then may be a compromise of two.
+    /// Continues a coarse fit that leaves its signals off their floors: from its end, on the windows that are
+    /// then most instructive; a wave by a simplex on all windows, as its loss has many minima. A simplex is
+    /// also used where derivatives do not lead to the optimum: for effects of encoder and camera, because the
+    /// carriage's place within its count can compensate them up to the count's end, and for effects that
+    /// remove nearly all of a signal's excess. Ends after a share of the search's effort: a single effect
+    /// that is not close by then may be a compromise of two.
+    /// @param scatters  whether a wave or a spring is also fitted from many drawn values
     void fit_closer(const CrossFit& base, Contender& contender, bool scatters = true,
                     double share_of_effort = 0.25) const;
-    /// Those that come near the best, closer too where that leaves something: fitted no further than from
-    /// afar the cause may be behind what imitates it. Sorted by gain after it.
+    /// Fits also those leaders closely that come near the best, if that leaves a gap: after coarse fits only,
+    /// the true cause may rank behind an effect that imitates it. Sorts the leaders by gain.
     void fit_rivals(const CrossFit& base, std::span<Contender> leaders) const;
-    /// Fits the leaders closer, with their limits and richer forms among all; the one to be taken in is the
-    /// first of all then. What takes the place of another one is judged to be better, so that whenever this
-    /// ends nothing is lost.
+    /// Fits the leaders closely, with their simpler and richer forms among all contenders; afterwards the
+    /// first contender is the one to be accepted. A contender replaces another one only if it is judged
+    /// better, so that nothing is lost whenever this ends.
     void refine(const CrossFit& base, std::span<Contender> all, std::span<Contender> leaders,
                 const Effort& effort) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                  double step_scales) const;
-    /// A wave, from the best of many values.
+    /// A wave or a spring, fitted from the best of many drawn values.
     Contender scattered(const CrossFit& base, const Contender& contender) const;
-    /// Each half from what the other one has found, where that fits it better than its own.
+    /// Refits each half from the other half's values where these fit it better than its own.
     Contender crossed(const CrossFit& base, const Contender& contender) const;
-    /// With one or two refinements of what is fitted, from any of their values: where a fit has begun
-    /// without, no slope leads to them, and from afar they only seem to do harm.
+    /// Fits with one or two optional parameters, from each of their start values: from a fit without them no
+    /// derivative leads to them, and far from the optimum they only seem to do harm.
     Contender refined(const CrossFit& base, const Contender& contender) const;
-    /// With what it fits from such a start of the first half, then from there on the other one: of two
-    /// valleys beside each other that may miss the deeper one by itself.
+    /// Fits the first half from a given start, then the other half from that result: a fit of the other half
+    /// alone may miss the deeper of two neighbouring minima.
     Contender fitted_on(const CrossFit& base, const Contender& contender, const Hypothesis& start) const;
     Fit polished(const Contender& contender, std::size_t side, const Places& places) const;
     void judge_both_halves(const CrossFit& base, Contender& contender) const;
-    /// Of all windows of a half that teach an effect.
+    /// Loss in all windows of a half from which the candidate's parameters are estimated.
     double loss_on_half(std::size_t side, const Hypothesis& whole, const Candidate& taught) const;
-    /// Over all that was tried.
+    /// Whether a gain is significant, corrected for all that was tried.
     bool is_significant(const Comparison& comparison, double times = 1.0) const;
-    /// Whether some signal loses such a share of its excess, and comes to its floor or loses at least such a
-    /// share of what it exceeds it by where nothing is known.
+    /// Whether some signal loses this share of its excess, and either comes near its floor or loses
+    /// `share_of_first` of the excess that it had before any effect.
     bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share,
                          double share_of_first = 0.0) const;
-    /// Whether a signal comes to its floor that was far off; of tags, whether next to nothing is left.
+    /// Whether a signal that was far off comes to its floor; of tags, nearly so.
     bool clears_what_is_far_off(const CrossFit& without, const CrossFit& with) const;
-    /// Whether a signal is off by 3 floors and more in three windows of each half or in six of one half and
-    /// of two runs, or in the shapes of twice as many tags: of what does not depend on where the stages are,
-    /// the errors of one frame say nothing of the next one's.
+    /// Whether a signal is off by 3 floors and more in three windows of each half, or in six of one half that
+    /// come from two runs, or in the shapes of twice as many tags. A shape, the seven values of a detection
+    /// that do not depend on where the stages are, has errors that are independent from frame to frame.
     bool is_far_off(const CrossFit& cross, Signal signal) const;
-    /// Of each detection of a half, predicted by what the other half has taught.
+    /// For each detection of a half whose shape is far off, as predicted by the fit to the other half: its
+    /// run.
     std::vector<std::size_t> runs_of_shapes_far_off(const CrossFit& cross, std::size_t side) const;
-    /// Of leaders, best first, the one of fewest parameters among those that tie with the best, leave nothing
-    /// in the signals that teach it, or are its limit and no worse than by chance: bristles that bend over no
-    /// way are Coulomb friction, fitted a little better.
+    /// Index, among leaders sorted by gain, of the one with the fewest parameters that ties with the best, or
+    /// brings the best one's signals to their floors, or is the best one's simpler form if the latter's gain
+    /// over it is not real. (Bristles that deflect over no distance are Coulomb friction, fitted a little
+    /// better.)
     std::size_t simplest(std::span<const Contender> leaders) const;
 
     bool is_exhausted() const;
-    /// What was fitted since is worth nothing: fits end at once from then on.
+    /// Throws SearchExhausted if the effort is spent: fits end at once from then on, so that their results
+    /// are worthless.
     void throw_if_exhausted() const;
 
     const std::vector<Candidate>& candidates_;
@@ -273,10 +295,10 @@ class Search {
     bool is_limited_ = false;
     SignalFlags focus_ = all_signals;
     double share_of_effort_ = 1.0;
-    std::optional<Ended> over_;  ///< how the budget ended
+    std::optional<Ended> over_;  ///< how the budget ended during a refinement
     CrossFitter fitter_;
     SearchMemory memory_;
-    SignalExcess first_excess_;  ///< where nothing is known
+    SignalExcess first_excess_;  ///< before any effect
     int trials_ = 0;
 };
 

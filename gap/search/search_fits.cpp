@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a search fits those it tries: simple ones first, the second half for leaders, closely for the best.
+// The fits of a search's step: of simple candidates first, on the second half for leaders only.
 #include "core/parallel.h"
 #include "gap/fit/polish.h"
 #include "gap/fit/score.h"
@@ -16,13 +16,13 @@
 namespace fidservo::gap {
 namespace {
 
-/// Effects of few parameters are tried first: where one of them leaves nothing, a richer one that does as
-/// well is no better explanation.
+/// Effects with few parameters are tried first: where one of them brings its signals to their floors, a
+/// richer one is no better explanation.
 bool is_simple(const Candidate& candidate) {
     return unrefined_parameters(*candidate.effect) <= 2;
 }
 
-/// Whether any of the effects has it: one that several share acts on them all.
+/// Whether any effect has this optional parameter at work; one that several effects share acts on them all.
 bool is_present(const Refinement& refinement, const Hypothesis& hypothesis) {
     return std::ranges::any_of(hypothesis, [&](const plant::EffectSetting& setting) {
         const auto& parameters = setting.effect->parameters;
@@ -32,14 +32,15 @@ bool is_present(const Refinement& refinement, const Hypothesis& hypothesis) {
     });
 }
 
-/// A refinement at a value, of the effect at a place of a hypothesis.
+/// An optional parameter of the setting at an index of a hypothesis, and a value for it.
 struct Refined {
     std::size_t place, parameter;
     std::string_view name;
     double value;
 };
 
-/// One refinement, or two at once, of effects at some places of a hypothesis that lacks them.
+/// All ways to give one optional parameter, or two at once, to settings at some indices of a hypothesis that
+/// lacks them.
 std::vector<std::vector<Refined>> ways_to_refine(const Hypothesis& hypothesis, const Places& places) {
     std::vector<Refined> lacking;
     for (const std::size_t place : places)
@@ -61,7 +62,7 @@ Hypothesis with_values(Hypothesis hypothesis, const std::vector<Refined>& added)
     return hypothesis;
 }
 
-/// Whether it has chosen what is not usual.
+/// Whether a setting has a choice other than the usual one.
 bool is_unusual(const plant::EffectSetting& setting) {
     const auto& parameters = setting.effect->parameters;
     for (std::size_t k = 0; k < parameters.size(); ++k)
@@ -108,7 +109,8 @@ void Search::fit_first_half(const CrossFit& base, std::span<Contender* const> co
         const Contender& contender = *attempts[k].contender;
         attempts[k].fitted = fitter_.fit_places(0, contender.placed(base, 0, attempts[k].promise->start),
                                                 contender.fitted_places(base), base.mean_squares);
-        // Of many valleys some fit those few windows well that are fitted.
+        // The few windows that are fitted may suit a wrong local minimum of a wave: its loss is compared over
+        // all windows of the half.
         if (contender.trial.candidate->wave)
             attempts[k].fitted.loss =
                 loss_on_half(0, attempts[k].fitted.hypothesis, *contender.trial.candidate);
@@ -128,7 +130,8 @@ void Search::fit_first_half(const CrossFit& base, std::span<Contender* const> co
         contender->finding->fitted[0] = contender->part(attempt.fitted.hypothesis);
     }
     parallel_for(contenders.size(), [&](std::size_t k) { judge_first_half(base, *contenders[k]); });
-    // An unusual choice may stand in for what is still missing, unless it leaves nothing.
+    // An unusual choice may only stand in for an effect that is still missing: it is kept if it leaves no
+    // gap, else the best fit with usual choices is.
     for (const auto& [contender, attempt] : usual) {
         Hypothesis& found = contender->finding->fitted[0];
         if (attempt == nullptr || found.empty() || !is_unusual(found.back()) ||
@@ -197,8 +200,8 @@ Search::Contender Search::crossed(const CrossFit& base, const Contender& contend
 }
 
 Search::Contender Search::refined(const CrossFit& base, const Contender& contender) const {
-    // A prediction of the Hall reading is dear, and its losses are smooth: briefly is enough to tell the
-    // best.
+    // Predictions of the Hall reading cost much, and their loss is smooth: some iterations are enough to find
+    // the best attempt, and only that is continued.
     const bool shows_in_hall = contender.teachers()[index_of(Signal::hall)];
     const int first_iterations = shows_in_hall ? 10 : 4;
     const std::size_t most_fitted_on = shows_in_hall ? 1 : 3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An explanation of the carriage from where its forces balance.
+// An explanation of the carriage by a model from the balance of its forces.
 #include "core/parallel.h"
 #include "core/rig.h"
 #include "gap/balance/force_regression.h"
@@ -19,14 +19,14 @@
 namespace fidservo::gap {
 namespace {
 
-/// Of the effort of a search, after which what balances the forces is given up.
+/// Share of a search's effort after which the model from the balance of forces is given up.
 constexpr double share_for_forces = 0.3;
 
 std::size_t place_of_least(const std::vector<double>& values) {
     return static_cast<std::size_t>(std::ranges::min_element(values) - values.begin());
 }
 
-/// A setting, and with each refinement that its effect may have, and each other choice.
+/// A setting as it is, with each value of each optional parameter, and with each other choice.
 std::vector<plant::EffectSetting> with_refinements(const plant::EffectSetting& setting) {
     std::vector<plant::EffectSetting> all{setting};
     const auto add = [&](std::size_t parameter, double value) {
@@ -43,8 +43,9 @@ std::vector<plant::EffectSetting> with_refinements(const plant::EffectSetting& s
     return all;
 }
 
-/// A model as it is, and with one of its effects in another form: plainer, richer, or refined. The balance
-/// does not see how a carriage stands.
+/// A model as it is, and its variants in which one effect has another form: simpler, richer, with an optional
+/// parameter, or with another choice. The balance does not tell these apart, as it contains nothing about a
+/// carriage that stands.
 std::vector<BalancedModel> forms_of(const BalancedModel& model, const std::vector<Candidate>& candidates,
                                     const MacroParameters& rail) {
     std::vector<BalancedModel> forms{model};
@@ -67,7 +68,8 @@ std::vector<BalancedModel> forms_of(const BalancedModel& model, const std::vecto
     return forms;
 }
 
-/// A model's candidates, and what else is smooth and is neither a form of one of these nor of another.
+/// A model's candidates, followed by other smooth ones of the carriage that are neither forms of one of these
+/// nor of each other.
 std::vector<const Candidate*> smooth_beside(const BalancedModel& model,
                                             const std::vector<Candidate>& candidates) {
     std::vector<const Candidate*> all = model.candidates;
@@ -83,8 +85,8 @@ std::vector<const Candidate*> smooth_beside(const BalancedModel& model,
     return all;
 }
 
-/// Models where the carriage is followed with them, beside what is known, in one half of the windows. What
-/// is asked once the effort is spent is worth nothing.
+/// One half of the encoder's windows, predicted by simulating the carriage with a model's effects in addition
+/// to known ones. Once the effort is spent, results are worthless.
 class FollowedHalf {
   public:
     FollowedHalf(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted, double most_effort)
@@ -108,10 +110,11 @@ class FollowedHalf {
         return fit(predict_, evidence_.windows(), wanted_, settings);
     }
 
-    /// The best of many drawn around some settings: forces along the rail have many small valleys.
-    /// @param windows  that are looked at
+    /// The best of many values drawn around some settings, because the loss of forces along the rail has many
+    /// local minima.
+    /// @param windows  how many windows are predicted
     Hypothesis scattered(const Hypothesis& settings, std::size_t windows) const {
-        constexpr double spread = 0.25;  // the balance tells much more than a guess
+        constexpr double spread = 0.25;  // the balance of forces is a much better start than a guess
         Places all(settings.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
         const std::vector<Window>& from = evidence_.windows();
@@ -120,8 +123,8 @@ class FollowedHalf {
         return polish(predictor(telling), from, telling, drawn.hypothesis, all).hypothesis;
     }
 
-    /// The first of some forms of a model, fitted; or another one that follows the carriage better, by more
-    /// than chance, of those that do best unfitted.
+    /// The first of some forms of a model, fitted; or the best of those others that have the least loss
+    /// before a fit, if its lead after the fit is more than chance.
     BalancedModel best_form(std::vector<BalancedModel> forms, double tail) const {
         constexpr std::size_t most_fitted = 4;
         const double chance = std::log(static_cast<double>(forms.size()) / tail);
@@ -141,7 +144,7 @@ class FollowedHalf {
         return forms[order[left[least] < left.front() - chance ? least : 0]];
     }
 
-    /// Loss that each effect of a model saves beside the others.
+    /// Loss that each effect of a model saves beside the others, without another fit.
     std::vector<double> worth(const Hypothesis& settings) const {
         const double with_all = loss(settings);
         std::vector<double> worth;
@@ -170,7 +173,8 @@ class FollowedHalf {
     Predict predict_;
 };
 
-/// Both halves, each scattered from what follows it better: the other one may have come to a deeper valley.
+/// Settings for both halves, each drawn around those of the two halves' settings that predict it better: the
+/// other half may have found a deeper minimum.
 std::array<Hypothesis, 2> drawn_around(const FollowedHalf& first, const FollowedHalf& second,
                                        const std::array<Hypothesis, 2>& settings, std::size_t windows) {
     const auto of = [&](const FollowedHalf& half, const Hypothesis& own, const Hypothesis& other) {
@@ -201,7 +205,7 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
     };
     constexpr int most_rounds = 4;
     constexpr double share_explained = 0.9;
-    constexpr std::size_t most_drawn = 3;  // effects; of more, a generation says too little
+    constexpr std::size_t most_drawn = 3;  // effects; with more, a generation has too few draws
     const Evidence& evidence = fitter_.evidence();
     std::vector<const Candidate*> all;
     for (const Candidate& candidate : candidates_) all.push_back(&candidate);
@@ -240,7 +244,7 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
         Together whole =
             together(base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_),
                                                         base.of_half, settings_of_model(best)[0], wanted));
-        // Many that leave most of it stand in for something else.
+        // Many effects that leave most of the gap stand in for something else.
         const bool explains = nearly_clears(base, whole.fitted, share_explained);
         return explains && whole.fitted.loss < best.fitted.loss ? whole : best;
     } catch (const BudgetEnded&) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An effect and what it comes to at a limit, each fitted from the other.
+// An effect and its simpler form, each fitted from the other's values.
 #include "core/parallel.h"
 #include "core/rig.h"
 #include "gap/search/contender.h"

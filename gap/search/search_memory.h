@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a search has found out about a candidate, so that it need not find it out again beside another base
-// that differs only in what the candidate does not meet.
+// What a search has found out about a candidate. It is used again beside another base if that differs only in
+// settings on which the candidate's fit does not depend.
 #include "gap/search/first_sight.h"
 
 #include <array>
@@ -11,25 +11,29 @@
 
 namespace fidservo::gap {
 
-/// Where something closer was looked for: from where a fit ended, or also of a wave or a spring among many
-/// values.
+/// How a closer fit of a candidate was sought: not at all, from where the first fit ended, or, for a wave or
+/// a spring, also from many drawn values.
 enum class Sought { nowhere, from_there, among_many };
 
-/// Of a candidate beside those settings of a base that it meets.
+/// About a candidate beside those settings of a base on which its fit depends.
 struct Finding {
-    std::array<Hypothesis, 2> beside;  ///< as fitted on each half
-    bool is_looked_at = false;         ///< whether starts were looked for
-    bool is_scanned = false;           ///< whether they were, of a wave, among all that there may be
+    std::array<Hypothesis, 2> beside;  ///< these settings, as fitted on each half
+    bool is_looked_at = false;         ///< whether start values were looked for
+    bool is_scanned = false;           ///< for a wave: whether all possible waves were scanned
     std::vector<Promise> starts;       ///< best first
-    std::array<Hypothesis, 2> fitted;  ///< on each half: what is beside, then the candidate; empty before
-    Sought sought = Sought::nowhere;   ///< where more was looked for than that, and nothing is left to find
+    /// The settings that are fitted with the candidate, then the candidate, as fitted on each half; empty
+    /// before the fit.
+    std::array<Hypothesis, 2> fitted;
+    /// The most thorough way in which a closer fit was sought; none is left to be found in this way.
+    Sought sought = Sought::nowhere;
 };
 
 class SearchMemory {
   public:
     explicit SearchMemory(std::size_t candidates) : findings_(candidates) {}
 
-    /// Stays where it is. Not to be called from two threads at once.
+    /// The finding beside these settings, a new one if there is none. Its address does not change. Not to be
+    /// called from two threads at once.
     Finding& of(std::size_t candidate, const std::array<Hypothesis, 2>& beside);
 
   private:

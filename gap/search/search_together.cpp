@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All smooth candidates at once, of wire and view beside what is known of the carriage.
+// All smooth candidates of wire, sensors and view at once, beside other effects of a base.
 #include "gap/balance/balanced_waves.h"
 #include "gap/search/everything.h"
 #include "gap/search/search.h"
@@ -15,7 +15,7 @@
 namespace fidservo::gap {
 namespace {
 
-/// Those signals that the Hall reading and the tags are of, as far as there are windows of them.
+/// Hall reading and tags, as far as there are windows of them.
 SignalFlags smooth_signals(std::span<const Window> windows) {
     SignalFlags signals{};
     for (const Window& window : windows)
@@ -24,7 +24,8 @@ SignalFlags smooth_signals(std::span<const Window> windows) {
     return signals;
 }
 
-/// One smooth candidate of each class that meets some signals, that which a hypothesis has if it has one.
+/// The smooth candidates that are estimated from some signals, one of each class: the one that a hypothesis
+/// has, if any.
 std::vector<const Candidate*> smooth_ones(const std::vector<Candidate>& all, const Hypothesis& known,
                                           const SignalFlags& signals) {
     const auto is_known = [&](const Candidate& candidate) {
@@ -34,7 +35,8 @@ std::vector<const Candidate*> smooth_ones(const std::vector<Candidate>& all, con
     for (const Candidate& candidate : all) {
         if (!is_smooth(candidate) || !meet(teachers_of(*candidate.effect), signals)) continue;
         const auto same = std::ranges::find(found, candidate.class_name, &Candidate::class_name);
-        // Of what cannot be told apart, what is known, or else what says most.
+        // Of candidates that no data can distinguish: the one that is known, else the one with the most
+        // sizes.
         if (same == found.end())
             found.push_back(&candidate);
         else if (is_known(candidate) || (!is_known(**same) && candidate.sizes.size() > (*same)->sizes.size()))
@@ -43,14 +45,14 @@ std::vector<const Candidate*> smooth_ones(const std::vector<Candidate>& all, con
     return found;
 }
 
-/// Of what both tell, the Hall reading tells more.
+/// Whether a candidate is estimated from the Hall reading, which tells more of it than tags do.
 bool is_told_by_hall(const Candidate* candidate) {
     return teachers_of(*candidate->effect)[index_of(Signal::hall)];
 }
 
 }  // namespace
 
-/// What everything is fitted to, and beside what.
+/// The candidates that are fitted at once, settings that stay as they are, start values, and windows.
 struct Search::EverythingBeside {
     std::vector<const Candidate*> candidates;
     std::array<Hypothesis, 2> beside;
@@ -114,7 +116,7 @@ std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) const 
             return *std::ranges::find(all.candidates, setting.effect, &Candidate::effect);
         };
         EverythingBeside with = everything_of(base, !is_told_by_hall(candidate_of(shape)));
-        // What stood in for it may hold a fit back: sizes begin from nothing.
+        // Effects that have stood in for this one may hold its fit back: their sizes begin at zero.
         std::erase_if(with.begun, [&](const plant::EffectSetting& setting) {
             return !has_a_shape(*candidate_of(setting));
         });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Waves along the rail, whose losses have a valley for each way in which a carriage may go.
+// Waves along the rail, whose loss has a local minimum for each course that a carriage may take.
 #include "core/parallel.h"
 #include "core/rig.h"
 #include "gap/fit/score.h"
@@ -19,14 +19,15 @@
 namespace fidservo::gap {
 namespace {
 
-/// Whether a wave of force is so strong that the balance of forces, too, has told it.
+/// Whether a wave of force is so strong that the balance of forces has shown it already.
 bool shows_in_balance(const plant::EffectSetting& setting, const WaveParameters& wave,
                       const MacroParameters& macro) {
     constexpr double strong_mm_per_s = 20.0;
     return setting.values[wave.amplitude] * macro.velocity_gain_mm_per_s_per_V > strong_mm_per_s;
 }
 
-/// Whether the carriage hangs on a belt: followed step by step, a thousand waves take too long.
+/// Whether the carriage hangs on a belt: it is simulated step by step, which takes too long for a thousand
+/// waves.
 bool swings(const Rig& rig, const Hypothesis& hypothesis) {
     plant::PlantParameters parameters = plant::plant_parameters(rig);
     plant::apply_effects(parameters, hypothesis);
@@ -102,7 +103,7 @@ Search::Contender Search::scattered(const CrossFit& base, const Contender& conte
     });
     const std::array<Hypothesis, 2> drawn = there.trial.fitted.of_half;
     parallel_for(2, [&](std::size_t side) {
-        // The other half may have come to a deeper valley.
+        // The other half may have found a deeper minimum.
         const auto loss_of = [&](const Hypothesis& whole) {
             return loss_on_half(side, whole, *contender.trial.candidate);
         };

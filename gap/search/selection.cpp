@@ -14,19 +14,20 @@
 namespace fidservo::gap {
 namespace {
 
-/// Whether another effect explains better in the place of one: a plainer form of it unless the richer one's
-/// gain is no chance.
+/// Whether another effect explains better in place of the one at an index. If it is that one's simpler form
+/// it does so unless the richer effect's gain is real.
 bool replaces(const Search& search, const Trial& other, const Chain& chain, std::size_t at) {
     if (is_limit_of(*other.candidate->effect, *chain.choices[at].candidate->effect))
         return !search.is_real(other.fitted, chain.fitted);
     return other.fitted.loss < chain.fitted.loss - least_gain;
 }
 
-/// The rest with another effect than the chain has, where that does as well without one of the rest: two that
-/// were taken in for one.
+/// The rest of a chain without one effect, with an effect that is new to the chain instead, and without a
+/// second one of the chain's: returned if it explains as well as the chain, since the two may have been
+/// accepted in place of the new one.
 std::optional<Chain> shorter_with_another(const Search& search, const Chain& chain, const Chain& rest,
                                           const std::vector<Trial>& trials) {
-    constexpr double as_good = 0.75;  // of the gain, before the other one is fitted closer
+    constexpr double as_good = 0.75;  // share of the gain, before the other effect is fitted closely
     if (rest.choices.size() < 2) return {};
     for (const Trial& trial : trials) {
         const bool is_known =
@@ -44,11 +45,11 @@ std::optional<Chain> shorter_with_another(const Search& search, const Chain& cha
     return {};
 }
 
-/// An effect that was taken in first may have been a compromise of two others: each is given up where the
-/// rest does as well without it, and otherwise exchanged for what is best beside the rest. As long as nothing
-/// has changed the last one needs no test: it was found beside this very rest.
-/// @param changed  whether anything changed before
-/// @return whether anything changed, before or here
+/// Tests each effect, since one that was accepted first may be a compromise of two others: it is given up if
+/// the rest does as well without it, and otherwise exchanged for what is best beside the rest. As long as
+/// nothing has changed, the last effect needs no test: it was found beside this very rest.
+/// @param changed  whether the chain was changed before
+/// @return whether it was changed before or here
 bool exchange(Search& search, Chain& chain, bool changed) {
     constexpr int most_exchanges = 4;
     int exchanges = 0;
@@ -74,7 +75,7 @@ bool exchange(Search& search, Chain& chain, bool changed) {
         }
         const bool is_other = has_leader(trials) && trials.front().candidate != chain.choices[k].candidate;
         if (!is_other) {
-            // The same again, with its alternatives as they are beside the whole rest.
+            // The same effect again: its alternatives are now those beside the whole rest.
             if (has_leader(trials)) chain.choices[k] = choice_of(search, rest.fitted, std::move(trials));
             ++k;
         } else if (replaces(search, trials.front(), chain, k) && exchanges++ < most_exchanges) {
@@ -86,19 +87,19 @@ bool exchange(Search& search, Chain& chain, bool changed) {
     return changed;
 }
 
-/// Whether two effects explain what nothing was taken in for: two wrong ones fit most things a little, and by
-/// little more than chance.
+/// Whether two effects explain well enough what no single effect was accepted for: two wrong ones fit most
+/// data a little, and a little more than by chance.
 bool explains(const Search& search, const CrossFit& without, const CrossFit& with) {
     constexpr double most = 0.9, times_chance = 2.0;
     return search.nearly_clears(without, with) ||
            (search.nearly_clears(without, with, most) && search.is_no_chance(without, with, times_chance));
 }
 
-/// Where signals stay off their floors, what was taken in for them, one after the other, may be no step on
-/// the way to what there is: instead of it each of the best single effects, with what is best beside it.
-/// Where nothing was taken in, two effects may hide each other: what promises a little is tried as the first
-/// of a pair.
-/// @return whether anything changed
+/// Where signals stay off their floors, the effects accepted for them one after the other may not lead to the
+/// true ones. Instead of these, tries each of the best single effects together with what is best beside it.
+/// Where nothing was accepted, two effects may hide each other, so that candidates that promise little are
+/// tried as the first of a pair, too.
+/// @return whether the chain was changed
 bool begin_otherwise(Search& search, Chain& chain, std::size_t most_effects) {
     constexpr Effort effort{.fits = 3, .leaders = 1};
     const SignalFlags off = search.off(chain.fitted);
@@ -143,14 +144,14 @@ bool begin_otherwise(Search& search, Chain& chain, std::size_t most_effects) {
     return changed;
 }
 
-/// Whether fits without each of a chain's effects take too long.
+/// Whether refitting the rest without each of a chain's effects would take too long.
 bool is_long(const Chain& chain) {
     constexpr std::size_t most_short = 4;
     return chain.choices.size() > most_short;
 }
 
-/// What balances the forces of a carriage and leaves it off is a beginning: what is best beside it is taken
-/// in, and each effect is put to the test, with half of the effort.
+/// Continues from a model of the balance of forces that leaves the encoder off its floor: adds what is best
+/// beside it and tests each effect, with half of the effort.
 /// @return whether the encoder comes to its floor
 bool goes_on_to_the_floor(Search& search, Chain& chain) {
     constexpr double half = 0.5;
@@ -181,14 +182,14 @@ std::vector<const Candidate*> limits_in(const Chain& chain) {
     return limits;
 }
 
-/// The chain without what cannot be named.
+/// The chain without simpler forms, which must not be named (Candidate::is_limit).
 Chain nameable(const Search& search, Chain chain) {
     for (std::size_t k = chain.choices.size(); k-- > 0;)
         if (chain.choices[k].candidate->is_limit) chain = without(search, chain, k);
     return chain;
 }
 
-/// What is left without one of a chain's effects; of many, without another fit of the rest.
+/// The explanation without one of a chain's effects; in a long chain the rest is not refitted.
 CrossFit left_out_of(const Search& search, const Chain& chain, std::size_t left_out) {
     if (chain.choices.size() == 1) return search.nothing();
     if (!is_long(chain)) return without(search, chain, left_out).fitted;
@@ -199,7 +200,7 @@ CrossFit left_out_of(const Search& search, const Chain& chain, std::size_t left_
     return rest;
 }
 
-/// Puts that first which alone would make the largest gap.
+/// Sorts the effects by the gap that each alone would make, largest first.
 void put_largest_first(const Search& search, Chain& chain) {
     const std::size_t count = chain.choices.size();
     std::vector<std::pair<double, std::size_t>> order;
@@ -217,7 +218,7 @@ void put_largest_first(const Search& search, Chain& chain) {
     for (Hypothesis& hypothesis : chain.fitted.of_half) in_order(hypothesis);
 }
 
-/// The first `count` effects of a chain alone.
+/// The cross fit with the first `count` effects of a chain alone.
 CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
     CrossFit fitted = chain.fitted;
     SignalFlags concerned{};
@@ -234,7 +235,7 @@ CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
 }  // namespace
 
 Fit fit_to_all(const Evidence& evidence, const CrossFit& cross) {
-    constexpr int most_iterations = 6;  // from what fits half of it
+    constexpr int most_iterations = 6;  // few, since it starts from a fit to one half
     const Wanted wanted = everything(evidence);
     IncrementalPrediction predict(evidence, {}, wanted);
     return fit(std::ref(predict), evidence.windows(), wanted, cross.of_half[0],
@@ -263,7 +264,7 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
         search.limit(true);
         if (!are_several || !search.leaves_little(chain.fitted))
             are_several = begin_otherwise(search, chain, most_effects) || are_several;
-        // Of many, each was asked whether it is needed when they were fitted together.
+        // The effects of a long chain were tested when they were fitted together.
         if (!is_long(chain) && exchange(search, chain, are_several)) grow(search, chain, growth, nullptr);
     } catch (const SearchExhausted&) {
         selection.ended = search.over().value_or(Ended::budget);
@@ -276,7 +277,7 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
         try {
             by_forces = with_carriage_of(search, chain, *by_forces);
         } catch (const BudgetEnded& ended) {
-            selection.ended = ended.how();  // it stands as it was found
+            selection.ended = ended.how();  // the chain stays as it was found
         }
         if (is_better(search, *by_forces, chain)) chain = *std::move(by_forces);
     }
@@ -292,7 +293,7 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
         selection.steps.insert(selection.steps.end(), steps.begin(), steps.end());
     } catch (const BudgetEnded& ended) {
         selection.ended = ended.how();
-        // What each effect is worth by itself was not worked out.
+        // The cross fits with the first effects alone were not finished.
         for (std::size_t k = 1; k < chain.choices.size(); ++k) selection.steps.push_back(chain.fitted);
     }
     if (!chain.choices.empty()) selection.steps.push_back(chain.fitted);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which effects explain recordings: forward selection with exchange and deletion, judged on windows that were
-// not fitted.
+// Which effects explain recordings: stepwise selection by addition, exchange and deletion of effects, judged
+// on windows that were not fitted.
 #include "gap/candidates/candidate.h"
 #include "gap/fit/fit.h"
 #include "gap/search/chain.h"
@@ -11,23 +11,25 @@
 namespace fidservo::gap {
 
 struct Selection {
-    std::vector<Choice> choices;  ///< that first which alone would make the largest gap
-    std::vector<CrossFit> steps;  ///< with the first 0, 1, 2 ... of them
-    std::vector<Trial> alone;     ///< what was tried first, alone, best first
-    /// What was taken in and must not be named, Candidate::is_limit, where it left nothing.
+    std::vector<Choice> choices;  ///< sorted by the gap that each alone would make, largest first
+    std::vector<CrossFit> steps;  ///< cross fits with the first 0, 1, 2 ... of them
+    std::vector<Trial> alone;     ///< trials of single effects, best first
+    /// Simpler forms (Candidate::is_limit) that were accepted and left nothing unexplained; they are not
+    /// named.
     std::vector<const Candidate*> limits;
-    Ended ended = Ended::finished;  ///< or before all was tried that might do better
+    /// If not finished, the search ended before everything promising was tried.
+    Ended ended = Ended::finished;
 };
 
 struct SelectionOptions {
-    std::size_t most_effects = 4;  ///< that are added one by one
+    std::size_t most_effects = 4;  ///< the largest number of effects that are added one by one
     SearchOptions search;
 };
 
-/// All effects of a cross fit, fitted to all windows from what one half gave.
+/// All effects of a cross fit, fitted to all windows, starting from the values of the first half.
 Fit fit_to_all(const Evidence& evidence, const CrossFit& cross);
 
-/// The best that was found when the search ended by itself, or by the evidence's budget.
+/// The best explanation found until the search ended by itself, or by the evidence's budget.
 Selection select(const Evidence& evidence, const std::vector<Candidate>& candidates,
                  const SelectionOptions& options = {});
 

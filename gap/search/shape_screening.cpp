@@ -16,7 +16,7 @@ namespace {
 
 using WeightedErrors = Eigen::VectorXf;
 
-/// The values that count, each times the root of what its square weighs in the loss.
+/// Selects the values that count, each multiplied by the root of the weight that its square has in the loss.
 class Weighting {
   public:
     Weighting(std::span<const Window> windows, const Wanted& counted, const Errors& errors,
@@ -34,7 +34,7 @@ class Weighting {
         }
     }
 
-    /// What is not known weighs nothing.
+    /// Unknown values (NaN) have no weight.
     WeightedErrors weighted(const Errors& errors) const {
         WeightedErrors column(static_cast<Eigen::Index>(at_.size()));
         for (std::size_t i = 0; i < at_.size(); ++i) {
@@ -53,7 +53,7 @@ double product(const WeightedErrors& left, const WeightedErrors& right) {
     return left.cast<double>().dot(right.cast<double>());
 }
 
-/// Everything that is there already, as it may still change.
+/// The settings that are already there, whose parameters may still change.
 class Surrounding {
   public:
     Surrounding(const Predict& predict, const Hypothesis& others, const Errors& errors,
@@ -79,8 +79,8 @@ class Surrounding {
         left_ = products_with(errors_);
     }
 
-    /// Slope and curvature of the loss along a further column, of which a few typical sizes are expected,
-    /// with everything else at its best.
+    /// Slope and curvature of the loss along a further column, if all other parameters follow at their best;
+    /// the curvature includes the column's own prior.
     std::pair<double, double> slope_and_curvature(const WeightedErrors& column, double expected_sizes) const {
         const Eigen::VectorXd shared = products_with(column);
         return {product(column, errors_) - shared.dot(inverse_ * left_),
@@ -102,7 +102,7 @@ class Surrounding {
     Eigen::VectorXd left_;
 };
 
-/// The nearest number of typical sizes that a rig can have.
+/// The number of typical sizes, limited to what the parameters' bounds allow.
 double within_bounds(const Candidate& candidate, const std::vector<double>& shape, double typical_sizes) {
     for (const std::size_t k : candidate.sizes) {
         const plant::EffectParameter& parameter = candidate.effect->parameters[k];
@@ -144,7 +144,8 @@ std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<con
                                            const Wanted& counted, const Hypothesis& others,
                                            std::span<const GridPoint> grid, double scale_floors,
                                            double expected_sizes) {
-    constexpr double step = 0.05;  // typical sizes: small for the errors to change evenly, above what rounds
+    // Typical sizes: small enough for a linear response, large enough against rounding.
+    constexpr double step = 0.05;
     const Errors errors = predict(others);
     if (errors.empty()) return {};
     const Weighting weighting(windows, counted, errors, scale_floors);

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which effect with a shape of its own explains most beside all smooth ones.
+// Which effect with a shape of its own would explain most in addition to all smooth ones.
 //
-// Errors e of windows w change nearly linearly with sizes: e + J x of all that is there already, e + J x + c
-// y with another setting, whose shape is a point of its grid. What that gains over the best x alone follows
-// without a fit, from the normal equations of the windows weighted as their loss is (gap/fit/fit.h):
+// Changes x of the parameters that are already there change errors e nearly linearly, to e + J x; another
+// setting of size y, whose shape is a point of its grid, to e + J x + c y. What loss that saves compared with
+// the best x alone follows without a fit, from normal equations with the windows' weights W in the loss
+// (gap/fit/fit.h):
 //
 //     H = J' W J + P,  x = -H^-1 J' W e,   h = c' W c + p - c' W J H^-1 J' W c,   g = c' W (e + J x)
 //     gain = g^2 / (2 h) at y = -g / h,  or less where that is beyond a bound
 //
-// P and p expect sizes of a few typical ones. Source: orthogonal forward regression, Chen, Billings, Luo,
-// International Journal of Control 50, 1989.
+// P and p are the prior of a few typical sizes about zero. Source: orthogonal forward regression, Chen,
+// Billings, Luo, International Journal of Control 50, 1989.
 #include "gap/candidates/candidate.h"
 #include "gap/fit/fit.h"
 
@@ -19,34 +20,34 @@
 
 namespace fidservo::gap {
 
-/// A candidate at a point of its grid, as large as it says.
+/// A candidate at a point of its grid, with the sizes stated there.
 struct GridPoint {
     const Candidate* candidate;
     std::vector<double> shape;
 };
 
-/// All points of their grids.
+/// All points of the candidates' grids.
 std::vector<GridPoint> grid_of(std::span<const Candidate* const> candidates);
 
-/// A setting to begin a fit from.
+/// A candidate with a setting from which its fit may begin.
 struct ScreenedShape {
     const Candidate* candidate;
     plant::EffectSetting setting;  ///< at the size y, within its bounds
-    double gain;                   ///< loss that it saves, to first order
+    double gain;                   ///< loss that it saves, with errors linearised
 };
 
-/// Whether a candidate has parameters that say neither how large it is nor what it may be without.
+/// Whether a candidate has parameters that are neither sizes nor choices nor optional.
 bool has_a_shape(const Candidate& candidate);
 
-/// A setting as large as some typical ones: 0 is none, 1 as the candidate's shape states it.
+/// A setting with this many typical sizes: 0 is no effect, 1 the sizes stated in `shape`.
 plant::EffectSetting of_size(const Candidate& candidate, const std::vector<double>& shape,
                              double typical_sizes);
 
-/// Of each candidate the point that gains most, best first.
-/// @param predict   errors with some settings beside what is known
-/// @param windows, counted  of which the loss is
-/// @param others    settings that may change their sizes and shapes freely
-/// @param scale_floors, expected_sizes  as FitOptions
+/// For each candidate, the point of the grid that saves most; best first.
+/// @param predict   errors under what is known, with the given settings in addition
+/// @param windows, counted  windows whose loss is meant
+/// @param others    settings that are already there, all of whose parameters may change
+/// @param scale_floors, expected_sizes  as in FitOptions
 std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<const Window> windows,
                                            const Wanted& counted, const Hypothesis& others,
                                            std::span<const GridPoint> grid, double scale_floors,

@@ -22,7 +22,7 @@ plant::EffectSetting as_found(const FrictionPatch& patch, const Candidate& candi
     return setting;
 }
 
-/// With the places that were found, beside those of its grid.
+/// The candidate with the places of some patches added to its grid.
 Candidate with_shapes(Candidate candidate, std::span<const FrictionPatch> patches) {
     const std::vector<double> typical = candidate.shapes.front();
     for (const FrictionPatch& patch : patches) {
@@ -49,7 +49,8 @@ std::vector<Promise> patches_at_first_sight(const Predict& predict, std::span<co
     return starts;
 }
 
-/// A scale in steps to both sides of none: its gain has a hill for each count at the end of the way.
+/// A scale error of the encoder in steps to both sides of zero, because its gain has a local maximum for each
+/// count that it adds at the far end of the rail.
 std::vector<Promise> scanned(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
                              const Surroundings& beside, const Candidate& candidate) {
     constexpr int most_steps = 16;
@@ -66,7 +67,7 @@ std::vector<Promise> scanned(const Predict& predict, std::span<const Window> win
     return starts;
 }
 
-/// The best of both, none of them without a promise.
+/// The best of both, without those that gain nothing.
 std::vector<Promise> best_of(std::vector<Promise> starts, std::vector<Promise> more) {
     constexpr std::size_t most = 4;
     std::ranges::move(more, std::back_inserter(starts));

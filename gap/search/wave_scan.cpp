@@ -17,16 +17,17 @@
 namespace fidservo::gap {
 namespace {
 
-/// Of inverse periods: half a turn over the rail's length; over what a carriage goes as a rule much less.
+/// Step of the inverse period: it turns the phase by half a turn at the rail's ends, and by much less over
+/// the usual travel about the middle.
 constexpr double step_per_mm = 0.005;
 constexpr double longest_wave_mm = 25.0;
 constexpr int phases = 6;
 constexpr double step_rad = 2.0 * std::numbers::pi / phases;
 constexpr std::array speeds_mm_per_s{0.7, 1.5, 4.0};
-constexpr double speed_factor = 1.8;  // half way from one to the other
+constexpr double speed_factor = 1.8;  // about half way from one speed to the next
 
 struct Scanned {
-    double speed_mm_per_s, per_mm, middle_rad;  ///< the phase in the middle of the rail
+    double speed_mm_per_s, per_mm, middle_rad;  ///< phase in the middle of the rail
     double loss = 0.0;
 };
 
@@ -40,7 +41,7 @@ std::vector<Scanned> all_waves() {
     return all;
 }
 
-/// Between a wave and those next to it.
+/// A wave, and those half a step to either side of it.
 std::vector<Scanned> neighbours_of(const Scanned& wave) {
     std::vector<Scanned> all;
     for (const double factor : {1.0 / speed_factor, 1.0, speed_factor})
@@ -51,7 +52,7 @@ std::vector<Scanned> neighbours_of(const Scanned& wave) {
     return all;
 }
 
-/// The best of some that are sorted, none beside a better one.
+/// The best of some sorted waves, none of which has a period next to a better one's.
 std::vector<Scanned> best_valleys(std::span<const Scanned> sorted, std::size_t most) {
     std::vector<Scanned> best;
     for (const Scanned& wave : sorted) {
@@ -64,7 +65,8 @@ std::vector<Scanned> best_valleys(std::span<const Scanned> sorted, std::size_t m
     return best;
 }
 
-/// Those asked for, such that the first few are spread over all of them, too: golden sections of the rest.
+/// The windows asked for, ordered such that the first few are already spread over all of them: by golden
+/// sections of those left.
 std::vector<std::size_t> spread_over_windows(const Wanted& asked) {
     constexpr double golden = 0.61803398875;
     std::vector<std::size_t> rest, order;
@@ -86,7 +88,7 @@ std::optional<plant::EffectSetting> scan_for_wave(const std::function<Predict(Wa
                                                   std::span<const Window> windows, const Wanted& asked,
                                                   const Hypothesis& base, const Candidate& candidate,
                                                   const MacroParameters& macro) {
-    constexpr std::size_t at_first = 5, then = 15;  // windows
+    constexpr std::size_t at_first = 5, then = 15;  // numbers of windows
     constexpr std::size_t most_then = 240, most_valleys = 12, most_at_last = 60;
     const std::vector<std::size_t> order = spread_over_windows(asked);
     if (order.empty()) return {};
@@ -101,7 +103,7 @@ std::optional<plant::EffectSetting> scan_for_wave(const std::function<Predict(Wa
             phase_in_step(wave.middle_rad, std::numeric_limits<double>::infinity(), period_mm);
         return set;
     };
-    /// Adds the loss in some windows of the order and sorts.
+    /// Adds to each wave's loss that in some windows of the order, and sorts by it.
     const auto judge = [&](std::vector<Scanned>& waves, std::size_t first, std::size_t end) {
         Wanted wanted(asked.size(), 0);
         for (std::size_t k = first; k < std::min(end, order.size()); ++k) wanted[order[k]] = 1;

@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::size_t most_starts = 4;
 
-/// Changes of a wave that a climb tries.
+/// Steps of a local search over a wave's parameters.
 struct Steps {
     double factor = 1.15;        ///< of the amplitude
     double phase_rad = 0.15;     ///< in the middle of the rail
-    double per_mm = 0.25 / 200;  ///< of the inverse period: a fifth of a turn at the rail's ends
+    double per_mm = 0.25 / 200;  ///< of the inverse period: an eighth of a turn at the rail's ends
 
     Steps halved() const { return {std::sqrt(factor), 0.5 * phase_rad, 0.5 * per_mm}; }
 };
@@ -48,7 +48,7 @@ std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<cons
                                           std::span<const plant::EffectSetting> balanced) {
     constexpr std::size_t most_climbed = 3;
     constexpr int rounds = 4;
-    constexpr double worth_a_climb = 0.2;  // of the loss
+    constexpr double worth_a_climb = 0.2;  // share of the loss that a wave has to save
     const std::vector<double> base_squares = mean_squares(windows, beside.errors);
     const auto promise = [&](plant::EffectSetting setting) {
         return promise_of(std::move(setting), predict, windows, counted, beside, base_squares);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// From which waves along the rail a fit should begin.
+// Waves along the rail from which a fit may begin.
 #include "gap/balance/period_search.h"
 #include "gap/candidates/candidate.h"
 #include "gap/search/first_sight.h"
 
 namespace fidservo::gap {
 
-/// What at_first_sight is to other candidates, for one that has a wave: the waves that the forces lacking
-/// show (gap/balance/period_search.h), those that promise most first.
-/// @param balanced  waves that balance forces (gap/balance/balanced_waves.h), of this candidate or another
+/// Start values of a candidate that has a wave, in place of at_first_sight: waves with the periods that
+/// errors show (gap/balance/period_search.h), those that promise most first.
+/// @param balanced  settings of waves that balance the forces (gap/balance/balanced_waves.h), of this
+/// candidate or others
 std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<const Window> windows,
                                           const Wanted& counted, const Surroundings& beside,
                                           const Candidate& candidate, std::span<const PositionPeriod> periods,
