@@ -114,6 +114,9 @@ class Linearised : public ceres::EvaluationCallback {
     /// @return false if they mispredict that change and are not taken
     bool go_on_from(const KnownSlopes& nearby) {
         constexpr double well = 0.1;  // share of the change's sum of squares that may be mispredicted
+        // Mispredictions up to four times the rounding of errors are no reason for an update, in which they
+        // would be divided by a step that may be tiny.
+        constexpr double most_rounding = 16.0;
         if (nearby.by_parameter.empty() || nearby.errors.empty()) return false;
         const ScaledParameters there(nearby.at);
         const auto places = places_of(there);
@@ -123,10 +126,10 @@ class Linearised : public ceres::EvaluationCallback {
         for (std::size_t k = 0; k < step.size(); ++k) {
             const std::optional<std::size_t> own = (*places)[k];
             step[k] = static_cast<float>((own ? values_[*own] : there.vanishing(k)) - there.values[k]);
-            if (own) way += static_cast<double>(step[k]) * step[k];
+            way += static_cast<double>(step[k]) * step[k];
         }
         Errors missed(errors.size(), 0.0F);
-        double missed_squares = 0.0, changed_squares = 0.0;
+        double missed_squares = 0.0, changed_squares = 0.0, rounding_squares = 0.0;
         for (const std::size_t w : counted_)
             for (std::size_t row = windows_[w].begin; row < windows_[w].end; ++row) {
                 const float change = errors[row] - nearby.errors[row];
@@ -138,14 +141,18 @@ class Linearised : public ceres::EvaluationCallback {
                 missed[row] = change - expected;
                 missed_squares += static_cast<double>(missed[row]) * missed[row];
                 changed_squares += static_cast<double>(change) * change;
+                const double rounding =
+                    std::numeric_limits<float>::epsilon() * std::max(std::abs(errors[row]), 1.0F);
+                rounding_squares += rounding * rounding;
             }
-        if (missed_squares > well * changed_squares) return false;
+        const bool is_rounding = missed_squares <= most_rounding * rounding_squares;
+        if (!is_rounding && missed_squares > well * changed_squares) return false;
         std::vector<Errors> slopes(parameters_.size());
         parallel_for(step.size(), [&](std::size_t k) {
             const std::optional<std::size_t> own = (*places)[k];
             if (!own) return;
             slopes[*own] = nearby.by_parameter[k];
-            if (!(way > 0.0)) return;
+            if (is_rounding || !(way > 0.0)) return;
             const float share = step[k] / static_cast<float>(way);
             for (const std::size_t w : counted_)
                 for (std::size_t row = windows_[w].begin; row < windows_[w].end; ++row)

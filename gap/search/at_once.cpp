@@ -45,7 +45,7 @@ Chain with_everything(const Chain& chain, Search::Together together) {
 
 /// A chain with all smooth effects that are needed in place of its own ones, if that makes it longer; else
 /// the chain itself.
-Chain with_all_that_is_smooth(const Search& search, const Chain& chain) {
+Chain with_all_that_is_smooth(Search& search, const Chain& chain) {
     Chain all = with_everything(chain, search.everything_beside(chain.fitted));
     return all.choices.size() > chain.choices.size() ? all : chain;
 }
@@ -57,7 +57,7 @@ bool is_view_or_wire_off(const Search& search, const Chain& chain) {
 /// Adds effects with a shape of their own one after the other, each together with all smooth effects that are
 /// then needed, as long as Hall reading or tags are off their floors and the longer chain is better.
 /// @param chain  each change is an improvement, so that it may be used whenever this ends
-void add_shapes(const Search& search, Chain& chain) {
+void add_shapes(Search& search, Chain& chain) {
     while (is_view_or_wire_off(search, chain)) {
         std::optional<Chain> best;
         for (Search::Together& together : search.shaped_beside(chain.fitted)) {
@@ -66,6 +66,7 @@ void add_shapes(const Search& search, Chain& chain) {
         }
         if (!best || !is_better(search, *best, chain)) return;
         chain = *std::move(best);
+        search.throw_if_over();
     }
 }
 
@@ -162,8 +163,8 @@ bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, std:
     const Signal signal = is_off(search, chain, Signal::hall) ? Signal::hall : Signal::tag;
     try {
         add_shapes(search, all);
-    } catch (const BudgetEnded&) {
-        chain = std::move(all);
+    } catch (...) {
+        if (all.fitted.loss < chain.fitted.loss) chain = std::move(all);
         throw;
     }
     return explain_by_one_or(search, chain, std::move(all), signal, alone);
@@ -204,7 +205,13 @@ bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
     search.look_for_causes_in(all_signals, 1.0);
     if (!is_off(search, chain, Signal::hall)) return are_several;
     Chain whole = with_all_that_is_smooth(search, chain);
-    add_shapes(search, whole);
+    try {
+        search.throw_if_over();
+        add_shapes(search, whole);
+    } catch (...) {
+        if (whole.fitted.loss < chain.fitted.loss) chain = std::move(whole);
+        throw;
+    }
     if (is_better(search, whole, chain)) chain = std::move(whole);
     return are_several;
 }
@@ -233,6 +240,7 @@ Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& ot
 AtOnce explain_at_once(Search& search, Chain& chain, std::optional<Chain>& aside, std::vector<Trial>& alone) {
     Chain smooth = is_view_or_wire_off(search, chain) ? with_all_that_is_smooth(search, chain) : chain;
     const bool are_many = explain_by_many(search, chain, smooth);
+    search.throw_if_over();
     const bool is_balanced = explain_carriage_at_once(search, chain, aside, &alone);
     if (are_many)
         smooth = chain;

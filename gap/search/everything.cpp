@@ -279,35 +279,42 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
         chosen.settings = fitted[0].hypothesis;
     };
     Demand demand;
+    std::vector<double> worth;
+    const auto keep = [&](const std::vector<std::size_t>& places, const std::vector<double>& worth_of_all) {
+        worth.clear();
+        for (const std::size_t c : places) worth.push_back(worth_of_all[c]);
+        chosen.keep(places);
+    };
     /// Removes candidates that are not needed. Returns whether there were any.
     const auto prune = [&] {
-        const std::vector<std::size_t> rest = kept(chosen.candidates, fitted[0], demand);
-        const bool is_less = rest.size() < chosen.candidates.size();
-        chosen.keep(rest);
-        return is_less;
+        const std::size_t count = chosen.candidates.size();
+        keep(kept(chosen.candidates, fitted[0], demand), worth_of_each(chosen.candidates, fitted[0]));
+        return chosen.candidates.size() < count;
     };
     fit_first(expected_sizes, at_first);
     prune();
     if (chosen.candidates.empty()) return {};
-    demand = Demand(evidence, wanted[0], predict[0](chosen.settings));
-    std::vector<double> worth;
-    for (bool is_all = false; !is_all;) {
-        do {
-            fit_first(0.0, then);
-        } while (prune() && !chosen.candidates.empty());
-        if (chosen.candidates.empty()) return {};
-        fit_half(1, 0.0, then);
-        const std::vector<double> here = worth_of_each(chosen.candidates, fitted[0]),
-                                  there = worth_of_each(chosen.candidates, fitted[1]);
-        std::vector<std::size_t> rest;
-        worth.clear();
-        for (std::size_t c = 0; c < here.size(); ++c) {
-            worth.push_back(here[c] + there[c]);
-            if (std::min(here[c], there[c]) >= demand.worth_of(*chosen.candidates[c])) rest.push_back(c);
+    try {
+        demand = Demand(evidence, wanted[0], predict[0](chosen.settings));
+        for (bool is_all = false; !is_all;) {
+            do {
+                fit_first(0.0, then);
+            } while (prune() && !chosen.candidates.empty());
+            if (chosen.candidates.empty()) return {};
+            fit_half(1, 0.0, then);
+            std::vector<double> both = worth_of_each(chosen.candidates, fitted[0]);
+            const std::vector<double> there = worth_of_each(chosen.candidates, fitted[1]);
+            std::vector<std::size_t> rest;
+            for (std::size_t c = 0; c < both.size(); ++c) {
+                if (std::min(both[c], there[c]) >= demand.worth_of(*chosen.candidates[c])) rest.push_back(c);
+                both[c] += there[c];
+            }
+            is_all = rest.size() == both.size();
+            keep(rest, both);
+            if (chosen.candidates.empty()) return {};
         }
-        is_all = rest.size() == here.size();
-        chosen.keep(rest);
-        if (chosen.candidates.empty()) return {};
+    } catch (const BudgetEnded& end) {
+        return {chosen.candidates, {chosen.settings, chosen.settings}, std::move(worth), end.how()};
     }
     return {chosen.candidates, {fitted[0].hypothesis, fitted[1].hypothesis}, std::move(worth)};
 }

@@ -18,6 +18,7 @@
 #include "gap/evidence.h"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct NeededCandidates {
     std::vector<const Candidate*> candidates;
     std::array<Hypothesis, 2> of_half;  ///< as fitted on each half, one setting for each candidate
     std::vector<double> worth;  ///< for each, the loss that it saves beside the others, on both halves
+    /// How the budget ended before all was fitted: these candidates are needed as far as is known, both
+    /// halves have the values of the first one, and the worth is what they save there. Empty: it did not.
+    std::optional<Ended> ended = {};
 };
 
 /// Whether predictions of the Hall reading or the tags change smoothly with a candidate's sizes: effects of

@@ -88,11 +88,11 @@ class Search {
         std::vector<double> worth;  ///< loss that each saves beside the others
         CrossFit fitted;
     };
-    Together everything_beside(const CrossFit& base) const;
+    Together everything_beside(const CrossFit& base);
 
     /// Explanations like that of everything_beside(), with one further effect that has a shape of its own:
     /// one for each of those that promise most in the signals that the base leaves off their floors.
-    std::vector<Together> shaped_beside(const CrossFit& base) const;
+    std::vector<Together> shaped_beside(const CrossFit& base);
 
     /// Effects on the carriage beside a base that has none. Of the models from the balance of forces
     /// (gap/balance/force_regression.h), and of the forms of their effects, those are taken that predict best
@@ -190,7 +190,7 @@ class Search {
     /// @param of_tags_alone  only candidates that the Hall reading does not show; the others keep their
     /// values
     EverythingBeside everything_of(const CrossFit& base, bool of_tags_alone = false) const;
-    Together needed_of(const EverythingBeside& all) const;
+    Together needed_of(const EverythingBeside& all);
     /// Settings of waves with the periods along the rail that the encoder's errors show.
     Hypothesis waves_of_reading(const CrossFit& base, std::span<const Candidate* const> candidates) const;
     Together balanced_beside(const CrossFit& base) const;

@@ -79,12 +79,17 @@ Search::EverythingBeside Search::everything_of(const CrossFit& base, bool of_tag
     return everything;
 }
 
-Search::Together Search::needed_of(const EverythingBeside& all) const {
-    return together(all.beside, needed_of_everything(fitter_.evidence(), all.candidates, all.beside,
-                                                     all.begun, all.wanted));
+Search::Together Search::needed_of(const EverythingBeside& all) {
+    NeededCandidates needed =
+        needed_of_everything(fitter_.evidence(), all.candidates, all.beside, all.begun, all.wanted);
+    if (needed.ended) {
+        over_ = needed.ended;
+        fitter_.evidence().budget()->end_search();
+    }
+    return together(all.beside, std::move(needed));
 }
 
-Search::Together Search::everything_beside(const CrossFit& base) const {
+Search::Together Search::everything_beside(const CrossFit& base) {
     if (options_.tell) options_.tell("all that is smooth at once");
     return needed_of(everything_of(base));
 }
@@ -104,7 +109,7 @@ Hypothesis Search::waves_of_reading(const CrossFit& base,
     return waves;
 }
 
-std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) const {
+std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) {
     const EverythingBeside all = everything_of(base);
     const Wanted wanted = only_of(fitter_.evidence().windows(), all.wanted[0], off(base));
     std::vector<Together> found;
@@ -122,6 +127,7 @@ std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) const 
         });
         with.begun.push_back(shape);
         found.push_back(needed_of(with));
+        if (over_) break;
     }
     return found;
 }

@@ -38,7 +38,7 @@ PlatformRun uncorrected_run() {
 class PredictedWire : public ::testing::TestWithParam<std::string_view> {};
 
 TEST_P(PredictedWire, IsThatOfEveryTick_AlsoWhereItRests) {
-    plant::PlantParameters parameters = plant::plant_parameters(testing::reference_rig());
+    plant::PlantParameters parameters = plant::plant_parameters(reference_rig());
     plant::apply_effects(parameters, testing::effects({GetParam()}));
     const PlatformModel model = platform_model(parameters);
     const PlatformRun run = uncorrected_run();

@@ -9,7 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,11 +31,11 @@ Recording recorded(std::string_view kind, const Hypothesis& truth, std::uint64_t
     return simulate(reference_rig(), truth, make_experiment(kind, reference_rig(), seed, name), name, seed);
 }
 
-Evidence wire_campaign(const Hypothesis& truth) {
+Evidence wire_campaign(const Hypothesis& truth, std::shared_ptr<const Budget> budget = {}) {
     std::vector<Recording> recordings;
     for (const std::string_view kind : {"micro-steps", "micro-triangle"})
         for (const std::uint64_t seed : {51, 52}) recordings.push_back(recorded(kind, truth, seed));
-    return {reference_rig(), std::move(recordings)};
+    return {reference_rig(), std::move(recordings), std::move(budget)};
 }
 
 struct Found {
@@ -71,6 +74,43 @@ TEST(SlowEverything, FourSmallCausesOfTheWire_AreAllFound_WithTheirValues_AndNoO
             std::abs(setting.effect->parameters[0].typical - setting.effect->parameters[0].vanishing);
         EXPECT_NEAR(setting.values[0], same->values[0], 0.02 * typical) << setting.effect->name;
     }
+}
+
+TEST(SlowEverything, BudgetThatEndsOnTheWay_LeavesWhatIsNeededAsFarAsIsKnown) {
+    const Hypothesis truth =
+        effects({"ambient_temperature:shift_degC=0.5", "heating_lag:factor=1.03", "heater_delay:delay_ms=3"});
+    const auto needed_within = [&](int most_asked, int& asked_in_all) {
+        std::atomic<int> asked = 0;
+        std::atomic<bool> is_prepared = false;
+        const auto budget =
+            std::make_shared<const Budget>(1e6, 1e6, [&] { return is_prepared && ++asked > most_asked; });
+        const Evidence evidence = wire_campaign(truth, budget);
+        is_prepared = true;
+        NeededCandidates needed;
+        try {
+            needed = needed_of(evidence).needed;
+        } catch (const BudgetEnded&) {
+            needed.ended = Ended::interrupted;
+        }
+        asked_in_all = asked;
+        return needed;
+    };
+    int asked = 0, ignored = 0, with_something = 0;
+    const NeededCandidates whole = needed_within(std::numeric_limits<int>::max(), asked);
+    EXPECT_FALSE(whole.ended);
+    for (const double share : {0.1, 0.6, 0.7, 0.8, 0.9, 0.95}) {
+        const NeededCandidates part = needed_within(static_cast<int>(share * asked), ignored);
+        ASSERT_TRUE(part.ended) << share;
+        EXPECT_EQ(part.worth.size(), part.candidates.size()) << share;
+        EXPECT_EQ(part.of_half[0], part.of_half[1]) << share;
+        if (part.candidates.empty()) continue;
+        ++with_something;
+        for (const plant::EffectSetting& setting : whole.of_half[0])
+            EXPECT_NE(std::ranges::find(part.of_half[0], setting.effect, &plant::EffectSetting::effect),
+                      part.of_half[0].end())
+                << setting.effect->name << " at " << share;
+    }
+    EXPECT_GE(with_something, 2);
 }
 
 TEST(Everything, NominalRig_NeedsNothing) {
