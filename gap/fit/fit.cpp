@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -49,8 +48,7 @@ class Linearised : public ceres::EvaluationCallback {
             condense({});
         }
         if (!with_derivatives || has_derivatives_ || errors.empty()) return;
-        const KnownSlopes* const nearby = kept_.by_parameter.empty() ? options_.known_slopes : &kept_;
-        if (!(options_.keeps_slopes && nearby && go_on_from(*nearby))) find_slopes();
+        if (!take_slopes_over()) find_slopes();
         use_slopes();
     }
 
@@ -91,74 +89,14 @@ class Linearised : public ceres::EvaluationCallback {
         is_exact_ = true;
     }
 
-    /// For each parameter of another hypothesis, its index among the fitted parameters, or none where its
-    /// effect is not fitted. Empty if the other hypothesis lacks a fitted parameter, or has it in another
-    /// scale, or only one of the two has a derivative with respect to it.
-    std::optional<std::vector<std::optional<std::size_t>>> places_of(const ScaledParameters& others) const {
-        std::vector<std::optional<std::size_t>> places(others.size());
-        const auto is_same = [&](std::size_t own, std::size_t other) {
-            return !places[other] && parameters_.is_same(own, others, other) &&
-                   parameters_.scale(own) == others.scale(other) &&
-                   parameters_.is_level(own) == others.is_level(other);
-        };
-        for (std::size_t own = 0; own < parameters_.size(); ++own) {
-            std::size_t other = 0;
-            while (other < others.size() && !is_same(own, other)) ++other;
-            if (other == others.size()) return {};
-            places[other] = own;
-        }
-        return places;
-    }
-
-    /// Takes the derivatives over from a point nearby, updated by how the errors have changed from there.
-    /// @return false if they mispredict that change and are not taken
-    bool go_on_from(const KnownSlopes& nearby) {
-        constexpr double well = 0.1;  // share of the change's sum of squares that may be mispredicted
-        // Mispredictions up to four times the rounding of errors are no reason for an update, in which they
-        // would be divided by a step that may be tiny.
-        constexpr double most_rounding = 16.0;
-        if (nearby.by_parameter.empty() || nearby.errors.empty()) return false;
-        const ScaledParameters there(nearby.at);
-        const auto places = places_of(there);
-        if (!places) return false;
-        std::vector<float> step(there.size());
-        double way = 0.0;
-        for (std::size_t k = 0; k < step.size(); ++k) {
-            const std::optional<std::size_t> own = (*places)[k];
-            step[k] = static_cast<float>((own ? values_[*own] : there.vanishing(k)) - there.values[k]);
-            way += static_cast<double>(step[k]) * step[k];
-        }
-        Errors missed(errors.size(), 0.0F);
-        double missed_squares = 0.0, changed_squares = 0.0, rounding_squares = 0.0;
-        for (const std::size_t w : counted_)
-            for (std::size_t row = windows_[w].begin; row < windows_[w].end; ++row) {
-                const float change = errors[row] - nearby.errors[row];
-                float expected = 0.0F;
-                for (std::size_t k = 0; k < step.size(); ++k)
-                    if (std::isfinite(nearby.by_parameter[k][row]))
-                        expected += nearby.by_parameter[k][row] * step[k];
-                if (!std::isfinite(change)) continue;
-                missed[row] = change - expected;
-                missed_squares += static_cast<double>(missed[row]) * missed[row];
-                changed_squares += static_cast<double>(change) * change;
-                const double rounding =
-                    std::numeric_limits<float>::epsilon() * std::max(std::abs(errors[row]), 1.0F);
-                rounding_squares += rounding * rounding;
-            }
-        const bool is_rounding = missed_squares <= most_rounding * rounding_squares;
-        if (!is_rounding && missed_squares > well * changed_squares) return false;
-        std::vector<Errors> slopes(parameters_.size());
-        parallel_for(step.size(), [&](std::size_t k) {
-            const std::optional<std::size_t> own = (*places)[k];
-            if (!own) return;
-            slopes[*own] = nearby.by_parameter[k];
-            if (is_rounding || !(way > 0.0)) return;
-            const float share = step[k] / static_cast<float>(way);
-            for (const std::size_t w : counted_)
-                for (std::size_t row = windows_[w].begin; row < windows_[w].end; ++row)
-                    slopes[*own][row] += share * missed[row];
-        });
-        slopes_ = std::move(slopes);
+    /// Returns false where no derivatives are known that predict how the errors have changed.
+    bool take_slopes_over() {
+        const KnownSlopes* const nearby = kept_.by_parameter.empty() ? options_.known_slopes : &kept_;
+        if (!options_.keeps_slopes || !nearby) return false;
+        std::optional<std::vector<Errors>> updated =
+            updated_slopes(*nearby, parameters_, errors, windows_, counted_);
+        if (!updated) return false;
+        slopes_ = *std::move(updated);
         is_exact_ = false;
         return true;
     }

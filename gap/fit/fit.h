@@ -31,13 +31,7 @@ struct Fit {
 /// small range of values that predict the carriage's readings, rounded to counts, equally well.
 inline constexpr double usual_step = 0.01, close_step = 0.001;
 
-/// Derivatives of the errors with respect to a hypothesis's parameters, from which a fit nearby can start.
-struct KnownSlopes {
-    Hypothesis at;
-    Errors errors;  ///< under this hypothesis
-    /// One for each parameter in order, per scale of the parameter; empty: not known.
-    std::vector<Errors> by_parameter;
-};
+struct KnownSlopes;  // gap/fit/slopes.h
 
 struct FitOptions {
     int most_iterations = 12;

@@ -8,6 +8,7 @@
 #include "gap/fit/minimum_norm.h"
 #include "gap/fit/predictive_density.h"
 #include "gap/fit/score.h"
+#include "gap/fit/slopes.h"
 #include "gap/search/shape_screening.h"
 
 #include <algorithm>

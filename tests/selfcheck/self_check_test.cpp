@@ -127,7 +127,6 @@ TEST_P(SelfCheckCase, IsDiagnosed) {
     options.cases = 1;
     options.first = known.number;
     options.seed = known.seed;
-    options.limited = gap::Seconds::by_effort;
     if (known.has_frames) options.kinds = {CaseKind::frames, CaseKind::frames_withheld};
     const SelfCheck check =
         run_self_check(load_rig(FIDSERVO_ASSETS_DIR "/rig.yaml"), options, [](const SelfCheck&) {});

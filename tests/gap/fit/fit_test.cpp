@@ -3,6 +3,7 @@
 #include "gap/fit/fit.h"
 
 #include "core/random.h"
+#include "gap/fit/slopes.h"
 #include "plant/effects/catalogue.h"
 #include "tests/gap/equal_windows.h"
 
