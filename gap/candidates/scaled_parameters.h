@@ -30,17 +30,9 @@ class ScaledParameters {
     /// Whether the parameter is a size.
     bool is_size(std::size_t k) const { return all_[k]->is_size(); }
 
-    /// The scaled value at which its effect vanishes.
-    double vanishing(std::size_t k) const { return all_[k]->vanishing / scale(k); }
-
-    /// Whether a parameter of other hypotheses is the same parameter of the same effect.
-    bool is_same(std::size_t k, const ScaledParameters& others, std::size_t other) const {
-        return all_[k] == others.all_[other];
-    }
-
     /// The distance from the vanishing value in typical sizes; 0 for parameters that are no sizes.
     double typical_sizes(std::size_t k, double scaled) const {
-        return is_size(k) ? scaled - vanishing(k) : 0.0;
+        return is_size(k) ? scaled - all_[k]->vanishing / scale(k) : 0.0;
     }
 
     /// The hypothesis with these values; values beyond a bound are set to it.

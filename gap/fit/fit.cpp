@@ -74,9 +74,6 @@ class Linearised : public ceres::EvaluationCallback {
         return sum;
     }
 
-    /// The derivatives used last; empty unless they are kept.
-    KnownSlopes taken_slopes() { return std::move(kept_); }
-
     Errors errors;
     std::vector<WindowProducts> condensed;  ///< one for each counted window
 
@@ -91,10 +88,9 @@ class Linearised : public ceres::EvaluationCallback {
 
     /// Returns false where no derivatives are known that predict how the errors have changed.
     bool take_slopes_over() {
-        const KnownSlopes* const nearby = kept_.by_parameter.empty() ? options_.known_slopes : &kept_;
-        if (!options_.keeps_slopes || !nearby) return false;
+        if (!options_.keeps_slopes || kept_.by_parameter.empty()) return false;
         std::optional<std::vector<Errors>> updated =
-            updated_slopes(*nearby, parameters_, errors, windows_, counted_);
+            updated_slopes(kept_, values_, errors, windows_, counted_);
         if (!updated) return false;
         slopes_ = *std::move(updated);
         is_exact_ = false;
@@ -110,7 +106,7 @@ class Linearised : public ceres::EvaluationCallback {
             slopes_.clear();
             return;
         }
-        kept_ = {parameters_.at(values_), errors, std::move(slopes_)};
+        kept_ = {values_, errors, std::move(slopes_)};
     }
 
     void condense(const std::vector<Errors>& by_parameter) {
@@ -331,7 +327,6 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
         linearised.differentiate();
         find_covariances(linearised, parameters, options, result);
     }
-    if (options.known_slopes) *options.known_slopes = linearised.taken_slopes();
     return result;
 }
 

@@ -31,8 +31,6 @@ struct Fit {
 /// small range of values that predict the carriage's readings, rounded to counts, equally well.
 inline constexpr double usual_step = 0.01, close_step = 0.001;
 
-struct KnownSlopes;  // gap/fit/slopes.h
-
 struct FitOptions {
     int most_iterations = 12;
     /// Relative change of the loss, and of parameters (1e-4 at most), at which a fit ends.
@@ -44,9 +42,6 @@ struct FitOptions {
     /// Whether derivatives are kept from one iteration to the next as long as they predict how the errors
     /// change, with Broyden's rank-one update (Math. Comp. 19, 1965); for predictions that change smoothly.
     bool keeps_slopes = false;
-    /// With keeps_slopes: derivatives from which the fit starts, of the same windows and of at least the same
-    /// effects; at the end those used last are stored here. Null: none.
-    KnownSlopes* known_slopes = nullptr;
     double step_scales = usual_step;  ///< step of numerical derivatives, in scales of a parameter
     /// Errors up to this many floors, a, count as noise: the loss is 1/2 a^2 log(1 + S_w / a^2). With a at
     /// the level of the present errors a distant start is drawn by all windows, not only by those with the

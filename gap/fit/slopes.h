@@ -11,12 +11,11 @@
 
 namespace fidservo::gap {
 
-/// Derivatives of the errors with respect to a hypothesis's parameters, from which a fit nearby can start.
+/// Derivatives of the errors at some values of the parameters.
 struct KnownSlopes {
-    Hypothesis at;
-    Errors errors;  ///< under this hypothesis
-    /// One for each parameter in order, per scale of the parameter; empty: not known.
-    std::vector<Errors> by_parameter;
+    std::vector<double> values;        ///< of the parameters in order, in their scales
+    Errors errors;                     ///< at these values
+    std::vector<Errors> by_parameter;  ///< one for each parameter, per scale of it; empty: not known
 };
 
 /// The derivative with respect to parameter k, per scale of it, by a one-sided difference. 0 for a parameter
@@ -24,14 +23,12 @@ struct KnownSlopes {
 Errors slope(const Predict& predict, const ScaledParameters& parameters, std::size_t k, const Errors& errors,
              double step_scales = usual_step);
 
-/// The derivatives at the present values of some parameters, updated by Broyden's rank-one formula from those
-/// of a hypothesis nearby that has at least the same effects. Empty if they mispredict how the errors have
-/// changed from there.
-/// @param errors   at the present values
+/// The derivatives at other values of the same parameters, by Broyden's rank-one update of those known. Empty
+/// if these mispredict how the errors have changed.
+/// @param errors   at the other values
 /// @param counted  the windows whose errors count
-std::optional<std::vector<Errors>> updated_slopes(const KnownSlopes& nearby,
-                                                  const ScaledParameters& parameters, const Errors& errors,
-                                                  std::span<const Window> windows,
+std::optional<std::vector<Errors>> updated_slopes(const KnownSlopes& known, std::span<const double> values,
+                                                  const Errors& errors, std::span<const Window> windows,
                                                   std::span<const std::size_t> counted);
 
 }  // namespace fidservo::gap

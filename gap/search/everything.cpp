@@ -8,7 +8,6 @@
 #include "gap/fit/minimum_norm.h"
 #include "gap/fit/predictive_density.h"
 #include "gap/fit/score.h"
-#include "gap/fit/slopes.h"
 #include "gap/search/shape_screening.h"
 
 #include <algorithm>
@@ -67,7 +66,7 @@ Wanted windows_off(const Evidence& evidence, const Wanted& wanted, const Errors&
 /// Fits from a distant start in several steps, until nothing improves. In each step errors up to the present
 /// median count as noise.
 Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
-                      const Wanted& leading, Hypothesis start, double sizes, KnownSlopes& slopes) {
+                      const Wanted& leading, Hypothesis start, double sizes) {
     constexpr int most_levels = 6, iterations_a_level = 8;
     constexpr double hardly_less = 0.5, tolerance = 0.02;
     double last = std::numeric_limits<double>::infinity();
@@ -79,7 +78,6 @@ Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wa
                     {.most_iterations = iterations_a_level,
                      .tolerance = tolerance,
                      .keeps_slopes = true,
-                     .known_slopes = &slopes,
                      .scale_floors = std::sqrt(1.0 + square),
                      .expected_sizes = sizes})
                     .hypothesis;
@@ -88,8 +86,7 @@ Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wa
 }
 
 Fit fitted_closely(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
-                   const Hypothesis& start, double sizes, double scale_floors, int most_iterations,
-                   KnownSlopes& slopes) {
+                   const Hypothesis& start, double sizes, double scale_floors, int most_iterations) {
     constexpr double tolerance = 1e-6, hardly_worth = 0.01 * least_worth;
     return fit(predict, evidence.windows(), wanted, start,
                {.most_iterations = most_iterations,
@@ -97,7 +94,6 @@ Fit fitted_closely(const Evidence& evidence, const Predict& predict, const Wante
                 .least_improvement = hardly_worth,
                 .with_covariance = true,
                 .keeps_slopes = true,
-                .known_slopes = &slopes,
                 .scale_floors = scale_floors,
                 .expected_sizes = sizes});
 }
@@ -261,11 +257,10 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
     std::array<IncrementalPrediction, 2> incremental{IncrementalPrediction(evidence, beside[0], wanted[0]),
                                                      IncrementalPrediction(evidence, beside[1], wanted[1])};
     const std::array<Predict, 2> predict{std::ref(incremental[0]), std::ref(incremental[1])};
-    std::array<KnownSlopes, 2> slopes;
     Chosen chosen = begun_with(candidates, begun);
     const Wanted leading = windows_off(evidence, wanted[0], predict[0](chosen.settings));
-    chosen.settings = approached(evidence, predict[0], wanted[0], leading, std::move(chosen.settings),
-                                 expected_sizes, slopes[0]);
+    chosen.settings =
+        approached(evidence, predict[0], wanted[0], leading, std::move(chosen.settings), expected_sizes);
     const double square = median_square(evidence, predict[0](chosen.settings), leading);
     const bool is_near = square < near_square;
     if (!is_near && begun.empty()) return {};
@@ -273,7 +268,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
     std::array<Fit, 2> fitted;
     const auto fit_half = [&](std::size_t side, double sizes, int most_iterations) {
         fitted[side] = fitted_closely(evidence, predict[side], wanted[side], chosen.settings, sizes,
-                                      scale_floors, most_iterations, slopes[side]);
+                                      scale_floors, most_iterations);
     };
     const auto fit_first = [&](double sizes, int most_iterations) {
         fit_half(0, sizes, most_iterations);

@@ -110,8 +110,7 @@ TEST(Fit, ExpectedSizes_BringBackWhatTheWindowsDoNotTell) {
 /// offset.
 Errors bent_a_little(const Hypothesis& hypothesis) {
     Errors errors(windows_count * values);
-    const double gain = hypothesis[0].values[0] - 1.03,
-                 offset_V = (hypothesis.size() > 1 ? hypothesis[1].values[0] : 0.0) - 0.05;
+    const double gain = hypothesis[0].values[0] - 1.03, offset_V = hypothesis[1].values[0] - 0.05;
     for (std::size_t k = 0; k < errors.size(); ++k) {
         const double t = 0.05 * static_cast<double>(k);
         errors[k] = static_cast<float>(2e3 * gain * (1.0 + 3.0 * gain) * std::sin(t) +
@@ -144,49 +143,32 @@ TEST(Fit, SlopesThatAreKept_LeadToTheSameValues_WithFewerPredictions) {
     EXPECT_LT(with_some, with_all);
 }
 
-TEST(Fit, SlopesOfAFitNearby_SpareTheirPredictions_AlsoWhereAnEffectWasTakenAway) {
-    std::atomic<int> count = 0;
-    const Predict predict = [&](const Hypothesis& hypothesis) {
-        ++count;
+TEST(UpdatedSlopes, PredictTheChangeThatWasSeen_AndAreNotChangedByRounding) {
+    const auto errors_at = [&](double gain, double offset_V) {
+        Hypothesis hypothesis = gain_and_offset;
+        hypothesis[0].values[0] = gain;
+        hypothesis[1].values[0] = offset_V;
         return bent_a_little(hypothesis);
     };
-    KnownSlopes slopes;
-    const Wanted all(windows_count, 1);
-    const FitOptions options{
-        .most_iterations = 30, .tolerance = 1e-8, .keeps_slopes = true, .known_slopes = &slopes};
-    const Hypothesis found = fit(predict, windows, all, gain_and_offset, options).hypothesis;
-    ASSERT_EQ(slopes.by_parameter.size(), 2U);
-
-    count = 0;
-    Hypothesis beside = found;
-    beside[0].values[0] += 1e-3;
-    EXPECT_NEAR(fit(predict, windows, all, beside, options).hypothesis[0].values[0], 1.03, 1e-5);
-    const int from_slopes = count;
-    count = 0;
-    KnownSlopes none;
-    FitOptions anew = options;
-    anew.known_slopes = &none;
-    fit(predict, windows, all, beside, anew);
-    EXPECT_LE(from_slopes, count - 2);
-
-    count = 0;
-    const Hypothesis gain_alone = fit(predict, windows, all, {found[0]}, options).hypothesis;
-    const int alone_from_slopes = count;
-    count = 0;
-    none = {};
-    EXPECT_NEAR(gain_alone[0].values[0], fit(predict, windows, all, {found[0]}, anew).hypothesis[0].values[0],
-                1e-5);
-    EXPECT_LE(alone_from_slopes, count);
-}
-
-TEST(Fit, SlopesOfOtherEffects_AreNotUsed) {
-    KnownSlopes slopes;
-    const Wanted all(windows_count, 1);
-    const FitOptions options{.tolerance = 1e-8, .keeps_slopes = true, .known_slopes = &slopes};
-    fit(bent_a_little, windows, all, {gain_and_offset[0]}, options);
-    const Hypothesis both = fit(bent_a_little, windows, all, gain_and_offset, options).hypothesis;
-    EXPECT_NEAR(both[0].values[0], 1.03, 1e-5);
-    EXPECT_NEAR(both[1].values[0], 0.05, 1e-4);
+    const std::vector<std::size_t> counted{0, 1, 2};
+    const Errors errors = errors_at(1.02, 0.03);
+    KnownSlopes known{{1.02, 0.03}, errors, {errors, errors}};
+    for (std::size_t row = 0; row < errors.size(); ++row) {
+        known.by_parameter[0][row] = (errors_at(1.021, 0.03)[row] - errors[row]) / 1e-3F;
+        known.by_parameter[1][row] = (errors_at(1.02, 0.031)[row] - errors[row]) / 1e-3F;
+    }
+    const Errors there = errors_at(1.028, 0.034);
+    const auto updated = updated_slopes(known, std::vector{1.028, 0.034}, there, windows, counted);
+    ASSERT_TRUE(updated);
+    for (std::size_t row = 0; row < 3 * values; ++row)
+        EXPECT_NEAR((*updated)[0][row] * 0.008F + (*updated)[1][row] * 0.004F, there[row] - errors[row],
+                    1e-3);
+    const auto same = updated_slopes(known, std::vector{1.02 + 1e-9, 0.03}, errors, windows, counted);
+    ASSERT_TRUE(same);
+    EXPECT_EQ(*same, known.by_parameter);
+    Errors other = errors;
+    for (float& error : other) error += 5.0F;
+    EXPECT_FALSE(updated_slopes(known, std::vector{1.0201, 0.03}, other, windows, counted));
 }
 
 // With a value at the start and none in a window, the least squares problem has an empty block.
