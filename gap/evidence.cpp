@@ -31,6 +31,11 @@ struct Models {
     std::optional<TagModel> tag;
     std::optional<ImageModel> image;
     bool platform_feels_carriage = false;
+
+    /// Whether the prediction of a signal depends on the carriage's path.
+    bool need_path_for(Signal signal) const {
+        return signal == Signal::tag || (signal == Signal::hall && platform_feels_carriage);
+    }
 };
 
 /// Throws InputError where the plant refuses the hypothesis.
@@ -115,7 +120,8 @@ class RunPredictor {
         }
         const bool hall = signals[index_of(Signal::hall)], tag = signals[index_of(Signal::tag)];
         const bool needs_path =
-            other_carriage_ && !known_path_ && (tag || (hall && models_.platform_feels_carriage));
+            other_carriage_ && !known_path_ &&
+            ((tag && models_.need_path_for(Signal::tag)) || (hall && models_.need_path_for(Signal::hall)));
         PredictedCounts predicted;
         if (needs_path)
             predicted = predicted_counts(models_.carriage, links_.carriage, path_);
@@ -356,20 +362,18 @@ Errors Evidence::errors(const Hypothesis& hypothesis, const Wanted& wanted, doub
     }
 }
 
-std::shared_ptr<const CarriagePaths> Evidence::paths(const Hypothesis& hypothesis,
-                                                     const Wanted& wanted) const {
+std::shared_ptr<const CarriagePaths> Evidence::paths(const Hypothesis& hypothesis, const Wanted& wanted,
+                                                     std::shared_ptr<const CarriagePaths> known) const {
     const Parts& parts = *parts_;
     FIDSERVO_DEMAND(wanted.size() == parts.windows.size());
     Hypothesis moving = moving_carriage(hypothesis);
     if (moving.empty()) return nullptr;
+    if (known && known->moving == moving) return known;
     try {
         const Models models = models_of(parts.rig, hypothesis);
-        const auto needs_path = [&](Signal signal) {
-            return signal == Signal::tag || (signal == Signal::hall && models.platform_feels_carriage);
-        };
         const auto asks = [&](const Window& window) {
             return wanted[static_cast<std::size_t>(&window - parts.windows.data())] != 0 &&
-                   needs_path(window.signal);
+                   models.need_path_for(window.signal);
         };
         if (std::ranges::none_of(parts.windows, asks)) return nullptr;
         auto paths = std::make_shared<CarriagePaths>();

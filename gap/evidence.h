@@ -172,7 +172,9 @@ class Evidence {
 
     /// The carriage's motion under a hypothesis; null where the hypothesis does not change it, no wanted
     /// prediction needs it, or the plant refuses the hypothesis. Throws BudgetEnded.
-    std::shared_ptr<const CarriagePaths> paths(const Hypothesis& hypothesis, const Wanted& wanted) const;
+    /// @param known  returned again where the hypothesis moves the carriage as its paths do; may be null
+    std::shared_ptr<const CarriagePaths> paths(const Hypothesis& hypothesis, const Wanted& wanted,
+                                               std::shared_ptr<const CarriagePaths> known = {}) const;
 
     /// The cost of all predictions so far, independent of the machine. Its unit is the cost of simulating a
     /// carriage by its closed-form solution for 5 minutes, or along all recordings if they are longer.

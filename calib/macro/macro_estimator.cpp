@@ -224,8 +224,8 @@ MacroEstimator::Sums MacroEstimator::sum_up(const Terms& terms, std::size_t w,
     return sums;
 }
 
-void MacroEstimator::refine(MacroPoint& point, const MacroActive& active, int most_iterations,
-                            double wanted) const {
+double MacroEstimator::refine(MacroPoint& point, const MacroActive& active, int most_iterations,
+                              double wanted) const {
     constexpr double least_gain = 1e-6, easiest = 1e-9, hardest = 1e9, most_that_follows = 10.0;
     double damping = 1e-3, here = loss(point);
     for (int iteration = 0; iteration < most_iterations && damping < hardest; ++iteration) {
@@ -274,8 +274,9 @@ void MacroEstimator::refine(MacroPoint& point, const MacroActive& active, int mo
             damping = better ? std::max(easiest, 0.1 * damping) : 10.0 * damping;
             if (better) gained = here - there, point = std::move(next), here = there;
         }
-        if (gained < least_gain || here - most_that_follows * gained > wanted) return;
+        if (gained < least_gain || here - most_that_follows * gained > wanted) break;
     }
+    return here;
 }
 
 MacroEstimator::Linearised MacroEstimator::linearised(Terms terms, const Sums& sums) {

@@ -72,8 +72,9 @@ class MacroEstimator {
     /// Levenberg-Marquardt on the active parameters and all initial states.
     /// Ends early once the loss would stay above `wanted` even if the iterations that are left gained ten
     /// times what the last one did; Gauss-Newton steps near a minimum gain less each time.
-    void refine(MacroPoint& point, const MacroActive& active, int most_iterations,
-                double wanted = std::numeric_limits<double>::infinity()) const;
+    /// @return the loss of the point that was reached
+    double refine(MacroPoint& point, const MacroActive& active, int most_iterations,
+                  double wanted = std::numeric_limits<double>::infinity()) const;
 
     /// Root mean square of prediction minus reading, counts.
     double residual_count(const MacroPoint& point) const;

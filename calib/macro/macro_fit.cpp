@@ -63,8 +63,8 @@ MacroPoint first_point(const MacroEstimator& estimator, const MacroBuild& build,
         motion.time_constant_s = tau_s;
         MacroPoint point = estimator.start_at(motion);
         point.noise_count = 10.0 + estimator.fastest_mm_per_s() * 0.02 / build.resolution_mm;
-        estimator.refine(point, fit.active, iterations);
-        if (const double loss = estimator.loss(point); loss < least) best = point, least = loss;
+        if (const double loss = estimator.refine(point, fit.active, iterations); loss < least)
+            best = point, least = loss;
     }
     return best;
 }
@@ -88,8 +88,7 @@ void scan_thresholds(const MacroEstimator& estimator, MacroFit& fit) {
             MacroPoint point = start;
             point.motion.forward_threshold_V = within(fit.forward, share);
             point.motion.backward_threshold_V = within(fit.backward, share);
-            estimator.refine(point, active, iterations);
-            if (const double loss = estimator.loss(point); loss < least) {
+            if (const double loss = estimator.refine(point, active, iterations); loss < least) {
                 fit.point = point;
                 least = loss;
                 best_share = share;

@@ -115,8 +115,7 @@ void search_thresholds(const MacroEstimator& estimator, MacroPoint& point, const
                 const bool moved_forward = move_threshold(next, forward, +1.0, stride * direction[0]);
                 const bool moved_backward = move_threshold(next, backward, -1.0, stride * direction[1]);
                 if (moved_forward != (direction[0] != 0) || moved_backward != (direction[1] != 0)) continue;
-                estimator.refine(next, active, iterations, least);
-                if (const double loss = estimator.loss(next); loss < least) {
+                if (const double loss = estimator.refine(next, active, iterations, least); loss < least) {
                     point = next;
                     least = loss;
                     better = true;
@@ -137,8 +136,7 @@ ThresholdInterval threshold_interval(const MacroEstimator& estimator, const Macr
         for (;;) {
             MacroPoint next = last;
             if (!move_threshold(next, levels, side, step)) break;
-            estimator.refine(next, active, iterations, most);
-            if (!(estimator.loss(next) <= most)) break;
+            if (!(estimator.refine(next, active, iterations, most) <= most)) break;
             last = next;
         }
         return level_of(levels, threshold_V(last.motion, side));

@@ -322,11 +322,10 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
     } else {
         parameters.values = values_at_start;
     }
-    if (options.with_covariance) {
-        linearised.PrepareForEvaluation(true, true);
-        linearised.differentiate();
-        find_covariances(linearised, parameters, options, result);
-    }
+    if (!options.with_covariance) return result;
+    linearised.PrepareForEvaluation(true, true);
+    linearised.differentiate();
+    find_covariances(linearised, parameters, options, result);
     return result;
 }
 

@@ -2,7 +2,6 @@
 #include "gap/fit/incremental_prediction.h"
 
 #include "gap/candidates/coupling.h"
-#include "gap/evidence_parts.h"
 
 #include <algorithm>
 #include <utility>
@@ -57,7 +56,7 @@ Errors IncrementalPrediction::predicted_whole(Hypothesis whole, const Hypothesis
         const std::scoped_lock lock(access_);
         if (known_) paths = known_->paths;
     }
-    if (!paths || paths->moving != moving_carriage(whole)) paths = evidence_.paths(whole, wanted_);
+    paths = evidence_.paths(whole, wanted_, std::move(paths));
     Known now{settings, evidence_.errors(whole, wanted_, 0.0, paths.get()), std::move(paths)};
     auto shared = std::make_shared<const Known>(std::move(now));
     const std::scoped_lock lock(access_);

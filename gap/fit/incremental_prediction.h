@@ -10,6 +10,7 @@
 
 namespace fidservo::gap {
 
+/// Errors of hypotheses on some windows, as a Predict for fits.
 class IncrementalPrediction {
   public:
     /// @param beside  settings that precede those of every prediction

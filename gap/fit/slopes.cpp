@@ -52,9 +52,9 @@ std::optional<std::vector<Errors>> updated_slopes(const KnownSlopes& known, std:
                 std::numeric_limits<float>::epsilon() * std::max(std::abs(errors[row]), 1.0F);
             rounding_squares += rounding * rounding;
         }
-    std::vector<Errors> slopes = known.by_parameter;
-    if (missed_squares <= most_rounding * rounding_squares) return slopes;
+    if (missed_squares <= most_rounding * rounding_squares) return known.by_parameter;
     if (missed_squares > well * changed_squares) return {};
+    std::vector<Errors> slopes = known.by_parameter;
     parallel_for(step.size(), [&](std::size_t k) {
         const float share = step[k] / static_cast<float>(way);
         for (const std::size_t w : counted)

@@ -113,12 +113,12 @@ class Pass {
             }
             found_.path_lsb[k] = reading_lsb(state);
             found_.temperature_degC[k] = state.heater.temp_degC;
-            const plant::HeaterState before = state.heater;
+            const double before_degC = state.heater.temp_degC;
+            const auto before_rise_degC = state.heater.mass_rise_degC;
             const double before_mm = state.wire.contraction_mm;
             step(state, k);
-            rests = may_rest_ && state.heater.temp_degC == before.temp_degC &&
-                    state.heater.mass_rise_degC == before.mass_rise_degC &&
-                    state.wire.contraction_mm == before_mm;
+            rests = may_rest_ && state.heater.temp_degC == before_degC &&
+                    state.heater.mass_rise_degC == before_rise_degC && state.wire.contraction_mm == before_mm;
         }
     }
 

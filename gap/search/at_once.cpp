@@ -70,6 +70,18 @@ void add_shapes(Search& search, Chain& chain) {
     }
 }
 
+/// add_shapes() to another chain. If the search ends meanwhile, the one with the smaller loss is kept as
+/// `chain`.
+void add_shapes_beside(Search& search, Chain& chain, Chain& other) {
+    try {
+        search.throw_if_over();
+        add_shapes(search, other);
+    } catch (...) {
+        if (other.fitted.loss < chain.fitted.loss) chain = std::move(other);
+        throw;
+    }
+}
+
 /// Appends those choices of a chain, with their settings, whose effects satisfy `wants`.
 template <class Wants>
 void add_choices(Chain& to, const Chain& from, const Wants& wants) {
@@ -161,12 +173,7 @@ bool explain_by_many(const Search& search, Chain& chain, const Chain& all) {
 bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, std::vector<Trial>* alone) {
     if (!is_view_or_wire_off(search, chain)) return false;
     const Signal signal = is_off(search, chain, Signal::hall) ? Signal::hall : Signal::tag;
-    try {
-        add_shapes(search, all);
-    } catch (...) {
-        if (all.fitted.loss < chain.fitted.loss) chain = std::move(all);
-        throw;
-    }
+    add_shapes_beside(search, chain, all);
     return explain_by_one_or(search, chain, std::move(all), signal, alone);
 }
 
@@ -205,13 +212,7 @@ bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
     search.look_for_causes_in(all_signals, 1.0);
     if (!is_off(search, chain, Signal::hall)) return are_several;
     Chain whole = with_all_that_is_smooth(search, chain);
-    try {
-        search.throw_if_over();
-        add_shapes(search, whole);
-    } catch (...) {
-        if (whole.fitted.loss < chain.fitted.loss) chain = std::move(whole);
-        throw;
-    }
+    add_shapes_beside(search, chain, whole);
     if (is_better(search, whole, chain)) chain = std::move(whole);
     return are_several;
 }

@@ -208,16 +208,18 @@ std::vector<double> worth_of_each(std::span<const Candidate* const> candidates, 
     return worth;
 }
 
-/// Some of the candidates, with their settings.
+/// Some of the candidates, with their settings and what each is worth as far as is known.
 struct Chosen {
     std::vector<const Candidate*> candidates;
     Hypothesis settings;
+    std::vector<double> worth;
 
     void keep(const std::vector<std::size_t>& places) {
         Chosen rest;
         for (const std::size_t c : places) {
             rest.candidates.push_back(candidates[c]);
             rest.settings.push_back(settings[c]);
+            rest.worth.push_back(worth[c]);
         }
         *this = std::move(rest);
     }
@@ -275,16 +277,11 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
         chosen.settings = fitted[0].hypothesis;
     };
     Demand demand;
-    std::vector<double> worth;
-    const auto keep = [&](const std::vector<std::size_t>& places, const std::vector<double>& worth_of_all) {
-        worth.clear();
-        for (const std::size_t c : places) worth.push_back(worth_of_all[c]);
-        chosen.keep(places);
-    };
     /// Removes candidates that are not needed. Returns whether there were any.
     const auto prune = [&] {
         const std::size_t count = chosen.candidates.size();
-        keep(kept(chosen.candidates, fitted[0], demand), worth_of_each(chosen.candidates, fitted[0]));
+        chosen.worth = worth_of_each(chosen.candidates, fitted[0]);
+        chosen.keep(kept(chosen.candidates, fitted[0], demand));
         return chosen.candidates.size() < count;
     };
     fit_first(expected_sizes, at_first);
@@ -298,21 +295,22 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
             } while (prune() && !chosen.candidates.empty());
             if (chosen.candidates.empty()) return {};
             fit_half(1, 0.0, then);
-            std::vector<double> both = worth_of_each(chosen.candidates, fitted[0]);
+            // What the first half says was found when it was pruned.
             const std::vector<double> there = worth_of_each(chosen.candidates, fitted[1]);
             std::vector<std::size_t> rest;
-            for (std::size_t c = 0; c < both.size(); ++c) {
-                if (std::min(both[c], there[c]) >= demand.worth_of(*chosen.candidates[c])) rest.push_back(c);
-                both[c] += there[c];
+            for (std::size_t c = 0; c < there.size(); ++c) {
+                if (std::min(chosen.worth[c], there[c]) >= demand.worth_of(*chosen.candidates[c]))
+                    rest.push_back(c);
+                chosen.worth[c] += there[c];
             }
-            is_all = rest.size() == both.size();
-            keep(rest, both);
+            is_all = rest.size() == there.size();
+            chosen.keep(rest);
             if (chosen.candidates.empty()) return {};
         }
     } catch (const BudgetEnded& end) {
-        return {chosen.candidates, {chosen.settings, chosen.settings}, std::move(worth), end.how()};
+        return {chosen.candidates, {chosen.settings, chosen.settings}, chosen.worth, end.how()};
     }
-    return {chosen.candidates, {fitted[0].hypothesis, fitted[1].hypothesis}, std::move(worth)};
+    return {chosen.candidates, {fitted[0].hypothesis, fitted[1].hypothesis}, chosen.worth};
 }
 
 Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,

@@ -116,8 +116,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     try {
         if (effort.refines) refine(base, all, leaders, effort);
     } catch (const BudgetEnded& ended) {
-        over_ = ended.how();
-        fitter_.evidence().budget()->end_search();
+        end(ended.how());
         std::ranges::sort(leaders, std::greater{}, &Contender::gain);
     }
 

@@ -191,6 +191,9 @@ class Search {
     /// values
     EverythingBeside everything_of(const CrossFit& base, bool of_tags_alone = false) const;
     Together needed_of(const EverythingBeside& all);
+
+    /// Ends the search, because the budget has ended; what was found is still judged.
+    void end(Ended how);
     /// Settings of waves with the periods along the rail that the encoder's errors show.
     Hypothesis waves_of_reading(const CrossFit& base, std::span<const Candidate* const> candidates) const;
     Together balanced_beside(const CrossFit& base) const;

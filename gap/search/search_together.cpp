@@ -79,13 +79,15 @@ Search::EverythingBeside Search::everything_of(const CrossFit& base, bool of_tag
     return everything;
 }
 
+void Search::end(Ended how) {
+    over_ = how;
+    fitter_.evidence().budget()->end_search();
+}
+
 Search::Together Search::needed_of(const EverythingBeside& all) {
     NeededCandidates needed =
         needed_of_everything(fitter_.evidence(), all.candidates, all.beside, all.begun, all.wanted);
-    if (needed.ended) {
-        over_ = needed.ended;
-        fitter_.evidence().budget()->end_search();
-    }
+    if (needed.ended) end(*needed.ended);
     return together(all.beside, std::move(needed));
 }
 
