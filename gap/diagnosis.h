@@ -63,7 +63,8 @@ struct Support {
     /// 0: the gap depends on one quantity alone, which accuses another block of the same stage or of the
     /// view; 0.5: neither.
     double agreement = 0.5;
-    /// Difference of its sizes between fits to the two halves of the windows, relative to their mean.
+    /// Difference of its sizes between fits to the two halves of the windows, relative to their mean; 1 where
+    /// the time did not suffice to fit the halves apart.
     double halves_apart = 0.0;
     bool is_at_bound = false;  ///< whether a parameter is at a bound of its range
 };

@@ -255,7 +255,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
                                       const std::array<Wanted, 2>& wanted) {
     // Numbers of iterations: most candidates that are not needed show before the values are known precisely.
-    constexpr int at_first = 4, then = 15;
+    constexpr int at_first = 4, then = 15, at_last = 4;
     std::array<IncrementalPrediction, 2> incremental{IncrementalPrediction(evidence, beside[0], wanted[0]),
                                                      IncrementalPrediction(evidence, beside[1], wanted[1])};
     const std::array<Predict, 2> predict{std::ref(incremental[0]), std::ref(incremental[1])};
@@ -284,6 +284,26 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
         chosen.keep(kept(chosen.candidates, fitted[0], demand));
         return chosen.candidates.size() < count;
     };
+    /// Fits the other half, too, and keeps what is worth it there and on the first half. Returns whether that
+    /// is everything.
+    const auto test_on_other_half = [&](int most_iterations) {
+        fit_half(1, 0.0, most_iterations);
+        // What the first half says was found when it was pruned.
+        const std::vector<double> there = worth_of_each(chosen.candidates, fitted[1]);
+        std::vector<std::size_t> rest;
+        Hypothesis of_other;
+        for (std::size_t c = 0; c < there.size(); ++c) {
+            if (std::min(chosen.worth[c], there[c]) >= demand.worth_of(*chosen.candidates[c])) {
+                rest.push_back(c);
+                of_other.push_back(fitted[1].hypothesis[c]);
+            }
+            chosen.worth[c] += there[c];
+        }
+        const bool is_all = rest.size() == there.size();
+        chosen.keep(rest);
+        fitted[1].hypothesis = std::move(of_other);
+        return is_all;
+    };
     fit_first(expected_sizes, at_first);
     prune();
     if (chosen.candidates.empty()) return {};
@@ -294,21 +314,18 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
                 fit_first(0.0, then);
             } while (prune() && !chosen.candidates.empty());
             if (chosen.candidates.empty()) return {};
-            fit_half(1, 0.0, then);
-            // What the first half says was found when it was pruned.
-            const std::vector<double> there = worth_of_each(chosen.candidates, fitted[1]);
-            std::vector<std::size_t> rest;
-            for (std::size_t c = 0; c < there.size(); ++c) {
-                if (std::min(chosen.worth[c], there[c]) >= demand.worth_of(*chosen.candidates[c]))
-                    rest.push_back(c);
-                chosen.worth[c] += there[c];
-            }
-            is_all = rest.size() == there.size();
-            chosen.keep(rest);
+            is_all = test_on_other_half(then);
             if (chosen.candidates.empty()) return {};
         }
     } catch (const BudgetEnded& end) {
-        return {chosen.candidates, {chosen.settings, chosen.settings}, chosen.worth, end.how()};
+        try {
+            evidence.budget()->end_search();
+            demand = Demand(evidence, wanted[0], predict[0](chosen.settings));
+            test_on_other_half(at_last);
+            return {chosen.candidates, {chosen.settings, fitted[1].hypothesis}, chosen.worth, end.how()};
+        } catch (const BudgetEnded&) {
+            return {chosen.candidates, {chosen.settings, chosen.settings}, chosen.worth, end.how()};
+        }
     }
     return {chosen.candidates, {fitted[0].hypothesis, fitted[1].hypothesis}, chosen.worth};
 }

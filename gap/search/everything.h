@@ -29,8 +29,9 @@ struct NeededCandidates {
     std::vector<const Candidate*> candidates;
     std::array<Hypothesis, 2> of_half;  ///< as fitted on each half, one setting for each candidate
     std::vector<double> worth;  ///< for each, the loss that it saves beside the others, on both halves
-    /// How the budget ended before all was fitted: these candidates are needed as far as is known, both
-    /// halves have the values of the first one, and the worth is what they save there. Empty: it did not.
+    /// How the budget's search ended before all was fitted: these candidates are needed as far as is known.
+    /// The other half is then fitted in the time for working out; where that ends, too, both halves have the
+    /// values of the first one, and the worth is what they save there. Empty: it did not end.
     std::optional<Ended> ended = {};
 };
 

@@ -38,9 +38,11 @@ bool is_at_bound(const plant::EffectSetting& setting) {
 }
 
 /// Of all its sizes together, in typical ones or, of what has none, in their ranges, over what they are away
-/// from none.
+/// from none. Where the halves were not fitted apart nothing shows that they agree.
 double halves_apart(const Candidate& candidate, const plant::EffectSetting& one,
                     const plant::EffectSetting& other) {
+    constexpr double is_not_shown = 1.0;
+    if (one == other) return is_not_shown;
     double difference = 0.0, size = 0.0;
     for (const std::size_t k : candidate.sizes) {
         const plant::EffectParameter& parameter = candidate.effect->parameters[k];

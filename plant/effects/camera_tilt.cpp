@@ -7,7 +7,7 @@ namespace fidservo::plant::effects {
 
 namespace {
 
-constexpr double heights[] = {1.0, 0.0};
+constexpr double heights[] = {1.0, 0.5, 0.25, 0.0};
 
 constexpr EffectParameter parameters[] = {
     {"about_u_deg", "deg", -10.0, 10.0, 0.0, 0.5,

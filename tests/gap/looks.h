@@ -39,14 +39,14 @@ inline Recording looks_in_even_motion(const plant::CameraDeviation& truth,
         look.time_ns = tag.time_ns;
         look.tag_id = tag.tag_id;
         for (std::size_t k = 0; k < 4; ++k) {
-            const double normal_u = k % 2 == 0 ? 0.0 : 1.0;
+            const double normal_u = k % 2 == 0 ? 0.0 : 1.0, outwards = k == 1 || k == 2 ? 1.0 : -1.0;
             TagSide& side = look.sides[k];
             side.normal = {normal_u, 1.0 - normal_u};
             const double way_px = speed_px_per_s * (camera.exposure_s + truth.extra_exposure_s) * normal_u;
             side.variance_px2 = std::pow(camera.blur_px, 2) + std::pow(truth.extra_blur_px, 2) +
                                 (1.0 + way_px * way_px) / 12.0;
             side.variance_std_px2 = 0.01;
-            side.strip_px = {u_px + (k == 1 ? 150.0 : -150.0), 480.0};
+            side.strip_px = Eigen::Vector2d(u_px, 480.0) + 150.0 * outwards * side.normal;
             side.half_strip_px = {0.0, 0.0};
             const Eigen::Vector2d place((side.strip_px.x() - 639.5) / 639.5,
                                         (side.strip_px.y() - 479.5) / 479.5);

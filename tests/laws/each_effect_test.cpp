@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plant/effects/catalogue.h"
-
 #include "core/input_error.h"
 #include "core/rig.h"
+#include "plant/effects/catalogue.h"
 #include "plant/view/plate_view.h"
 #include "src/files/rig/plate_file.h"
 #include "src/simulation/practice_camera.h"
+#include "tests/laws/effect_law.h"
 #include "tests/plant/reference_rig.h"
 
 #include <algorithm>
@@ -19,10 +19,6 @@
 #include <gtest/gtest.h>
 
 namespace fidservo::plant {
-
-void PrintTo(const Effect* effect, std::ostream* out) {
-    *out << effect->name;
-}
 
 namespace {
 
@@ -86,7 +82,7 @@ PlantParameters with(const EffectSetting& setting) {
     return parameters;
 }
 
-class EachEffect : public testing::TestWithParam<const Effect*> {};
+class EachEffect : public ::testing::TestWithParam<const Effect*> {};
 
 TEST_P(EachEffect, AtItsVanishingValues_LeavesTheRunAsItWasBitForBit) {
     const PlantParameters nominal = plant_parameters(reference_rig());
@@ -145,7 +141,7 @@ TEST_P(EachEffect, Description_IsCompleteAndConsistent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, EachEffect,
-                         testing::ValuesIn(effect_catalogue().begin(), effect_catalogue().end()),
+                         ::testing::ValuesIn(effect_catalogue().begin(), effect_catalogue().end()),
                          [](const auto& instance) { return std::string(instance.param->name); });
 
 TEST(Effects, OrderOfSettings_DoesNotMatter) {
