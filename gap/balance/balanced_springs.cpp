@@ -40,7 +40,7 @@ bool is_spring(const plant::Effect& effect) {
 std::vector<plant::EffectSetting> balanced_springs(const Evidence& evidence, const Wanted& wanted,
                                                    const Hypothesis& base, const Candidate& candidate) {
     if (!is_spring(*candidate.effect)) return {};
-    const ForceBalance balance(evidence, wanted);
+    const ForceBalance balance(evidence, wanted, base);
     if (balance.supports().empty()) return {};
     const BalanceFit balanced(balance, evidence.windows(), wanted, base);
     std::vector<Hypothesis> starts;

@@ -46,7 +46,7 @@ std::vector<plant::EffectSetting> balanced_waves(const Evidence& evidence, const
     constexpr std::size_t most_fitted = 4, most_waves = 2;
     constexpr double most_of_harmonic = 0.5;  // of the wave; a stronger one is noise, as a rule
     if (!candidate.wave || !candidate.wave->is_force) return {};
-    const ForceBalance balance(evidence, wanted);
+    const ForceBalance balance(evidence, wanted, base);
     if (balance.supports().empty()) return {};
     const BalanceFit balanced(balance, evidence.windows(), wanted, base);
     std::vector<Fit> fits(std::min(most_fitted, periods.size()));

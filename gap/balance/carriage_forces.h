@@ -63,9 +63,13 @@ class CarriageForces {
     Column of_reading(int group, const std::function<double(const SlidingRow&)>& error_mm) const;
 
     /// The mean velocity and acceleration of each support, in mm/s and mm/s^2 over the same standard
-    /// deviation, from the unsmoothed readings by integration by parts.
-    Column mean_velocity() const { return column(0, of_velocity_, reading_mm); }
-    Column mean_acceleration() const { return column(0, of_acceleration_, reading_mm); }
+    /// deviation, from unsmoothed positions by integration by parts.
+    Column mean_velocity(const std::function<double(const SlidingRow&)>& position_mm) const {
+        return column(0, of_velocity_, position_mm);
+    }
+    Column mean_acceleration(const std::function<double(const SlidingRow&)>& position_mm) const {
+        return column(0, of_acceleration_, position_mm);
+    }
 
     /// The standard deviation of a force that is the sum of mean acceleration and velocity times these
     /// factors, from the readings' noise floor, relative to that with the rig file's factors.
@@ -88,8 +92,6 @@ class CarriageForces {
     void find_weights(const Rig& rig, double floor_mm, std::size_t half_support);
     Column column(int group, const std::vector<double>& weights,
                   const std::function<double(const SlidingRow&)>& quantity) const;
-
-    static double reading_mm(const SlidingRow& row) { return row.reading_mm; }
 
     std::shared_ptr<const Budget> budget_;
     /// A support's weights, row by row, for a force in V and for a reading in mm.

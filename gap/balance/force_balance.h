@@ -27,8 +27,9 @@ class ForceBalance {
     static constexpr double deviations = 2.5;
 
     /// @param wanted  windows of the encoder to be used
+    /// @param known  of its effects, those on the encoder's reading give the positions from readings
     /// @param half_support  as in CarriageForces
-    ForceBalance(const Evidence& evidence, const Wanted& wanted,
+    ForceBalance(const Evidence& evidence, const Wanted& wanted, const Hypothesis& known,
                  std::size_t half_support = short_half_support);
 
     /// The force in excess in each support, over `deviations` standard deviations from the readings' noise

@@ -324,7 +324,7 @@ std::vector<BalancedModel> balanced_models(const Evidence& evidence, std::span<c
                                            std::span<const Candidate* const> candidates, double tail) {
     const std::vector<Window>& windows = evidence.windows();
     const Wanted wanted = only_of(windows, everything(evidence), only(Signal::encoder));
-    const ForceBalance balance(evidence, wanted, balanced_half_support);
+    const ForceBalance balance(evidence, wanted, base, balanced_half_support);
     if (balance.supports().empty()) return {};
     std::vector<const Candidate*> unknown(candidates.begin(), candidates.end());
     std::erase_if(unknown, [&](const Candidate* candidate) {

@@ -131,8 +131,7 @@ void add_tag_hats(std::vector<Column>& columns, const TagColumns& make, Dependen
             make.along(group, [&, k](const TagSight& sight) { return hat(knots, k, quantity(sight)); }));
 }
 
-/// The period in the carriage's position that takes most of the errors along the motion, with each window's
-/// mean free; 0 where there are none.
+/// As strongest_tag_period_mm().
 double strongest_period_mm(const Evidence& evidence, const Errors& errors, const TagColumns& make) {
     constexpr double shortest_mm = 1.0, longest_mm = 50.0;
     const std::vector<float> places = make.all([](const TagSight& sight) { return sight.position_mm; });
@@ -187,6 +186,10 @@ void add_image_places(std::vector<Column>& columns, const TagColumns& make, cons
 }
 
 }  // namespace
+
+double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors) {
+    return strongest_period_mm(evidence, errors, TagColumns(evidence));
+}
 
 Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors) {
     const TagColumns make(evidence);

@@ -54,20 +54,26 @@ bool is_view_or_wire_off(const Search& search, const Chain& chain) {
     return is_off(search, chain, Signal::hall) || is_off(search, chain, Signal::tag);
 }
 
-/// Adds effects with a shape of their own one after the other, each together with all smooth effects that are
-/// then needed, as long as Hall reading or tags are off their floors and the longer chain is better.
+/// Adds one effect with a shape of its own, together with all smooth effects that are then needed, if the
+/// longer chain is better. Returns whether it is.
+bool add_shape(Search& search, Chain& chain, Search::SmoothSignals of) {
+    std::optional<Chain> best;
+    for (Search::Together& together : search.shaped_beside(chain.fitted, of)) {
+        Chain longer = with_everything(chain, std::move(together));
+        if (!best || longer.fitted.loss < best->fitted.loss) best = std::move(longer);
+    }
+    if (!best || !is_better(search, *best, chain)) return false;
+    chain = *std::move(best);
+    return true;
+}
+
+/// Adds effects with a shape of their own one after the other, as long as Hall reading or tags are off their
+/// floors.
 /// @param chain  each change is an improvement, so that it may be used whenever this ends
 void add_shapes(Search& search, Chain& chain) {
-    while (is_view_or_wire_off(search, chain)) {
-        std::optional<Chain> best;
-        for (Search::Together& together : search.shaped_beside(chain.fitted)) {
-            Chain longer = with_everything(chain, std::move(together));
-            if (!best || longer.fitted.loss < best->fitted.loss) best = std::move(longer);
-        }
-        if (!best || !is_better(search, *best, chain)) return;
-        chain = *std::move(best);
+    while (is_view_or_wire_off(search, chain) &&
+           add_shape(search, chain, Search::SmoothSignals::hall_and_tags))
         search.throw_if_over();
-    }
 }
 
 /// add_shapes() to another chain. If the search ends meanwhile, the one with the smaller loss is kept as
@@ -177,6 +183,14 @@ bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, std:
     return explain_by_one_or(search, chain, std::move(all), signal, alone);
 }
 
+/// Explains an encoder whose reading has an error along the rail by what tags show of it, whatever moves the
+/// carriage. Its forces would otherwise be bent to explain the reading.
+/// @return whether such an effect was accepted
+bool explain_reading_of_carriage(Search& search, Chain& chain) {
+    return is_off(search, chain, Signal::encoder) && is_off(search, chain, Signal::tag) &&
+           add_shape(search, chain, Search::SmoothSignals::tags_alone);
+}
+
 /// Explains the encoder by a model from the balance of the carriage's forces, in which effects simply add up.
 /// If the model leaves the encoder off its floor, it is accepted for the time being.
 /// @param aside  receives the chain with the model in that case
@@ -240,8 +254,14 @@ Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& ot
 
 AtOnce explain_at_once(Search& search, Chain& chain, std::optional<Chain>& aside, std::vector<Trial>& alone) {
     Chain smooth = is_view_or_wire_off(search, chain) ? with_all_that_is_smooth(search, chain) : chain;
-    const bool are_many = explain_by_many(search, chain, smooth);
+    bool are_many = explain_by_many(search, chain, smooth);
     search.throw_if_over();
+    if (explain_reading_of_carriage(search, chain)) {
+        search.throw_if_over();
+        smooth = with_all_that_is_smooth(search, chain);
+        are_many = explain_by_many(search, chain, smooth) || are_many;
+        search.throw_if_over();
+    }
     const bool is_balanced = explain_carriage_at_once(search, chain, aside, &alone);
     if (are_many)
         smooth = chain;

@@ -80,9 +80,14 @@ class Search {
         share_of_effort_ = share_of_effort;
     }
 
+    /// Signals of which all smooth candidates are fitted at once. Of the tags alone: the candidates that the
+    /// Hall reading does not show.
+    enum class SmoothSignals { hall_and_tags, hall_alone, tags_alone };
+
     /// Those of all smooth candidates of Hall reading and tags that are needed beside a base's other effects,
     /// fitted at once on both halves (gap/search/everything.h), starting from the base's own settings of
-    /// these candidates. They are the last settings of the fit, in the order of `candidates`.
+    /// these candidates. They are the last settings of the fit, in the order of `candidates`. Where there are
+    /// none, because what is far off in the tags is of another kind, those of the Hall reading alone.
     struct Together {
         std::vector<const Candidate*> candidates;
         std::vector<double> worth;  ///< loss that each saves beside the others
@@ -92,7 +97,8 @@ class Search {
 
     /// Explanations like that of everything_beside(), with one further effect that has a shape of its own:
     /// one for each of those that promise most in the signals that the base leaves off their floors.
-    std::vector<Together> shaped_beside(const CrossFit& base);
+    std::vector<Together> shaped_beside(const CrossFit& base,
+                                        SmoothSignals of = SmoothSignals::hall_and_tags);
 
     /// Effects on the carriage beside a base that has none. Of the models from the balance of forces
     /// (gap/balance/force_regression.h), and of the forms of their effects, those are taken that predict best
@@ -187,14 +193,12 @@ class Search {
   private:
     Together together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const;
     struct EverythingBeside;
-    /// @param of_tags_alone  only candidates that the Hall reading does not show; the others keep their
-    /// values
-    EverythingBeside everything_of(const CrossFit& base, bool of_tags_alone = false) const;
+    EverythingBeside everything_of(const CrossFit& base, SmoothSignals of) const;
     Together needed_of(const EverythingBeside& all);
 
     /// Ends the search, because the budget has ended; what was found is still judged.
     void end(Ended how);
-    /// Settings of waves with the periods along the rail that the encoder's errors show.
+    /// Settings of waves with the periods along the rail that the errors of encoder and tags show.
     Hypothesis waves_of_reading(const CrossFit& base, std::span<const Candidate* const> candidates) const;
     Together balanced_beside(const CrossFit& base) const;
     class CloserFit;

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All smooth candidates of wire, sensors and view at once, beside other effects of a base.
 #include "gap/balance/balanced_waves.h"
+#include "gap/residuals/surrogate.h"
 #include "gap/search/everything.h"
 #include "gap/search/search.h"
 #include "gap/search/shape_screening.h"
 #include "gap/search/starts.h"
+#include "plant/effects/catalogue.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -60,13 +64,16 @@ struct Search::EverythingBeside {
     std::array<Wanted, 2> wanted;
 };
 
-Search::EverythingBeside Search::everything_of(const CrossFit& base, bool of_tags_alone) const {
+Search::EverythingBeside Search::everything_of(const CrossFit& base, SmoothSignals of) const {
     SignalFlags smooth = smooth_signals(fitter_.evidence().windows());
     EverythingBeside everything{
         smooth_ones(candidates_, base.of_half[0], smooth), base.of_half, base.of_half[0], {}};
-    if (of_tags_alone) {
+    if (of == SmoothSignals::tags_alone) {
         std::erase_if(everything.candidates, is_told_by_hall);
         smooth = only(Signal::tag);
+    } else if (of == SmoothSignals::hall_alone) {
+        std::erase_if(everything.candidates, std::not_fn(is_told_by_hall));
+        smooth = only(Signal::hall);
     }
     const auto is_among = [&](const plant::EffectSetting& setting) {
         return std::ranges::find(everything.candidates, setting.effect, &Candidate::effect) !=
@@ -93,26 +100,41 @@ Search::Together Search::needed_of(const EverythingBeside& all) {
 
 Search::Together Search::everything_beside(const CrossFit& base) {
     if (options_.tell) options_.tell("all that is smooth at once");
-    return needed_of(everything_of(base));
+    Together found = needed_of(everything_of(base, SmoothSignals::hall_and_tags));
+    if (!found.candidates.empty() || over_ || !off(base)[index_of(Signal::hall)]) return found;
+    return needed_of(everything_of(base, SmoothSignals::hall_alone));
 }
 
 Hypothesis Search::waves_of_reading(const CrossFit& base,
                                     std::span<const Candidate* const> candidates) const {
+    constexpr int phases = 8;
     std::vector<const Candidate*> of_waves;
     std::ranges::copy_if(candidates, std::back_inserter(of_waves),
                          [](const Candidate* candidate) { return candidate->wave.has_value(); });
-    if (of_waves.empty() || !off(base)[index_of(Signal::encoder)]) return {};
+    const SignalFlags are_off = off(base);
+    if (of_waves.empty() || !are_off[index_of(Signal::encoder)]) return {};
     const Evidence& evidence = fitter_.evidence();
     const Hypothesis& known = base.of_half[0];
-    const Wanted wanted = only_of(evidence.windows(), fitter_.half(0), only(Signal::encoder));
+    const auto errors_of = [&](Signal signal) {
+        return evidence.errors(known, only_of(evidence.windows(), fitter_.half(0), only(signal)));
+    };
     Hypothesis waves;
-    for (const PositionPeriod& period : periods_along_rail(evidence, known, evidence.errors(known, wanted)))
+    for (const PositionPeriod& period : periods_along_rail(evidence, known, errors_of(Signal::encoder)))
         for (const Candidate* candidate : of_waves) waves.push_back(wave_at(*candidate, period));
+    const double of_tags_mm =
+        are_off[index_of(Signal::tag)] ? strongest_tag_period_mm(evidence, errors_of(Signal::tag)) : 0.0;
+    if (of_tags_mm <= 0.0) return waves;
+    for (const Candidate* candidate : of_waves)
+        for (int k = 0; k < phases; ++k) {
+            plant::EffectSetting& wave = waves.emplace_back(plant::typical_setting(*candidate->effect));
+            wave.values[candidate->wave->period] = of_tags_mm;
+            wave.values[candidate->wave->phase] = 2.0 * std::numbers::pi * k / phases - std::numbers::pi;
+        }
     return waves;
 }
 
-std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) {
-    const EverythingBeside all = everything_of(base);
+std::vector<Search::Together> Search::shaped_beside(const CrossFit& base, SmoothSignals of) {
+    const EverythingBeside all = everything_of(base, of);
     const Wanted wanted = only_of(fitter_.evidence().windows(), all.wanted[0], off(base));
     std::vector<Together> found;
     for (const plant::EffectSetting& shape :
@@ -122,7 +144,8 @@ std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) {
         const auto candidate_of = [&](const plant::EffectSetting& setting) {
             return *std::ranges::find(all.candidates, setting.effect, &Candidate::effect);
         };
-        EverythingBeside with = everything_of(base, !is_told_by_hall(candidate_of(shape)));
+        EverythingBeside with =
+            everything_of(base, is_told_by_hall(candidate_of(shape)) ? of : SmoothSignals::tags_alone);
         // Effects that have stood in for this one may hold its fit back: their sizes begin at zero.
         std::erase_if(with.begun, [&](const plant::EffectSetting& setting) {
             return !has_a_shape(*candidate_of(setting));

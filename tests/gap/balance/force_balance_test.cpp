@@ -30,7 +30,7 @@ class OfAnEffect : public ::testing::TestWithParam<std::string_view> {};
 TEST_P(OfAnEffect, ForcesBalance_WhereTheHypothesisIsTheTruth) {
     const Hypothesis truth = effects({GetParam()});
     const Evidence evidence = campaign(truth, {"macro-sweep", "macro-pulses"});
-    const ForceBalance balance(evidence, encoder_of(evidence));
+    const ForceBalance balance(evidence, encoder_of(evidence), truth);
     ASSERT_GT(balance.supports().size(), 300U);
     const double with_file = rms(evidence, balance.excess_in_own_deviations({}), Signal::encoder),
                  with_truth = rms(evidence, balance.excess_in_own_deviations(truth), Signal::encoder);
@@ -45,6 +45,7 @@ INSTANTIATE_TEST_SUITE_P(
                       "payload:mass_factor=1.5", "viscous_friction:damping_V_s_per_mm=0.002",
                       "rail_patch:level_V=0.5", "cogging:amplitude_V=0.3,period_mm=12.7",
                       "cable_force:stiffness_V_per_mm=0.005", "encoder_scale:factor=1.1",
+                      "encoder_ripple:amplitude_um=200,period_mm=9.3,phase_rad=0.7",
                       "belt_compliance:stretch_um_per_V=1000,damping_ratio=0.08,motor_share=0.4"));
 
 TEST(ForceBalance, Play_DoesNotShow) {
