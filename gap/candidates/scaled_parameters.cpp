@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/candidates/scaled_parameters.h"
 
+#include "gap/candidates/coupling.h"
 #include "gap/candidates/wave.h"
 
 #include <algorithm>
@@ -31,6 +32,7 @@ ScaledParameters::ScaledParameters(const Hypothesis& start) : hypothesis_(start)
             all_.push_back(&setting.effect->parameters[k]);
             scales_.push_back(scale_of(setting, k));
             values.push_back(setting.values[k] / scales_.back());
+            moves_carriage_.push_back(gap::moves_carriage(*setting.effect));
         }
 }
 

@@ -27,6 +27,9 @@ class ScaledParameters {
         return all_[k]->is_choice() || all_[k]->is_negligible(values[k] * scale(k));
     }
 
+    /// Whether the parameter is of an effect that moves the carriage or changes its reading.
+    bool moves_carriage(std::size_t k) const { return moves_carriage_[k]; }
+
     /// Whether the parameter is a size.
     bool is_size(std::size_t k) const { return all_[k]->is_size(); }
 
@@ -44,6 +47,7 @@ class ScaledParameters {
     Hypothesis hypothesis_;
     std::vector<const plant::EffectParameter*> all_;
     std::vector<double> scales_;
+    std::vector<bool> moves_carriage_;
 };
 
 }  // namespace fidservo::gap

@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "gap/evidence/halves.h"
+#include "gap/fit/gap_size.h"
 #include "gap/fit/incremental_prediction.h"
 
 #include <algorithm>
@@ -11,6 +12,12 @@
 #include <utility>
 
 namespace fidservo::gap {
+namespace {
+
+/// Mean square in floors up to which a signal is at its floor.
+constexpr double floor_square = 1.1;
+
+}  // namespace
 
 CrossFitter::CrossFitter(const Evidence& evidence, std::size_t windows, std::function<bool()> stop)
     : evidence_(evidence), windows_(windows), stop_(std::move(stop)), half_(halves(evidence)) {}
@@ -99,8 +106,15 @@ SignalFlags CrossFitter::concerned_by(const plant::Effect& effect, const Hypothe
     return concerned;
 }
 
+SignalExcess CrossFitter::typical_excess(std::span<const double> mean_squares) const {
+    const std::array<double, signal_count> floors = typical_floors(evidence_.windows(), mean_squares);
+    SignalExcess excess{};
+    for (std::size_t s = 0; s < signal_count; ++s)
+        if (floors[s] * floors[s] > floor_square) excess[s] = floors[s] * floors[s] - 1.0;
+    return excess;
+}
+
 SignalExcess CrossFitter::excess(std::span<const double> mean_squares) const {
-    constexpr double floor_square = 1.1;
     SignalExcess sums{}, counts{};
     for (std::size_t w = 0; w < mean_squares.size(); ++w) {
         if (std::isnan(mean_squares[w])) continue;

@@ -20,6 +20,8 @@ struct CrossFit {
     /// S_w of every window (gap/fit/score.h), predicted by the fit to the half without it.
     std::vector<double> mean_squares;
     double loss = 0.0;  ///< total loss of all windows
+    /// Both halves have the values of one of them, as the time for fitting them apart was over.
+    bool is_of_one_half = false;
 };
 
 /// Each signal's mean square error over that expected under the truth, minus 1; 0 where this ratio is at most
@@ -65,6 +67,9 @@ class CrossFitter {
     Places met_by(const Hypothesis& base, const plant::EffectSetting& further, Places coupled) const;
 
     SignalExcess excess(std::span<const double> mean_squares) const;
+    /// The same by what is typical of a signal's windows (typical_floors in gap/fit/gap_size.h): windows in
+    /// which stick-slip decides otherwise, hundreds of floors off, do not hide what the others gain.
+    SignalExcess typical_excess(std::span<const double> mean_squares) const;
     Comparison compared(const CrossFit& base, const CrossFit& fitted) const;
 
   private:

@@ -26,15 +26,17 @@ struct Fit {
     Eigen::MatrixXd curvature_covariance = {};
 };
 
-/// Steps of numerical derivatives, in scales of a parameter. The usual step is larger than the scatter from
-/// stick-slip and float rounding. The close step serves near the optimum, where the usual one would leave the
-/// small range of values that predict the carriage's readings, rounded to counts, equally well.
-inline constexpr double usual_step = 0.01, close_step = 0.001;
+/// Steps of numerical derivatives, in scales of a parameter. Of effects that move the carriage the usual step
+/// is larger than the scatter from stick-slip. The close step serves near the optimum, where the usual one
+/// would leave the small range of values that predict the carriage's readings, rounded to counts, equally
+/// well. What other effects do is smooth: their step is the root of the relative rounding of errors, which
+/// makes rounding and curvature count alike (Nocedal, Wright, Numerical Optimization, 2nd ed., 2006,
+/// ch. 8.1).
+inline constexpr double usual_step = 0.01, close_step = 0.001, smooth_step = 3.45e-4;
 
 struct FitOptions {
     int most_iterations = 12;
-    /// Relative change of the loss, and of parameters (1e-4 at most), at which a fit ends.
-    double tolerance = 1e-4;
+    double tolerance = 1e-4;  ///< relative change of the loss at which a fit ends
     /// Decrease of the loss in one iteration below which the fit ends, where the tolerance demands less; 0:
     /// only the tolerance counts.
     double least_improvement = 0.0;
@@ -42,7 +44,8 @@ struct FitOptions {
     /// Whether derivatives are kept from one iteration to the next as long as they predict how the errors
     /// change, with Broyden's rank-one update (Math. Comp. 19, 1965); for predictions that change smoothly.
     bool keeps_slopes = false;
-    double step_scales = usual_step;  ///< step of numerical derivatives, in scales of a parameter
+    /// Step of numerical derivatives with respect to parameters of effects that move the carriage.
+    double step_scales = usual_step;
     /// Errors up to this many floors, a, count as noise: the loss is 1/2 a^2 log(1 + S_w / a^2). With a at
     /// the level of the present errors a distant start is drawn by all windows, not only by those with the
     /// smallest errors.

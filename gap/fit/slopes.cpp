@@ -12,7 +12,8 @@ Errors slope(const Predict& predict, const ScaledParameters& parameters, std::si
              double step_scales) {
     if (parameters.is_level(k)) return Errors(errors.size(), 0.0F);
     std::vector<double> beside = parameters.values;
-    const double step = beside[k] + step_scales <= parameters.high(k) ? step_scales : -step_scales;
+    const double length = parameters.moves_carriage(k) ? step_scales : std::min(step_scales, smooth_step);
+    const double step = beside[k] + length <= parameters.high(k) ? length : -length;
     beside[k] += step;
     Errors change = predict(parameters.at(beside));
     if (change.empty()) change = errors;

@@ -20,6 +20,7 @@ struct KnownSlopes {
 
 /// The derivative with respect to parameter k, per scale of it, by a one-sided difference. 0 for a parameter
 /// on which the errors do not depend locally, and where the plant refuses the neighbouring value.
+/// @param step_scales  of effects that move the carriage; of others smooth_step, if that is less
 Errors slope(const Predict& predict, const ScaledParameters& parameters, std::size_t k, const Errors& errors,
              double step_scales = usual_step);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/residuals/accusation.h"
 
-#include "gap/residuals/tag_sight.h"
+#include "gap/links/tag_sight.h"
 
 #include <algorithm>
 #include <cmath>

@@ -88,8 +88,4 @@ Surrogate platform_surrogate(const Evidence& evidence);
 /// @param errors  in which the period is searched for
 Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors);
 
-/// The period along the rail, mm, of the error of the encoder's reading that would explain most of the tags'
-/// errors along the motion, if each window's mean is free; 0 where there are none.
-double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors);
-
 }  // namespace fidservo::gap

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
 #include "gap/balance/hat_functions.h"
+#include "gap/balance/tag_period.h"
+#include "gap/links/tag_sight.h"
 #include "gap/residuals/surrogate.h"
-#include "gap/residuals/tag_sight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@
 #include <numbers>
 #include <set>
 #include <utility>
-
-#include <Eigen/LU>
 
 namespace fidservo::gap {
 namespace {
@@ -131,45 +130,6 @@ void add_tag_hats(std::vector<Column>& columns, const TagColumns& make, Dependen
             make.along(group, [&, k](const TagSight& sight) { return hat(knots, k, quantity(sight)); }));
 }
 
-/// As strongest_tag_period_mm().
-double strongest_period_mm(const Evidence& evidence, const Errors& errors, const TagColumns& make) {
-    constexpr double shortest_mm = 1.0, longest_mm = 50.0;
-    const std::vector<float> places = make.all([](const TagSight& sight) { return sight.position_mm; });
-    if (places.empty()) return 0.0;
-    const auto [low, high] = std::ranges::minmax(places);
-    const double step_per_mm = 0.25 / std::max(longest_mm, static_cast<double>(high - low));
-    double best_mm = 0.0, most = 0.0;
-    for (double per_mm = 1.0 / longest_mm; per_mm <= 1.0 / shortest_mm; per_mm += step_per_mm) {
-        Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() * 1e-9;
-        Eigen::Vector2d right = Eigen::Vector2d::Zero();
-        std::size_t at = 0;
-        for (const Window& window : evidence.windows()) {
-            if (window.signal != Signal::tag) continue;
-            Eigen::Matrix3d own = Eigen::Matrix3d::Zero();  // of sine, cosine, error, about their means
-            Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-            double count = 0.0;
-            for (std::size_t k = window.begin; k < window.end; k += corner_values, ++at) {
-                if (std::isnan(errors[k])) continue;
-                const double phase = 2.0 * std::numbers::pi * per_mm * places[at];
-                const Eigen::Vector3d row(std::sin(phase), std::cos(phase), errors[k]);
-                own += row * row.transpose();
-                sum += row;
-                count += 1.0;
-            }
-            if (count < 3.0) continue;
-            own -= sum * sum.transpose() / count;
-            const double weight = 1.0 / (count + own(2, 2));
-            normal += weight * own.topLeftCorner<2, 2>();
-            right += weight * own.topRightCorner<2, 1>();
-        }
-        const double taken = right.dot(normal.inverse() * right);
-        if (taken <= most) continue;
-        most = taken;
-        best_mm = 1.0 / per_mm;
-    }
-    return best_mm;
-}
-
 void add_image_places(std::vector<Column>& columns, const TagColumns& make, const CameraGeometry& camera) {
     using Place = Eigen::Vector2d;
     const auto add = [&](const std::function<Place(const Place&)>& shift) {
@@ -187,10 +147,6 @@ void add_image_places(std::vector<Column>& columns, const TagColumns& make, cons
 
 }  // namespace
 
-double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors) {
-    return strongest_period_mm(evidence, errors, TagColumns(evidence));
-}
-
 Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors) {
     const TagColumns make(evidence);
     Surrogate surrogate{
@@ -206,7 +162,7 @@ Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors) {
                  [](const TagSight& sight) { return sight.position_mm; });
     columns.push_back(make.along(Dependence::position_share,
                                  [](const TagSight& sight) { return 1e-2 * sight.position_mm; }));
-    surrogate.period_mm = strongest_period_mm(evidence, errors, make);
+    surrogate.period_mm = strongest_tag_period_mm(evidence, errors);
     if (surrogate.period_mm > 0.0)
         for (const double phase : {0.0, 0.5 * std::numbers::pi})
             columns.push_back(make.along(Dependence::reading_period, [&](const TagSight& sight) {

@@ -65,37 +65,38 @@ Wanted windows_off(const Evidence& evidence, const Wanted& wanted, const Errors&
 
 /// Fits from a distant start in several steps, until nothing improves. In each step errors up to the present
 /// median count as noise.
+/// @param options  of each step, but for its end and its noise
 Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
-                      const Wanted& leading, Hypothesis start, double sizes) {
+                      const Wanted& leading, Hypothesis start, FitOptions options) {
     constexpr int most_levels = 6, iterations_a_level = 8;
     constexpr double hardly_less = 0.5, tolerance = 0.02;
+    options.most_iterations = iterations_a_level;
+    options.tolerance = tolerance;
     double last = std::numeric_limits<double>::infinity();
     for (int level = 0; level < most_levels; ++level) {
         const double square = median_square(evidence, predict(start), leading);
         if (square < near_square || square > hardly_less * last) break;
         last = square;
-        start = fit(predict, evidence.windows(), wanted, start,
-                    {.most_iterations = iterations_a_level,
-                     .tolerance = tolerance,
-                     .keeps_slopes = true,
-                     .scale_floors = std::sqrt(1.0 + square),
-                     .expected_sizes = sizes})
-                    .hypothesis;
+        options.scale_floors = std::sqrt(1.0 + square);
+        start = fit(predict, evidence.windows(), wanted, start, options).hypothesis;
     }
     return start;
 }
 
 Fit fitted_closely(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
-                   const Hypothesis& start, double sizes, double scale_floors, int most_iterations) {
+                   const Hypothesis& start, FitOptions options) {
     constexpr double tolerance = 1e-6, hardly_worth = 0.01 * least_worth;
-    return fit(predict, evidence.windows(), wanted, start,
-               {.most_iterations = most_iterations,
-                .tolerance = tolerance,
-                .least_improvement = hardly_worth,
-                .with_covariance = true,
-                .keeps_slopes = true,
-                .scale_floors = scale_floors,
-                .expected_sizes = sizes});
+    options.tolerance = tolerance;
+    options.least_improvement = hardly_worth;
+    options.with_covariance = true;
+    return fit(predict, evidence.windows(), wanted, start, options);
+}
+
+/// Derivatives by small steps, unless the path of the carriage is predicted.
+FitOptions smooth_where_it_can_be(const Evidence& evidence, const Wanted& wanted) {
+    const Wanted of_encoder = only_of(evidence.windows(), wanted, only(Signal::encoder));
+    const bool is_predicted = std::ranges::find(of_encoder, 1) != of_encoder.end();
+    return {.keeps_slopes = true, .step_scales = is_predicted ? usual_step : smooth_step};
 }
 
 /// Indices of each setting's sizes among all parameters, and the distances of all parameters from their
@@ -261,16 +262,19 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
     const std::array<Predict, 2> predict{std::ref(incremental[0]), std::ref(incremental[1])};
     Chosen chosen = begun_with(candidates, begun);
     const Wanted leading = windows_off(evidence, wanted[0], predict[0](chosen.settings));
+    FitOptions options = smooth_where_it_can_be(evidence, wanted[0]);
+    options.expected_sizes = expected_sizes;
     chosen.settings =
-        approached(evidence, predict[0], wanted[0], leading, std::move(chosen.settings), expected_sizes);
+        approached(evidence, predict[0], wanted[0], leading, std::move(chosen.settings), options);
     const double square = median_square(evidence, predict[0](chosen.settings), leading);
     const bool is_near = square < near_square;
     if (!is_near && begun.empty()) return {};
-    const double scale_floors = is_near ? 1.0 : std::sqrt(1.0 + square);
+    options.scale_floors = is_near ? 1.0 : std::sqrt(1.0 + square);
     std::array<Fit, 2> fitted;
     const auto fit_half = [&](std::size_t side, double sizes, int most_iterations) {
-        fitted[side] = fitted_closely(evidence, predict[side], wanted[side], chosen.settings, sizes,
-                                      scale_floors, most_iterations);
+        options.expected_sizes = sizes;
+        options.most_iterations = most_iterations;
+        fitted[side] = fitted_closely(evidence, predict[side], wanted[side], chosen.settings, options);
     };
     const auto fit_first = [&](double sizes, int most_iterations) {
         fit_half(0, sizes, most_iterations);

@@ -342,13 +342,17 @@ bool Search::nearly_clears(const CrossFit& without, const CrossFit& with, double
 
 bool Search::clears_a_signal(const CrossFit& without, const CrossFit& with, double share,
                              double share_of_first) const {
+    constexpr double near_floor = 0.5, hardly_any = 0.05;
     const SignalExcess before = fitter_.excess(without.mean_squares),
                        after = fitter_.excess(with.mean_squares);
-    constexpr double near_floor = 0.5, hardly_any = 0.05;
     for (std::size_t s = 0; s < signal_count; ++s) {
         const bool is_as_good_as_cleared = after[s] < near_floor && after[s] <= hardly_any * before[s];
-        if (after[s] < (1.0 - share) * before[s] &&
-            (is_as_good_as_cleared || before[s] - after[s] >= share_of_first * first_excess_[s]))
+        const bool is_enough =
+            is_as_good_as_cleared || before[s] - after[s] >= share_of_first * first_excess_[s];
+        if (is_enough && after[s] < (1.0 - share) * before[s]) return true;
+        if (is_enough && static_cast<Signal>(s) == Signal::encoder &&
+            fitter_.typical_excess(with.mean_squares)[s] <
+                (1.0 - share) * fitter_.typical_excess(without.mean_squares)[s])
             return true;
     }
     return false;
@@ -378,11 +382,9 @@ bool Search::is_at_floor(const CrossFit& fitted) const {
 }
 
 SignalFlags Search::leaves_much(const CrossFit& fitted) const {
-    const SignalExcess excess = fitter_.excess(fitted.mean_squares);
-    SignalFlags flags{};
-    for (std::size_t s = 0; s < signal_count; ++s)
-        flags[s] = excess[s] > least_share_of_first * first_excess_[s];
-    return flags;
+    SignalExcess excess = fitter_.excess(fitted.mean_squares);
+    for (std::size_t s = 0; s < signal_count; ++s) excess[s] -= least_share_of_first * first_excess_[s];
+    return above(excess, 0.0);
 }
 
 bool Search::leaves_little(const CrossFit& fitted) const {

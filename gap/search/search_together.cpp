@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All smooth candidates of wire, sensors and view at once, beside other effects of a base.
 #include "gap/balance/balanced_waves.h"
-#include "gap/residuals/surrogate.h"
+#include "gap/balance/tag_period.h"
 #include "gap/search/everything.h"
 #include "gap/search/search.h"
 #include "gap/search/shape_screening.h"
@@ -95,7 +95,10 @@ Search::Together Search::needed_of(const EverythingBeside& all) {
     NeededCandidates needed =
         needed_of_everything(fitter_.evidence(), all.candidates, all.beside, all.begun, all.wanted);
     if (needed.ended) end(*needed.ended);
-    return together(all.beside, std::move(needed));
+    const bool is_of_one_half = needed.ended && needed.of_half[0] == needed.of_half[1];
+    Together found = together(all.beside, std::move(needed));
+    found.fitted.is_of_one_half = is_of_one_half;
+    return found;
 }
 
 Search::Together Search::everything_beside(const CrossFit& base) {

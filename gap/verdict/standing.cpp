@@ -38,11 +38,9 @@ bool is_at_bound(const plant::EffectSetting& setting) {
 }
 
 /// Of all its sizes together, in typical ones or, of what has none, in their ranges, over what they are away
-/// from none. Where the halves were not fitted apart nothing shows that they agree.
+/// from none.
 double halves_apart(const Candidate& candidate, const plant::EffectSetting& one,
                     const plant::EffectSetting& other) {
-    constexpr double is_not_shown = 1.0;
-    if (one == other) return is_not_shown;
     double difference = 0.0, size = 0.0;
     for (const std::size_t k : candidate.sizes) {
         const plant::EffectParameter& parameter = candidate.effect->parameters[k];
@@ -114,6 +112,7 @@ double calibrated_probability(const Support& support) {
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
                               const std::vector<ChoiceWeights>& weights,
                               const std::optional<Remainder>& whole) {
+    constexpr double is_not_shown = 1.0;  // that the halves agree
     const std::vector<Window>& windows = evidence.windows();
     const CrossFit& explained = selection.steps.back();
     const TotalGap gap =
@@ -134,8 +133,10 @@ std::vector<Support> supports(const Evidence& evidence, const Selection& selecti
                        .gap_left = 1.0 - gap.removed(),
                        .names = static_cast<double>(selection.choices.size()),
                        .agreement = agreement_with(whole, selection, choice),
-                       .halves_apart =
-                           halves_apart(*choice.candidate, explained.of_half[0][k], explained.of_half[1][k]),
+                       .halves_apart = explained.is_of_one_half
+                                           ? is_not_shown
+                                           : halves_apart(*choice.candidate, explained.of_half[0][k],
+                                                          explained.of_half[1][k]),
                        .is_at_bound = std::ranges::any_of(
                            explained.of_half, [&](const Hypothesis& half) { return is_at_bound(half[k]); })});
     }

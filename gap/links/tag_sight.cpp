@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gap/residuals/tag_sight.h"
+#include "gap/links/tag_sight.h"
 
 #include "core/rig.h"
 
