@@ -276,8 +276,6 @@ void find_covariances(const Linearised& at, const ScaledParameters& parameters, 
 Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
         const Hypothesis& start, const FitOptions& options) {
     constexpr double least_loss = 1.0;  // improvements are relative to the loss, or to this if it is less
-    // Relative to the parameters, most of which are far from 0 where they vanish, as factors are.
-    constexpr double least_step = 1e-7;
     ScaledParameters parameters(start);
     const std::vector<double> values_at_start = parameters.values;
     Linearised linearised(predict, parameters, windows, counted, options);
@@ -310,7 +308,7 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
     solver.max_num_iterations = options.most_iterations;
     solver.function_tolerance =
         std::max(options.tolerance, options.least_improvement / std::max(loss_at_start, least_loss));
-    solver.parameter_tolerance = least_step;
+    solver.parameter_tolerance = std::min(options.tolerance, FitOptions{}.tolerance);
     // A step beyond a bound is cut, without a line search.
     solver.max_num_line_search_step_size_iterations = 0;
     solver.logging_type = ceres::SILENT;

@@ -36,7 +36,8 @@ inline constexpr double usual_step = 0.01, close_step = 0.001, smooth_step = 3.4
 
 struct FitOptions {
     int most_iterations = 12;
-    double tolerance = 1e-4;  ///< relative change of the loss at which a fit ends
+    /// Relative change of the loss, and of parameters (1e-4 at most), at which a fit ends.
+    double tolerance = 1e-4;
     /// Decrease of the loss in one iteration below which the fit ends, where the tolerance demands less; 0:
     /// only the tolerance counts.
     double least_improvement = 0.0;

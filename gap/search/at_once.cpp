@@ -183,9 +183,10 @@ bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, std:
     return explain_by_one_or(search, chain, std::move(all), signal, alone);
 }
 
-/// Explains an encoder whose reading has an error along the rail by what tags show of it, whatever moves the
-/// carriage. Its forces would otherwise be bent to explain the reading.
-/// @return whether such an effect was accepted
+/// Where encoder and tags are off, looks for an effect with a shape of its own in the tags alone: they show
+/// an error of the encoder's reading along the rail whatever moves the carriage, whose forces would otherwise
+/// be bent to explain the reading.
+/// @return whether one was accepted
 bool explain_reading_of_carriage(Search& search, Chain& chain) {
     return is_off(search, chain, Signal::encoder) && is_off(search, chain, Signal::tag) &&
            add_shape(search, chain, Search::SmoothSignals::tags_alone);

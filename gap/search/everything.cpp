@@ -5,10 +5,9 @@
 #include "gap/balance/force_balance.h"
 #include "gap/fit/fit.h"
 #include "gap/fit/incremental_prediction.h"
-#include "gap/fit/minimum_norm.h"
-#include "gap/fit/predictive_density.h"
 #include "gap/fit/score.h"
 #include "gap/search/shape_screening.h"
+#include "gap/search/worth.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +15,6 @@
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <set>
 #include <utility>
 
 namespace fidservo::gap {
@@ -24,10 +22,6 @@ namespace {
 
 /// Prior standard deviation of sizes about zero effect, in typical sizes.
 constexpr double expected_sizes = 3.0;
-
-/// Least loss that a size has to save to be kept. Twice the loss is the square of a normal deviate, here one
-/// that chance exceeds once in 200 cases.
-constexpr double least_worth = 4.0;
 
 /// A fit is close to the optimum once half of the windows that were off at its start have a mean square below
 /// this.
@@ -97,116 +91,6 @@ FitOptions smooth_where_it_can_be(const Evidence& evidence, const Wanted& wanted
     const Wanted of_encoder = only_of(evidence.windows(), wanted, only(Signal::encoder));
     const bool is_predicted = std::ranges::find(of_encoder, 1) != of_encoder.end();
     return {.keeps_slopes = true, .step_scales = is_predicted ? usual_step : smooth_step};
-}
-
-/// Indices of each setting's sizes among all parameters, and the distances of all parameters from their
-/// vanishing values, in their own units.
-struct Sizes {
-    std::vector<std::vector<Eigen::Index>> at;
-    Eigen::VectorXd typical;
-
-    Sizes(std::span<const Candidate* const> candidates, const Fit& fitted) : at(candidates.size()) {
-        std::vector<double> all;
-        for (std::size_t c = 0; c < candidates.size(); ++c) {
-            const plant::EffectSetting& setting = fitted.hypothesis[c];
-            for (std::size_t k = 0; k < setting.values.size(); ++k) {
-                const plant::EffectParameter& parameter = setting.effect->parameters[k];
-                if (std::ranges::find(candidates[c]->sizes, k) != candidates[c]->sizes.end())
-                    at[c].push_back(static_cast<Eigen::Index>(all.size()));
-                all.push_back(setting.values[k] - parameter.vanishing);
-            }
-        }
-        typical = Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
-    }
-
-    /// Loss that some candidates together save beside the others.
-    double worth(const std::vector<std::size_t>& left_out, const Eigen::MatrixXd& covariance) const {
-        std::vector<Eigen::Index> places;
-        for (const std::size_t c : left_out) places.insert(places.end(), at[c].begin(), at[c].end());
-        const Eigen::VectorXd sizes = typical(places);
-        const Eigen::MatrixXd own = covariance(places, places);
-        return 0.5 * sizes.dot(minimum_norm_solution(own, sizes));
-    }
-};
-
-/// The loss that a candidate has to save. A discrepancy is shared by the windows of a recording, which then
-/// count as fewer independent ones (gap/fit/predictive_density.h); the demand is larger by that factor.
-class Demand {
-  public:
-    /// The demand where only noise is left.
-    Demand() { times_.fill(1.0); }
-
-    /// @param errors  in the wanted windows, with all candidates fitted
-    Demand(const Evidence& evidence, const Wanted& wanted, const Errors& errors) : Demand() {
-        const std::vector<Window>& windows = evidence.windows();
-        std::vector<double> squares = mean_squares(windows, errors);
-        std::array<std::set<std::size_t>, signal_count> runs;
-        std::array<double, signal_count> count{}, expected{};
-        for (std::size_t w = 0; w < windows.size(); ++w) {
-            if (wanted[w] == 0) squares[w] = std::numeric_limits<double>::quiet_NaN();
-            if (std::isnan(squares[w])) continue;
-            const std::size_t signal = index_of(windows[w].signal);
-            runs[signal].insert(windows[w].run);
-            count[signal] += 1.0;
-            expected[signal] += windows[w].expected_square;
-        }
-        const Discrepancy left = discrepancy_of(windows, squares);
-        for (std::size_t s = 0; s < signal_count; ++s)
-            if (count[s] > 0.0)
-                times_[s] = 1.0 / independent_share(count[s] / static_cast<double>(runs[s].size()),
-                                                    expected[s] / count[s], left[s]);
-    }
-
-    /// The demand by the signal with the smallest factor among those from which the candidate is estimated.
-    double worth_of(const Candidate& candidate) const {
-        const SignalFlags teachers = teachers_of(*candidate.effect);
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t s = 0; s < signal_count; ++s)
-            if (teachers[s]) least = std::min(least, times_[s]);
-        return least_worth * (std::isfinite(least) ? least : 1.0);
-    }
-
-  private:
-    std::array<double, signal_count> times_{};
-};
-
-/// Indices of the candidates that remain when the one that saves least, relative to what is demanded of it,
-/// is removed again and again until all save enough.
-std::vector<std::size_t> kept(std::span<const Candidate* const> candidates, const Fit& fitted,
-                              const Demand& demand) {
-    const Sizes sizes(candidates, fitted);
-    std::vector<std::size_t> rest(candidates.size()), left_out;
-    for (std::size_t c = 0; c < rest.size(); ++c) rest[c] = c;
-    double lost = 0.0;
-    while (!rest.empty()) {
-        double least = std::numeric_limits<double>::infinity(), lost_with_it = lost;
-        std::size_t at = 0;
-        for (std::size_t k = 0; k < rest.size(); ++k) {
-            std::vector<std::size_t> without = left_out;
-            without.push_back(rest[k]);
-            const double worth = sizes.worth(without, fitted.curvature_covariance);
-            const double share = (worth - lost) / demand.worth_of(*candidates[rest[k]]);
-            if (share < least) {
-                least = share;
-                lost_with_it = worth;
-                at = k;
-            }
-        }
-        if (least >= 1.0) break;
-        lost = std::max(lost, lost_with_it);
-        left_out.push_back(rest[at]);
-        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(at));
-    }
-    return rest;
-}
-
-/// Loss that each candidate saves beside the others.
-std::vector<double> worth_of_each(std::span<const Candidate* const> candidates, const Fit& fitted) {
-    const Sizes sizes(candidates, fitted);
-    std::vector<double> worth;
-    for (std::size_t c = 0; c < candidates.size(); ++c)
-        worth.push_back(sizes.worth({c}, fitted.curvature_covariance));
-    return worth;
 }
 
 /// Some of the candidates, with their settings and what each is worth as far as is known.
@@ -282,11 +166,53 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
     };
     Demand demand;
     /// Removes candidates that are not needed. Returns whether there were any.
-    const auto prune = [&] {
+    const auto prune = [&](bool spares_held = false) {
         const std::size_t count = chosen.candidates.size();
         chosen.worth = worth_of_each(chosen.candidates, fitted[0]);
-        chosen.keep(kept(chosen.candidates, fitted[0], demand));
+        chosen.keep(kept(chosen.candidates, fitted[0], demand, spares_held));
         return chosen.candidates.size() < count;
+    };
+    const auto fit_and_prune = [&] {
+        do {
+            fit_first(0.0, then);
+            demand = Demand(evidence, wanted[0], predict[0](chosen.settings));
+        } while (prune() && !chosen.candidates.empty());
+    };
+    /// What a number of candidates costs: each has to save the least worth.
+    const auto cost = [&] {
+        return fitted[0].loss + least_worth * static_cast<double>(chosen.settings.size());
+    };
+    /// Tries the other alternative of a choice: with the wrong one a second candidate makes up for what the
+    /// two differ by.
+    const auto try_other_choice = [&](std::size_t c, std::size_t parameter) {
+        const Chosen chosen_before = chosen;
+        const Fit fitted_before = fitted[0];
+        const double cost_before = cost();
+        const auto go_back = [&] {
+            chosen = chosen_before;
+            fitted[0] = fitted_before;
+        };
+        const plant::EffectParameter& choice = chosen.settings[c].effect->parameters[parameter];
+        double& value = chosen.settings[c].values[parameter];
+        value = choice.is_high(value) ? choice.low : choice.high;
+        try {
+            fit_and_prune();
+        } catch (...) {
+            go_back();
+            throw;
+        }
+        const bool is_better = !chosen.candidates.empty() && cost() < cost_before;
+        if (!is_better) go_back();
+        return is_better;
+    };
+    /// The first alternative that is better is kept.
+    const auto try_other_choices = [&] {
+        for (std::size_t c = 0; c < chosen.settings.size(); ++c) {
+            const plant::Effect& effect = *chosen.settings[c].effect;
+            for (std::size_t k = 0; k < effect.parameters.size(); ++k)
+                if (effect.parameters[k].is_choice() && !moves_carriage(effect) && try_other_choice(c, k))
+                    return;
+        }
     };
     /// Fits the other half, too, and keeps what is worth it there and on the first half. Returns whether that
     /// is everything.
@@ -309,15 +235,13 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
         return is_all;
     };
     fit_first(expected_sizes, at_first);
-    prune();
+    prune(true);
     if (chosen.candidates.empty()) return {};
     try {
-        demand = Demand(evidence, wanted[0], predict[0](chosen.settings));
         for (bool is_all = false; !is_all;) {
-            do {
-                fit_first(0.0, then);
-            } while (prune() && !chosen.candidates.empty());
+            fit_and_prune();
             if (chosen.candidates.empty()) return {};
+            try_other_choices();
             is_all = test_on_other_half(then);
             if (chosen.candidates.empty()) return {};
         }

@@ -6,13 +6,8 @@
 // Where several small causes act together, none of them predicts well alone, and the first one accepted
 // stands in for the others. All sizes together, with a prior of a few typical sizes about zero, are found in
 // some steps of Levenberg-Marquardt (gap/fit/fit.h); far from the optimum, errors up to a level of a floors,
-// a^2 = 1 + the median of S_w, count as noise in it. The loss that effects save beside the others (their
-// worth) then follows without another fit, from the loss to second order: with t their sizes, and C the
-// inverse of the matrix of second derivatives (C_tt: its block for t),
-//
-//     worth = 1/2 t' C_tt^-1 t
-//
-// (Wald's statistic; Hosmer, Jovanovic, Lemeshow, Biometrics 45, 1989, for the choice of subsets by it).
+// a^2 = 1 + the median of S_w, count as noise in it. What each saves then follows to second order
+// (gap/search/worth.h).
 #include "gap/candidates/candidate.h"
 #include "gap/candidates/coupling.h"
 #include "gap/evidence.h"

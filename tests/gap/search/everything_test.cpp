@@ -11,6 +11,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -111,6 +112,42 @@ TEST(SlowEverything, BudgetThatEndsOnTheWay_LeavesWhatIsNeededAsFarAsIsKnown) {
                 << setting.effect->name << " at " << share;
     }
     EXPECT_GE(with_something, 2);
+}
+
+/// The derivatives that lead there are those at the present values, not those over a hundredth of a typical
+/// size: the valley of what the wire's effects have in common is narrower.
+TEST(SlowEverything, GainFarFromNominal_IsFoundWithWhatIsSmallBesideIt_AndNoOther) {
+    const Found found =
+        needed_of(wire_campaign(effects({"heater_gain:factor=0.915", "hall_drift:rate_mV_per_s=0.08"})));
+    EXPECT_EQ(found.names, (std::vector<std::string>{"hall_drift", "heater_gain"}));
+}
+
+/// A supply that is 1 % high shows as a gain about 0 V, or as one about the middle voltage and an offset.
+TEST(SlowEverything, GainAbout0V_IsNoGainAboutTheMiddleVoltageAndAnOffset) {
+    const Found found =
+        needed_of(wire_campaign(effects({"hall_gain:factor=1.01,about_mid=0", "heater_delay:delay_ms=3"})));
+    EXPECT_EQ(found.names, (std::vector<std::string>{"hall_gain", "heater_delay"}));
+}
+
+TEST(SlowEverything, SearchThatEndsOnTheWay_LeavesTimeForTheOtherHalf) {
+    const Hypothesis truth =
+        effects({"ambient_temperature:shift_degC=0.5", "heating_lag:factor=1.03", "heater_delay:delay_ms=3"});
+    constexpr double endless_s = 1e6;
+    const auto budget_of = [&](double search_s) {
+        return std::make_shared<const Budget>(search_s, endless_s, std::function<bool()>(),
+                                              Seconds::by_effort);
+    };
+    const auto whole = budget_of(endless_s);
+    const Evidence without_end = wire_campaign(truth, whole);
+    const double before_s = static_cast<double>(whole->rows()) / rows_a_second;
+    ASSERT_FALSE(needed_of(without_end).needed.ended);
+    const double whole_s = static_cast<double>(whole->rows()) / rows_a_second - before_s;
+    const NeededCandidates part =
+        needed_of(wire_campaign(truth, budget_of(before_s + 0.85 * whole_s))).needed;
+    EXPECT_EQ(part.ended, Ended::budget);
+    EXPECT_EQ(part.of_half[0].size(), truth.size());
+    // The halves differ by noise, some by less than what ends a fit.
+    EXPECT_EQ(part.worth.size(), truth.size());
 }
 
 TEST(Everything, NominalRig_NeedsNothing) {
