@@ -89,7 +89,7 @@ std::string name_of(const ::testing::TestParamInfo<const Effect*>& instance) {
 }
 
 class EffectLaws : public ::testing::TestWithParam<const Effect*> {};
-class SlowEffectLaws : public ::testing::TestWithParam<const Effect*> {};
+class EffectRecovery : public ::testing::TestWithParam<const Effect*> {};
 
 bool shows_in_images_alone(const Effect& effect) {
     return effect.block == "camera.image";
@@ -167,7 +167,7 @@ std::vector<Recording> recordings_that_show(const EffectSetting& setting) {
     return recordings;
 }
 
-TEST_P(SlowEffectLaws, OfItsRecordings_IsTheEffectWithItsSizes) {
+TEST_P(EffectRecovery, OfItsRecordings_IsTheEffectWithItsSizes) {
     const EffectLaw* law = law_of(*GetParam());
     ASSERT_NE(law, nullptr);
     const EffectSetting truth = plant::parse_effect(law->setting);
@@ -187,7 +187,7 @@ TEST_P(SlowEffectLaws, OfItsRecordings_IsTheEffectWithItsSizes) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, SlowEffectLaws,
+INSTANTIATE_TEST_SUITE_P(SlowCatalogue, EffectRecovery,
                          ::testing::ValuesIn(plant::effect_catalogue().begin(),
                                              plant::effect_catalogue().end()),
                          name_of);
