@@ -183,15 +183,6 @@ bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, std:
     return explain_by_one_or(search, chain, std::move(all), signal, alone);
 }
 
-/// Where encoder and tags are off, looks for an effect with a shape of its own in the tags alone: they show
-/// an error of the encoder's reading along the rail whatever moves the carriage, whose forces would otherwise
-/// be bent to explain the reading.
-/// @return whether one was accepted
-bool explain_reading_of_carriage(Search& search, Chain& chain) {
-    return is_off(search, chain, Signal::encoder) && is_off(search, chain, Signal::tag) &&
-           add_shape(search, chain, Search::SmoothSignals::tags_alone);
-}
-
 /// Explains the encoder by a model from the balance of the carriage's forces, in which effects simply add up.
 /// If the model leaves the encoder off its floor, it is accepted for the time being.
 /// @param aside  receives the chain with the model in that case
@@ -255,14 +246,8 @@ Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& ot
 
 AtOnce explain_at_once(Search& search, Chain& chain, std::optional<Chain>& aside, std::vector<Trial>& alone) {
     Chain smooth = is_view_or_wire_off(search, chain) ? with_all_that_is_smooth(search, chain) : chain;
-    bool are_many = explain_by_many(search, chain, smooth);
+    const bool are_many = explain_by_many(search, chain, smooth);
     search.throw_if_over();
-    if (explain_reading_of_carriage(search, chain)) {
-        search.throw_if_over();
-        smooth = with_all_that_is_smooth(search, chain);
-        are_many = explain_by_many(search, chain, smooth) || are_many;
-        search.throw_if_over();
-    }
     const bool is_balanced = explain_carriage_at_once(search, chain, aside, &alone);
     if (are_many)
         smooth = chain;
