@@ -4,6 +4,7 @@
 #include "core/camera/camera_parameters.h"
 #include "core/demand.h"
 #include "core/fiducial_parameters.h"
+#include "core/tag_families.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,6 +97,15 @@ NearestTag nearest_tag(const PictureModel& model, double s_mm, double px_per_mm)
 }
 
 }  // namespace
+
+TagCells usual_cells(int tag_id) {
+    const TagPattern pattern = tag_pattern({}, tag_id);
+    TagCells black;
+    std::size_t next = 0;
+    for (int row = 0; row < cells; ++row)
+        for (int column = 0; column < cells; ++column) black(row, column) = pattern[next++] ? 0.0 : 1.0;
+    return black;
+}
 
 cv::Mat pixel_gains(const PictureModel& model, std::uint64_t seed) {
     const double spread = std::hypot(model.departures.gain_spread, model.camera.gain_spread);

@@ -31,6 +31,9 @@ namespace fidservo::reference {
 /// The cells of a tag, 1 for black; rows from the top of the image.
 using TagCells = Eigen::Matrix<double, 8, 8>;
 
+/// The cells of a tag of the usual family (core/tag_families.h).
+TagCells usual_cells(int tag_id);
+
 struct PictureModel {
     CameraParameters camera;
     FiducialParameters fiducials;

@@ -4,13 +4,13 @@
 #include "core/dead_zone.h"
 #include "core/rig.h"
 #include "gap/candidates/coupling.h"
+#include "gap/links/carriage_path.h"
 #include "gap/links/carriage_run.h"
 #include "plant/effects/catalogue.h"
 #include "plant/transmission.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace fidservo::gap {
@@ -137,29 +137,18 @@ double stretch_of(const Rig& rig, const plant::PlantParameters& parameters) {
     return parameters.encoder.resolution_mm / rig.macro.encoder_resolution_mm;
 }
 
-/// The position at which an encoder of errors that change slowly along the rail reads a value, mm.
-double position_of(const plant::Encoder& encoder, double reading_mm) {
-    constexpr int iterations = 3;
-    double position_mm = reading_mm;
-    for (int k = 0; k < iterations; ++k)
-        position_mm += reading_mm - encoder.resolution_mm * plant::mean_reading_count(encoder, position_mm);
-    return position_mm;
-}
-
-/// Where a row's carriage is by its reading, unsmoothed.
-std::function<double(const SlidingRow&)> position_by(const plant::Encoder& encoder) {
-    if (encoder.is_straight()) return [](const SlidingRow& row) { return row.reading_mm; };
-    return [encoder](const SlidingRow& row) { return position_of(encoder, row.reading_mm); };
-}
-
 }  // namespace
 
 ForceBalance::ForceBalance(const Evidence& evidence, const Wanted& wanted, const Hypothesis& known,
                            std::size_t half_support)
     : evidence_(evidence), forces_(evidence, where_wanted(evidence, wanted), half_support) {
-    const auto position_mm = position_by(with_effects(evidence.rig(), moving_carriage(known)).encoder);
-    velocity_ = forces_.mean_velocity(position_mm);
-    acceleration_ = forces_.mean_acceleration(position_mm);
+    const plant::Encoder encoder = with_effects(evidence.rig(), known).encoder;
+    const auto by_reading_mm = [&](const SlidingRow& row) {
+        return encoder.is_straight() ? row.reading_mm
+                                     : position_mm(encoder, row.reading_mm / encoder.resolution_mm);
+    };
+    velocity_ = forces_.mean_velocity(by_reading_mm);
+    acceleration_ = forces_.mean_acceleration(by_reading_mm);
     for (const Recording& recording : evidence.recordings())
         readings_mm_.push_back(readings_mm(recording, evidence.rig().macro));
 }

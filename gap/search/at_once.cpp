@@ -54,26 +54,20 @@ bool is_view_or_wire_off(const Search& search, const Chain& chain) {
     return is_off(search, chain, Signal::hall) || is_off(search, chain, Signal::tag);
 }
 
-/// Adds one effect with a shape of its own, together with all smooth effects that are then needed, if the
-/// longer chain is better. Returns whether it is.
-bool add_shape(Search& search, Chain& chain, Search::SmoothSignals of) {
-    std::optional<Chain> best;
-    for (Search::Together& together : search.shaped_beside(chain.fitted, of)) {
-        Chain longer = with_everything(chain, std::move(together));
-        if (!best || longer.fitted.loss < best->fitted.loss) best = std::move(longer);
-    }
-    if (!best || !is_better(search, *best, chain)) return false;
-    chain = *std::move(best);
-    return true;
-}
-
-/// Adds effects with a shape of their own one after the other, as long as Hall reading or tags are off their
-/// floors.
+/// Adds effects with a shape of their own one after the other, each together with all smooth effects that are
+/// then needed, as long as Hall reading or tags are off their floors and the longer chain is better.
 /// @param chain  each change is an improvement, so that it may be used whenever this ends
 void add_shapes(Search& search, Chain& chain) {
-    while (is_view_or_wire_off(search, chain) &&
-           add_shape(search, chain, Search::SmoothSignals::hall_and_tags))
+    while (is_view_or_wire_off(search, chain)) {
+        std::optional<Chain> best;
+        for (Search::Together& together : search.shaped_beside(chain.fitted)) {
+            Chain longer = with_everything(chain, std::move(together));
+            if (!best || longer.fitted.loss < best->fitted.loss) best = std::move(longer);
+        }
+        if (!best || !is_better(search, *best, chain)) return;
+        chain = *std::move(best);
         search.throw_if_over();
+    }
 }
 
 /// add_shapes() to another chain. If the search ends meanwhile, the one with the smaller loss is kept as

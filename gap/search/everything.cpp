@@ -237,6 +237,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
     fit_first(expected_sizes, at_first);
     prune(true);
     if (chosen.candidates.empty()) return {};
+    std::optional<Ended> ended;
     try {
         for (bool is_all = false; !is_all;) {
             fit_and_prune();
@@ -246,16 +247,16 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
             if (chosen.candidates.empty()) return {};
         }
     } catch (const BudgetEnded& end) {
+        ended = end.how();
         try {
             evidence.budget()->end_search();
             demand = Demand(evidence, wanted[0], predict[0](chosen.settings));
             test_on_other_half(at_last);
-            return {chosen.candidates, {chosen.settings, fitted[1].hypothesis}, chosen.worth, end.how()};
         } catch (const BudgetEnded&) {
-            return {chosen.candidates, {chosen.settings, chosen.settings}, chosen.worth, end.how()};
+            fitted[1].hypothesis = chosen.settings;
         }
     }
-    return {chosen.candidates, {fitted[0].hypothesis, fitted[1].hypothesis}, chosen.worth};
+    return {chosen.candidates, {chosen.settings, fitted[1].hypothesis}, chosen.worth, ended};
 }
 
 Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,

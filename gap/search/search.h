@@ -80,10 +80,6 @@ class Search {
         share_of_effort_ = share_of_effort;
     }
 
-    /// Signals of which all smooth candidates are fitted at once. Of the tags alone: the candidates that the
-    /// Hall reading does not show.
-    enum class SmoothSignals { hall_and_tags, hall_alone, tags_alone };
-
     /// Those of all smooth candidates of Hall reading and tags that are needed beside a base's other effects,
     /// fitted at once on both halves (gap/search/everything.h), starting from the base's own settings of
     /// these candidates. They are the last settings of the fit, in the order of `candidates`. Where there are
@@ -97,8 +93,7 @@ class Search {
 
     /// Explanations like that of everything_beside(), with one further effect that has a shape of its own:
     /// one for each of those that promise most in the signals that the base leaves off their floors.
-    std::vector<Together> shaped_beside(const CrossFit& base,
-                                        SmoothSignals of = SmoothSignals::hall_and_tags);
+    std::vector<Together> shaped_beside(const CrossFit& base);
 
     /// Effects on the carriage beside a base that has none. Of the models from the balance of forces
     /// (gap/balance/force_regression.h), and of the forms of their effects, those are taken that predict best
@@ -193,6 +188,9 @@ class Search {
   private:
     Together together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const;
     struct EverythingBeside;
+    /// Signals of which all smooth candidates are fitted at once. Of the tags alone: the candidates that the
+    /// Hall reading does not show.
+    enum class SmoothSignals { hall_and_tags, hall_alone, tags_alone };
     EverythingBeside everything_of(const CrossFit& base, SmoothSignals of) const;
     Together needed_of(const EverythingBeside& all);
 
@@ -273,8 +271,8 @@ class Search {
     /// Whether a gain is significant, corrected for all that was tried.
     bool is_significant(const Comparison& comparison, double times = 1.0) const;
     /// Whether some signal loses this share of its excess, and either comes near its floor or loses
-    /// `share_of_first` of the excess that it had before any effect. For the encoder the share may also be
-    /// that of what is typical of its windows.
+    /// `share_of_first` of the excess that it had before any effect. For the encoder, while it
+    /// is typically more than two floors off, the share may also be that of what is typical of its windows.
     bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share,
                          double share_of_first = 0.0) const;
     /// Whether a signal that was far off comes to its floor; of tags, nearly so.

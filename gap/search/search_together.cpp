@@ -136,8 +136,8 @@ Hypothesis Search::waves_of_reading(const CrossFit& base,
     return waves;
 }
 
-std::vector<Search::Together> Search::shaped_beside(const CrossFit& base, SmoothSignals of) {
-    const EverythingBeside all = everything_of(base, of);
+std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) {
+    const EverythingBeside all = everything_of(base, SmoothSignals::hall_and_tags);
     const Wanted wanted = only_of(fitter_.evidence().windows(), all.wanted[0], off(base));
     std::vector<Together> found;
     for (const plant::EffectSetting& shape :
@@ -148,7 +148,8 @@ std::vector<Search::Together> Search::shaped_beside(const CrossFit& base, Smooth
             return *std::ranges::find(all.candidates, setting.effect, &Candidate::effect);
         };
         EverythingBeside with =
-            everything_of(base, is_told_by_hall(candidate_of(shape)) ? of : SmoothSignals::tags_alone);
+            everything_of(base, is_told_by_hall(candidate_of(shape)) ? SmoothSignals::hall_and_tags
+                                                                     : SmoothSignals::tags_alone);
         // Effects that have stood in for this one may hold its fit back: their sizes begin at zero.
         std::erase_if(with.begun, [&](const plant::EffectSetting& setting) {
             return !has_a_shape(*candidate_of(setting));

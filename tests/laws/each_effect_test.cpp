@@ -76,11 +76,7 @@ Seen see(const StagePlant& plant, const PlantParameters& parameters) {
     return seen;
 }
 
-PlantParameters with(const EffectSetting& setting) {
-    PlantParameters parameters = plant_parameters(reference_rig());
-    apply_effects(parameters, {&setting, 1});
-    return parameters;
-}
+using fidservo::testing::with;
 
 class EachEffect : public ::testing::TestWithParam<const Effect*> {};
 
@@ -142,7 +138,7 @@ TEST_P(EachEffect, Description_IsCompleteAndConsistent) {
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, EachEffect,
                          ::testing::ValuesIn(effect_catalogue().begin(), effect_catalogue().end()),
-                         [](const auto& instance) { return std::string(instance.param->name); });
+                         ::testing::PrintToStringParamName());
 
 TEST(Effects, OrderOfSettings_DoesNotMatter) {
     std::vector<EffectSetting> forth, back;

@@ -2,6 +2,8 @@
 #include "tests/laws/effect_law.h"
 
 #include "core/rig.h"
+#include "plant/effects/catalogue.h"
+#include "tests/reference_rig.h"
 
 #include <algorithm>
 #include <array>
@@ -175,6 +177,12 @@ constexpr std::array laws{
 
 std::span<const EffectLaw> effect_laws() {
     return laws;
+}
+
+plant::PlantParameters with(const plant::EffectSetting& setting) {
+    plant::PlantParameters parameters = plant::plant_parameters(reference_rig());
+    plant::apply_effects(parameters, {&setting, 1});
+    return parameters;
 }
 
 const EffectLaw* law_of(const plant::Effect& effect) {

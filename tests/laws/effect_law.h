@@ -33,6 +33,9 @@ struct EffectLaw {
 /// One for each effect of the catalogue, in no particular order.
 std::span<const EffectLaw> effect_laws();
 
+/// The reference rig with an effect.
+plant::PlantParameters with(const plant::EffectSetting& setting);
+
 /// The law of an effect; nullptr if there is none.
 const EffectLaw* law_of(const plant::Effect& effect);
 

@@ -84,21 +84,13 @@ Difference difference(const Recording& one, const Recording& other) {
             one.detections.size() + other.detections.size() - 2 * seen};
 }
 
-std::string name_of(const ::testing::TestParamInfo<const Effect*>& instance) {
-    return std::string(instance.param->name);
-}
-
 class EffectLaws : public ::testing::TestWithParam<const Effect*> {};
 class EffectRecovery : public ::testing::TestWithParam<const Effect*> {};
-
-bool shows_in_images_alone(const Effect& effect) {
-    return effect.block == "camera.image";
-}
 
 TEST_P(EffectLaws, Recording_IsThatOfTheIndependentModel) {
     const EffectLaw* law = law_of(*GetParam());
     ASSERT_NE(law, nullptr) << "every effect needs a line in tests/laws/effect_law.cpp";
-    if (shows_in_images_alone(*GetParam())) return;  // see Picture_IsThatOfTheIndependentRenderer
+    if (plant::is_of_frames(GetParam()->part)) return;  // see picture_law_test.cpp
     const Rig rig = exact_rig();
     const EffectSetting setting = plant::parse_effect(law->setting);
     reference::Departures departures;
@@ -146,7 +138,7 @@ TEST_P(EffectLaws, NearItsPlainerForm_MovesAsThatDoes) {
 INSTANTIATE_TEST_SUITE_P(Catalogue, EffectLaws,
                          ::testing::ValuesIn(plant::effect_catalogue().begin(),
                                              plant::effect_catalogue().end()),
-                         name_of);
+                         ::testing::PrintToStringParamName());
 
 /// What shows an effect to a diagnosis. Frames are not rendered: how tags look in them has a closed form.
 std::vector<Recording> recordings_that_show(const EffectSetting& setting) {
@@ -158,9 +150,8 @@ std::vector<Recording> recordings_that_show(const EffectSetting& setting) {
         recordings.push_back(
             simulate(rig, {&setting, 1}, make_experiment(kind, rig, seed, kind), kind, seed));
     }
-    if (!shows_in_images_alone(*setting.effect)) return recordings;
-    plant::PlantParameters parameters = plant::plant_parameters(rig);
-    plant::put(*setting.effect, parameters, setting.values);
+    if (!plant::is_of_frames(setting.effect->part)) return recordings;
+    const plant::PlantParameters parameters = testing::with(setting);
     for (const double share : {1.0, 0.5})
         recordings.push_back(
             testing::looks_in_even_motion(*parameters.camera, share * testing::looks_px_per_s));
@@ -190,7 +181,7 @@ TEST_P(EffectRecovery, OfItsRecordings_IsTheEffectWithItsSizes) {
 INSTANTIATE_TEST_SUITE_P(SlowCatalogue, EffectRecovery,
                          ::testing::ValuesIn(plant::effect_catalogue().begin(),
                                              plant::effect_catalogue().end()),
-                         name_of);
+                         ::testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace fidservo

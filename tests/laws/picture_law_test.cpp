@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Effects that only images show: frames of the simulated camera against those of the independent renderer.
 #include "core/rig.h"
-#include "core/tag_families.h"
 #include "plant/effects/catalogue.h"
 #include "plant/view/plate_view.h"
 #include "reference/tag_picture.h"
@@ -11,7 +10,7 @@
 
 #include <cmath>
 #include <cstdio>
-#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -27,14 +26,6 @@ double camera_mm(double after_s) {
     return 50.37 + speed_mm_per_s * after_s;
 }
 
-reference::TagCells cells_of(int tag_id) {
-    const TagPattern pattern = tag_pattern({}, tag_id);
-    reference::TagCells cells;
-    for (int k = 0; k < static_cast<int>(cells.size()); ++k)
-        cells(k / 8, k % 8) = pattern[static_cast<std::size_t>(k)] ? 0.0 : 1.0;
-    return cells;
-}
-
 /// Two frames of one tag: of the simulated camera, and of the independent model's.
 struct Frames {
     cv::Mat simulated, independent;
@@ -44,7 +35,7 @@ Frames frames_of(const CameraParameters& camera, const plant::CameraDeviation& d
                  const reference::ImageDepartures& departures) {
     const FiducialParameters& grid = *reference_rig().fiducials;
     const plant::PlateView view(camera, plate_of(grid), {}, deviation);
-    const reference::PictureModel model{camera, grid, departures, cells_of};
+    const reference::PictureModel model{camera, grid, departures, reference::usual_cells};
     NoiseStream noise(3, "picture laws");
     const reference::Picture picture = picture_of(model, camera_mm, pixel_gains(model, 3), noise);
     Frames frames;
@@ -73,9 +64,7 @@ TEST_P(PictureLaws, Frame_IsThatOfTheIndependentRenderer) {
     const testing::EffectLaw* law = testing::law_of(*GetParam());
     ASSERT_NE(law, nullptr);
     const Rig& rig = reference_rig();
-    plant::PlantParameters parameters = plant::plant_parameters(rig);
-    const plant::EffectSetting setting = plant::parse_effect(law->setting);
-    plant::put(*setting.effect, parameters, setting.values);
+    const plant::PlantParameters parameters = testing::with(plant::parse_effect(law->setting));
     reference::Departures departures;
     law->depart(departures, rig);
     const bool is_noise = departures.image.read_noise_e > 0.0;
@@ -105,12 +94,12 @@ TEST_P(PictureLaws, Frame_IsThatOfTheIndependentRenderer) {
 std::vector<const Effect*> effects_in_images() {
     std::vector<const Effect*> effects;
     for (const Effect* effect : plant::effect_catalogue())
-        if (effect->block == "camera.image") effects.push_back(effect);
+        if (plant::is_of_frames(effect->part)) effects.push_back(effect);
     return effects;
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, PictureLaws, ::testing::ValuesIn(effects_in_images()),
-                         [](const auto& instance) { return std::string(instance.param->name); });
+                         ::testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace fidservo

@@ -4,7 +4,6 @@
 #include "core/input_error.h"
 #include "core/parallel.h"
 #include "core/rig.h"
-#include "core/tag_families.h"
 #include "reference/tag_picture.h"
 #include "src/simulation/run_experiment.h"
 #include "src/simulation/simulate_reference.h"
@@ -33,15 +32,6 @@ constexpr std::array runs{FilmedRun{"micro-steps", 2.7},  FilmedRun{"micro-steps
                           FilmedRun{"micro-steps", 2.7},  FilmedRun{"micro-servo", 2.5},
                           FilmedRun{"micro-servo", 2.5},  FilmedRun{"micro-servo", 2.5},
                           FilmedRun{"macro-square", 1.5}, FilmedRun{"macro-square", 1.5}};
-
-reference::TagCells cells_of(int tag_id) {
-    const TagPattern pattern = tag_pattern({}, tag_id);
-    reference::TagCells cells;
-    std::size_t next = 0;
-    for (int row = 0; row < 8; ++row)
-        for (int column = 0; column < 8; ++column) cells(row, column) = pattern[next++] ? 0.0 : 1.0;
-    return cells;
-}
 
 /// Straight between ticks; as at the ends beyond them.
 double place_mm(const std::vector<double>& way_mm, double tick_s, double time_s) {
@@ -85,7 +75,7 @@ std::vector<Recording> film_campaign(const Rig& nominal, const TrueRig& true_rig
     if (camera.rotation_rad != 0.0 || !camera.tilt_rad.isZero(0.0))
         throw InputError("--self-check: cases with frames need a camera that looks straight down");
     const reference::PictureModel model{*true_rig.rig.camera, *true_rig.rig.fiducials,
-                                        true_rig.departures.image, cells_of};
+                                        true_rig.departures.image, reference::usual_cells};
     std::vector<Recording> recordings(runs.size());
     parallel_for(runs.size(), [&](std::size_t k) {
         const auto [kind, from_s] = runs[k];

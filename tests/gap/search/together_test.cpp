@@ -4,8 +4,6 @@
 #include "tests/gap/effects.h"
 #include "tests/gap/simulated_campaign.h"
 
-#include <algorithm>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -35,24 +33,6 @@ TEST(SlowTogether, TagsThatAreFarOffForAnotherReason_DoNotHideSmallCausesOfTheWi
     Search search(evidence, all, {});
     EXPECT_THAT(names_of(search.everything_beside(search.nothing())),
                 IsSupersetOf({"heater_delay", "heating_lag"}));
-}
-
-TEST(SlowTogether, WaveOfTheReading_IsFoundInTheTagsWhateverMovesTheCarriage) {
-    const Evidence evidence = testing::campaign(
-        effects({"encoder_ripple:amplitude_um=150,period_mm=9.3,phase_rad=1", "drive_gain:factor=0.95"}),
-        {"macro-pulses", "macro-square", "micro-servo"});
-    const std::vector<Candidate> all = candidates(evidence, {}, {});
-    Search search(evidence, all, {});
-    const std::vector<Search::Together> found =
-        search.shaped_beside(search.nothing(), Search::SmoothSignals::tags_alone);
-    ASSERT_FALSE(found.empty());
-    const auto best = std::ranges::min_element(
-        found, {}, [](const Search::Together& together) { return together.fitted.loss; });
-    const Hypothesis& settings = best->fitted.of_half[0];
-    const auto ripple =
-        std::ranges::find(settings, plant::find_effect("encoder_ripple"), &plant::EffectSetting::effect);
-    ASSERT_NE(ripple, settings.end());
-    EXPECT_NEAR(ripple->values[1], 9.3, 0.05 * 9.3);
 }
 
 /// A few windows in which stick-slip decides otherwise stay far off whatever is explained.
