@@ -106,14 +106,6 @@ SignalFlags CrossFitter::concerned_by(const plant::Effect& effect, const Hypothe
     return concerned;
 }
 
-SignalExcess CrossFitter::typical_excess(std::span<const double> mean_squares) const {
-    const std::array<double, signal_count> floors = typical_floors(evidence_.windows(), mean_squares);
-    SignalExcess excess{};
-    for (std::size_t s = 0; s < signal_count; ++s)
-        if (floors[s] * floors[s] > floor_square) excess[s] = floors[s] * floors[s] - 1.0;
-    return excess;
-}
-
 SignalExcess CrossFitter::excess(std::span<const double> mean_squares) const {
     SignalExcess sums{}, counts{};
     for (std::size_t w = 0; w < mean_squares.size(); ++w) {

@@ -67,9 +67,6 @@ class CrossFitter {
     Places met_by(const Hypothesis& base, const plant::EffectSetting& further, Places coupled) const;
 
     SignalExcess excess(std::span<const double> mean_squares) const;
-    /// The same by what is typical of a signal's windows (typical_floors in gap/fit/gap_size.h): windows in
-    /// which stick-slip decides otherwise, hundreds of floors off, do not hide what the others gain.
-    SignalExcess typical_excess(std::span<const double> mean_squares) const;
     Comparison compared(const CrossFit& base, const CrossFit& fitted) const;
 
   private:

@@ -187,10 +187,12 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
     const auto try_other_choice = [&](std::size_t c, std::size_t parameter) {
         const Chosen chosen_before = chosen;
         const Fit fitted_before = fitted[0];
+        const Demand demand_before = demand;
         const double cost_before = cost();
         const auto go_back = [&] {
             chosen = chosen_before;
             fitted[0] = fitted_before;
+            demand = demand_before;
         };
         const plant::EffectParameter& choice = chosen.settings[c].effect->parameters[parameter];
         double& value = chosen.settings[c].values[parameter];

@@ -342,17 +342,13 @@ bool Search::nearly_clears(const CrossFit& without, const CrossFit& with, double
 
 bool Search::clears_a_signal(const CrossFit& without, const CrossFit& with, double share,
                              double share_of_first) const {
-    constexpr double near_floor = 0.5, hardly_any = 0.05, far = 3.0;
     const SignalExcess before = fitter_.excess(without.mean_squares),
                        after = fitter_.excess(with.mean_squares);
+    constexpr double near_floor = 0.5, hardly_any = 0.05;
     for (std::size_t s = 0; s < signal_count; ++s) {
         const bool is_as_good_as_cleared = after[s] < near_floor && after[s] <= hardly_any * before[s];
-        const bool is_enough =
-            is_as_good_as_cleared || before[s] - after[s] >= share_of_first * first_excess_[s];
-        if (is_enough && after[s] < (1.0 - share) * before[s]) return true;
-        if (!is_enough || static_cast<Signal>(s) != Signal::encoder) continue;
-        const double typical = fitter_.typical_excess(without.mean_squares)[s];
-        if (typical > far && fitter_.typical_excess(with.mean_squares)[s] < (1.0 - share) * typical)
+        if (after[s] < (1.0 - share) * before[s] &&
+            (is_as_good_as_cleared || before[s] - after[s] >= share_of_first * first_excess_[s]))
             return true;
     }
     return false;

@@ -271,8 +271,7 @@ class Search {
     /// Whether a gain is significant, corrected for all that was tried.
     bool is_significant(const Comparison& comparison, double times = 1.0) const;
     /// Whether some signal loses this share of its excess, and either comes near its floor or loses
-    /// `share_of_first` of the excess that it had before any effect. For the encoder, while it
-    /// is typically more than two floors off, the share may also be that of what is typical of its windows.
+    /// `share_of_first` of the excess that it had before any effect.
     bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share,
                          double share_of_first = 0.0) const;
     /// Whether a signal that was far off comes to its floor; of tags, nearly so.

@@ -35,21 +35,6 @@ TEST(SlowTogether, TagsThatAreFarOffForAnotherReason_DoNotHideSmallCausesOfTheWi
                 IsSupersetOf({"heater_delay", "heating_lag"}));
 }
 
-/// A few windows in which stick-slip decides otherwise stay far off whatever is explained.
-TEST(Search, GainInMostWindowsOfTheEncoder_IsRealThoughAFewStayFarOff) {
-    const std::vector<Candidate> none;
-    const Evidence evidence = testing::campaign({}, {"macro-square", "macro-sweep"});
-    const Search search(evidence, none, {});
-    const auto with_others_at = [&](double mean_square) {
-        CrossFit cross;
-        for (std::size_t w = 0; w < evidence.windows().size(); ++w)
-            cross.mean_squares.push_back(w % 10 == 0 ? 1e5 : mean_square);
-        return cross;
-    };
-    EXPECT_TRUE(search.is_real(with_others_at(16.0), with_others_at(2.0)));
-    EXPECT_FALSE(search.is_real(with_others_at(16.0), with_others_at(15.0)));
-}
-
 }  // namespace
 
 }  // namespace fidservo
