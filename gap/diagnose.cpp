@@ -177,9 +177,8 @@ Verdict verdict_of(const Selection& selection, bool something_is_left) {
 }
 
 /// What can be said without another prediction: how large the gap is, the names and how probable they are.
-/// @param whole  what the gap depends on where nothing is named; none where that is not known
 void say_what_is_named(const Evidence& evidence, const Selection& selection, const Fit& fitted,
-                       const std::optional<Remainder>& whole, Diagnosis& diagnosis) {
+                       Diagnosis& diagnosis) {
     std::vector<ChoiceWeights> weights;
     for (const Choice& choice : selection.choices)
         weights.push_back(weights_of(evidence, choice, selection.steps.back().mean_squares));
@@ -187,21 +186,21 @@ void say_what_is_named(const Evidence& evidence, const Selection& selection, con
     diagnosis.signals =
         signal_gaps(evidence, selection.steps.front().mean_squares, selection.steps.back().mean_squares);
     diagnosis.gap = total_gap(diagnosis.signals);
-    diagnosis.effects =
-        found_effects(evidence, selection, supports(evidence, selection, weights, whole), fitted);
+    diagnosis.effects = found_effects(evidence, selection, supports(evidence, selection, weights), fitted);
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, weights, diagnosis.effects);
 }
 
 /// Which block is accused beside the names, and how likely it is the cause rather than they.
+/// @param whole  what the gap depends on where nothing is named, if the names are not credible
 void accuse_what_is_left(const Selection& selection, const std::optional<Remainder>& whole,
                          Diagnosis& diagnosis) {
     Remainder& left = *diagnosis.unexplained;
     const double in_names = mean_probability(diagnosis.effects);
     if (selection.choices.empty()) {
         left.block = block_of_nameless(selection, left);
-    } else if (!are_credible(diagnosis.effects)) {
-        if (whole) left.block = whole->block;  // the names stand in for something else
+    } else if (whole) {
+        left.block = whole->block;  // the names stand in for something else
         if (std::ranges::find(diagnosis.where, left.block, &BlockProbability::block) == diagnosis.where.end())
             diagnosis.where.insert(diagnosis.where.begin(), {left.block, 0.0});
     }
@@ -217,12 +216,17 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     Diagnosis diagnosis;
     const std::ptrdiff_t left_out = leave_out_unpredictable(evidence, selection);
     const CrossFit& explained = selection.steps.back();
-    std::optional<Remainder> whole;
-    if (!selection.choices.empty()) whole = remainder_of(evidence, selection.steps.front(), tail);
     const Fit fitted = fit_to_all(evidence, explained);
-    say_what_is_named(evidence, selection, fitted, whole, diagnosis);
+    say_what_is_named(evidence, selection, fitted, diagnosis);
     diagnosis.unexplained = remainder_of(evidence, explained, tail, options.matters);
-    if (!diagnosis.unexplained && !are_credible(diagnosis.effects)) diagnosis.unexplained = whole;
+    std::optional<Remainder> whole;
+    if (!selection.choices.empty() && !are_credible(diagnosis.effects))
+        whole = remainder_of(evidence, selection.steps.front(), tail);
+    if (!diagnosis.unexplained && whole) {
+        diagnosis.unexplained = whole;
+        diagnosis.unexplained->text =
+            "the named effects may stand in for another cause; without them, " + whole->text;
+    }
     diagnosis.verdict = verdict_of(selection, diagnosis.unexplained.has_value());
     if (diagnosis.unexplained) accuse_what_is_left(selection, whole, diagnosis);
     if (diagnosis.unexplained && selection.choices.empty()) {
@@ -250,7 +254,7 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
         parameters += static_cast<Eigen::Index>(setting.values.size());
     const Fit fitted{
         .hypothesis = hypothesis, .loss = 0.0, .covariance = Eigen::MatrixXd::Zero(parameters, parameters)};
-    say_what_is_named(evidence, selection, fitted, {}, diagnosis);
+    say_what_is_named(evidence, selection, fitted, diagnosis);
     const bool something_is_left = std::ranges::any_of(diagnosis.signals, [&](const SignalGap& signal) {
         return signal.after > least_floors * signal.floor &&
                signal.discrepancy > matters[index_of(signal.signal)];

@@ -59,10 +59,6 @@ struct Support {
     double gap_after = 1.0;  ///< total gap that remains with all named effects, in floors
     double gap_left = 0.0;   ///< fraction of the total gap that remains with all named effects
     double names = 1.0;      ///< number of effects named
-    /// Agreement with the analysis without names (gap/residuals/). 1: it accuses the block of a named effect;
-    /// 0: the gap depends on one quantity alone, which accuses another block of the same stage or of the
-    /// view; 0.5: neither.
-    double agreement = 0.5;
     /// Difference of its sizes between fits to the two halves of the windows, relative to their mean; 1 where
     /// the time did not suffice to fit the halves apart.
     double halves_apart = 0.0;

@@ -52,20 +52,16 @@ gap::Support support_of(const Json& json, double gap_after) {
             .gap_after = gap_after,
             .gap_left = json.at("gap_left"),
             .names = json.at("names"),
-            .agreement = json.at("agreement"),
             .halves_apart = json.at("halves_apart"),
             .is_at_bound = json.at("at_bound")};
 }
 
-/// Without those that are contested, which share their probability (gap/verdict/standing.h).
 std::vector<Name> names_of(const Json& self_check) {
     std::vector<Name> names;
     for (const Json& one : self_check.at("cases"))
         for (const Json& found : one.at("found")) {
             const gap::Support support = support_of(found.at("support"), one.at("gap").at("after"));
-            if (support.agreement > 0.0 && !support.is_at_bound)
-                names.push_back(
-                    {one.at("kind"), found.at("class"), gap::features_of(support), found.at("true")});
+            names.push_back({one.at("kind"), found.at("class"), gap::features_of(support), found.at("true")});
         }
     return names;
 }

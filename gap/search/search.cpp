@@ -120,6 +120,7 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
         std::ranges::sort(leaders, std::greater{}, &Contender::gain);
     }
 
+    put_real_ones_first(base, all);
     std::vector<Trial> trials;
     trials.reserve(candidates_.size());
     for (Contender& contender : all) {

@@ -106,10 +106,10 @@ class Search {
 
     CrossFit nothing() const;
 
-    /// Tries all candidates except those in `added` as additions to a base. Leaders come first, then the
-    /// others by gain; of leaders that tie with the best, or bring its signals to their floors, the one with
-    /// the fewest parameters is first. Candidates that could only improve signals already at their floors are
-    /// not fitted.
+    /// Tries all candidates except those in `added` as additions to a base. Leaders come first, those whose
+    /// gain is real before the others, and after them the rest by gain; of leaders that tie with the best, or
+    /// bring its signals to their floors, the one with the fewest parameters is first. Candidates that could
+    /// only improve signals already at their floors are not fitted.
     std::vector<Trial> try_all(const CrossFit& base, std::span<const Candidate* const> added,
                                const Effort& effort = {});
 
@@ -252,6 +252,8 @@ class Search {
     /// better, so that nothing is lost whenever this ends.
     void refine(const CrossFit& base, std::span<Contender> all, std::span<Contender> leaders,
                 const Effort& effort) const;
+    /// Of the leaders, which precede all others, moves those whose gain is real before the rest.
+    void put_real_ones_first(const CrossFit& base, std::span<Contender> all) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                  double step_scales) const;
     /// A wave or a spring, fitted from the best of many drawn values.

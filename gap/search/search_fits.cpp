@@ -165,6 +165,13 @@ void Search::fit_second_half(const CrossFit& base, Contender& contender) const {
     judge_both_halves(base, contender);
 }
 
+void Search::put_real_ones_first(const CrossFit& base, std::span<Contender> all) const {
+    const auto is_leader = [](const Contender& contender) { return contender.trial.is_leader; };
+    const auto last = std::ranges::find_if_not(all, is_leader);
+    std::stable_partition(all.begin(), last,
+                          [&](const Contender& leader) { return is_real(base, leader.trial.fitted); });
+}
+
 Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                      double step_scales) const {
     const CrossFit& fitted = contender.trial.fitted;

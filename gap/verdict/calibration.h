@@ -17,11 +17,12 @@ inline constexpr double calibrated_offset = -4.511;
 inline constexpr std::array calibrated_coefficients{
     0.295,  // weight_logit
     0.915,  // log_discrepancy
+    0.000,  // log_own_discrepancy
     0.054,  // log_gain
     0.000,  // log_gap_left
     1.460,  // log_names
     0.439,  // halves_agree
-    0.000,  // agreement
+    0.000,  // in_bounds
 };
 
 }  // namespace fidservo::gap

@@ -2,7 +2,6 @@
 #include "gap/verdict/standing.h"
 
 #include "gap/fit/gap_size.h"
-#include "gap/residuals/accusation.h"
 #include "gap/verdict/calibration.h"
 
 #include <algorithm>
@@ -12,19 +11,6 @@
 
 namespace fidservo::gap {
 namespace {
-
-/// See Support::agreement.
-double agreement_with(const std::optional<Remainder>& whole, const Selection& selection,
-                      const Choice& choice) {
-    constexpr double agrees = 1.0, is_not_known = 0.5, contradicts = 0.0;
-    if (!whole || whole->depends_on.empty()) return is_not_known;
-    const auto is_accused = [&](const Choice& named) {
-        return named.candidate->effect->block == whole->block;
-    };
-    if (stage_of(whole->block) != stage_of(choice.candidate->effect->block)) return is_not_known;
-    if (std::ranges::any_of(selection.choices, is_accused)) return agrees;
-    return whole->depends_on.size() == 1 ? contradicts : is_not_known;
-}
 
 bool is_at_bound(const plant::EffectSetting& setting) {
     const std::span<const plant::EffectParameter> parameters = setting.effect->parameters;
@@ -84,15 +70,19 @@ double weight_of_name(const Choice& choice, const ChoiceWeights& weights) {
 Features features_of(const Support& support) {
     constexpr double most_logit = 7.0, least_share = 1e-4, least_apart = 1e-3, least_floors_off = 0.15,
                      most_floors_off = 3.0;
-    const double discrepancy = std::sqrt(std::max(0.0, std::pow(support.gap_after, 2) - 1.0));
+    const auto log_discrepancy = [&](double floors) {
+        const double discrepancy = std::sqrt(std::max(0.0, std::pow(floors, 2) - 1.0));
+        return -std::log(std::clamp(discrepancy, least_floors_off, most_floors_off));
+    };
     const double odds = support.weight / std::max(1.0 - support.weight, 1e-300);
     return {std::clamp(std::log(std::max(odds, 1e-300)), -most_logit, most_logit),
-            -std::log(std::clamp(discrepancy, least_floors_off, most_floors_off)),
+            log_discrepancy(support.gap_after),
+            log_discrepancy(support.left_floors),
             std::log(support.without_floors / support.left_floors),
             -std::log(std::max(support.gap_left, least_share)),
             std::log(support.names),
             -std::log(std::max(support.halves_apart, least_apart)),
-            std::max(support.agreement, 0.5)};
+            support.is_at_bound ? 0.0 : 1.0};
 }
 
 double logistic_probability(const Features& features, double offset, const Features& coefficients) {
@@ -102,16 +92,11 @@ double logistic_probability(const Features& features, double offset, const Featu
 }
 
 double calibrated_probability(const Support& support) {
-    const double probability =
-        logistic_probability(features_of(support), calibrated_offset, calibrated_coefficients);
-    constexpr double share_of_two = 0.5;
-    const bool is_contested = support.agreement == 0.0 || support.is_at_bound;
-    return is_contested ? share_of_two * probability : probability;
+    return logistic_probability(features_of(support), calibrated_offset, calibrated_coefficients);
 }
 
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
-                              const std::vector<ChoiceWeights>& weights,
-                              const std::optional<Remainder>& whole) {
+                              const std::vector<ChoiceWeights>& weights) {
     constexpr double is_not_shown = 1.0;  // that the halves agree
     const std::vector<Window>& windows = evidence.windows();
     const CrossFit& explained = selection.steps.back();
@@ -132,7 +117,6 @@ std::vector<Support> supports(const Evidence& evidence, const Selection& selecti
                        .gap_after = gap.after,
                        .gap_left = 1.0 - gap.removed(),
                        .names = static_cast<double>(selection.choices.size()),
-                       .agreement = agreement_with(whole, selection, choice),
                        .halves_apart = explained.is_of_one_half
                                            ? is_not_shown
                                            : halves_apart(*choice.candidate, explained.of_half[0][k],

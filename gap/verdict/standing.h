@@ -13,40 +13,37 @@
 #include "gap/verdict/model_weights.h"
 
 #include <array>
-#include <optional>
 #include <string_view>
 #include <vector>
 
 namespace fidservo::gap {
 
 /// The regression's features, by name.
-inline constexpr std::array<std::string_view, 7> feature_names{
-    "weight_logit", "log_discrepancy", "log_gain", "log_gap_left", "log_names", "halves_agree", "agreement"};
+inline constexpr std::array<std::string_view, 8> feature_names{
+    "weight_logit", "log_discrepancy", "log_own_discrepancy", "log_gain",
+    "log_gap_left", "log_names",       "halves_agree",        "in_bounds"};
 using Features = std::array<double, feature_names.size()>;
 
 /// The features x_k of a named effect, each larger the stronger the evidence; logarithms are natural:
 ///   weight_logit   log(w / (1 - w)) of the weight w, -7 .. 7
 ///   log_discrepancy  -log of the total gap that remains in excess of the floor, sqrt(g^2 - 1), 0.15 to 3
 ///                  floors: larger gaps say no more, as the floor is that of the sensors, not of the model
+///   log_own_discrepancy  the same of the error that remains in the signals that determine the effect
 ///   log_gain       log of the error without the effect over that with it, in the signals that determine it
 ///   log_gap_left   -log of the fraction of the total gap that remains, 1e-4 at least
 ///   log_names      log of the number of named effects: many small ones less often stand in for another one
 ///   halves_agree   -log of the relative difference of its size between the halves, 1e-3 at least
-///   agreement      0.5 or 1
+///   in_bounds      1 if no parameter is at a bound of its range, else 0
 Features features_of(const Support& support);
 
 /// The probability by a regression with this offset and these coefficients.
 double logistic_probability(const Features& features, double offset, const Features& coefficients);
 
-/// The probability by the calibrated regression, or half of it where another explanation of the same data
-/// stands beside the named effect: where the analysis without names contradicts it, or where a parameter is
-/// at its bound. Such cases are too rare in self-checks for the regression to learn from them.
+/// The probability by the calibrated regression.
 double calibrated_probability(const Support& support);
 
 /// The evidence for each choice of a selection.
-/// @param whole  the quantity on which the gap depends where nothing is named; empty where that is unknown
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
-                              const std::vector<ChoiceWeights>& weights,
-                              const std::optional<Remainder>& whole);
+                              const std::vector<ChoiceWeights>& weights);
 
 }  // namespace fidservo::gap

@@ -58,7 +58,6 @@ class Support:
     gap_left: float
     names: float
     halves_apart: float
-    agreement: float
     at_bound: bool
 
 

@@ -112,7 +112,6 @@ nlohmann::ordered_json support_json(const gap::Support& support) {
             {"gap_left", number(support.gap_left)},
             {"names", support.names},
             {"halves_apart", number(support.halves_apart)},
-            {"agreement", support.agreement},
             {"at_bound", support.is_at_bound}};
 }
 
