@@ -177,8 +177,9 @@ Verdict verdict_of(const Selection& selection, bool something_is_left) {
 }
 
 /// What can be said without another prediction: how large the gap is, the names and how probable they are.
+/// @param left  signals in which something is left
 void say_what_is_named(const Evidence& evidence, const Selection& selection, const Fit& fitted,
-                       Diagnosis& diagnosis) {
+                       const SignalFlags& left, Diagnosis& diagnosis) {
     std::vector<ChoiceWeights> weights;
     for (const Choice& choice : selection.choices)
         weights.push_back(weights_of(evidence, choice, selection.steps.back().mean_squares));
@@ -186,7 +187,8 @@ void say_what_is_named(const Evidence& evidence, const Selection& selection, con
     diagnosis.signals =
         signal_gaps(evidence, selection.steps.front().mean_squares, selection.steps.back().mean_squares);
     diagnosis.gap = total_gap(diagnosis.signals);
-    diagnosis.effects = found_effects(evidence, selection, supports(evidence, selection, weights), fitted);
+    diagnosis.effects =
+        found_effects(evidence, selection, supports(evidence, selection, weights, left), fitted);
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, weights, diagnosis.effects);
 }
@@ -216,9 +218,11 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     Diagnosis diagnosis;
     const std::ptrdiff_t left_out = leave_out_unpredictable(evidence, selection);
     const CrossFit& explained = selection.steps.back();
+    const std::optional<Remainder> left = remainder_of(evidence, explained, tail);
     const Fit fitted = fit_to_all(evidence, explained);
-    say_what_is_named(evidence, selection, fitted, diagnosis);
-    diagnosis.unexplained = remainder_of(evidence, explained, tail, options.matters);
+    say_what_is_named(evidence, selection, fitted, left ? only(*left->signal) : SignalFlags{}, diagnosis);
+    diagnosis.unexplained =
+        options.matters == SignalLimits{} ? left : remainder_of(evidence, explained, tail, options.matters);
     std::optional<Remainder> whole;
     if (!selection.choices.empty() && !are_credible(diagnosis.effects))
         whole = remainder_of(evidence, selection.steps.front(), tail);
@@ -254,12 +258,16 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
         parameters += static_cast<Eigen::Index>(setting.values.size());
     const Fit fitted{
         .hypothesis = hypothesis, .loss = 0.0, .covariance = Eigen::MatrixXd::Zero(parameters, parameters)};
-    say_what_is_named(evidence, selection, fitted, diagnosis);
-    const bool something_is_left = std::ranges::any_of(diagnosis.signals, [&](const SignalGap& signal) {
-        return signal.after > least_floors * signal.floor &&
-               signal.discrepancy > matters[index_of(signal.signal)];
-    });
-    diagnosis.verdict = verdict_of(selection, something_is_left);
+    const std::vector<double>& after = selection.steps.back().mean_squares;
+    SignalFlags left{};
+    bool matters_something = false;
+    for (const SignalGap& signal : signal_gaps(evidence, after, after)) {
+        const std::size_t index = index_of(signal.signal);
+        left[index] = signal.after > least_floors * signal.floor;
+        matters_something = matters_something || (left[index] && signal.discrepancy > matters[index]);
+    }
+    say_what_is_named(evidence, selection, fitted, left, diagnosis);
+    diagnosis.verdict = verdict_of(selection, matters_something);
     return diagnosis;
 }
 

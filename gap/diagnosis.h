@@ -63,6 +63,9 @@ struct Support {
     /// the time did not suffice to fit the halves apart.
     double halves_apart = 0.0;
     bool is_at_bound = false;  ///< whether a parameter is at a bound of its range
+    /// Whether residual analysis (gap/residuals/) finds something left in a signal that determines the
+    /// effect.
+    bool leaves_something = false;
 };
 
 /// An effect in the explanation.
@@ -120,6 +123,7 @@ struct Remainder {
     std::vector<std::string> depends_on;    ///< the quantities on which it depends
     std::string text;                       ///< in words
     std::optional<Equation> equation = {};  ///< a formula for it, where one was found
+    std::optional<Signal> signal = {};      ///< the signal whose error was analysed
 };
 
 /// The experiment that would be most informative.

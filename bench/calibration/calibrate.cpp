@@ -53,7 +53,8 @@ gap::Support support_of(const Json& json, double gap_after) {
             .gap_left = json.at("gap_left"),
             .names = json.at("names"),
             .halves_apart = json.at("halves_apart"),
-            .is_at_bound = json.at("at_bound")};
+            .is_at_bound = json.at("at_bound"),
+            .leaves_something = json.at("leaves_something")};
 }
 
 std::vector<Name> names_of(const Json& self_check) {

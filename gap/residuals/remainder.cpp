@@ -134,7 +134,10 @@ Remainder remainder_of_signal(const SignalGap& gap, const Pattern& pattern, cons
     const Signal signal = gap.signal;
     const auto first =
         found.groups.empty() ? std::nullopt : std::optional(static_cast<Dependence>(found.groups.front()));
-    Remainder remainder{std::string(accused_block(pattern, signal, first)), {}, {}};
+    Remainder remainder{.block = std::string(accused_block(pattern, signal, first)),
+                        .depends_on = {},
+                        .text = {},
+                        .signal = signal};
     for (const int group : found.groups) {
         const auto dependence = static_cast<Dependence>(group);
         std::string name(name_of(dependence));

@@ -23,6 +23,7 @@ inline constexpr std::array calibrated_coefficients{
     1.460,  // log_names
     0.439,  // halves_agree
     0.000,  // in_bounds
+    0.000,  // leaves_nothing
 };
 
 }  // namespace fidservo::gap

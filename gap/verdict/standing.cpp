@@ -82,7 +82,8 @@ Features features_of(const Support& support) {
             -std::log(std::max(support.gap_left, least_share)),
             std::log(support.names),
             -std::log(std::max(support.halves_apart, least_apart)),
-            support.is_at_bound ? 0.0 : 1.0};
+            support.is_at_bound ? 0.0 : 1.0,
+            support.leaves_something ? 0.0 : 1.0};
 }
 
 double logistic_probability(const Features& features, double offset, const Features& coefficients) {
@@ -96,20 +97,21 @@ double calibrated_probability(const Support& support) {
 }
 
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
-                              const std::vector<ChoiceWeights>& weights) {
+                              const std::vector<ChoiceWeights>& weights, const SignalFlags& left) {
     constexpr double is_not_shown = 1.0;  // that the halves agree
     const std::vector<Window>& windows = evidence.windows();
     const CrossFit& explained = selection.steps.back();
     const TotalGap gap =
         total_gap(signal_gaps(evidence, selection.steps.front().mean_squares, explained.mean_squares));
-    const Floors left = typical_floors(windows, explained.mean_squares);
+    const Floors floors = typical_floors(windows, explained.mean_squares);
     std::vector<Support> all;
     for (std::size_t k = 0; k < selection.choices.size(); ++k) {
         const Choice& choice = selection.choices[k];
         const CrossFit& left_out =
             choice.left_out.mean_squares.empty() ? selection.steps.front() : choice.left_out;
         const Floors without = typical_floors(windows, left_out.mean_squares);
-        const OwnFloors own = own_floors(left, without, teachers_of(*choice.candidate->effect));
+        const SignalFlags teachers = teachers_of(*choice.candidate->effect);
+        const OwnFloors own = own_floors(floors, without, teachers);
         all.push_back({.weight = weight_of_name(choice, weights[k]),
                        .left_floors = own.left,
                        .without_floors = own.without,
@@ -122,7 +124,8 @@ std::vector<Support> supports(const Evidence& evidence, const Selection& selecti
                                            : halves_apart(*choice.candidate, explained.of_half[0][k],
                                                           explained.of_half[1][k]),
                        .is_at_bound = std::ranges::any_of(
-                           explained.of_half, [&](const Hypothesis& half) { return is_at_bound(half[k]); })});
+                           explained.of_half, [&](const Hypothesis& half) { return is_at_bound(half[k]); }),
+                       .leaves_something = meet(left, teachers)});
     }
     return all;
 }

@@ -19,9 +19,10 @@
 namespace fidservo::gap {
 
 /// The regression's features, by name.
-inline constexpr std::array<std::string_view, 8> feature_names{
-    "weight_logit", "log_discrepancy", "log_own_discrepancy", "log_gain",
-    "log_gap_left", "log_names",       "halves_agree",        "in_bounds"};
+inline constexpr std::array<std::string_view, 9> feature_names{
+    "weight_logit", "log_discrepancy", "log_own_discrepancy", "log_gain",       "log_gap_left",
+    "log_names",    "halves_agree",    "in_bounds",           "leaves_nothing",
+};
 using Features = std::array<double, feature_names.size()>;
 
 /// The features x_k of a named effect, each larger the stronger the evidence; logarithms are natural:
@@ -34,6 +35,7 @@ using Features = std::array<double, feature_names.size()>;
 ///   log_names      log of the number of named effects: many small ones less often stand in for another one
 ///   halves_agree   -log of the relative difference of its size between the halves, 1e-3 at least
 ///   in_bounds      1 if no parameter is at a bound of its range, else 0
+///   leaves_nothing  1 if residual analysis finds nothing left in the signals that determine it, else 0
 Features features_of(const Support& support);
 
 /// The probability by a regression with this offset and these coefficients.
@@ -43,7 +45,8 @@ double logistic_probability(const Features& features, double offset, const Featu
 double calibrated_probability(const Support& support);
 
 /// The evidence for each choice of a selection.
+/// @param left  signals in which residual analysis finds something left
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
-                              const std::vector<ChoiceWeights>& weights);
+                              const std::vector<ChoiceWeights>& weights, const SignalFlags& left);
 
 }  // namespace fidservo::gap

@@ -59,6 +59,7 @@ class Support:
     names: float
     halves_apart: float
     at_bound: bool
+    leaves_something: bool
 
 
 @dataclass(frozen=True)

@@ -112,7 +112,8 @@ nlohmann::ordered_json support_json(const gap::Support& support) {
             {"gap_left", number(support.gap_left)},
             {"names", support.names},
             {"halves_apart", number(support.halves_apart)},
-            {"at_bound", support.is_at_bound}};
+            {"at_bound", support.is_at_bound},
+            {"leaves_something", support.leaves_something}};
 }
 
 std::string diagnosis_json(const gap::Diagnosis& diagnosis) {
