@@ -113,8 +113,8 @@ bool adds_the_first_of(const Chain& whole, const Chain& chain, const std::vector
 }
 
 /// Explains a signal that is off its floor by one effect, or by those that `whole` found at once if these do
-/// better. More than two such effects are not compared with a single one. A smooth effect that both ways
-/// find, and that brings the signal to its floor, is not fitted more closely.
+/// better. More than two such effects, or such as make the chain long, are not compared with a single one. A
+/// smooth effect that both ways find, and that brings the signal to its floor, is not fitted more closely.
 /// @return whether the effects of `whole` were accepted
 bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal, std::vector<Trial>* alone) {
     constexpr double nearly = 0.9;  // share of the gain of `whole`
@@ -123,7 +123,7 @@ bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal,
         chain = std::move(whole);
         return true;
     };
-    if (whole.choices.size() > chain.choices.size() + most_one_by_one) return take_whole();
+    if (whole.choices.size() > chain.choices.size() + most_one_by_one || is_long(whole)) return take_whole();
     const auto look_everywhere_again = [&] {
         search.limit(false);
         search.look_for_causes_in(all_signals, 1.0);
@@ -168,12 +168,13 @@ bool explain_by_many(const Search& search, Chain& chain, const Chain& all) {
 
 /// Explains Hall reading and tags. Their causes can stand in for each other, so that all are looked at
 /// together.
-/// @param all  the chain with all smooth effects
+/// @param all  the chain, or the chain with all smooth effects
 /// @return whether effects found at once were accepted
 bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, std::vector<Trial>* alone) {
     if (!is_view_or_wire_off(search, chain)) return false;
     const Signal signal = is_off(search, chain, Signal::hall) ? Signal::hall : Signal::tag;
     add_shapes_beside(search, chain, all);
+    if (all.choices.size() == chain.choices.size()) all = with_all_that_is_smooth(search, chain);
     return explain_by_one_or(search, chain, std::move(all), signal, alone);
 }
 
@@ -243,10 +244,7 @@ AtOnce explain_at_once(Search& search, Chain& chain, std::optional<Chain>& aside
     const bool are_many = explain_by_many(search, chain, smooth);
     search.throw_if_over();
     const bool is_balanced = explain_carriage_at_once(search, chain, aside, &alone);
-    if (are_many)
-        smooth = chain;
-    else if (is_balanced || aside)
-        smooth = with_all_that_is_smooth(search, chain);
+    if (are_many || is_balanced || aside) smooth = chain;
     const bool is_known = explain_view_and_wire_at_once(search, chain, std::move(smooth), &alone) || are_many;
     bool are_several = is_known || is_balanced;
     if (!is_known) are_several = explain_hall(search, chain, &alone) || are_several;

@@ -41,6 +41,11 @@ bool has_room_for_two(const Chain& chain, std::size_t most_effects) {
     return chain.choices.size() + 2 <= most_effects;
 }
 
+bool is_long(const Chain& chain) {
+    constexpr std::size_t most_short = 4;
+    return chain.choices.size() > most_short;
+}
+
 Choice choice_of(const Search& search, const CrossFit& beside, std::vector<Trial> trials) {
     Choice choice{.candidate = trials.front().candidate, .loss_without = beside.loss};
     for (std::size_t k = 1; k < trials.size(); ++k)

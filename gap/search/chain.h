@@ -27,6 +27,9 @@ struct Chain {
     std::vector<const Candidate*> candidates() const;
 };
 
+/// Whether a chain has so many effects that refitting the rest without each of them would take too long.
+bool is_long(const Chain& chain);
+
 bool has_room_for_two(const Chain& chain, std::size_t most_effects);
 
 /// The choice of the first of these trials, each of which was added to the explanation `beside`.

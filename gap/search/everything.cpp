@@ -264,7 +264,6 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
 Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,
                             std::span<const plant::EffectSetting> waves, const Hypothesis& beside,
                             const Hypothesis& begun, const Wanted& wanted) {
-    constexpr double share_of_best = 0.5;
     // Share of the loss that a wave has to save, since errors show one of many periods by chance.
     constexpr double worth_a_fit = 0.2;
     IncrementalPrediction incremental(evidence, beside, wanted);
@@ -283,12 +282,9 @@ Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate*
     const double square = median_square(evidence, errors, windows_off(evidence, wanted, errors));
     const double enough_for_a_wave = worth_a_fit * total_loss(evidence.windows(), wanted, errors);
     Hypothesis best;
-    double most = 0.0;
     for (const ScreenedShape& shape : screened_shapes(predict, evidence.windows(), wanted, others.settings,
                                                       grid, std::sqrt(1.0 + square), expected_sizes)) {
-        if (shape.candidate->wave && shape.gain < enough_for_a_wave) continue;
-        most = std::max(most, shape.gain);
-        if (shape.gain >= share_of_best * most) best.push_back(shape.setting);
+        if (!shape.candidate->wave || shape.gain >= enough_for_a_wave) best.push_back(shape.setting);
     }
     return best;
 }

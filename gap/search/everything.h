@@ -49,9 +49,8 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
                                       const std::array<Wanted, 2>& wanted);
 
-/// Settings of those candidates with a shape of their own that are not in `begun` which promise most beside
-/// all others (gap/search/shape_screening.h), best first: one for each candidate, with at least half of the
-/// best one's gain.
+/// Settings of those candidates with a shape of their own that are not in `begun` and promise anything beside
+/// all others (gap/search/shape_screening.h), the one that saves most first.
 /// @param waves  settings of waves along the rail to be screened as well; no grid contains their periods
 /// @param beside, wanted  of the first half; like the other parameters as in needed_of_everything()
 Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,

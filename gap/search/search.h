@@ -91,8 +91,9 @@ class Search {
     };
     Together everything_beside(const CrossFit& base);
 
-    /// Explanations like that of everything_beside(), with one further effect that has a shape of its own:
-    /// one for each of those that promise most in the signals that the base leaves off their floors.
+    /// Explanations like that of everything_beside(), with further effects that have shapes of their own: all
+    /// those that promise anything in the signals that the base leaves off their floors, fitted at once; and
+    /// the one that promises most alone, where there is no other or all together are found not to be needed.
     std::vector<Together> shaped_beside(const CrossFit& base);
 
     /// Effects on the carriage beside a base that has none. Of the models from the balance of forces
@@ -193,6 +194,8 @@ class Search {
     enum class SmoothSignals { hall_and_tags, hall_alone, tags_alone };
     EverythingBeside everything_of(const CrossFit& base, SmoothSignals of) const;
     Together needed_of(const EverythingBeside& all);
+    /// Those of all smooth candidates and of some shapes that are needed beside a base's other effects.
+    Together needed_with(const CrossFit& base, const Hypothesis& shapes);
 
     /// Ends the search, because the budget has ended; what was found is still judged.
     void end(Ended how);

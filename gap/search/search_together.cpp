@@ -12,9 +12,11 @@
 #include <functional>
 #include <iterator>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fidservo::gap {
 namespace {
@@ -139,26 +141,34 @@ Hypothesis Search::waves_of_reading(const CrossFit& base,
 std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) {
     const EverythingBeside all = everything_of(base, SmoothSignals::hall_and_tags);
     const Wanted wanted = only_of(fitter_.evidence().windows(), all.wanted[0], off(base));
+    const Hypothesis shapes =
+        promising_shapes(fitter_.evidence(), all.candidates, waves_of_reading(base, all.candidates),
+                         all.beside[0], all.begun, wanted);
     std::vector<Together> found;
-    for (const plant::EffectSetting& shape :
-         promising_shapes(fitter_.evidence(), all.candidates, waves_of_reading(base, all.candidates),
-                          all.beside[0], all.begun, wanted)) {
-        if (options_.tell) options_.tell(fmt::format("{} with all that is smooth", shape.effect->name));
-        const auto candidate_of = [&](const plant::EffectSetting& setting) {
-            return *std::ranges::find(all.candidates, setting.effect, &Candidate::effect);
-        };
-        EverythingBeside with =
-            everything_of(base, is_told_by_hall(candidate_of(shape)) ? SmoothSignals::hall_and_tags
-                                                                     : SmoothSignals::tags_alone);
-        // Effects that have stood in for this one may hold its fit back: their sizes begin at zero.
-        std::erase_if(with.begun, [&](const plant::EffectSetting& setting) {
-            return !has_a_shape(*candidate_of(setting));
-        });
-        with.begun.push_back(shape);
-        found.push_back(needed_of(with));
-        if (over_) break;
-    }
+    if (shapes.size() > 1) found.push_back(needed_with(base, shapes));
+    const bool is_none_needed = found.empty() || found.front().candidates.empty();
+    if (!shapes.empty() && is_none_needed && !over_) found.push_back(needed_with(base, {shapes.front()}));
     return found;
+}
+
+Search::Together Search::needed_with(const CrossFit& base, const Hypothesis& shapes) {
+    const EverythingBeside all = everything_of(base, SmoothSignals::hall_and_tags);
+    const auto candidate_of = [&](const plant::EffectSetting& setting) {
+        return *std::ranges::find(all.candidates, setting.effect, &Candidate::effect);
+    };
+    std::vector<std::string_view> names;
+    bool shows_in_hall = false;
+    for (const plant::EffectSetting& shape : shapes) {
+        names.push_back(shape.effect->name);
+        shows_in_hall = shows_in_hall || is_told_by_hall(candidate_of(shape));
+    }
+    if (options_.tell) options_.tell(fmt::format("{} with all that is smooth", fmt::join(names, ", ")));
+    EverythingBeside with = shows_in_hall ? all : everything_of(base, SmoothSignals::tags_alone);
+    // Effects that have stood in for these may hold their fit back: their sizes begin at zero.
+    std::erase_if(with.begun,
+                  [&](const plant::EffectSetting& setting) { return !has_a_shape(*candidate_of(setting)); });
+    with.begun.insert(with.begun.end(), shapes.begin(), shapes.end());
+    return needed_of(with);
 }
 
 Search::Together Search::together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const {

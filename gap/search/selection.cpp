@@ -144,12 +144,6 @@ bool begin_otherwise(Search& search, Chain& chain, std::size_t most_effects) {
     return changed;
 }
 
-/// Whether refitting the rest without each of a chain's effects would take too long.
-bool is_long(const Chain& chain) {
-    constexpr std::size_t most_short = 4;
-    return chain.choices.size() > most_short;
-}
-
 /// Continues from a model of the balance of forces that leaves the encoder off its floor: adds what is best
 /// beside it and tests each effect, with half of the effort.
 /// @return whether the encoder comes to its floor

@@ -65,18 +65,29 @@ class Surrounding {
             slopes_[k] = weighting.weighted(slope(predict, parameters, k, errors, usual_step));
         });
         const auto count = static_cast<Eigen::Index>(slopes_.size());
-        Eigen::MatrixXd normal(count, count);
+        normal_.resize(count, count);
         for (Eigen::Index row = 0; row < count; ++row)
             for (Eigen::Index column = 0; column <= row; ++column)
-                normal(row, column) = normal(column, row) = product(
+                normal_(row, column) = normal_(column, row) = product(
                     slopes_[static_cast<std::size_t>(row)], slopes_[static_cast<std::size_t>(column)]);
         for (std::size_t k = 0; k < slopes_.size(); ++k)
             if (parameters.is_size(k)) {
                 const auto at = static_cast<Eigen::Index>(k);
-                normal(at, at) += 1.0 / (expected_sizes * expected_sizes);
+                normal_(at, at) += 1.0 / (expected_sizes * expected_sizes);
             }
-        inverse_ = count > 0 ? pseudo_inverse(normal) : normal;
-        left_ = products_with(errors_);
+        solve();
+    }
+
+    /// Adds a column, whose size may change from then on.
+    void add(WeightedErrors column, double expected_sizes) {
+        const Eigen::VectorXd shared = products_with(column);
+        const Eigen::Index count = normal_.rows();
+        normal_.conservativeResize(count + 1, count + 1);
+        normal_.topRightCorner(count, 1) = shared;
+        normal_.bottomLeftCorner(1, count) = shared.transpose();
+        normal_(count, count) = product(column, column) + 1.0 / (expected_sizes * expected_sizes);
+        slopes_.push_back(std::move(column));
+        solve();
     }
 
     /// Slope and curvature of the loss along a further column, if all other parameters follow at their best;
@@ -89,6 +100,11 @@ class Surrounding {
     }
 
   private:
+    void solve() {
+        inverse_ = normal_.rows() > 0 ? pseudo_inverse(normal_) : normal_;
+        left_ = products_with(errors_);
+    }
+
     Eigen::VectorXd products_with(const WeightedErrors& column) const {
         Eigen::VectorXd products(static_cast<Eigen::Index>(slopes_.size()));
         for (std::size_t k = 0; k < slopes_.size(); ++k)
@@ -98,7 +114,7 @@ class Surrounding {
 
     WeightedErrors errors_;
     std::vector<WeightedErrors> slopes_;
-    Eigen::MatrixXd inverse_;
+    Eigen::MatrixXd normal_, inverse_;
     Eigen::VectorXd left_;
 };
 
@@ -149,30 +165,39 @@ std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<con
     const Errors errors = predict(others);
     if (errors.empty()) return {};
     const Weighting weighting(windows, counted, errors, scale_floors);
-    const Surrounding surrounding(predict, others, errors, weighting, expected_sizes);
-    std::vector<ScreenedShape> screened(grid.size());
+    Surrounding surrounding(predict, others, errors, weighting, expected_sizes);
+    std::vector<WeightedErrors> columns(grid.size());
     parallel_for(grid.size(), [&](std::size_t k) {
-        const auto& [candidate, shape] = grid[k];
-        screened[k] = {candidate, {}, 0.0};
         Hypothesis with = others;
-        with.push_back(of_size(*candidate, shape, step));
+        with.push_back(of_size(*grid[k].candidate, grid[k].shape, step));
         Errors column = predict(with);
         if (column.empty()) return;
         for (std::size_t i = 0; i < column.size(); ++i)
             column[i] = (column[i] - errors[i]) / static_cast<float>(step);
-        const auto [slope_of_loss, curvature] =
-            surrounding.slope_and_curvature(weighting.weighted(column), expected_sizes);
-        if (!(curvature > 0.0)) return;
-        const double size = within_bounds(*candidate, shape, -slope_of_loss / curvature);
-        screened[k].setting = of_size(*candidate, shape, size);
-        screened[k].gain = -size * (slope_of_loss + 0.5 * curvature * size);
+        columns[k] = weighting.weighted(column);
     });
-    std::ranges::stable_sort(screened, std::greater{}, &ScreenedShape::gain);
-    std::vector<ScreenedShape> best;
-    for (ScreenedShape& one : screened)
-        if (one.gain > 0.0 && std::ranges::find(best, one.candidate, &ScreenedShape::candidate) == best.end())
-            best.push_back(std::move(one));
-    return best;
+    std::vector<ScreenedShape> found;
+    while (true) {
+        std::vector<ScreenedShape> screened(grid.size());
+        parallel_for(grid.size(), [&](std::size_t k) {
+            const auto& [candidate, shape] = grid[k];
+            screened[k] = {candidate, {}, 0.0};
+            const bool is_found =
+                std::ranges::find(found, candidate, &ScreenedShape::candidate) != found.end();
+            if (is_found || columns[k].size() == 0) return;
+            const auto [slope_of_loss, curvature] =
+                surrounding.slope_and_curvature(columns[k], expected_sizes);
+            if (!(curvature > 0.0)) return;
+            const double size = within_bounds(*candidate, shape, -slope_of_loss / curvature);
+            screened[k].setting = of_size(*candidate, shape, size);
+            screened[k].gain = -size * (slope_of_loss + 0.5 * curvature * size);
+        });
+        const auto best = std::ranges::max_element(screened, {}, &ScreenedShape::gain);
+        if (best == screened.end() || !(best->gain > 0.0)) return found;
+        surrounding.add(std::move(columns[static_cast<std::size_t>(best - screened.begin())]),
+                        expected_sizes);
+        found.push_back(std::move(*best));
+    }
 }
 
 }  // namespace fidservo::gap

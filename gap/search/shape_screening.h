@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which effect with a shape of its own would explain most in addition to all smooth ones.
+// Which effects with shapes of their own would explain most in addition to all smooth ones.
 //
 // Changes x of the parameters that are already there change errors e nearly linearly, to e + J x; another
 // setting of size y, whose shape is a point of its grid, to e + J x + c y. What loss that saves compared with
@@ -33,7 +33,7 @@ std::vector<GridPoint> grid_of(std::span<const Candidate* const> candidates);
 struct ScreenedShape {
     const Candidate* candidate;
     plant::EffectSetting setting;  ///< at the size y, within its bounds
-    double gain;                   ///< loss that it saves, with errors linearised
+    double gain;                   ///< loss that it saves beside those before it, with errors linearised
 };
 
 /// Whether a candidate has parameters that are neither sizes nor choices nor optional.
@@ -43,7 +43,8 @@ bool has_a_shape(const Candidate& candidate);
 plant::EffectSetting of_size(const Candidate& candidate, const std::vector<double>& shape,
                              double typical_sizes);
 
-/// For each candidate, the point of the grid that saves most; best first.
+/// Candidates in the order in which each saves most beside those before it, at the point of its grid that
+/// does; only such as save anything.
 /// @param predict   errors under what is known, with the given settings in addition
 /// @param windows, counted  windows whose loss is meant
 /// @param others    settings that are already there, all of whose parameters may change

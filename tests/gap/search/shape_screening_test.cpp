@@ -4,8 +4,10 @@
 #include "plant/effects/catalogue.h"
 #include "tests/gap/equal_windows.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -75,6 +77,39 @@ TEST(ShapeScreening, FindsTheShapeAndTheSize_ThatAreThere_BesideWhatElseMayChang
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found.front().setting.values[1], 8.0);
     EXPECT_NEAR(typical_sizes(found.front().setting), 0.3, 0.01);
+}
+
+TEST(ShapeScreening, SecondShapeIsTheOne_ThatSavesMostBesideTheFirst) {
+    const auto with_shapes = [](std::string_view name, std::initializer_list<double> taus) {
+        std::vector<double> typical;
+        for (const plant::EffectParameter& parameter : plant::find_effect(name)->parameters)
+            typical.push_back(parameter.typical);
+        std::vector<std::vector<double>> shapes(taus.size(), typical);
+        std::ranges::transform(shapes, taus, shapes.begin(), [](std::vector<double> shape, double tau) {
+            shape[1] = tau;
+            return shape;
+        });
+        return candidate_of(name, std::move(shapes));
+    };
+    const Candidate slow = with_shapes("second_thermal_mass", {0.05, 0.2, 5.0}),
+                    fast = with_shapes("macro_coupling", {0.05, 0.2, 5.0});
+    const plant::EffectSetting of_slow = of_size(slow, slow.shapes[2], 1.0),
+                               of_fast = of_size(fast, fast.shapes[1], 0.3);
+    const auto predict = [&](const Hypothesis& hypothesis) {
+        Errors errors = errors_of(hypothesis, of_slow, 0.0);
+        for (std::size_t k = 0; k < errors.size(); ++k)
+            errors[k] -= static_cast<float>(typical_sizes(of_fast) * wave_of(of_fast, k));
+        return errors;
+    };
+    const std::vector<Window> all = testing::equal_windows(windows, values);
+    const auto found =
+        screened_shapes(predict, all, Wanted(windows, 1), {}, grid_of(std::array{&slow, &fast}), 1e3, 1e3);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0].candidate, &slow);
+    EXPECT_EQ(found[0].setting.values[1], 5.0);
+    EXPECT_EQ(found[1].candidate, &fast);
+    EXPECT_EQ(found[1].setting.values[1], 0.2);
+    EXPECT_NEAR(typical_sizes(found[1].setting), 0.3, 0.01);
 }
 
 TEST(ShapeScreening, WhatCouldOnlyBeThereTheOtherWay_PromisesNothing) {
