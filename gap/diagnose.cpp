@@ -177,9 +177,10 @@ Verdict verdict_of(const Selection& selection, bool something_is_left) {
 }
 
 /// What can be said without another prediction: how large the gap is, the names and how probable they are.
-/// @param left  signals in which something is left
+/// @param left   signals in which something is left
+/// @param whole  what the gap depends on where nothing is named; empty where that is unknown
 void say_what_is_named(const Evidence& evidence, const Selection& selection, const Fit& fitted,
-                       const SignalFlags& left, Diagnosis& diagnosis) {
+                       const SignalFlags& left, const std::optional<Remainder>& whole, Diagnosis& diagnosis) {
     std::vector<ChoiceWeights> weights;
     for (const Choice& choice : selection.choices)
         weights.push_back(weights_of(evidence, choice, selection.steps.back().mean_squares));
@@ -188,7 +189,7 @@ void say_what_is_named(const Evidence& evidence, const Selection& selection, con
         signal_gaps(evidence, selection.steps.front().mean_squares, selection.steps.back().mean_squares);
     diagnosis.gap = total_gap(diagnosis.signals);
     diagnosis.effects =
-        found_effects(evidence, selection, supports(evidence, selection, weights, left), fitted);
+        found_effects(evidence, selection, supports(evidence, selection, weights, left, whole), fitted);
     diagnosis.candidates = tried_effects(evidence, selection);
     diagnosis.where = blocks_of(selection, weights, diagnosis.effects);
 }
@@ -220,11 +221,18 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     const CrossFit& explained = selection.steps.back();
     const std::optional<Remainder> left = remainder_of(evidence, explained, tail);
     const Fit fitted = fit_to_all(evidence, explained);
-    say_what_is_named(evidence, selection, fitted, left ? only(*left->signal) : SignalFlags{}, diagnosis);
+    std::optional<Remainder> whole;
+    const bool is_view_named = std::ranges::any_of(selection.choices, [](const Choice& choice) {
+        return stage_of(choice.candidate->effect->block) == Stage::camera;
+    });
+    if (is_view_named) whole = remainder_of(evidence, selection.steps.front(), tail);
+    say_what_is_named(evidence, selection, fitted, left ? only(*left->signal) : SignalFlags{}, whole,
+                      diagnosis);
     diagnosis.unexplained =
         options.matters == SignalLimits{} ? left : remainder_of(evidence, explained, tail, options.matters);
-    std::optional<Remainder> whole;
-    if (!selection.choices.empty() && !are_credible(diagnosis.effects))
+    if (are_credible(diagnosis.effects) || selection.choices.empty())
+        whole.reset();
+    else if (!whole)
         whole = remainder_of(evidence, selection.steps.front(), tail);
     if (!diagnosis.unexplained && whole) {
         diagnosis.unexplained = whole;
@@ -266,7 +274,7 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
         left[index] = signal.after > least_floors * signal.floor;
         matters_something = matters_something || (left[index] && signal.discrepancy > matters[index]);
     }
-    say_what_is_named(evidence, selection, fitted, left, diagnosis);
+    say_what_is_named(evidence, selection, fitted, left, {}, diagnosis);
     diagnosis.verdict = verdict_of(selection, matters_something);
     return diagnosis;
 }

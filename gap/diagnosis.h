@@ -66,6 +66,9 @@ struct Support {
     /// Whether residual analysis (gap/residuals/) finds something left in a signal that determines the
     /// effect.
     bool leaves_something = false;
+    /// Of an effect of the camera or what it sees: whether residual analysis without names finds that the
+    /// whole gap depends on one quantity alone, which accuses a block of these that is not named.
+    bool is_contested = false;
 };
 
 /// An effect in the explanation.

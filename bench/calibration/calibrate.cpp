@@ -54,14 +54,17 @@ gap::Support support_of(const Json& json, double gap_after) {
             .names = json.at("names"),
             .halves_apart = json.at("halves_apart"),
             .is_at_bound = json.at("at_bound"),
-            .leaves_something = json.at("leaves_something")};
+            .leaves_something = json.at("leaves_something"),
+            .is_contested = json.at("contested")};
 }
 
+/// Without those that are contested, which share their probability (gap/verdict/standing.h).
 std::vector<Name> names_of(const Json& self_check) {
     std::vector<Name> names;
     for (const Json& one : self_check.at("cases"))
         for (const Json& found : one.at("found")) {
             const gap::Support support = support_of(found.at("support"), one.at("gap").at("after"));
+            if (support.is_contested) continue;
             names.push_back({one.at("kind"), found.at("class"), gap::features_of(support), found.at("true")});
         }
     return names;

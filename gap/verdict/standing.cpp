@@ -2,6 +2,7 @@
 #include "gap/verdict/standing.h"
 
 #include "gap/fit/gap_size.h"
+#include "gap/residuals/accusation.h"
 #include "gap/verdict/calibration.h"
 
 #include <algorithm>
@@ -11,6 +12,16 @@
 
 namespace fidservo::gap {
 namespace {
+
+/// See Support::is_contested.
+bool is_contested(const std::optional<Remainder>& whole, const Selection& selection, const Choice& choice) {
+    if (!whole || whole->depends_on.size() != 1 || stage_of(whole->block) != Stage::camera ||
+        stage_of(choice.candidate->effect->block) != Stage::camera)
+        return false;
+    return std::ranges::none_of(selection.choices, [&](const Choice& named) {
+        return named.candidate->effect->block == whole->block;
+    });
+}
 
 bool is_at_bound(const plant::EffectSetting& setting) {
     const std::span<const plant::EffectParameter> parameters = setting.effect->parameters;
@@ -93,11 +104,15 @@ double logistic_probability(const Features& features, double offset, const Featu
 }
 
 double calibrated_probability(const Support& support) {
-    return logistic_probability(features_of(support), calibrated_offset, calibrated_coefficients);
+    constexpr double share_of_two = 0.5;
+    const double probability =
+        logistic_probability(features_of(support), calibrated_offset, calibrated_coefficients);
+    return support.is_contested ? share_of_two * probability : probability;
 }
 
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
-                              const std::vector<ChoiceWeights>& weights, const SignalFlags& left) {
+                              const std::vector<ChoiceWeights>& weights, const SignalFlags& left,
+                              const std::optional<Remainder>& whole) {
     constexpr double is_not_shown = 1.0;  // that the halves agree
     const std::vector<Window>& windows = evidence.windows();
     const CrossFit& explained = selection.steps.back();
@@ -125,7 +140,8 @@ std::vector<Support> supports(const Evidence& evidence, const Selection& selecti
                                                           explained.of_half[1][k]),
                        .is_at_bound = std::ranges::any_of(
                            explained.of_half, [&](const Hypothesis& half) { return is_at_bound(half[k]); }),
-                       .leaves_something = meet(left, teachers)});
+                       .leaves_something = meet(left, teachers),
+                       .is_contested = is_contested(whole, selection, choice)});
     }
     return all;
 }

@@ -13,6 +13,7 @@
 #include "gap/verdict/model_weights.h"
 
 #include <array>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -41,12 +42,16 @@ Features features_of(const Support& support);
 /// The probability by a regression with this offset and these coefficients.
 double logistic_probability(const Features& features, double offset, const Features& coefficients);
 
-/// The probability by the calibrated regression.
+/// The probability by the calibrated regression, or half of it for a contested name, which shares it with the
+/// other account. What a camera sees follows from geometry alone, so that residual analysis tells its causes
+/// apart as well as names do; such cases are too rare for the regression to learn from them.
 double calibrated_probability(const Support& support);
 
 /// The evidence for each choice of a selection.
-/// @param left  signals in which residual analysis finds something left
+/// @param left   signals in which residual analysis finds something left
+/// @param whole  what the gap depends on where nothing is named; empty where that is unknown
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
-                              const std::vector<ChoiceWeights>& weights, const SignalFlags& left);
+                              const std::vector<ChoiceWeights>& weights, const SignalFlags& left,
+                              const std::optional<Remainder>& whole);
 
 }  // namespace fidservo::gap

@@ -113,7 +113,8 @@ nlohmann::ordered_json support_json(const gap::Support& support) {
             {"names", support.names},
             {"halves_apart", number(support.halves_apart)},
             {"at_bound", support.is_at_bound},
-            {"leaves_something", support.leaves_something}};
+            {"leaves_something", support.leaves_something},
+            {"contested", support.is_contested}};
 }
 
 std::string diagnosis_json(const gap::Diagnosis& diagnosis) {
