@@ -58,13 +58,13 @@ gap::Support support_of(const Json& json, double gap_after) {
             .is_contested = json.at("contested")};
 }
 
-/// Without those that are contested, which share their probability (gap/verdict/standing.h).
+/// Without those that have a rival, with which they share their probability (gap/verdict/standing.h).
 std::vector<Name> names_of(const Json& self_check) {
     std::vector<Name> names;
     for (const Json& one : self_check.at("cases"))
         for (const Json& found : one.at("found")) {
             const gap::Support support = support_of(found.at("support"), one.at("gap").at("after"));
-            if (support.is_contested) continue;
+            if (gap::has_a_rival(support)) continue;
             names.push_back({one.at("kind"), found.at("class"), gap::features_of(support), found.at("true")});
         }
     return names;

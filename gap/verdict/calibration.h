@@ -20,7 +20,6 @@ inline constexpr std::array calibrated_coefficients{
     0.000,  // log_gap_left
     0.924,  // log_names
     0.330,  // halves_agree
-    0.000,  // in_bounds
     1.953,  // leaves_nothing
 };
 

@@ -93,7 +93,6 @@ Features features_of(const Support& support) {
             -std::log(std::max(support.gap_left, least_share)),
             std::log(support.names),
             -std::log(std::max(support.halves_apart, least_apart)),
-            support.is_at_bound ? 0.0 : 1.0,
             support.leaves_something ? 0.0 : 1.0};
 }
 
@@ -103,11 +102,15 @@ double logistic_probability(const Features& features, double offset, const Featu
     return 1.0 / (1.0 + std::exp(-log_odds));
 }
 
+bool has_a_rival(const Support& support) {
+    return support.is_contested || support.is_at_bound;
+}
+
 double calibrated_probability(const Support& support) {
     constexpr double share_of_two = 0.5;
     const double probability =
         logistic_probability(features_of(support), calibrated_offset, calibrated_coefficients);
-    return support.is_contested ? share_of_two * probability : probability;
+    return has_a_rival(support) ? share_of_two * probability : probability;
 }
 
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,

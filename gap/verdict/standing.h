@@ -20,10 +20,9 @@
 namespace fidservo::gap {
 
 /// The regression's features, by name.
-inline constexpr std::array<std::string_view, 9> feature_names{
-    "weight_logit", "log_discrepancy", "log_own_discrepancy", "log_gain",       "log_gap_left",
-    "log_names",    "halves_agree",    "in_bounds",           "leaves_nothing",
-};
+inline constexpr std::array<std::string_view, 8> feature_names{
+    "weight_logit", "log_discrepancy", "log_own_discrepancy", "log_gain",
+    "log_gap_left", "log_names",       "halves_agree",        "leaves_nothing"};
 using Features = std::array<double, feature_names.size()>;
 
 /// The features x_k of a named effect, each larger the stronger the evidence; logarithms are natural:
@@ -35,16 +34,20 @@ using Features = std::array<double, feature_names.size()>;
 ///   log_gap_left   -log of the fraction of the total gap that remains, 1e-4 at least
 ///   log_names      log of the number of named effects: many small ones less often stand in for another one
 ///   halves_agree   -log of the relative difference of its size between the halves, 1e-3 at least
-///   in_bounds      1 if no parameter is at a bound of its range, else 0
 ///   leaves_nothing  1 if residual analysis finds nothing left in the signals that determine it, else 0
 Features features_of(const Support& support);
 
 /// The probability by a regression with this offset and these coefficients.
 double logistic_probability(const Features& features, double offset, const Features& coefficients);
 
-/// The probability by the calibrated regression, or half of it for a contested name, which shares it with the
-/// other account. What a camera sees follows from geometry alone, so that residual analysis tells its causes
-/// apart as well as names do; such cases are too rare for the regression to learn from them.
+/// Whether another account of the same data stands beside a named effect, with which it shares its
+/// probability: residual analysis, as for Support::is_contested; or, where a parameter is at its bound, that
+/// a rig cannot have as much of the effect as fits best. What a camera sees follows from geometry alone, so
+/// that residual analysis tells its causes apart as well as names do.
+bool has_a_rival(const Support& support);
+
+/// The probability by the calibrated regression, or half of it for a name that has a rival: these are too
+/// rare for the regression to learn from them.
 double calibrated_probability(const Support& support);
 
 /// The evidence for each choice of a selection.
