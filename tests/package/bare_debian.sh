@@ -28,9 +28,9 @@ cp "$packages"/*.deb "$folder/debian/root/"
 
 say "the program"
 begin=$SECONDS
-inside 'apt-get update -qq && apt-get install -qq -y --no-install-recommends /root/fidservo_*.deb' >"$folder/install-program.log" 2>&1
+inside 'apt-get update -qq && apt-get install -qq -y --no-install-recommends ~/fidservo_*.deb' >"$folder/install-program.log" 2>&1
 printf 'installed in %d s\n' $((SECONDS - begin))
-inside 'cd /root && fidservo inspect /usr/share/fidservo/demo/recipe.yaml --out demo || (($? == 1)); test -s demo/report.html' |
+inside 'cd && fidservo inspect /usr/share/fidservo/demo/recipe.yaml --out demo || (($? == 1)); test -s demo/report.html' |
     tail -2
 printf 'the first report after %d s\n' $((SECONDS - begin))
 inside 'test -e /usr/share/man/man1/fidservo-calibrate-camera.1.gz
@@ -41,16 +41,16 @@ inside 'test -e /usr/share/man/man1/fidservo-calibrate-camera.1.gz
 
 say "the libraries"
 begin=$SECONDS
-inside 'apt-get install -qq -y --no-install-recommends make /root/libfidservo-dev_*.deb' >"$folder/install-development.log" 2>&1
+inside 'apt-get install -qq -y --no-install-recommends make ~/libfidservo-dev_*.deb' >"$folder/install-development.log" 2>&1
 printf 'installed in %d s\n' $((SECONDS - begin))
-inside 'cp -r /usr/share/doc/fidservo/examples /root/ && cd /root/examples
+inside 'cp -r /usr/share/doc/fidservo/examples ~/ && cd ~/examples
     cmake -B build >/dev/null && cmake --build build -j "$(nproc)"
     ctest --test-dir build --output-on-failure'
 
 say "the Python module"
 begin=$SECONDS
-inside 'apt-get install -qq -y --no-install-recommends /root/python3-fidservo_*.deb' >"$folder/install-python.log" 2>&1
+inside 'apt-get install -qq -y --no-install-recommends ~/python3-fidservo_*.deb' >"$folder/install-python.log" 2>&1
 printf 'installed in %d s\n' $((SECONDS - begin))
-inside 'cd /root && for example in /usr/share/doc/python3-fidservo/examples/*.py; do
+inside 'cd && for example in /usr/share/doc/python3-fidservo/examples/*.py; do
         echo "$example" && python3 "$example" | tail -2
     done'
