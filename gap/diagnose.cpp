@@ -176,7 +176,12 @@ Verdict verdict_of(const Selection& selection, bool something_is_left) {
     return something_is_left ? Verdict::partly_explained : Verdict::explained;
 }
 
+std::vector<SignalGap> gaps_of(const Evidence& evidence, const Selection& selection) {
+    return signal_gaps(evidence, selection.steps.front().mean_squares, selection.steps.back().mean_squares);
+}
+
 /// What can be said without another prediction: how large the gap is, the names and how probable they are.
+/// @param diagnosis  its signals are known
 /// @param left   signals in which something is left
 /// @param whole  what the gap depends on where nothing is named; empty where that is unknown
 void say_what_is_named(const Evidence& evidence, const Selection& selection, const Fit& fitted,
@@ -185,8 +190,6 @@ void say_what_is_named(const Evidence& evidence, const Selection& selection, con
     for (const Choice& choice : selection.choices)
         weights.push_back(weights_of(evidence, choice, selection.steps.back().mean_squares));
     diagnosis.hypothesis = fitted.hypothesis;
-    diagnosis.signals =
-        signal_gaps(evidence, selection.steps.front().mean_squares, selection.steps.back().mean_squares);
     diagnosis.gap = total_gap(diagnosis.signals);
     diagnosis.effects =
         found_effects(evidence, selection, supports(evidence, selection, weights, left, whole), fitted);
@@ -219,6 +222,7 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     Diagnosis diagnosis;
     const std::ptrdiff_t left_out = leave_out_unpredictable(evidence, selection);
     const CrossFit& explained = selection.steps.back();
+    diagnosis.signals = gaps_of(evidence, selection);
     const std::optional<Remainder> left = remainder_of(evidence, explained, tail);
     const Fit fitted = fit_to_all(evidence, explained);
     std::optional<Remainder> whole;
@@ -266,10 +270,10 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
         parameters += static_cast<Eigen::Index>(setting.values.size());
     const Fit fitted{
         .hypothesis = hypothesis, .loss = 0.0, .covariance = Eigen::MatrixXd::Zero(parameters, parameters)};
-    const std::vector<double>& after = selection.steps.back().mean_squares;
+    diagnosis.signals = gaps_of(evidence, selection);
     SignalFlags left{};
     bool matters_something = false;
-    for (const SignalGap& signal : signal_gaps(evidence, after, after)) {
+    for (const SignalGap& signal : diagnosis.signals) {
         const std::size_t index = index_of(signal.signal);
         left[index] = signal.after > least_floors * signal.floor;
         matters_something = matters_something || (left[index] && signal.discrepancy > matters[index]);

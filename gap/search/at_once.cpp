@@ -54,18 +54,14 @@ bool is_view_or_wire_off(const Search& search, const Chain& chain) {
     return is_off(search, chain, Signal::hall) || is_off(search, chain, Signal::tag);
 }
 
-/// Adds effects with a shape of their own one after the other, each together with all smooth effects that are
-/// then needed, as long as Hall reading or tags are off their floors and the longer chain is better.
+/// Adds effects with shapes of their own, each time together with all smooth effects that are then needed, as
+/// long as Hall reading or tags are off their floors and the longer chain is better.
 /// @param chain  each change is an improvement, so that it may be used whenever this ends
 void add_shapes(Search& search, Chain& chain) {
     while (is_view_or_wire_off(search, chain)) {
-        std::optional<Chain> best;
-        for (Search::Together& together : search.shaped_beside(chain.fitted)) {
-            Chain longer = with_everything(chain, std::move(together));
-            if (!best || longer.fitted.loss < best->fitted.loss) best = std::move(longer);
-        }
-        if (!best || !is_better(search, *best, chain)) return;
-        chain = *std::move(best);
+        Chain longer = with_everything(chain, search.shaped_beside(chain.fitted));
+        if (!is_better(search, longer, chain)) return;
+        chain = std::move(longer);
         search.throw_if_over();
     }
 }

@@ -91,10 +91,11 @@ class Search {
     };
     Together everything_beside(const CrossFit& base);
 
-    /// Explanations like that of everything_beside(), with further effects that have shapes of their own: all
-    /// those that promise anything in the signals that the base leaves off their floors, fitted at once; and
-    /// the one that promises most alone, where there is no other or all together are found not to be needed.
-    std::vector<Together> shaped_beside(const CrossFit& base);
+    /// An explanation like that of everything_beside(), with further effects that have shapes of their own:
+    /// all those that promise anything in the signals that the base leaves off their floors, fitted at once;
+    /// or, if together they are found not to be needed, the one that promises most. The base alone where none
+    /// promises anything.
+    Together shaped_beside(const CrossFit& base);
 
     /// Effects on the carriage beside a base that has none. Of the models from the balance of forces
     /// (gap/balance/force_regression.h), and of the forms of their effects, those are taken that predict best
@@ -195,7 +196,8 @@ class Search {
     EverythingBeside everything_of(const CrossFit& base, SmoothSignals of) const;
     Together needed_of(const EverythingBeside& all);
     /// Those of all smooth candidates and of some shapes that are needed beside a base's other effects.
-    Together needed_with(const CrossFit& base, const Hypothesis& shapes);
+    /// @param all  of Hall reading and tags beside this base
+    Together needed_with(const CrossFit& base, const EverythingBeside& all, const Hypothesis& shapes);
 
     /// Ends the search, because the budget has ended; what was found is still judged.
     void end(Ended how);

@@ -138,21 +138,21 @@ Hypothesis Search::waves_of_reading(const CrossFit& base,
     return waves;
 }
 
-std::vector<Search::Together> Search::shaped_beside(const CrossFit& base) {
+Search::Together Search::shaped_beside(const CrossFit& base) {
     const EverythingBeside all = everything_of(base, SmoothSignals::hall_and_tags);
     const Wanted wanted = only_of(fitter_.evidence().windows(), all.wanted[0], off(base));
     const Hypothesis shapes =
         promising_shapes(fitter_.evidence(), all.candidates, waves_of_reading(base, all.candidates),
                          all.beside[0], all.begun, wanted);
-    std::vector<Together> found;
-    if (shapes.size() > 1) found.push_back(needed_with(base, shapes));
-    const bool is_none_needed = found.empty() || found.front().candidates.empty();
-    if (!shapes.empty() && is_none_needed && !over_) found.push_back(needed_with(base, {shapes.front()}));
+    if (shapes.empty()) return {{}, {}, base};
+    Together found = needed_with(base, all, shapes);
+    if (found.candidates.empty() && shapes.size() > 1 && !over_)
+        found = needed_with(base, all, {shapes.front()});
     return found;
 }
 
-Search::Together Search::needed_with(const CrossFit& base, const Hypothesis& shapes) {
-    const EverythingBeside all = everything_of(base, SmoothSignals::hall_and_tags);
+Search::Together Search::needed_with(const CrossFit& base, const EverythingBeside& all,
+                                     const Hypothesis& shapes) {
     const auto candidate_of = [&](const plant::EffectSetting& setting) {
         return *std::ranges::find(all.candidates, setting.effect, &Candidate::effect);
     };

@@ -53,12 +53,19 @@ double product(const WeightedErrors& left, const WeightedErrors& right) {
     return left.cast<double>().dot(right.cast<double>());
 }
 
+/// The change of errors with a size, with its inner products.
+struct SizeColumn {
+    WeightedErrors change;
+    Eigen::VectorXd with_others;  ///< with the changes by what is already there
+    double with_errors = 0.0, square = 0.0;
+};
+
 /// The settings that are already there, whose parameters may still change.
 class Surrounding {
   public:
     Surrounding(const Predict& predict, const Hypothesis& others, const Errors& errors,
                 const Weighting& weighting, double expected_sizes)
-        : errors_(weighting.weighted(errors)) {
+        : prior_(1.0 / (expected_sizes * expected_sizes)), errors_(weighting.weighted(errors)) {
         const ScaledParameters parameters(others);
         slopes_.resize(parameters.size());
         parallel_for(slopes_.size(), [&](std::size_t k) {
@@ -73,37 +80,46 @@ class Surrounding {
         for (std::size_t k = 0; k < slopes_.size(); ++k)
             if (parameters.is_size(k)) {
                 const auto at = static_cast<Eigen::Index>(k);
-                normal_(at, at) += 1.0 / (expected_sizes * expected_sizes);
+                normal_(at, at) += prior_;
             }
-        solve();
+        left_ = products_with(errors_);
+        invert();
+    }
+
+    SizeColumn column_of(WeightedErrors change) const {
+        SizeColumn column{{}, products_with(change), product(change, errors_), product(change, change)};
+        column.change = std::move(change);
+        return column;
     }
 
     /// Adds a column, whose size may change from then on.
-    void add(WeightedErrors column, double expected_sizes) {
-        const Eigen::VectorXd shared = products_with(column);
+    void add(const SizeColumn& column) {
         const Eigen::Index count = normal_.rows();
         normal_.conservativeResize(count + 1, count + 1);
-        normal_.topRightCorner(count, 1) = shared;
-        normal_.bottomLeftCorner(1, count) = shared.transpose();
-        normal_(count, count) = product(column, column) + 1.0 / (expected_sizes * expected_sizes);
-        slopes_.push_back(std::move(column));
-        solve();
+        normal_.topRightCorner(count, 1) = column.with_others;
+        normal_.bottomLeftCorner(1, count) = column.with_others.transpose();
+        normal_(count, count) = column.square + prior_;
+        left_.conservativeResize(count + 1);
+        left_(count) = column.with_errors;
+        slopes_.push_back(column.change);
+        invert();
     }
 
     /// Slope and curvature of the loss along a further column, if all other parameters follow at their best;
     /// the curvature includes the column's own prior.
-    std::pair<double, double> slope_and_curvature(const WeightedErrors& column, double expected_sizes) const {
-        const Eigen::VectorXd shared = products_with(column);
-        return {product(column, errors_) - shared.dot(inverse_ * left_),
-                product(column, column) + 1.0 / (expected_sizes * expected_sizes) -
-                    shared.dot(inverse_ * shared)};
+    /// @param column  receives its products with columns that were added since the last call
+    std::pair<double, double> slope_and_curvature(SizeColumn& column) const {
+        Eigen::VectorXd& shared = column.with_others;
+        const Eigen::Index known = shared.size(), count = normal_.rows();
+        shared.conservativeResize(count);
+        for (Eigen::Index k = known; k < count; ++k)
+            shared(k) = product(slopes_[static_cast<std::size_t>(k)], column.change);
+        return {column.with_errors - shared.dot(inverse_ * left_),
+                column.square + prior_ - shared.dot(inverse_ * shared)};
     }
 
   private:
-    void solve() {
-        inverse_ = normal_.rows() > 0 ? pseudo_inverse(normal_) : normal_;
-        left_ = products_with(errors_);
-    }
+    void invert() { inverse_ = normal_.rows() > 0 ? pseudo_inverse(normal_) : normal_; }
 
     Eigen::VectorXd products_with(const WeightedErrors& column) const {
         Eigen::VectorXd products(static_cast<Eigen::Index>(slopes_.size()));
@@ -112,6 +128,7 @@ class Surrounding {
         return products;
     }
 
+    double prior_;
     WeightedErrors errors_;
     std::vector<WeightedErrors> slopes_;
     Eigen::MatrixXd normal_, inverse_;
@@ -166,7 +183,7 @@ std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<con
     if (errors.empty()) return {};
     const Weighting weighting(windows, counted, errors, scale_floors);
     Surrounding surrounding(predict, others, errors, weighting, expected_sizes);
-    std::vector<WeightedErrors> columns(grid.size());
+    std::vector<SizeColumn> columns(grid.size());
     parallel_for(grid.size(), [&](std::size_t k) {
         Hypothesis with = others;
         with.push_back(of_size(*grid[k].candidate, grid[k].shape, step));
@@ -174,7 +191,7 @@ std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<con
         if (column.empty()) return;
         for (std::size_t i = 0; i < column.size(); ++i)
             column[i] = (column[i] - errors[i]) / static_cast<float>(step);
-        columns[k] = weighting.weighted(column);
+        columns[k] = surrounding.column_of(weighting.weighted(column));
     });
     std::vector<ScreenedShape> found;
     while (true) {
@@ -184,9 +201,8 @@ std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<con
             screened[k] = {candidate, {}, 0.0};
             const bool is_found =
                 std::ranges::find(found, candidate, &ScreenedShape::candidate) != found.end();
-            if (is_found || columns[k].size() == 0) return;
-            const auto [slope_of_loss, curvature] =
-                surrounding.slope_and_curvature(columns[k], expected_sizes);
+            if (is_found || columns[k].change.size() == 0) return;
+            const auto [slope_of_loss, curvature] = surrounding.slope_and_curvature(columns[k]);
             if (!(curvature > 0.0)) return;
             const double size = within_bounds(*candidate, shape, -slope_of_loss / curvature);
             screened[k].setting = of_size(*candidate, shape, size);
@@ -194,8 +210,7 @@ std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<con
         });
         const auto best = std::ranges::max_element(screened, {}, &ScreenedShape::gain);
         if (best == screened.end() || !(best->gain > 0.0)) return found;
-        surrounding.add(std::move(columns[static_cast<std::size_t>(best - screened.begin())]),
-                        expected_sizes);
+        surrounding.add(columns[static_cast<std::size_t>(best - screened.begin())]);
         found.push_back(std::move(*best));
     }
 }
