@@ -132,6 +132,20 @@ std::vector<Refinement> refinements_of(const plant::Effect& effect) {
     return found;
 }
 
+std::vector<plant::EffectSetting> settings_within_counts(const Candidate& candidate) {
+    constexpr int most_steps = 16;
+    if (candidate.step_within_counts == 0.0) return {};
+    const std::size_t size = candidate.sizes.front();
+    std::vector<plant::EffectSetting> settings;
+    for (int k = -most_steps; k <= most_steps; ++k) {
+        if (k == 0) continue;
+        plant::EffectSetting& setting = settings.emplace_back(candidate.effect, candidate.shapes.front());
+        setting.values[size] =
+            candidate.effect->parameters[size].vanishing + k * candidate.step_within_counts;
+    }
+    return settings;
+}
+
 std::size_t unrefined_parameters(const plant::Effect& effect) {
     const auto is_asked_first = [](const plant::EffectParameter& parameter) {
         return parameter.role != plant::Role::optional && !parameter.is_choice();

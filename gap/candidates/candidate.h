@@ -40,6 +40,10 @@ struct Candidate {
 /// The optional parameters, which are not in a candidate's shapes: they are fitted once the rest is known.
 std::vector<Refinement> refinements_of(const plant::Effect& effect);
 
+/// A scale error of the encoder in steps to both sides of zero, because its gain has a local maximum for each
+/// count that it adds at the far end of the rail. Of other candidates there are none.
+std::vector<plant::EffectSetting> settings_within_counts(const Candidate& candidate);
+
 /// How many parameters an effect has without its refinements and choices.
 std::size_t unrefined_parameters(const plant::Effect& effect);
 

@@ -55,15 +55,16 @@ bool is_view_or_wire_off(const Search& search, const Chain& chain) {
 }
 
 /// Adds effects with shapes of their own, each time together with all smooth effects that are then needed, as
-/// long as Hall reading or tags are off their floors and the longer chain is better.
+/// long as the Hall reading, and then the tags, are off their floors and the longer chain is better.
 /// @param chain  each change is an improvement, so that it may be used whenever this ends
 void add_shapes(Search& search, Chain& chain) {
-    while (is_view_or_wire_off(search, chain)) {
-        Chain longer = with_everything(chain, search.shaped_beside(chain.fitted));
-        if (!is_better(search, longer, chain)) return;
-        chain = std::move(longer);
-        search.throw_if_over();
-    }
+    for (const Signal signal : {Signal::hall, Signal::tag})
+        while (is_off(search, chain, signal)) {
+            Chain longer = with_everything(chain, search.shaped_beside(chain.fitted, signal));
+            if (!is_better(search, longer, chain)) break;
+            chain = std::move(longer);
+            search.throw_if_over();
+        }
 }
 
 /// add_shapes() to another chain. If the search ends meanwhile, the one with the smaller loss is kept as
@@ -98,6 +99,13 @@ Chain without_carriage(const Search& search, const Chain& chain) {
     return rest;
 }
 
+/// Whether a chain has an effect of the encoder's reading.
+bool reads_otherwise(const Chain& chain) {
+    return std::ranges::any_of(chain.choices, [](const Choice& choice) {
+        return choice.candidate->effect->part == plant::Part::encoder;
+    });
+}
+
 /// Explanations of a signal by more effects than this, found at once, are accepted without a search.
 constexpr std::size_t most_one_by_one = 2;
 
@@ -128,7 +136,8 @@ bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal,
     try {
         search.look_for_causes_in(only(signal), 1.0);
         std::vector<Trial> trials =
-            search.try_all(chain.fitted, chain.candidates(), {.scatters = false, .refines = false});
+            search.try_all(chain.fitted, chain.candidates(),
+                           {.scatters = false, .refines = false, .competitor = &whole.fitted});
         add_tried(*alone, trials);
         const double gain = chain.fitted.loss - whole.fitted.loss;
         if (has_leader(trials) && is_smooth(*trials.front().candidate) &&
@@ -178,14 +187,16 @@ bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, std:
 /// If the model leaves the encoder off its floor, it is accepted for the time being.
 /// @param aside  receives the chain with the model in that case
 /// @return whether the model brings the encoder to its floor and was accepted
-bool explain_carriage_at_once(Search& search, Chain& chain, std::optional<Chain>& aside,
-                              std::vector<Trial>* alone) {
+bool explain_carriage_at_once(Search& search, Chain& chain, Aside& aside, std::vector<Trial>* alone) {
+    constexpr double most_of_it = 0.9;
     if (!is_off(search, chain, Signal::encoder)) return false;
-    Chain whole = with_together(chain, search.forces_beside(chain.fitted));
+    Chain whole = in_plain_forms(search, with_together(chain, search.forces_beside(chain.fitted)));
     if (!is_off(search, whole, Signal::encoder))
         return explain_by_one_or(search, chain, std::move(whole), Signal::encoder, alone);
-    if (whole.choices.size() > chain.choices.size() && is_better(search, whole, chain))
-        aside = chain = std::move(whole);
+    if (whole.choices.size() > chain.choices.size() && is_better(search, whole, chain)) {
+        aside.is_by_forces_mostly = search.nearly_clears(chain.fitted, whole.fitted, most_of_it);
+        aside.by_forces = chain = whole;
+    }
     return false;
 }
 
@@ -235,17 +246,40 @@ Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& ot
     return merged;
 }
 
-AtOnce explain_at_once(Search& search, Chain& chain, std::optional<Chain>& aside, std::vector<Trial>& alone) {
-    Chain smooth = is_view_or_wire_off(search, chain) ? with_all_that_is_smooth(search, chain) : chain;
-    const bool are_many = explain_by_many(search, chain, smooth);
+Chain joined(const Search& search, const Chain& chain, const Chain& other) {
+    const auto is_lacking = [&](const plant::Effect& effect) {
+        return std::ranges::none_of(
+            chain.choices, [&](const Choice& choice) { return choice.candidate->effect == &effect; });
+    };
+    Chain both = chain;
+    add_choices(both, other, is_lacking);
+    if (both.choices.size() > chain.choices.size())
+        search.fit_again(both.fitted, either(only(Signal::hall), only(Signal::tag)));
+    return both;
+}
+
+AtOnce explain_at_once(Search& search, Chain& chain, Aside& aside, std::vector<Trial>& alone) {
+    aside.smooth = is_view_or_wire_off(search, chain) ? with_all_that_is_smooth(search, chain) : chain;
+    const bool are_many = explain_by_many(search, chain, *aside.smooth);
     search.throw_if_over();
-    const bool is_balanced = explain_carriage_at_once(search, chain, aside, &alone);
-    if (are_many || is_balanced || aside) smooth = chain;
+    bool is_balanced = explain_carriage_at_once(search, chain, aside, &alone);
+    const bool was_read_otherwise = reads_otherwise(chain);
+    Chain smooth = joined(search, chain, *std::exchange(aside.smooth, std::nullopt));
     const bool is_known = explain_view_and_wire_at_once(search, chain, std::move(smooth), &alone) || are_many;
     bool are_several = is_known || is_balanced;
     if (!is_known) are_several = explain_hall(search, chain, &alone) || are_several;
-    if (aside) {
-        aside = chain;
+    if (reads_otherwise(chain) && !was_read_otherwise && is_off(search, chain, Signal::encoder)) {
+        Chain rest = without_carriage(search, chain);
+        Aside again;
+        is_balanced = explain_carriage_at_once(search, rest, again, &alone);
+        if (is_better(search, rest, chain)) {
+            chain = std::move(rest);
+            aside = std::move(again);
+        }
+        are_several = are_several || is_balanced;
+    }
+    if (aside.by_forces) {
+        aside.by_forces = chain;
         chain = without_carriage(search, chain);
     }
     return {is_balanced, are_several};

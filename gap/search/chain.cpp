@@ -2,6 +2,7 @@
 #include "gap/search/chain.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace fidservo::gap {
@@ -78,6 +79,30 @@ Chain without(const Search& search, const Chain& chain, std::size_t left_out) {
     for (Hypothesis& hypothesis : shorter.fitted.of_half) hypothesis.erase(hypothesis.begin() + at);
     search.fit_again(shorter.fitted, concerned);
     return shorter;
+}
+
+Chain in_plain_forms(const Search& search, Chain chain) {
+    for (std::size_t k = 0; k < chain.choices.size(); ++k) {
+        Chain plain = chain;
+        for (Hypothesis& hypothesis : plain.fitted.of_half) {
+            std::optional<Search::PlainForm> form = search.plain_form_of(hypothesis[k]);
+            if (!form) break;
+            plain.choices[k].candidate = form->candidate;
+            hypothesis[k] = std::move(form->setting);
+        }
+        if (plain.choices[k].candidate == chain.choices[k].candidate) continue;
+        Choice& choice = plain.choices[k];
+        search.fit_again(plain.fitted, teachers_of(*choice.candidate->effect));
+        if (search.is_real(plain.fitted, chain.fitted)) continue;
+        Trial itself{.candidate = choice.candidate,
+                     .gain = choice.loss_without - plain.fitted.loss,
+                     .is_leader = true,
+                     .fitted = plain.fitted};
+        choice.alternatives = {std::move(itself)};
+        choice.ties.clear();
+        chain = std::move(plain);
+    }
+    return chain;
 }
 
 Chain rest_of(const Search& search, const Chain& chain, const SignalFlags& signals) {

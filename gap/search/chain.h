@@ -45,6 +45,10 @@ Chain grown(const Search& search, Chain chain, std::vector<Trial> trials);
 /// The chain without one of its effects; those that depend on it are refitted.
 Chain without(const Search& search, const Chain& chain, std::size_t left_out);
 
+/// A chain whose effects are replaced by their simpler forms where what is richer about them is not real
+/// (Search::is_real), as where friction is found to be the same in both directions.
+Chain in_plain_forms(const Search& search, Chain chain);
+
 /// The chain without the effects that are estimated from any of the given signals.
 Chain rest_of(const Search& search, const Chain& chain, const SignalFlags& signals);
 

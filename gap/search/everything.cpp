@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/everything.h"
 
-#include "core/median.h"
 #include "gap/balance/force_balance.h"
 #include "gap/fit/fit.h"
 #include "gap/fit/incremental_prediction.h"
 #include "gap/fit/score.h"
+#include "gap/search/approach.h"
 #include "gap/search/shape_screening.h"
 #include "gap/search/worth.h"
 
@@ -14,7 +14,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <limits>
+#include <numeric>
 #include <utility>
 
 namespace fidservo::gap {
@@ -22,60 +22,6 @@ namespace {
 
 /// Prior standard deviation of sizes about zero effect, in typical sizes.
 constexpr double expected_sizes = 3.0;
-
-/// A fit is close to the optimum once half of the windows that were off at its start have a mean square below
-/// this.
-constexpr double near_square = 2.0;
-
-double median_square(const std::vector<double>& all, const Wanted& leading) {
-    std::vector<double> squares;
-    for (std::size_t w = 0; w < all.size(); ++w)
-        if (leading[w] != 0 && !std::isnan(all[w])) squares.push_back(all[w]);
-    return squares.empty() ? 0.0 : median_of(std::move(squares));
-}
-
-double median_square(const Evidence& evidence, const Errors& errors, const Wanted& leading) {
-    return median_square(mean_squares(evidence.windows(), errors), leading);
-}
-
-/// The windows that tell how far a fit is from the optimum: of the signal that is furthest off, those whose
-/// predictions are off at the start. Windows in which nothing moves are predicted by any hypothesis.
-Wanted windows_off(const Evidence& evidence, const Wanted& wanted, const Errors& errors) {
-    const std::vector<Window>& windows = evidence.windows();
-    const std::vector<double> squares = mean_squares(windows, errors);
-    Wanted furthest(windows.size(), 0);
-    double most = 0.0;
-    for (const Signal signal : {Signal::encoder, Signal::hall, Signal::tag}) {
-        Wanted leading = only_of(windows, wanted, only(signal));
-        for (std::size_t w = 0; w < windows.size(); ++w)
-            if (!(squares[w] > near_square)) leading[w] = 0;
-        const double square = median_square(squares, leading);
-        if (square <= most) continue;
-        most = square;
-        furthest = std::move(leading);
-    }
-    return furthest;
-}
-
-/// Fits from a distant start in several steps, until nothing improves. In each step errors up to the present
-/// median count as noise.
-/// @param options  of each step, but for its end and its noise
-Hypothesis approached(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
-                      const Wanted& leading, Hypothesis start, FitOptions options) {
-    constexpr int most_levels = 6, iterations_a_level = 8;
-    constexpr double hardly_less = 0.5, tolerance = 0.02;
-    options.most_iterations = iterations_a_level;
-    options.tolerance = tolerance;
-    double last = std::numeric_limits<double>::infinity();
-    for (int level = 0; level < most_levels; ++level) {
-        const double square = median_square(evidence, predict(start), leading);
-        if (square < near_square || square > hardly_less * last) break;
-        last = square;
-        options.scale_floors = std::sqrt(1.0 + square);
-        start = fit(predict, evidence.windows(), wanted, start, options).hypothesis;
-    }
-    return start;
-}
 
 Fit fitted_closely(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
                    const Hypothesis& start, FitOptions options) {
@@ -123,6 +69,207 @@ Chosen begun_with(std::span<const Candidate* const> candidates, const Hypothesis
     return chosen;
 }
 
+/// The elimination of those candidates that the data do not need, on the first half and then on the other.
+class Elimination {
+  public:
+    /// @param chosen   all candidates, with settings from which their fits start
+    /// @param options  of all fits, but for their ends
+    Elimination(const Evidence& evidence, const std::array<Hypothesis, 2>& beside,
+                const std::array<Wanted, 2>& wanted, Chosen chosen, const FitOptions& options)
+        : evidence_(evidence),
+          wanted_(wanted),
+          incremental_{IncrementalPrediction(evidence, beside[0], wanted[0]),
+                       IncrementalPrediction(evidence, beside[1], wanted[1])},
+          predict_{std::ref(incremental_[0]), std::ref(incremental_[1])},
+          options_(options),
+          now_{std::move(chosen), {}, {}} {}
+
+    NeededCandidates needed(IfFar if_far) {
+        // Most candidates that are not needed show before the values are known precisely.
+        constexpr int at_first = 4, at_last = 4;
+        if (!comes_near() && if_far == IfFar::gives_up) return {};
+        fit_first_half(expected_sizes, at_first);
+        now_.keep(kept(now_.chosen.candidates, now_.fitted, now_.demand, true));
+        if (is_empty()) return {};
+        std::optional<Ended> ended;
+        try {
+            for (bool is_all = false; !is_all;) {
+                fit_and_prune();
+                if (is_empty()) return {};
+                try_other_choices();
+                is_all = test_on_other_half(most_iterations);
+                if (is_empty()) return {};
+            }
+        } catch (const BudgetEnded& end) {
+            ended = end.how();
+            try {
+                evidence_.budget()->end_search();
+                ask_of_each();
+                test_on_other_half(at_last);
+            } catch (const BudgetEnded&) {
+                of_other_half_ = now_.chosen.settings;
+            }
+        }
+        return {now_.chosen.candidates, {now_.chosen.settings, of_other_half_}, now_.chosen.worth, ended};
+    }
+
+  private:
+    static constexpr int most_iterations = 15;
+
+    /// What is chosen, as fitted to the first half, and what is demanded of it.
+    struct State {
+        Chosen chosen;
+        Fit fitted;
+        Demand demand;
+
+        void keep(const std::vector<std::size_t>& places) {
+            chosen.worth = worth_of_each(chosen.candidates, fitted);
+            chosen.keep(places);
+        }
+        /// The loss where each candidate has to save the least worth.
+        double cost() const {
+            return fitted.loss + least_worth * static_cast<double>(chosen.settings.size());
+        }
+    };
+
+    /// From the start to the neighbourhood of the optimum, if possible. Elsewhere, errors up to those that
+    /// are left count as noise from then on.
+    bool comes_near() {
+        Chosen& chosen = now_.chosen;
+        Approach near =
+            approach(evidence_, chosen.candidates, predict_[0], wanted_[0], chosen.settings, options_);
+        chosen.settings = std::move(near.settings);
+        if (!near.is_near()) options_.scale_floors = std::sqrt(1.0 + near.median_square);
+        return near.is_near();
+    }
+
+    bool is_empty() const { return now_.chosen.candidates.empty(); }
+
+    Fit fitted_to(std::size_t side, double sizes, int iterations) const {
+        FitOptions options = options_;
+        options.expected_sizes = sizes;
+        options.most_iterations = iterations;
+        return fitted_closely(evidence_, predict_[side], wanted_[side], now_.chosen.settings, options);
+    }
+
+    void fit_first_half(double sizes, int iterations) {
+        now_.fitted = fitted_to(0, sizes, iterations);
+        now_.chosen.settings = now_.fitted.hypothesis;
+    }
+
+    /// Fits what is left, which may be nothing.
+    void fit_rest() {
+        if (is_empty())
+            now_.fitted = {.hypothesis = {},
+                           .loss = total_loss(evidence_.windows(), wanted_[0], predict_[0]({})),
+                           .covariance = {}};
+        else
+            fit_first_half(0.0, most_iterations);
+    }
+
+    void ask_of_each() { now_.demand = Demand(evidence_, wanted_[0], predict_[0](now_.chosen.settings)); }
+
+    /// Keeps some of the candidates that were chosen before, and fits them.
+    /// @return whether the fit confirms that the others were not needed. Their worth follows from the loss to
+    /// second order, which can be far from what a fit finds
+    bool does_with(const State& before, const std::vector<std::size_t>& places) {
+        now_ = before;
+        now_.keep(places);
+        double allowed = before.fitted.loss;
+        for (const Candidate* candidate : before.chosen.candidates)
+            if (std::ranges::find(now_.chosen.candidates, candidate) == now_.chosen.candidates.end())
+                allowed += before.demand.worth_of(*candidate);
+        fit_rest();
+        return now_.fitted.loss < allowed;
+    }
+
+    /// Removes what is not needed and fits the rest, again and again. Where a fit contradicts, only the
+    /// candidate that saves least is removed; where it still does, all are needed.
+    void fit_and_prune() {
+        fit_rest();
+        while (!is_empty()) {
+            ask_of_each();
+            const State before = now_;
+            const std::vector<std::size_t> rest =
+                kept(before.chosen.candidates, before.fitted, before.demand, false);
+            const std::size_t removed = before.chosen.candidates.size() - rest.size();
+            if (removed > 0 && does_with(before, rest)) continue;
+            if (removed > 1 && does_with(before, all_but_least(before))) continue;
+            now_ = before;
+            now_.chosen.worth = worth_of_each(now_.chosen.candidates, now_.fitted);
+            return;
+        }
+    }
+
+    /// Indices of all candidates but the one that saves least, relative to what is demanded of it.
+    static std::vector<std::size_t> all_but_least(const State& state) {
+        const std::vector<const Candidate*>& candidates = state.chosen.candidates;
+        const std::vector<double> worth = worth_of_each(candidates, state.fitted);
+        std::vector<std::size_t> all(candidates.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        all.erase(std::ranges::min_element(
+            all, {}, [&](std::size_t c) { return worth[c] / state.demand.worth_of(*candidates[c]); }));
+        return all;
+    }
+
+    /// Tries the other alternative of a choice: with the wrong one a second candidate makes up for what the
+    /// two differ by.
+    bool try_other_choice(std::size_t c, std::size_t parameter) {
+        const State before = now_;
+        const plant::EffectParameter& choice = now_.chosen.settings[c].effect->parameters[parameter];
+        double& value = now_.chosen.settings[c].values[parameter];
+        value = choice.is_high(value) ? choice.low : choice.high;
+        try {
+            fit_and_prune();
+        } catch (...) {
+            now_ = before;
+            throw;
+        }
+        const bool is_better = !is_empty() && now_.cost() < before.cost();
+        if (!is_better) now_ = before;
+        return is_better;
+    }
+
+    /// The first alternative that is better is kept.
+    void try_other_choices() {
+        for (std::size_t c = 0; c < now_.chosen.settings.size(); ++c) {
+            const plant::Effect& effect = *now_.chosen.settings[c].effect;
+            for (std::size_t k = 0; k < effect.parameters.size(); ++k)
+                if (effect.parameters[k].is_choice() && !moves_carriage(effect) && try_other_choice(c, k))
+                    return;
+        }
+    }
+
+    /// Fits the other half, too, and keeps what is worth it there and on the first half.
+    /// @return whether that is everything
+    bool test_on_other_half(int iterations) {
+        const Fit fitted = fitted_to(1, 0.0, iterations);
+        Chosen& chosen = now_.chosen;
+        // What the first half says was found when it was pruned.
+        const std::vector<double> there = worth_of_each(chosen.candidates, fitted);
+        std::vector<std::size_t> rest;
+        of_other_half_.clear();
+        for (std::size_t c = 0; c < there.size(); ++c) {
+            if (std::min(chosen.worth[c], there[c]) >= now_.demand.worth_of(*chosen.candidates[c])) {
+                rest.push_back(c);
+                of_other_half_.push_back(fitted.hypothesis[c]);
+            }
+            chosen.worth[c] += there[c];
+        }
+        const bool is_all = rest.size() == there.size();
+        chosen.keep(rest);
+        return is_all;
+    }
+
+    const Evidence& evidence_;
+    const std::array<Wanted, 2>& wanted_;
+    std::array<IncrementalPrediction, 2> incremental_;
+    std::array<Predict, 2> predict_;
+    FitOptions options_;
+    State now_;
+    Hypothesis of_other_half_;
+};
+
 }  // namespace
 
 bool is_smooth(const Candidate& candidate) {
@@ -138,127 +285,10 @@ bool is_smooth_of_carriage(const Candidate& candidate) {
 
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
-                                      const std::array<Wanted, 2>& wanted) {
-    // Numbers of iterations: most candidates that are not needed show before the values are known precisely.
-    constexpr int at_first = 4, then = 15, at_last = 4;
-    std::array<IncrementalPrediction, 2> incremental{IncrementalPrediction(evidence, beside[0], wanted[0]),
-                                                     IncrementalPrediction(evidence, beside[1], wanted[1])};
-    const std::array<Predict, 2> predict{std::ref(incremental[0]), std::ref(incremental[1])};
-    Chosen chosen = begun_with(candidates, begun);
-    const Wanted leading = windows_off(evidence, wanted[0], predict[0](chosen.settings));
+                                      const std::array<Wanted, 2>& wanted, IfFar if_far) {
     FitOptions options = smooth_where_it_can_be(evidence, wanted[0]);
     options.expected_sizes = expected_sizes;
-    chosen.settings =
-        approached(evidence, predict[0], wanted[0], leading, std::move(chosen.settings), options);
-    const double square = median_square(evidence, predict[0](chosen.settings), leading);
-    const bool is_near = square < near_square;
-    if (!is_near && begun.empty()) return {};
-    options.scale_floors = is_near ? 1.0 : std::sqrt(1.0 + square);
-    std::array<Fit, 2> fitted;
-    const auto fit_half = [&](std::size_t side, double sizes, int most_iterations) {
-        options.expected_sizes = sizes;
-        options.most_iterations = most_iterations;
-        fitted[side] = fitted_closely(evidence, predict[side], wanted[side], chosen.settings, options);
-    };
-    const auto fit_first = [&](double sizes, int most_iterations) {
-        fit_half(0, sizes, most_iterations);
-        chosen.settings = fitted[0].hypothesis;
-    };
-    Demand demand;
-    /// Removes candidates that are not needed. Returns whether there were any.
-    const auto prune = [&](bool spares_held = false) {
-        const std::size_t count = chosen.candidates.size();
-        chosen.worth = worth_of_each(chosen.candidates, fitted[0]);
-        chosen.keep(kept(chosen.candidates, fitted[0], demand, spares_held));
-        return chosen.candidates.size() < count;
-    };
-    const auto fit_and_prune = [&] {
-        do {
-            fit_first(0.0, then);
-            demand = Demand(evidence, wanted[0], predict[0](chosen.settings));
-        } while (prune() && !chosen.candidates.empty());
-    };
-    /// What a number of candidates costs: each has to save the least worth.
-    const auto cost = [&] {
-        return fitted[0].loss + least_worth * static_cast<double>(chosen.settings.size());
-    };
-    /// Tries the other alternative of a choice: with the wrong one a second candidate makes up for what the
-    /// two differ by.
-    const auto try_other_choice = [&](std::size_t c, std::size_t parameter) {
-        const Chosen chosen_before = chosen;
-        const Fit fitted_before = fitted[0];
-        const Demand demand_before = demand;
-        const double cost_before = cost();
-        const auto go_back = [&] {
-            chosen = chosen_before;
-            fitted[0] = fitted_before;
-            demand = demand_before;
-        };
-        const plant::EffectParameter& choice = chosen.settings[c].effect->parameters[parameter];
-        double& value = chosen.settings[c].values[parameter];
-        value = choice.is_high(value) ? choice.low : choice.high;
-        try {
-            fit_and_prune();
-        } catch (...) {
-            go_back();
-            throw;
-        }
-        const bool is_better = !chosen.candidates.empty() && cost() < cost_before;
-        if (!is_better) go_back();
-        return is_better;
-    };
-    /// The first alternative that is better is kept.
-    const auto try_other_choices = [&] {
-        for (std::size_t c = 0; c < chosen.settings.size(); ++c) {
-            const plant::Effect& effect = *chosen.settings[c].effect;
-            for (std::size_t k = 0; k < effect.parameters.size(); ++k)
-                if (effect.parameters[k].is_choice() && !moves_carriage(effect) && try_other_choice(c, k))
-                    return;
-        }
-    };
-    /// Fits the other half, too, and keeps what is worth it there and on the first half. Returns whether that
-    /// is everything.
-    const auto test_on_other_half = [&](int most_iterations) {
-        fit_half(1, 0.0, most_iterations);
-        // What the first half says was found when it was pruned.
-        const std::vector<double> there = worth_of_each(chosen.candidates, fitted[1]);
-        std::vector<std::size_t> rest;
-        Hypothesis of_other;
-        for (std::size_t c = 0; c < there.size(); ++c) {
-            if (std::min(chosen.worth[c], there[c]) >= demand.worth_of(*chosen.candidates[c])) {
-                rest.push_back(c);
-                of_other.push_back(fitted[1].hypothesis[c]);
-            }
-            chosen.worth[c] += there[c];
-        }
-        const bool is_all = rest.size() == there.size();
-        chosen.keep(rest);
-        fitted[1].hypothesis = std::move(of_other);
-        return is_all;
-    };
-    fit_first(expected_sizes, at_first);
-    prune(true);
-    if (chosen.candidates.empty()) return {};
-    std::optional<Ended> ended;
-    try {
-        for (bool is_all = false; !is_all;) {
-            fit_and_prune();
-            if (chosen.candidates.empty()) return {};
-            try_other_choices();
-            is_all = test_on_other_half(then);
-            if (chosen.candidates.empty()) return {};
-        }
-    } catch (const BudgetEnded& end) {
-        ended = end.how();
-        try {
-            evidence.budget()->end_search();
-            demand = Demand(evidence, wanted[0], predict[0](chosen.settings));
-            test_on_other_half(at_last);
-        } catch (const BudgetEnded&) {
-            fitted[1].hypothesis = chosen.settings;
-        }
-    }
-    return {chosen.candidates, {chosen.settings, fitted[1].hypothesis}, chosen.worth, ended};
+    return Elimination(evidence, beside, wanted, begun_with(candidates, begun), options).needed(if_far);
 }
 
 Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,
@@ -279,7 +309,7 @@ Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate*
     }
     std::ranges::move(grid_of(shaped), std::back_inserter(grid));
     const Errors errors = predict(others.settings);
-    const double square = median_square(evidence, errors, windows_off(evidence, wanted, errors));
+    const double square = median_square_off(evidence, wanted, errors);
     const double enough_for_a_wave = worth_a_fit * total_loss(evidence.windows(), wanted, errors);
     Hypothesis best;
     for (const ScreenedShape& shape : screened_shapes(predict, evidence.windows(), wanted, others.settings,

@@ -5,14 +5,15 @@
 //
 // Where several small causes act together, none of them predicts well alone, and the first one accepted
 // stands in for the others. All sizes together, with a prior of a few typical sizes about zero, are found in
-// some steps of Levenberg-Marquardt (gap/fit/fit.h); far from the optimum, errors up to a level of a floors,
-// a^2 = 1 + the median of S_w, count as noise in it. What each saves then follows to second order
-// (gap/search/worth.h).
+// some steps of Levenberg-Marquardt (gap/fit/fit.h), far from the optimum by gap/search/approach.h. What each
+// saves then follows to second order (gap/search/worth.h), and a fit without those that save too little has
+// to confirm that.
 #include "gap/candidates/candidate.h"
 #include "gap/candidates/coupling.h"
 #include "gap/evidence.h"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,6 +40,10 @@ bool is_smooth(const Candidate& candidate);
 /// it acts as a force, without play, place or period, and does not hide within the counts.
 bool is_smooth_of_carriage(const Candidate& candidate);
 
+/// What is done where the fit of everything does not come near its optimum: what is off is then of another
+/// kind, or another signal is still to be explained.
+enum class IfFar : std::uint8_t { gives_up, goes_on };
+
 /// Fits all candidates without a shape of their own, and those in `begun`, to the first half, keeps those
 /// that are worth it there, fits these to the other half, too, and keeps those that are worth it on both.
 /// @param candidates  one of each class
@@ -47,7 +52,7 @@ bool is_smooth_of_carriage(const Candidate& candidate);
 /// @param wanted      the windows that are fitted in each half
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
-                                      const std::array<Wanted, 2>& wanted);
+                                      const std::array<Wanted, 2>& wanted, IfFar if_far);
 
 /// Settings of those candidates with a shape of their own that are not in `begun` and promise anything beside
 /// all others (gap/search/shape_screening.h), the one that saves most first.

@@ -106,8 +106,10 @@ std::vector<Trial> Search::try_all(const CrossFit& base, std::span<const Candida
     std::vector<Contender> all = contenders(base, added);
     look_at(base, all);
     std::ranges::sort(all, std::greater{}, &Contender::promised);
-    const std::span fitted =
-        near_best(all, share_of_promise, least_gain, effort.fits, std::mem_fn(&Contender::promised));
+    const double enough =
+        effort.competitor != nullptr ? share_of_promise * gain_where_looked(base, *effort.competitor) : 0.0;
+    const std::span fitted = near_best(all, share_of_promise, std::max(least_gain, enough), effort.fits,
+                                       std::mem_fn(&Contender::promised));
     fit_simple_first(base, fitted);
     std::ranges::sort(fitted, std::greater{}, &Contender::gain);
     std::span leaders = near_best(fitted, share_of_gain, 0.0, effort.leaders, std::mem_fn(&Contender::gain));

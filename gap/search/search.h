@@ -35,6 +35,9 @@ struct Effort {
     /// Whether the best wave or spring is also fitted from many drawn values if it leaves a gap.
     bool scatters = true;
     bool refines = true;  ///< whether the leaders' first, coarse fits are followed by close ones
+    /// Another explanation that the candidates compete with: what promises little beside its gain is not
+    /// fitted.
+    const CrossFit* competitor = nullptr;
 };
 
 /// Share of a signal's excess that a wave removes once its place and period are nearly right.
@@ -82,8 +85,9 @@ class Search {
 
     /// Those of all smooth candidates of Hall reading and tags that are needed beside a base's other effects,
     /// fitted at once on both halves (gap/search/everything.h), starting from the base's own settings of
-    /// these candidates. They are the last settings of the fit, in the order of `candidates`. Where there are
-    /// none, because what is far off in the tags is of another kind, those of the Hall reading alone.
+    /// these candidates. They are the last settings of the fit, in the order of `candidates`. A Hall reading
+    /// that is off its floor is explained first, without the tags, which show what moves the platform and
+    /// what the camera sees of it; where that leaves nothing in the tags, it is the result.
     struct Together {
         std::vector<const Candidate*> candidates;
         std::vector<double> worth;  ///< loss that each saves beside the others
@@ -92,10 +96,10 @@ class Search {
     Together everything_beside(const CrossFit& base);
 
     /// An explanation like that of everything_beside(), with further effects that have shapes of their own:
-    /// all those that promise anything in the signals that the base leaves off their floors, fitted at once;
-    /// or, if together they are found not to be needed, the one that promises most. The base alone where none
-    /// promises anything.
-    Together shaped_beside(const CrossFit& base);
+    /// all those that promise anything in one signal (the Hall reading alone, or the tags beside it), fitted
+    /// at once; or, if together they are found not to be needed, the one that promises most. The base alone
+    /// where none promises anything.
+    Together shaped_beside(const CrossFit& base, Signal signal);
 
     /// Effects on the carriage beside a base that has none. Of the models from the balance of forces
     /// (gap/balance/force_regression.h), and of the forms of their effects, those are taken that predict best
@@ -139,6 +143,14 @@ class Search {
     /// with it.
     /// @param base  cross fit from which gains are counted; it lacks at least the last effect
     CrossFit closer(const CrossFit& base, CrossFit whole, const Candidate& last) const;
+
+    /// A setting as its effect's simpler form, with the candidate of that form; empty where it has none that
+    /// may be named.
+    struct PlainForm {
+        const Candidate* candidate;
+        plant::EffectSetting setting;
+    };
+    std::optional<PlainForm> plain_form_of(const plant::EffectSetting& setting) const;
 
     /// Signals whose fits an effect influences (gap/fit/cross_fit.h).
     SignalFlags concerned_by(const Candidate& candidate, const CrossFit& whole) const {
@@ -194,7 +206,7 @@ class Search {
     /// Hall reading does not show.
     enum class SmoothSignals { hall_and_tags, hall_alone, tags_alone };
     EverythingBeside everything_of(const CrossFit& base, SmoothSignals of) const;
-    Together needed_of(const EverythingBeside& all);
+    Together needed_of(const EverythingBeside& all, IfFar if_far);
     /// Those of all smooth candidates and of some shapes that are needed beside a base's other effects.
     /// @param all  of Hall reading and tags beside this base
     Together needed_with(const CrossFit& base, const EverythingBeside& all, const Hypothesis& shapes);
@@ -209,6 +221,8 @@ class Search {
     /// (gap/search/wave_scan.h). Empty unless the predicted carriage runs away in a few windows, by which
     /// alone a weak wave shows; and empty for a carriage on a belt, whose predictions cost too much.
     std::optional<plant::EffectSetting> scanned_wave(const Hypothesis& beside, const Candidate& wave) const;
+    /// Loss that an explanation saves in those windows of the first half in which candidates are looked at.
+    double gain_where_looked(const CrossFit& base, const CrossFit& explanation) const;
     Contender contender(const CrossFit& base, const Candidate& candidate);
     /// Candidates that are not `added` and may improve a signal that is off its floor.
     std::vector<const Candidate*> in_question(const CrossFit& base,

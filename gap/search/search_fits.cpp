@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fits of a search's step: of simple candidates first, on the second half for leaders only.
 #include "core/parallel.h"
+#include "core/rig.h"
 #include "gap/fit/polish.h"
 #include "gap/fit/score.h"
 #include "gap/search/contender.h"
@@ -163,6 +164,21 @@ void Search::fit_second_half(const CrossFit& base, Contender& contender) const {
     for (std::size_t side = 0; side < 2; ++side)
         contender.trial.fitted.of_half[side] = contender.placed(base, side, finding.fitted[side]);
     judge_both_halves(base, contender);
+}
+
+std::optional<Search::PlainForm> Search::plain_form_of(const plant::EffectSetting& setting) const {
+    for (const Candidate& candidate : candidates_)
+        if (is_limit_of(*candidate.effect, *setting.effect) && !candidate.is_limit)
+            return PlainForm{&candidate, plain_form(setting, fitter_.evidence().rig().macro)};
+    return {};
+}
+
+double Search::gain_where_looked(const CrossFit& base, const CrossFit& explanation) const {
+    const Wanted looked_at = fitter_.instructive_of(0, focus_, base.mean_squares);
+    std::vector<double> before = base.mean_squares, after = explanation.mean_squares;
+    for (std::size_t w = 0; w < looked_at.size(); ++w)
+        if (looked_at[w] == 0) before[w] = after[w] = std::numeric_limits<double>::quiet_NaN();
+    return total_loss(before) - total_loss(after);
 }
 
 void Search::put_real_ones_first(const CrossFit& base, std::span<Contender> all) const {

@@ -241,9 +241,9 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
             best = std::move(drawn);
         }
         if (!is_off()) return best;
-        Together whole =
-            together(base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_),
-                                                        base.of_half, settings_of_model(best)[0], wanted));
+        Together whole = together(
+            base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_), base.of_half,
+                                               settings_of_model(best)[0], wanted, IfFar::goes_on));
         // Many effects that leave most of the gap stand in for something else.
         const bool explains = nearly_clears(base, whole.fitted, share_explained);
         return explains && whole.fitted.loss < best.fitted.loss ? whole : best;

@@ -93,9 +93,9 @@ void Search::end(Ended how) {
     fitter_.evidence().budget()->end_search();
 }
 
-Search::Together Search::needed_of(const EverythingBeside& all) {
+Search::Together Search::needed_of(const EverythingBeside& all, IfFar if_far) {
     NeededCandidates needed =
-        needed_of_everything(fitter_.evidence(), all.candidates, all.beside, all.begun, all.wanted);
+        needed_of_everything(fitter_.evidence(), all.candidates, all.beside, all.begun, all.wanted, if_far);
     if (needed.ended) end(*needed.ended);
     const bool is_of_one_half = needed.ended && needed.of_half[0] == needed.of_half[1];
     Together found = together(all.beside, std::move(needed));
@@ -105,9 +105,15 @@ Search::Together Search::needed_of(const EverythingBeside& all) {
 
 Search::Together Search::everything_beside(const CrossFit& base) {
     if (options_.tell) options_.tell("all that is smooth at once");
-    Together found = needed_of(everything_of(base, SmoothSignals::hall_and_tags));
-    if (!found.candidates.empty() || over_ || !off(base)[index_of(Signal::hall)]) return found;
-    return needed_of(everything_of(base, SmoothSignals::hall_alone));
+    const EverythingBeside all = everything_of(base, SmoothSignals::hall_and_tags);
+    const IfFar if_far = all.begun.empty() ? IfFar::gives_up : IfFar::goes_on;
+    if (!off(base)[index_of(Signal::hall)]) return needed_of(all, if_far);
+    Together of_hall = needed_of(everything_of(base, SmoothSignals::hall_alone), if_far);
+    if (over_) return of_hall;
+    if (of_hall.candidates.empty()) return needed_of(all, if_far);
+    if (!off(of_hall.fitted)[index_of(Signal::tag)]) return of_hall;
+    Together found = needed_of(everything_of(of_hall.fitted, SmoothSignals::hall_and_tags), if_far);
+    return found.candidates.empty() ? of_hall : found;
 }
 
 Hypothesis Search::waves_of_reading(const CrossFit& base,
@@ -138,9 +144,10 @@ Hypothesis Search::waves_of_reading(const CrossFit& base,
     return waves;
 }
 
-Search::Together Search::shaped_beside(const CrossFit& base) {
-    const EverythingBeside all = everything_of(base, SmoothSignals::hall_and_tags);
-    const Wanted wanted = only_of(fitter_.evidence().windows(), all.wanted[0], off(base));
+Search::Together Search::shaped_beside(const CrossFit& base, Signal signal) {
+    const EverythingBeside all = everything_of(
+        base, signal == Signal::hall ? SmoothSignals::hall_alone : SmoothSignals::hall_and_tags);
+    const Wanted wanted = only_of(fitter_.evidence().windows(), all.wanted[0], only(signal));
     const Hypothesis shapes =
         promising_shapes(fitter_.evidence(), all.candidates, waves_of_reading(base, all.candidates),
                          all.beside[0], all.begun, wanted);
@@ -168,7 +175,7 @@ Search::Together Search::needed_with(const CrossFit& base, const EverythingBesid
     std::erase_if(with.begun,
                   [&](const plant::EffectSetting& setting) { return !has_a_shape(*candidate_of(setting)); });
     with.begun.insert(with.begun.end(), shapes.begin(), shapes.end());
-    return needed_of(with);
+    return needed_of(with, IfFar::goes_on);
 }
 
 Search::Together Search::together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const {

@@ -241,12 +241,13 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     Search search(evidence, candidates, options.search);
     Selection selection;
     Chain chain{{}, search.nothing()};
-    std::optional<Chain> by_forces;
+    Aside aside;
+    std::optional<Chain>& by_forces = aside.by_forces;
     selection.steps.push_back(chain.fitted);
     try {
-        const AtOnce at_once = explain_at_once(search, chain, by_forces, selection.alone);
+        const AtOnce at_once = explain_at_once(search, chain, aside, selection.alone);
         bool are_several = at_once.are_several;
-        if (by_forces && goes_on_to_the_floor(search, *by_forces)) {
+        if (by_forces && aside.is_by_forces_mostly && goes_on_to_the_floor(search, *by_forces)) {
             chain = *std::exchange(by_forces, std::nullopt);
             are_several = true;
         }
@@ -267,6 +268,14 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     }
     evidence.budget()->end_search();
     search.limit(false);
+    if (aside.smooth) {
+        try {
+            chain = joined(search, chain, *aside.smooth);
+        } catch (const BudgetEnded& ended) {
+            selection.ended = ended.how();
+            if (aside.smooth->fitted.loss < chain.fitted.loss) chain = *std::move(aside.smooth);
+        }
+    }
     if (by_forces && search.off(chain.fitted)[index_of(Signal::encoder)]) {
         try {
             by_forces = with_carriage_of(search, chain, *by_forces);

@@ -49,21 +49,13 @@ std::vector<Promise> patches_at_first_sight(const Predict& predict, std::span<co
     return starts;
 }
 
-/// A scale error of the encoder in steps to both sides of zero, because its gain has a local maximum for each
-/// count that it adds at the far end of the rail.
+/// What each of the settings_within_counts() promises.
 std::vector<Promise> scanned(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
                              const Surroundings& beside, const Candidate& candidate) {
-    constexpr int most_steps = 16;
     const std::vector<double> base_squares = mean_squares(windows, beside.errors);
-    const std::size_t size = candidate.sizes.front();
     std::vector<Promise> starts;
-    for (int k = -most_steps; k <= most_steps; ++k) {
-        if (k == 0) continue;
-        plant::EffectSetting setting{candidate.effect, candidate.shapes.front()};
-        setting.values[size] =
-            candidate.effect->parameters[size].vanishing + k * candidate.step_within_counts;
+    for (plant::EffectSetting& setting : settings_within_counts(candidate))
         starts.push_back(promise_of(std::move(setting), predict, windows, counted, beside, base_squares));
-    }
     return starts;
 }
 

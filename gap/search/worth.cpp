@@ -14,34 +14,48 @@
 namespace fidservo::gap {
 namespace {
 
-/// Indices of each setting's sizes among all parameters, and the distances of all parameters from their
-/// vanishing values, in their own units.
-struct Sizes {
-    std::vector<std::vector<Eigen::Index>> at;
-    Eigen::VectorXd typical;
-
-    Sizes(std::span<const Candidate* const> candidates, const Fit& fitted) : at(candidates.size()) {
+/// The sizes of some candidates that were fitted together, in standard deviations of all parameters, and
+/// their correlations where the shapes keep their values: an effect of size zero has no shape that could make
+/// up for it.
+class Sizes {
+  public:
+    Sizes(std::span<const Candidate* const> candidates, const Fit& fitted) : at_(candidates.size()) {
         std::vector<double> all;
+        std::vector<Eigen::Index> shapes;
         for (std::size_t c = 0; c < candidates.size(); ++c) {
             const plant::EffectSetting& setting = fitted.hypothesis[c];
             for (std::size_t k = 0; k < setting.values.size(); ++k) {
                 const plant::EffectParameter& parameter = setting.effect->parameters[k];
-                if (std::ranges::find(candidates[c]->sizes, k) != candidates[c]->sizes.end())
-                    at[c].push_back(static_cast<Eigen::Index>(all.size()));
+                const bool is_size = std::ranges::find(candidates[c]->sizes, k) != candidates[c]->sizes.end();
+                (is_size ? at_[c] : shapes).push_back(static_cast<Eigen::Index>(all.size()));
                 all.push_back(setting.values[k] - parameter.vanishing);
             }
         }
-        typical = Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+        const Eigen::VectorXd deviations = fitted.curvature_covariance.diagonal().cwiseSqrt();
+        const Eigen::VectorXd per_deviation =
+            (deviations.array() > 0.0).select(deviations.cwiseInverse(), 0.0);
+        sizes_ = Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()))
+                     .cwiseProduct(per_deviation);
+        correlations_ = per_deviation.asDiagonal() * fitted.curvature_covariance * per_deviation.asDiagonal();
+        if (shapes.empty()) return;
+        const Eigen::MatrixXd with_shapes = correlations_(Eigen::all, shapes);
+        correlations_ -=
+            with_shapes * minimum_norm_solutions(correlations_(shapes, shapes), with_shapes.transpose());
     }
 
     /// Loss that some candidates together save beside the others.
-    double worth(const std::vector<std::size_t>& left_out, const Eigen::MatrixXd& covariance) const {
+    double worth(const std::vector<std::size_t>& left_out) const {
         std::vector<Eigen::Index> places;
-        for (const std::size_t c : left_out) places.insert(places.end(), at[c].begin(), at[c].end());
-        const Eigen::VectorXd sizes = typical(places);
-        const Eigen::MatrixXd own = covariance(places, places);
+        for (const std::size_t c : left_out) places.insert(places.end(), at_[c].begin(), at_[c].end());
+        const Eigen::VectorXd sizes = sizes_(places);
+        const Eigen::MatrixXd own = correlations_(places, places);
         return 0.5 * sizes.dot(minimum_norm_solution(own, sizes));
     }
+
+  private:
+    std::vector<std::vector<Eigen::Index>> at_;  ///< each candidate's sizes among all parameters
+    Eigen::VectorXd sizes_;                      ///< of all parameters
+    Eigen::MatrixXd correlations_;
 };
 
 /// Whether an effect has no size and a bound keeps it from having one of the other sign.
@@ -97,7 +111,7 @@ std::vector<std::size_t> kept(std::span<const Candidate* const> candidates, cons
         for (std::size_t k = 0; k < rest.size(); ++k) {
             std::vector<std::size_t> without = left_out;
             without.push_back(rest[k]);
-            const double worth = sizes.worth(without, fitted.curvature_covariance);
+            const double worth = sizes.worth(without);
             const double share = (worth - lost) / demand.worth_of(*candidates[rest[k]]);
             if (share < least && !(spares_held && is_held(fitted.hypothesis[rest[k]]))) {
                 least = share;
@@ -116,8 +130,7 @@ std::vector<std::size_t> kept(std::span<const Candidate* const> candidates, cons
 std::vector<double> worth_of_each(std::span<const Candidate* const> candidates, const Fit& fitted) {
     const Sizes sizes(candidates, fitted);
     std::vector<double> worth;
-    for (std::size_t c = 0; c < candidates.size(); ++c)
-        worth.push_back(sizes.worth({c}, fitted.curvature_covariance));
+    for (std::size_t c = 0; c < candidates.size(); ++c) worth.push_back(sizes.worth({c}));
     return worth;
 }
 

@@ -23,13 +23,15 @@ bool is_contested(const std::optional<Remainder>& whole, const Selection& select
     });
 }
 
-bool is_at_bound(const plant::EffectSetting& setting) {
+/// Whether one of its sizes is at a bound, or a shape at the largest value that is tried. The smallest value
+/// of a shape is what is physically possible: a limiting case of the effect.
+bool is_at_bound(const Candidate& candidate, const plant::EffectSetting& setting) {
     const std::span<const plant::EffectParameter> parameters = setting.effect->parameters;
     for (std::size_t k = 0; k < parameters.size(); ++k) {
         const double value = setting.values[k];
-        if (!parameters[k].is_choice() && value != parameters[k].vanishing &&
-            (value == parameters[k].low || value == parameters[k].high))
-            return true;
+        if (parameters[k].is_choice() || value == parameters[k].vanishing) continue;
+        const bool is_size = std::ranges::find(candidate.sizes, k) != candidate.sizes.end();
+        if (value == parameters[k].high || (is_size && value == parameters[k].low)) return true;
     }
     return false;
 }
@@ -142,7 +144,8 @@ std::vector<Support> supports(const Evidence& evidence, const Selection& selecti
                                            : halves_apart(*choice.candidate, explained.of_half[0][k],
                                                           explained.of_half[1][k]),
                        .is_at_bound = std::ranges::any_of(
-                           explained.of_half, [&](const Hypothesis& half) { return is_at_bound(half[k]); }),
+                           explained.of_half,
+                           [&](const Hypothesis& half) { return is_at_bound(*choice.candidate, half[k]); }),
                        .leaves_something = meet(left, teachers),
                        .is_contested = is_contested(whole, selection, choice)});
     }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -240,6 +241,22 @@ TEST(SlowDiagnosis, SearchThatIsStopped_Ends) {
         }
         EXPECT_GT(asked, asked_before);
     }
+}
+
+TEST(SlowDiagnosis, SearchThatIsStoppedAtTheCarriage_KeepsWhatTheHallReadingHasTold) {
+    std::atomic<bool> is_over = false;
+    const Evidence evidence(reference_rig(),
+                            recordings_of(effects({"heater_gain:factor=1.02", "drive_delay:delay_ms=10"}),
+                                          {"macro-sweep", "micro-steps"}),
+                            std::make_shared<const Budget>(1e6, 1e6, [&] { return is_over.load(); }));
+    DiagnosisOptions options{
+        .only = {"heater_gain", "airflow", "drive_delay", "drive_gain"}, .without = {}, .selection = {}};
+    options.selection.search.tell = [&](std::string_view what) {
+        if (what == "what balances the carriage's forces") is_over = true;
+    };
+    const Diagnosis diagnosis = diagnose(evidence, options);
+    EXPECT_EQ(diagnosis.ended, Ended::interrupted);
+    EXPECT_EQ(names(diagnosis), std::vector<std::string>{"heater_gain"});
 }
 
 }  // namespace

@@ -36,6 +36,25 @@ TEST(PlainForm, OfARicherEffect_HasAboutItsSize) {
         << "a long spring pulls towards where it is slack";
 }
 
+TEST(SettingsWithinCounts, OfAScaleErrorAlone_AreSteppedToEitherSide) {
+    for (const Candidate& candidate : candidates(testing::campaign({}, {"macro-pulses"}), {}, {})) {
+        const std::vector<plant::EffectSetting> settings = settings_within_counts(candidate);
+        if (candidate.effect->name != "encoder_scale") {
+            EXPECT_TRUE(settings.empty()) << candidate.effect->name;
+            continue;
+        }
+        ASSERT_GT(candidate.step_within_counts, 0.0);
+        ASSERT_EQ(settings.size(), 32U) << "four counts to either side, in quarters";
+        std::vector<double> steps;
+        for (const plant::EffectSetting& setting : settings)
+            steps.push_back((setting.values.front() - 1.0) / candidate.step_within_counts);
+        EXPECT_NEAR(steps.front(), -16.0, 1e-9);
+        EXPECT_NEAR(steps[15], -1.0, 1e-9);
+        EXPECT_NEAR(steps[16], 1.0, 1e-9);
+        EXPECT_NEAR(steps.back(), 16.0, 1e-9);
+    }
+}
+
 TEST(RichForms, OfAPlainEffect_HaveItsSizeAndWhatTheyShare_AlongTheShapes) {
     const std::vector<Candidate> all = candidates(testing::campaign({}, {"macro-pulses"}), {}, {});
     const auto forms_of = [&](std::string_view plain, std::string_view richer) {

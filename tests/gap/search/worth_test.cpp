@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gap/search/worth.h"
+
+#include "tests/gap/effects.h"
+#include "tests/gap/simulated_campaign.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace fidservo {
+
+namespace {
+
+using namespace gap;
+using testing::effects;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// Candidates with settings and a loss of given second derivatives.
+struct Fitted {
+    std::vector<Candidate> all = gap::candidates(testing::campaign({}, {"micro-steps"}), {}, {});
+    std::vector<const Candidate*> candidates;
+    Fit fit;
+
+    explicit Fitted(Hypothesis settings, const Eigen::MatrixXd& second_derivatives) {
+        for (const plant::EffectSetting& setting : settings)
+            candidates.push_back(&*std::ranges::find(all, setting.effect, &Candidate::effect));
+        fit.hypothesis = std::move(settings);
+        fit.curvature_covariance = second_derivatives.inverse();
+    }
+};
+
+TEST(Worth, OfOneSize_IsHalfItsSquareOverItsVariance) {
+    const Fitted one(effects({"stroke_change:factor=1.02"}), Eigen::MatrixXd::Constant(1, 1, 1.0 / 1e-6));
+    EXPECT_NEAR(worth_of_each(one.candidates, one.fit).front(), 0.5 * 4e-4 / 1e-6, 1e-6);
+    EXPECT_THAT(kept(one.candidates, one.fit, {}, false), ElementsAre(0));
+}
+
+/// Two sizes of which the data determine the sum alone: each by itself may go, but not both.
+TEST(Worth, OfSizesThatStandInForEachOther_IsSmallForEach_AndOneStays) {
+    Eigen::MatrixXd of_sum(2, 2);
+    of_sum << 1.0, 1.0, 1.0, 1.0;
+    const Fitted two(effects({"stroke_change:factor=1.02", "heating_lag:factor=1.02"}),
+                     1e6 * of_sum + 1e2 * Eigen::MatrixXd::Identity(2, 2));
+    for (const double worth : worth_of_each(two.candidates, two.fit)) EXPECT_LT(worth, least_worth);
+    EXPECT_EQ(kept(two.candidates, two.fit, {}, false).size(), 1U);
+}
+
+/// The data determine size times shape alone. A shape that was free to move would make up for any smaller
+/// size; at size zero none does.
+TEST(Worth, OfAnEffectWhoseShapeIsNotDetermined_IsWhatItsSizeSavesWithThatShape) {
+    const Hypothesis mass = effects({"second_thermal_mass:conductance=0.2,mass_tau_s=50"});
+    const double size = mass.front().values[0], shape = mass.front().values[1], deviation = 0.1;
+    const auto count = static_cast<Eigen::Index>(mass.front().values.size());
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(count);
+    gradient.head(2) << shape, size;
+    const Fitted one(mass, gradient * gradient.transpose() / (deviation * deviation) +
+                               1e-9 * Eigen::MatrixXd::Identity(count, count));
+    const double expected = 0.5 * std::pow(size * shape / deviation, 2);
+    EXPECT_NEAR(worth_of_each(one.candidates, one.fit).front(), expected, 1e-3 * expected);
+    EXPECT_THAT(kept(one.candidates, one.fit, {}, false), ElementsAre(0));
+}
+
+TEST(Worth, OfWhatABoundHolds_IsNothing_AndMayBeSpared) {
+    Fitted held(effects({"heater_delay:delay_ms=0"}), Eigen::MatrixXd::Identity(1, 1));
+    held.fit.curvature_covariance.setZero();
+    EXPECT_EQ(worth_of_each(held.candidates, held.fit).front(), 0.0);
+    EXPECT_THAT(kept(held.candidates, held.fit, {}, false), IsEmpty());
+    EXPECT_THAT(kept(held.candidates, held.fit, {}, true), ElementsAre(0));
+}
+
+}  // namespace
+
+}  // namespace fidservo
