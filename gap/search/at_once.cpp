@@ -161,14 +161,24 @@ bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal,
 }
 
 /// Several small causes in wire, sensors and view are much more common than a single one that does the same:
-/// if more are needed together than could be found one by one, they are accepted.
+/// if more are needed together than could be found one by one, and nothing far off is left of the Hall
+/// reading, which would be of another kind, they are accepted.
 /// @param all  the chain with all smooth effects
 /// @return whether they were accepted
 bool explain_by_many(const Search& search, Chain& chain, const Chain& all) {
-    if (all.choices.size() <= chain.choices.size() + most_one_by_one || !is_better(search, all, chain))
+    if (all.choices.size() <= chain.choices.size() + most_one_by_one || !is_better(search, all, chain) ||
+        search.far_off(all.fitted)[index_of(Signal::hall)])
         return false;
     chain = all;
     return true;
+}
+
+/// Whether the carriage's motion, as far as a chain explains it, shows in the Hall reading.
+bool hears_of_carriage(const Search& search, const Chain& chain) {
+    return std::ranges::any_of(chain.choices, [&](const Choice& choice) {
+        return moves_carriage(*choice.candidate->effect) &&
+               search.concerned_by(*choice.candidate, chain.fitted)[index_of(Signal::hall)];
+    });
 }
 
 /// Explains Hall reading and tags. Their causes can stand in for each other, so that all are looked at
@@ -179,7 +189,8 @@ bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, std:
     if (!is_view_or_wire_off(search, chain)) return false;
     const Signal signal = is_off(search, chain, Signal::hall) ? Signal::hall : Signal::tag;
     add_shapes_beside(search, chain, all);
-    if (all.choices.size() == chain.choices.size()) all = with_all_that_is_smooth(search, chain);
+    const bool is_tried = is_off(search, chain, Signal::hall) && !hears_of_carriage(search, chain);
+    if (all.choices.size() == chain.choices.size() && !is_tried) all = with_all_that_is_smooth(search, chain);
     return explain_by_one_or(search, chain, std::move(all), signal, alone);
 }
 
@@ -198,6 +209,18 @@ bool explain_carriage_at_once(Search& search, Chain& chain, Aside& aside, std::v
         aside.by_forces = chain = whole;
     }
     return false;
+}
+
+/// explain_carriage_at_once() where an effect of the encoder's reading has been found since: it makes the
+/// motion known better, and with it the forces.
+bool explain_carriage_again(Search& search, Chain& chain, Aside& aside, std::vector<Trial>* alone) {
+    Chain afresh = without_carriage(search, chain);
+    Aside again;
+    const bool is_balanced = explain_carriage_at_once(search, afresh, again, alone);
+    if (!is_better(search, afresh, chain)) return false;
+    chain = std::move(afresh);
+    aside = std::move(again);
+    return is_balanced;
 }
 
 /// Where no effects found at once explain the Hall reading, looks for effects one by one, and then again for
@@ -264,18 +287,13 @@ AtOnce explain_at_once(Search& search, Chain& chain, Aside& aside, std::vector<T
     search.throw_if_over();
     bool is_balanced = explain_carriage_at_once(search, chain, aside, &alone);
     const bool was_read_otherwise = reads_otherwise(chain);
-    Chain smooth = joined(search, chain, *std::exchange(aside.smooth, std::nullopt));
+    Chain smooth = joined(search, chain, *aside.smooth);
+    aside.smooth.reset();
     const bool is_known = explain_view_and_wire_at_once(search, chain, std::move(smooth), &alone) || are_many;
     bool are_several = is_known || is_balanced;
     if (!is_known) are_several = explain_hall(search, chain, &alone) || are_several;
     if (reads_otherwise(chain) && !was_read_otherwise && is_off(search, chain, Signal::encoder)) {
-        Chain rest = without_carriage(search, chain);
-        Aside again;
-        is_balanced = explain_carriage_at_once(search, rest, again, &alone);
-        if (is_better(search, rest, chain)) {
-            chain = std::move(rest);
-            aside = std::move(again);
-        }
+        is_balanced = explain_carriage_again(search, chain, aside, &alone);
         are_several = are_several || is_balanced;
     }
     if (aside.by_forces) {

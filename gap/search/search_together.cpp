@@ -108,11 +108,11 @@ Search::Together Search::everything_beside(const CrossFit& base) {
     const EverythingBeside all = everything_of(base, SmoothSignals::hall_and_tags);
     const IfFar if_far = all.begun.empty() ? IfFar::gives_up : IfFar::goes_on;
     if (!off(base)[index_of(Signal::hall)]) return needed_of(all, if_far);
-    Together of_hall = needed_of(everything_of(base, SmoothSignals::hall_alone), if_far);
+    Together of_hall = needed_of(everything_of(base, SmoothSignals::hall_alone), IfFar::goes_on);
     if (over_) return of_hall;
     if (of_hall.candidates.empty()) return needed_of(all, if_far);
     if (!off(of_hall.fitted)[index_of(Signal::tag)]) return of_hall;
-    Together found = needed_of(everything_of(of_hall.fitted, SmoothSignals::hall_and_tags), if_far);
+    Together found = needed_of(everything_of(of_hall.fitted, SmoothSignals::hall_and_tags), IfFar::gives_up);
     return found.candidates.empty() ? of_hall : found;
 }
 
