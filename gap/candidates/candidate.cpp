@@ -137,10 +137,11 @@ std::vector<plant::EffectSetting> settings_within_counts(const Candidate& candid
     if (candidate.step_within_counts == 0.0) return {};
     const std::size_t size = candidate.sizes.front();
     std::vector<plant::EffectSetting> settings;
+    settings.reserve(2 * most_steps);
     for (int k = -most_steps; k <= most_steps; ++k) {
         if (k == 0) continue;
-        plant::EffectSetting& setting = settings.emplace_back(candidate.effect, candidate.shapes.front());
-        setting.values[size] =
+        settings.push_back({candidate.effect, candidate.shapes.front()});
+        settings.back().values[size] =
             candidate.effect->parameters[size].vanishing + k * candidate.step_within_counts;
     }
     return settings;

@@ -2,6 +2,7 @@
 #include "gap/search/approach.h"
 
 #include "core/median.h"
+#include "gap/candidates/coupling.h"
 #include "gap/fit/score.h"
 
 #include <algorithm>

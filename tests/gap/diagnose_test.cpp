@@ -198,7 +198,7 @@ TEST(SlowDiagnosis, WaveAlongTheRail_IsFoundWithItsPeriodAndPhase) {
         const std::string text = fmt::format("cogging:amplitude_V={},period_mm={},phase_rad={}",
                                              truth.amplitude_V, truth.period_mm, truth.phase_rad);
         const Diagnosis diagnosis =
-            diagnose(campaign(effects({text}), {"macro-sweep", "macro-pulses", "macro-square", "integrated"}),
+            diagnose(campaign(effects({text}), {"macro-sweep", "macro-pulses", "macro-square"}),
                      {.only = {"cogging"}, .without = {}, .selection = {}});
         ASSERT_EQ(names(diagnosis), std::vector<std::string>{"cogging"});
         const std::vector<FittedParameter>& found = diagnosis.effects.front().parameters;

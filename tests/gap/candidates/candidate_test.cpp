@@ -46,6 +46,7 @@ TEST(SettingsWithinCounts, OfAScaleErrorAlone_AreSteppedToEitherSide) {
         ASSERT_GT(candidate.step_within_counts, 0.0);
         ASSERT_EQ(settings.size(), 32U) << "four counts to either side, in quarters";
         std::vector<double> steps;
+        steps.reserve(settings.size());
         for (const plant::EffectSetting& setting : settings)
             steps.push_back((setting.values.front() - 1.0) / candidate.step_within_counts);
         EXPECT_NEAR(steps.front(), -16.0, 1e-9);

@@ -154,7 +154,7 @@ Rig small_image_rig() {
 Diagnosis diagnosed_with_frames(const Hypothesis& truth) {
     const Rig rig = small_image_rig();
     std::vector<Recording> recordings;
-    for (const char* kind : {"micro-steps", "micro-servo", "macro-square"})
+    for (const char* kind : {"micro-steps", "macro-square"})
         for (const std::uint64_t seed : {31, 32}) {
             const std::string name = std::string(kind) + "-" + std::to_string(seed);
             Experiment experiment = make_experiment(kind, rig, seed, name);
