@@ -62,7 +62,8 @@ struct Support {
     /// Difference of its sizes between fits to the two halves of the windows, relative to their mean; 1 where
     /// the time did not suffice to fit the halves apart.
     double halves_apart = 0.0;
-    bool is_at_bound = false;  ///< whether a size is at a bound, or a shape at the largest value that is tried
+    /// Whether a size is at a bound, or a shape at the largest value that is tried.
+    bool is_at_bound = false;
     /// Whether residual analysis (gap/residuals/) finds something left in a signal that determines the
     /// effect.
     bool leaves_something = false;
