@@ -89,7 +89,8 @@ class Elimination {
         constexpr int at_first = 4, at_last = 4;
         if (!comes_near() && if_far == IfFar::gives_up) return {};
         fit_first_half(expected_sizes, at_first);
-        now_.keep(kept(now_.chosen.candidates, now_.fitted, now_.demand, true));
+        find_worth();
+        now_.chosen.keep(kept(now_.chosen.candidates, now_.fitted, now_.demand, true));
         if (is_empty()) return {};
         std::optional<Ended> ended;
         try {
@@ -122,10 +123,6 @@ class Elimination {
         Fit fitted;
         Demand demand;
 
-        void keep(const std::vector<std::size_t>& places) {
-            chosen.worth = worth_of_each(chosen.candidates, fitted);
-            chosen.keep(places);
-        }
         /// The loss where each candidate has to save the least worth.
         double cost() const {
             return fitted.loss + least_worth * static_cast<double>(chosen.settings.size());
@@ -167,14 +164,16 @@ class Elimination {
             fit_first_half(0.0, most_iterations);
     }
 
+    void find_worth() { now_.chosen.worth = worth_of_each(now_.chosen.candidates, now_.fitted); }
+
     void ask_of_each() { now_.demand = Demand(evidence_, wanted_[0], predict_[0](now_.chosen.settings)); }
 
-    /// Keeps some of the candidates that were chosen before, and fits them.
+    /// Keeps some of the candidates that were chosen before, whose worth is known, and fits them.
     /// @return whether the fit confirms that the others were not needed. Their worth follows from the loss to
     /// second order, which can be far from what a fit finds
     bool does_with(const State& before, const std::vector<std::size_t>& places) {
         now_ = before;
-        now_.keep(places);
+        now_.chosen.keep(places);
         double allowed = before.fitted.loss;
         for (const Candidate* candidate : before.chosen.candidates)
             if (std::ranges::find(now_.chosen.candidates, candidate) == now_.chosen.candidates.end())
@@ -189,6 +188,7 @@ class Elimination {
         fit_rest();
         while (!is_empty()) {
             ask_of_each();
+            find_worth();
             const State before = now_;
             const std::vector<std::size_t> rest =
                 kept(before.chosen.candidates, before.fitted, before.demand, false);
@@ -196,19 +196,18 @@ class Elimination {
             if (removed > 0 && does_with(before, rest)) continue;
             if (removed > 1 && does_with(before, all_but_least(before))) continue;
             now_ = before;
-            now_.chosen.worth = worth_of_each(now_.chosen.candidates, now_.fitted);
             return;
         }
     }
 
     /// Indices of all candidates but the one that saves least, relative to what is demanded of it.
     static std::vector<std::size_t> all_but_least(const State& state) {
-        const std::vector<const Candidate*>& candidates = state.chosen.candidates;
-        const std::vector<double> worth = worth_of_each(candidates, state.fitted);
-        std::vector<std::size_t> all(candidates.size());
+        const Chosen& chosen = state.chosen;
+        std::vector<std::size_t> all(chosen.candidates.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
-        all.erase(std::ranges::min_element(
-            all, {}, [&](std::size_t c) { return worth[c] / state.demand.worth_of(*candidates[c]); }));
+        all.erase(std::ranges::min_element(all, {}, [&](std::size_t c) {
+            return chosen.worth[c] / state.demand.worth_of(*chosen.candidates[c]);
+        }));
         return all;
     }
 

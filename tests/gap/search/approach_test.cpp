@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/approach.h"
 
-#include "tests/gap/effects.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <algorithm>
@@ -18,7 +17,6 @@ namespace fidservo {
 namespace {
 
 using namespace gap;
-using testing::effects;
 
 /// What an approach comes to where every error in the windows of a recording is a function of one size.
 struct OfOneSize {
