@@ -39,6 +39,32 @@ class Proposals {
     const std::optional<Remainder>& left_by_nothing() const { return nothing_.left; }
     const std::optional<Remainder>& left_by_names() const { return named_.left; }
 
+    std::optional<ProposedEquation> beside_names() const { return of(named_, {}); }
+
+    double weight_of_names_against(const ProposedEquation& whole) const {
+        return weight_of_first(evidence_, named_.explained.mean_squares, whole.fitted.mean_squares);
+    }
+
+    /// What is missing beside the names, or an equation in their place: the likelier of the two. Names that
+    /// are credible are first asked what is missing beside them, others what could take their place; the
+    /// second question is asked where the first answer leaves something. In doubt, or where the time for
+    /// it ends, the first answer holds.
+    std::optional<ProposedEquation> beside_or_in_place_of_names() const {
+        const auto ask = [&](bool beside) { return beside ? beside_names() : in_place_of_names(); };
+        std::optional<ProposedEquation> first = ask(are_names_credible_), second;
+        if (first && leaves_nothing(*first)) return first;
+        try {
+            second = ask(!are_names_credible_);
+        } catch (const BudgetEnded& end) {
+            if (!first || end.how() == Ended::interrupted) throw;
+        }
+        if (!first || !second) return first ? std::move(first) : std::move(second);
+        const double weight =
+            weight_of_first(evidence_, first->fitted.mean_squares, second->fitted.mean_squares);
+        return weight >= 0.5 ? std::move(first) : std::move(second);
+    }
+
+  private:
     /// For the whole gap, likelier than the names.
     std::optional<ProposedEquation> in_place_of_names() const {
         auto proposed = of(nothing_, Rival{named_.explained, are_names_credible_});
@@ -47,28 +73,12 @@ class Proposals {
         return proposed;
     }
 
-    std::optional<ProposedEquation> beside_names() const { return of(named_, {}); }
-
-    double weight_of_names_against(const ProposedEquation& whole) const {
-        return weight_of_first(evidence_, named_.explained.mean_squares, whole.fitted.mean_squares);
-    }
-
-    bool leaves_nothing(const ProposedEquation& whole) const {
-        const auto gaps = signal_gaps(evidence_, nothing_.explained.mean_squares, whole.fitted.mean_squares);
+    bool leaves_nothing(const ProposedEquation& proposed) const {
+        const auto gaps =
+            signal_gaps(evidence_, nothing_.explained.mean_squares, proposed.fitted.mean_squares);
         return total_gap(gaps).after < least_floors;
     }
 
-    /// The likelier one; where both are as likely, names that are credible stay.
-    std::optional<ProposedEquation> likelier(std::optional<ProposedEquation> whole,
-                                             std::optional<ProposedEquation> beside) const {
-        if (!whole || !beside) return whole ? std::move(whole) : std::move(beside);
-        const double weight =
-            weight_of_first(evidence_, beside->fitted.mean_squares, whole->fitted.mean_squares);
-        const bool is_beside = are_names_credible_ ? weight >= 0.5 : weight > 0.5;
-        return is_beside ? std::move(beside) : std::move(whole);
-    }
-
-  private:
     std::optional<Remainder> remainder(const CrossFit& explained, const DiagnosisOptions& options) const {
         return remainder_of(evidence_, explained, options.selection.search.tail, options.matters);
     }
@@ -113,15 +123,7 @@ std::optional<ProposedEquation> equation_for(const Proposals& proposals, Diagnos
     std::optional<Remainder>& left = diagnosis.unexplained;
     if (!left) left = proposals.left_by_names() ? proposals.left_by_names() : proposals.left_by_nothing();
     if (diagnosis.effects.empty()) return proposals.beside_names();
-    std::optional<ProposedEquation> whole = proposals.in_place_of_names(), beside;
-    if (!whole || !proposals.leaves_nothing(*whole)) {
-        try {
-            beside = proposals.beside_names();
-        } catch (const BudgetEnded& end) {
-            if (!whole || end.how() == Ended::interrupted) throw;
-        }
-    }
-    std::optional<ProposedEquation> likelier = proposals.likelier(std::move(whole), std::move(beside));
+    std::optional<ProposedEquation> likelier = proposals.beside_or_in_place_of_names();
     if (!likelier) return {};
     if (likelier->equation.in_place_of_names) {
         left = proposals.left_by_nothing();

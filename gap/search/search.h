@@ -87,7 +87,8 @@ class Search {
     /// fitted at once on both halves (gap/search/everything.h), starting from the base's own settings of
     /// these candidates. They are the last settings of the fit, in the order of `candidates`. A Hall reading
     /// that is off its floor is explained first, without the tags, which show what moves the platform and
-    /// what the camera sees of it; where that leaves nothing in the tags, it is the result.
+    /// what the camera sees of it; where it is at its floor, the tags are explained first by what the camera
+    /// alone can see. Where that leaves nothing in the tags, it is the result.
     struct Together {
         std::vector<const Candidate*> candidates;
         std::vector<double> worth;  ///< loss that each saves beside the others

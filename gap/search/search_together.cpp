@@ -107,7 +107,11 @@ Search::Together Search::everything_beside(const CrossFit& base) {
     if (options_.tell) options_.tell("all that is smooth at once");
     const EverythingBeside all = everything_of(base, SmoothSignals::hall_and_tags);
     const IfFar if_far = all.begun.empty() ? IfFar::gives_up : IfFar::goes_on;
-    if (!off(base)[index_of(Signal::hall)]) return needed_of(all, if_far);
+    if (!off(base)[index_of(Signal::hall)]) {
+        Together of_view = needed_of(everything_of(base, SmoothSignals::tags_alone), IfFar::gives_up);
+        const bool is_enough = !of_view.candidates.empty() && !off(of_view.fitted)[index_of(Signal::tag)];
+        return over_ || is_enough ? of_view : needed_of(all, if_far);
+    }
     Together of_hall = needed_of(everything_of(base, SmoothSignals::hall_alone), IfFar::goes_on);
     if (over_) return of_hall;
     if (of_hall.candidates.empty()) return needed_of(all, if_far);

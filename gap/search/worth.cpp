@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace fidservo::gap {
 namespace {
@@ -47,6 +50,7 @@ class Sizes {
     double worth(const std::vector<std::size_t>& left_out) const {
         std::vector<Eigen::Index> places;
         for (const std::size_t c : left_out) places.insert(places.end(), at_[c].begin(), at_[c].end());
+        if (places.empty()) return 0.0;
         const Eigen::VectorXd sizes = sizes_(places);
         const Eigen::MatrixXd own = correlations_(places, places);
         return 0.5 * sizes.dot(minimum_norm_solution(own, sizes));
@@ -68,6 +72,89 @@ bool is_held(const plant::EffectSetting& setting) {
     }
     return true;
 }
+
+/// The candidates that remain and those that are left out, and what the latter would save.
+class Subset {
+  public:
+    Subset(std::span<const Candidate* const> candidates, const Fit& fitted, const Demand& demand,
+           bool spares_held)
+        : sizes_(candidates, fitted), rest_(candidates.size()) {
+        std::iota(rest_.begin(), rest_.end(), std::size_t{0});
+        for (std::size_t c = 0; c < candidates.size(); ++c) {
+            demanded_.push_back(demand.worth_of(*candidates[c]));
+            is_spared_.push_back(spares_held && is_held(fitted.hypothesis[c]));
+        }
+    }
+
+    /// In the order of the candidates.
+    std::vector<std::size_t> rest() const {
+        std::vector<std::size_t> sorted = rest_;
+        std::ranges::sort(sorted);
+        return sorted;
+    }
+
+    /// @param stays  one that is not removed, however little it saves
+    void remove_what_saves_little(std::optional<std::size_t> stays = {}) {
+        while (!rest_.empty()) {
+            double least = std::numeric_limits<double>::infinity(), lost_with_it = lost_;
+            std::size_t at = 0;
+            for (std::size_t k = 0; k < rest_.size(); ++k) {
+                if (is_spared_[rest_[k]] || rest_[k] == stays) continue;
+                std::vector<std::size_t> without = left_out_;
+                without.push_back(rest_[k]);
+                const double worth = sizes_.worth(without);
+                const double share = (worth - lost_) / demanded_[rest_[k]];
+                if (share >= least) continue;
+                least = share;
+                lost_with_it = worth;
+                at = k;
+            }
+            if (least >= 1.0) return;
+            lost_ = std::max(lost_, lost_with_it);
+            left_out_.push_back(rest_[at]);
+            rest_.erase(rest_.begin() + static_cast<std::ptrdiff_t>(at));
+        }
+    }
+
+    /// Puts back the one beside which the rest and what it leaves cost least, if that is less than now.
+    /// @return whether there was one
+    bool exchange() {
+        const Subset now = *this;
+        double least = cost() - hardly_any;
+        bool is_better = false;
+        for (std::size_t k = 0; k < now.left_out_.size(); ++k) {
+            Subset other = now;
+            other.put_back(k);
+            other.remove_what_saves_little(now.left_out_[k]);
+            if (other.cost() >= least) continue;
+            least = other.cost();
+            *this = std::move(other);
+            is_better = true;
+        }
+        return is_better;
+    }
+
+  private:
+    static constexpr double hardly_any = 0.01 * least_worth;
+
+    /// What is lost, and what is demanded of each that remains.
+    double cost() const {
+        return std::accumulate(rest_.begin(), rest_.end(), lost_,
+                               [&](double sum, std::size_t c) { return sum + demanded_[c]; });
+    }
+
+    void put_back(std::size_t k) {
+        rest_.push_back(left_out_[k]);
+        left_out_.erase(left_out_.begin() + static_cast<std::ptrdiff_t>(k));
+        lost_ = sizes_.worth(left_out_);
+    }
+
+    Sizes sizes_;
+    std::vector<double> demanded_;  ///< of each candidate
+    std::vector<bool> is_spared_;
+    std::vector<std::size_t> rest_, left_out_;
+    double lost_ = 0.0;  ///< by all that are left out
+};
 
 }  // namespace
 
@@ -101,30 +188,11 @@ double Demand::worth_of(const Candidate& candidate) const {
 
 std::vector<std::size_t> kept(std::span<const Candidate* const> candidates, const Fit& fitted,
                               const Demand& demand, bool spares_held) {
-    const Sizes sizes(candidates, fitted);
-    std::vector<std::size_t> rest(candidates.size()), left_out;
-    for (std::size_t c = 0; c < rest.size(); ++c) rest[c] = c;
-    double lost = 0.0;
-    while (!rest.empty()) {
-        double least = std::numeric_limits<double>::infinity(), lost_with_it = lost;
-        std::size_t at = 0;
-        for (std::size_t k = 0; k < rest.size(); ++k) {
-            std::vector<std::size_t> without = left_out;
-            without.push_back(rest[k]);
-            const double worth = sizes.worth(without);
-            const double share = (worth - lost) / demand.worth_of(*candidates[rest[k]]);
-            if (share < least && !(spares_held && is_held(fitted.hypothesis[rest[k]]))) {
-                least = share;
-                lost_with_it = worth;
-                at = k;
-            }
-        }
-        if (least >= 1.0) break;
-        lost = std::max(lost, lost_with_it);
-        left_out.push_back(rest[at]);
-        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(at));
+    Subset subset(candidates, fitted, demand, spares_held);
+    subset.remove_what_saves_little();
+    while (subset.exchange()) {
     }
-    return rest;
+    return subset.rest();
 }
 
 std::vector<double> worth_of_each(std::span<const Candidate* const> candidates, const Fit& fitted) {

@@ -43,7 +43,9 @@ class Demand {
 };
 
 /// Indices of the candidates that remain when the one that saves least, relative to what is demanded of it,
-/// is removed again and again until all save enough.
+/// is removed again and again until all save enough. Several that together stand in for another one can
+/// outlast it. So one that was removed comes back, and what saves too little beside it is removed, as long as
+/// the loss and the demands of all that remain become less by that.
 /// @param fitted  all of them, with covariances
 /// @param spares_held  whether candidates without effect that a bound holds there remain: a fit that has not
 /// converged may let go of them yet

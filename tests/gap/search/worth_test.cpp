@@ -52,6 +52,22 @@ TEST(Worth, OfSizesThatStandInForEachOther_IsSmallForEach_AndOneStays) {
     EXPECT_EQ(kept(two.candidates, two.fit, {}, false).size(), 1U);
 }
 
+/// What the third does alone, the first two do nearly as well together, and fitted with all three the data
+/// are shared out so that the third saves least. It stays alone nevertheless.
+TEST(Worth, OfTwoThatTogetherStandInForAThird_IsNothingBesideIt_AndItTakesTheirPlace) {
+    constexpr double apart = 0.1, scale = 1e-2;
+    const double along = std::sqrt(0.5 * (1.0 - apart * apart));
+    Eigen::Matrix3d responses;  // one column for each
+    responses << 1.0, 0.0, along, 0.0, 1.0, along, 0.0, 0.0, apart;
+    responses /= scale;
+    const Fitted three(
+        effects({"stroke_change:factor=1.07", "heating_lag:factor=1.07", "heater_gain:factor=1.02"}),
+        responses.transpose() * responses);
+    const std::vector<double> worth = worth_of_each(three.candidates, three.fit);
+    EXPECT_LT(worth[2], worth[0]);
+    EXPECT_THAT(kept(three.candidates, three.fit, {}, false), ElementsAre(2));
+}
+
 /// The data determine size times shape alone. A shape that was free to move would make up for any smaller
 /// size; at size zero none does.
 TEST(Worth, OfAnEffectWhoseShapeIsNotDetermined_IsWhatItsSizeSavesWithThatShape) {
