@@ -54,17 +54,31 @@ bool is_view_or_wire_off(const Search& search, const Chain& chain) {
     return is_off(search, chain, Signal::hall) || is_off(search, chain, Signal::tag);
 }
 
-/// Adds effects with shapes of their own, each time together with all smooth effects that are then needed, as
-/// long as the Hall reading, and then the tags, are off their floors and the longer chain is better.
+/// Adds effects with shapes of their own to explain a signal that is off its floor, each time together with
+/// all smooth effects that are then needed, as long as the longer chain is better.
 /// @param chain  each change is an improvement, so that it may be used whenever this ends
+/// @return whether any was added
+bool add_shapes_of(Search& search, Chain& chain, Signal signal) {
+    bool is_any = false;
+    while (is_off(search, chain, signal)) {
+        Chain longer = with_everything(chain, search.shaped_beside(chain.fitted, signal));
+        if (!is_better(search, longer, chain)) break;
+        chain = std::move(longer);
+        is_any = true;
+        search.throw_if_over();
+    }
+    return is_any;
+}
+
+/// add_shapes_of() the Hall reading and then the tags. A Hall reading that is explained so far lets smooth
+/// effects of the tags show.
 void add_shapes(Search& search, Chain& chain) {
-    for (const Signal signal : {Signal::hall, Signal::tag})
-        while (is_off(search, chain, signal)) {
-            Chain longer = with_everything(chain, search.shaped_beside(chain.fitted, signal));
-            if (!is_better(search, longer, chain)) break;
-            chain = std::move(longer);
-            search.throw_if_over();
-        }
+    if (add_shapes_of(search, chain, Signal::hall) && is_off(search, chain, Signal::tag)) {
+        Chain whole = with_everything(chain, search.tags_beside(chain.fitted));
+        if (is_better(search, whole, chain)) chain = std::move(whole);
+        search.throw_if_over();
+    }
+    add_shapes_of(search, chain, Signal::tag);
 }
 
 /// add_shapes() to another chain. If the search ends meanwhile, the one with the smaller loss is kept as

@@ -87,14 +87,20 @@ class Search {
     /// fitted at once on both halves (gap/search/everything.h), starting from the base's own settings of
     /// these candidates. They are the last settings of the fit, in the order of `candidates`. A Hall reading
     /// that is off its floor is explained first, without the tags, which show what moves the platform and
-    /// what the camera sees of it; where it is at its floor, the tags are explained first by what the camera
-    /// alone can see. Where that leaves nothing in the tags, it is the result.
+    /// what the camera sees of it. Where it is at its floor, the tags are explained first by what the camera
+    /// alone can see. Both signals are explained together where that leaves something in the tags, unless
+    /// there is another reason for it: a Hall reading that is far off, or a carriage that is still to be
+    /// explained.
     struct Together {
         std::vector<const Candidate*> candidates;
         std::vector<double> worth;  ///< loss that each saves beside the others
         CrossFit fitted;
     };
     Together everything_beside(const CrossFit& base);
+
+    /// everything_beside() of both signals together. No candidates where the fit does not come near its
+    /// optimum.
+    Together tags_beside(const CrossFit& base);
 
     /// An explanation like that of everything_beside(), with further effects that have shapes of their own:
     /// all those that promise anything in one signal (the Hall reading alone, or the tags beside it), fitted

@@ -105,19 +105,24 @@ Search::Together Search::needed_of(const EverythingBeside& all, IfFar if_far) {
 
 Search::Together Search::everything_beside(const CrossFit& base) {
     if (options_.tell) options_.tell("all that is smooth at once");
-    const EverythingBeside all = everything_of(base, SmoothSignals::hall_and_tags);
-    const IfFar if_far = all.begun.empty() ? IfFar::gives_up : IfFar::goes_on;
-    if (!off(base)[index_of(Signal::hall)]) {
+    const SignalFlags are_off = off(base);
+    if (!are_off[index_of(Signal::hall)]) {
         Together of_view = needed_of(everything_of(base, SmoothSignals::tags_alone), IfFar::gives_up);
         const bool is_enough = !of_view.candidates.empty() && !off(of_view.fitted)[index_of(Signal::tag)];
-        return over_ || is_enough ? of_view : needed_of(all, if_far);
+        return over_ || is_enough || are_off[index_of(Signal::encoder)] ? of_view : tags_beside(base);
     }
     Together of_hall = needed_of(everything_of(base, SmoothSignals::hall_alone), IfFar::goes_on);
     if (over_) return of_hall;
-    if (of_hall.candidates.empty()) return needed_of(all, if_far);
-    if (!off(of_hall.fitted)[index_of(Signal::tag)]) return of_hall;
-    Together found = needed_of(everything_of(of_hall.fitted, SmoothSignals::hall_and_tags), IfFar::gives_up);
+    if (of_hall.candidates.empty()) return tags_beside(base);
+    if (far_off(of_hall.fitted)[index_of(Signal::hall)] || !off(of_hall.fitted)[index_of(Signal::tag)])
+        return of_hall;
+    Together found = tags_beside(of_hall.fitted);
     return found.candidates.empty() ? of_hall : found;
+}
+
+Search::Together Search::tags_beside(const CrossFit& base) {
+    const EverythingBeside all = everything_of(base, SmoothSignals::hall_and_tags);
+    return needed_of(all, IfFar::gives_up);
 }
 
 Hypothesis Search::waves_of_reading(const CrossFit& base,
