@@ -225,6 +225,28 @@ bool explain_carriage_at_once(Search& search, Chain& chain, Aside& aside, std::v
     return false;
 }
 
+/// Where the encoder is further off than any other signal and no forces balance what the carriage does, looks
+/// for one effect on it: play, a belt, or a late command are no forces. Beside it forces show that did not
+/// before.
+/// @param aside  loses the model from the balance of forces if the one effect explains better
+void explain_carriage_by_one(Search& search, Chain& chain, Aside& aside, std::vector<Trial>& alone) {
+    if (search.furthest_off(chain.fitted) != Signal::encoder) return;
+    Chain one = without_carriage(search, chain);
+    const std::size_t others = one.choices.size();
+    std::vector<Trial> tried;
+    search.look_for_causes_in(only(Signal::encoder), 1.0);
+    grow(search, one, {.most_effects = others + 1, .scans = false}, &tried);
+    search.look_for_causes_in(all_signals, 1.0);
+    add_tried(alone, std::move(tried));
+    if (one.choices.size() == others || !is_better(search, one, chain)) return;
+    chain = std::move(one);
+    aside.by_forces.reset();
+    search.throw_if_over();
+    if (!is_off(search, chain, Signal::encoder)) return;
+    Chain whole = in_plain_forms(search, with_together(chain, search.forces_beside(chain.fitted)));
+    if (is_better(search, whole, chain)) chain = std::move(whole);
+}
+
 /// explain_carriage_at_once() where an effect of the encoder's reading has been found since: it makes the
 /// motion known better, and with it the forces.
 bool explain_carriage_again(Search& search, Chain& chain, Aside& aside, std::vector<Trial>* alone) {
@@ -300,6 +322,7 @@ AtOnce explain_at_once(Search& search, Chain& chain, Aside& aside, std::vector<T
     const bool are_many = explain_by_many(search, chain, *aside.smooth);
     search.throw_if_over();
     bool is_balanced = explain_carriage_at_once(search, chain, aside, &alone);
+    if (!is_balanced && !aside.is_by_forces_mostly) explain_carriage_by_one(search, chain, aside, alone);
     const bool was_read_otherwise = reads_otherwise(chain);
     Chain smooth = joined(search, chain, *aside.smooth);
     aside.smooth.reset();

@@ -123,7 +123,8 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
                                     const Candidate& candidate) {
     constexpr double probe = 0.25;  // share of the typical size with which responses are computed
     constexpr double hopeless_gain = 0.4 * least_gain;
-    constexpr double further = 2.5, furthest = 100.0;
+    constexpr double as_expected = 0.9;  // share of the expected gain at which errors do change linearly
+    constexpr double shorter = 0.4, further = 2.5, furthest = 100.0;
     constexpr std::size_t most_places = 8, most_starts = 4;
     const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
     const auto moving = static_cast<Eigen::Index>(beside.slopes.size());
@@ -167,28 +168,46 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
     std::ranges::sort(places, std::greater{}, &Place::expected_gain);
     if (places.size() > most_places / 2)  // the further ones are ranked by gains that are not extrapolated
         std::ranges::sort(places.begin() + most_places / 2, places.end(), std::greater{}, &Place::probe_gain);
+    places.resize(std::min(places.size(), most_places));
+    const auto stepped = [&](const Place& place, const Eigen::VectorXd& rest, const Eigen::VectorXd& shares) {
+        Hypothesis there = moved(beside, rest, sized(candidate, place.shape, shares));
+        const double gain =
+            gained(windows, counted, base_squares, predict(extended(beside.base, beside.places, there)));
+        return Promise{std::move(there), gain};
+    };
+    const auto part_of_steps = [&](const Place& place, double part) {
+        return stepped(place, part * place.steps.head(moving), part * place.steps.tail(width));
+    };
+    struct Seen {
+        const Place* place;
+        Promise best;
+    };
+    std::vector<Seen> seen;
+    for (const Place& place : places) seen.push_back({&place, part_of_steps(place, 1.0)});
+    std::ranges::stable_sort(seen, std::greater{}, [](const Seen& one) { return one.best.gain; });
+    seen.resize(std::min(seen.size(), most_starts));
     std::vector<Promise> starts;
-    for (std::size_t p = 0; p < std::min(places.size(), most_places); ++p) {
-        Promise best{{}, -std::numeric_limits<double>::infinity()};
-        const Eigen::VectorXd with_rest = places[p].steps.head(moving), sizes = places[p].steps.tail(width);
-        const auto look = [&](const Eigen::VectorXd& rest, const Eigen::VectorXd& shares) {
-            Hypothesis there = moved(beside, rest, sized(candidate, places[p].shape, shares));
-            const double gain =
-                gained(windows, counted, base_squares, predict(extended(beside.base, beside.places, there)));
-            const bool is_best = best.start.empty() || gain > best.gain;
-            if (is_best) best = {std::move(there), gain};
-            return is_best;
+    for (auto& [place, best] : seen) {
+        const auto improves = [&, &best = best](Promise other) {
+            if (!(other.gain > best.gain)) return false;
+            best = std::move(other);
+            return true;
         };
-        for (const double part : {1.0, 0.4}) look(part * with_rest, part * sizes);
-        // Far from the optimum the linear step is much too short: lengthen it as long as that helps.
-        for (double part = further; part < furthest && look(part * with_rest, part * sizes);) part *= further;
-        if (moving > 0) look(unmoved, sizes);
-        if (best.gain - without < hopeless_gain) look(unmoved, Eigen::VectorXd::Ones(width));
-        starts.push_back(best);
+        const double ratio = best.gain / place->expected_gain;
+        const bool is_linear = place->expected_gain > 0.0 && ratio > as_expected && ratio < 1.0 / as_expected;
+        if (!is_linear) {
+            improves(part_of_steps(*place, shorter));
+            // Far from the optimum the linear step is much too short: lengthen it as long as that helps.
+            for (double part = further; part < furthest && improves(part_of_steps(*place, part));)
+                part *= further;
+        }
+        if (moving > 0) improves(stepped(*place, unmoved, place->steps.tail(width)));
+        if (best.gain - without < hopeless_gain)
+            improves(stepped(*place, unmoved, Eigen::VectorXd::Ones(width)));
+        starts.push_back(std::move(best));
     }
     std::ranges::sort(starts, std::greater{}, &Promise::gain);
     std::erase_if(starts, [&](const Promise& start) { return start.gain - without < hopeless_gain; });
-    if (starts.size() > most_starts) starts.resize(most_starts);
     return starts;
 }
 

@@ -188,6 +188,9 @@ class Search {
     /// Signals whose r.m.s. error is more than this many floors.
     SignalFlags far_off(const CrossFit& fitted, double floors = 3.0) const;
 
+    /// The signal that is the largest number of floors off its own; empty where all are at their floors.
+    std::optional<Signal> furthest_off(const CrossFit& fitted) const;
+
     /// The gap over all signals, in floors (gap/fit/gap_size.h), that a setting alone would make in the rig
     /// as its file describes it: by how much it changes the predictions.
     double gap_alone(const plant::EffectSetting& setting) const;

@@ -239,6 +239,7 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
             Together drawn = together(base.of_half, itself);
             if (!(drawn.fitted.loss < best.fitted.loss)) break;
             best = std::move(drawn);
+            if (!(best.fitted.loss < base.loss)) return {{}, {}, base};
         }
         if (!is_off()) return best;
         Together whole = together(

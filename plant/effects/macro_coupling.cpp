@@ -7,18 +7,20 @@ namespace fidservo::plant::effects {
 
 namespace {
 
-/// Neighbours lie half the width of a resonance of damping ratio 0.07 apart.
+/// A fit that begins with much damping follows the first swings after each step of the carriage, which any
+/// frequency near the true one predicts, and lowers the damping as the frequency becomes known. Neighbours
+/// lie the width of this resonance apart, 2 zeta.
+constexpr double damping_ratios[] = {0.2};
 constexpr std::array frequencies_Hz = [] {
-    constexpr double ratio = 1.15;
-    std::array<double, 27> frequencies{};
-    double frequency_Hz = 5.0;
+    constexpr double ratio = 1.0 + 2.0 * damping_ratios[0];
+    std::array<double, 11> frequencies{};
+    double frequency_Hz = 6.0;
     for (double& each : frequencies) {
         each = frequency_Hz;
         frequency_Hz *= ratio;
     }
     return frequencies;
 }();
-constexpr double damping_ratios[] = {0.02, 0.1};
 
 constexpr EffectParameter parameters[] = {
     {"gain", "", -2.0, 2.0, 0.0, 0.5,
