@@ -226,19 +226,21 @@ bool explain_carriage_at_once(Search& search, Chain& chain, Aside& aside, std::v
 }
 
 /// Where the encoder is further off than any other signal and no forces balance what the carriage does, looks
-/// for one effect on it: play, a belt, or a late command are no forces. Beside it forces show that did not
-/// before.
+/// for one effect on it that is no force: play, a belt, or a late command. Beside it forces show that did not
+/// before. A force that the balance does not show is left to a search for places and periods.
 /// @param aside  loses the model from the balance of forces if the one effect explains better
 void explain_carriage_by_one(Search& search, Chain& chain, Aside& aside, std::vector<Trial>& alone) {
     if (search.furthest_off(chain.fitted) != Signal::encoder) return;
     Chain one = without_carriage(search, chain);
-    const std::size_t others = one.choices.size();
-    std::vector<Trial> tried;
     search.look_for_causes_in(only(Signal::encoder), 1.0);
-    grow(search, one, {.most_effects = others + 1, .scans = false}, &tried);
+    std::vector<Trial> trials = search.try_all(one.fitted, one.candidates(), {.scatters = false});
     search.look_for_causes_in(all_signals, 1.0);
-    add_tried(alone, std::move(tried));
-    if (one.choices.size() == others || !is_better(search, one, chain)) return;
+    add_tried(alone, trials);
+    if (!has_leader(trials) || search.is_force(*trials.front().candidate) ||
+        !search.is_real(one.fitted, trials.front().fitted))
+        return;
+    one = grown(search, std::move(one), std::move(trials));
+    if (!is_better(search, one, chain)) return;
     chain = std::move(one);
     aside.by_forces.reset();
     search.throw_if_over();

@@ -114,6 +114,9 @@ class Search {
     /// there is no such model. Does not count as effort.
     Together forces_beside(const CrossFit& base);
 
+    /// Whether the balance of forces can show a candidate (gap/balance/force_regression.h).
+    bool is_force(const Candidate& candidate) const;
+
     /// How the budget ended, if it did during a refinement; what had been found until then was kept.
     std::optional<Ended> over() const { return over_; }
 

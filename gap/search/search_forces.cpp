@@ -185,6 +185,10 @@ std::array<Hypothesis, 2> drawn_around(const FollowedHalf& first, const Followed
 
 }  // namespace
 
+bool Search::is_force(const Candidate& candidate) const {
+    return gap::is_force(fitter_.evidence().rig(), candidate);
+}
+
 Search::Together Search::forces_beside(const CrossFit& base) {
     const Evidence& evidence = fitter_.evidence();
     const double effort_before = evidence.effort();
