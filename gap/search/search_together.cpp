@@ -114,8 +114,7 @@ Search::Together Search::everything_beside(const CrossFit& base) {
     Together of_hall = needed_of(everything_of(base, SmoothSignals::hall_alone), IfFar::goes_on);
     if (over_) return of_hall;
     if (of_hall.candidates.empty()) return tags_beside(base);
-    if (far_off(of_hall.fitted)[index_of(Signal::hall)] || !off(of_hall.fitted)[index_of(Signal::tag)])
-        return of_hall;
+    if (!off(of_hall.fitted)[index_of(Signal::tag)]) return of_hall;
     Together found = tags_beside(of_hall.fitted);
     return found.candidates.empty() ? of_hall : found;
 }

@@ -95,7 +95,9 @@ class GuardedProgram : public ::testing::Test {
 
 constexpr int exit_fault = 3;
 
-TEST_F(GuardedProgram, Holding_SigIntOrSigTerm_EndsInOrderWithOutputsZero) {
+class SlowGuardedProgram : public GuardedProgram {};
+
+TEST_F(SlowGuardedProgram, Holding_SigIntOrSigTerm_EndsInOrderWithOutputsZero) {
     for (const int signal : {SIGINT, SIGTERM}) {
         start("goto --tag 12 --dx-um 150");
         ASSERT_TRUE(program_->prints("\"within_tolerance\":true", 120s)) << program_->output();
@@ -142,7 +144,7 @@ TEST_F(GuardedProgram, Inspecting_SigStopAndSigCont_OutputsZeroWithin50msAndProg
 }
 
 /// The first image meets a limit of the file size, and what writes it throws while the platform is held.
-TEST_F(GuardedProgram, Inspecting_ExceptionInMidRun_OutputsZero) {
+TEST_F(SlowGuardedProgram, Inspecting_ExceptionInMidRun_OutputsZero) {
     start_inspection("trap '' XFSZ; ulimit -f 1100;");
     ASSERT_TRUE(in_mid_run()) << program_->output();
     EXPECT_TRUE(program_->output_ends(120s));

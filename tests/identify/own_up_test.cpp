@@ -147,7 +147,7 @@ TEST(IdentifyOwnsUp, AccelerationsThatDrownInNoise_AreNoForceThatTheModelMisses)
 }
 
 /// A carriage far from its steady speed is compatible with any higher one: intervals are wider on that side.
-TEST(IdentifyOwnsUp, MotionFarFromItsSteadySpeed_HasStandardErrorsThatHold) {
+TEST(SlowIdentifyOwnsUp, MotionFarFromItsSteadySpeed_HasStandardErrorsThatHold) {
     constexpr int draws = 40;
     Carriage carriage;
     carriage.friction_V = carriage.offset_V = 0.0;

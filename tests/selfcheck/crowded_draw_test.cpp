@@ -112,7 +112,7 @@ bool shows(const TrueRig& rig) {
     return plain.detections.size() != other.detections.size();
 }
 
-TEST(OtherFormulas, AtATenthOfTheLargest_ShowInARecording) {
+TEST(SlowOtherFormulas, AtATenthOfTheLargest_ShowInARecording) {
     for (const EffectDraw& other : other_formulas()) {
         TrueRig rig{nominal(), {}};
         NoiseStream draw(1, "other formula");

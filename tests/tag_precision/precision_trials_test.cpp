@@ -27,7 +27,7 @@ PrecisionCase small_case() {
 
 /// One step of weighted least squares from the truth, with every nuisance unknown: an estimator that attains
 /// the bound if frames have the noise that the bound assumes.
-TEST(PrecisionTrials, LeastSquaresFromTheTruth_AttainTheBound) {
+TEST(SlowPrecisionTrials, LeastSquaresFromTheTruth_AttainTheBound) {
     const PrecisionCase of = small_case();
     int known_shift = -1;
     std::vector<cv::Mat1d> slopes;

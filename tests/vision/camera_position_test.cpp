@@ -146,7 +146,7 @@ TEST(CameraPosition, MovingStage_TellsTheRefinementHowThePictureMoves) {
         1e-9);
 }
 
-TEST(CameraPosition, RenderedFrames_AreLocatedAsWellAsClaimed) {
+TEST(SlowCameraPosition, RenderedFrames_AreLocatedAsWellAsClaimed) {
     const Plate plate = row_of_tags();
     plant::ViewOptions even;
     even.light.gradient = {0.0, 0.0};

@@ -100,7 +100,7 @@ TEST(SlowTagAppearance, Blur_IsTheEdgesVariance) {
                              "blur " + std::to_string(blur_px) + " angle " + std::to_string(angle_rad));
 }
 
-TEST(TagAppearance, Motion_WidensTheEdgesAcrossIt) {
+TEST(SlowTagAppearance, Motion_WidensTheEdgesAcrossIt) {
     for (const double speed_mm_per_s : {2.0, 5.0, 10.0})
         for (const double extra_s : {0.0, 0.002})
             for (const double angle_rad : {0.0, 0.3})
@@ -111,7 +111,7 @@ TEST(TagAppearance, Motion_WidensTheEdgesAcrossIt) {
                     "speed " + std::to_string(speed_mm_per_s) + " extra " + std::to_string(extra_s));
 }
 
-TEST(TagAppearance, StatedScatter_IsWhatRepeatedFramesShow) {
+TEST(SlowTagAppearance, StatedScatter_IsWhatRepeatedFramesShow) {
     constexpr int frames = 60;
     for (const double read_noise_e : {0.0, 100.0}) {
         const std::vector<TagAppearance> seen =
@@ -136,7 +136,7 @@ TEST(TagAppearance, StatedScatter_IsWhatRepeatedFramesShow) {
     }
 }
 
-TEST(TagAppearance, Noise_IsThatOfSensorAndRounding) {
+TEST(SlowTagAppearance, Noise_IsThatOfSensorAndRounding) {
     constexpr int frames = 10;
     const CameraParameters camera = reference_camera();
     const double grey_per_e = 255.0 / camera.full_well_e;

@@ -55,7 +55,7 @@ TEST(FacingEdges, OfPadsThatDoNotOverlap_AreNone) {
     EXPECT_FALSE(facing_edges(edges_of(a), edges_of(Pad{{0.4, 0.0}, {0.2, 0.2}, 0.3})));
 }
 
-TEST(MeasureEdgeDistance, RandomGaps_ErrorsFollowTheStatedUncertainty) {
+TEST(SlowMeasureEdgeDistance, RandomGaps_ErrorsFollowTheStatedUncertainty) {
     constexpr std::uint64_t seed = 20291;
     SCOPED_TRACE(seed);
     NoiseStream random(seed, "gaps");

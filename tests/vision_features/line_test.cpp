@@ -20,7 +20,7 @@ Scene scene_with(const Line& line) {
     return scene;
 }
 
-TEST(MeasureLine, RandomPlacesWidthsAndAngles_ErrorsFollowTheStatedUncertainty) {
+TEST(SlowMeasureLine, RandomPlacesWidthsAndAngles_ErrorsFollowTheStatedUncertainty) {
     constexpr std::uint64_t seed = 20281;
     SCOPED_TRACE(seed);
     NoiseStream random(seed, "lines");

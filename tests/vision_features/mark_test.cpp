@@ -21,7 +21,7 @@ Scene scene_with(const Dot& dot) {
     return scene;
 }
 
-TEST(MeasureDot, RandomPlacesAndSizes_ErrorsFollowTheStatedUncertainty) {
+TEST(SlowMeasureDot, RandomPlacesAndSizes_ErrorsFollowTheStatedUncertainty) {
     constexpr std::uint64_t seed = 20261;
     SCOPED_TRACE(seed);
     NoiseStream random(seed, "dots");

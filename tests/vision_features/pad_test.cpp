@@ -20,7 +20,7 @@ Scene scene_with(const Pad& pad) {
     return scene;
 }
 
-TEST(MeasurePad, RandomPlacesSizesAndAngles_ErrorsFollowTheStatedUncertainty) {
+TEST(SlowMeasurePad, RandomPlacesSizesAndAngles_ErrorsFollowTheStatedUncertainty) {
     constexpr std::uint64_t seed = 20271;
     SCOPED_TRACE(seed);
     NoiseStream random(seed, "pads");

@@ -27,7 +27,7 @@ std::vector<EncoderStand> stands(std::uint64_t seed, int count) {
     return all;
 }
 
-TEST(EncoderScale, ErrorsOverSeeds_AreAsLargeAsTheirStandardErrorsSay) {
+TEST(SlowEncoderScale, ErrorsOverSeeds_AreAsLargeAsTheirStandardErrorsSay) {
     constexpr int seeds = 200;
     double squares = 0.0, zero_squares = 0.0;
     for (int seed = 1; seed <= seeds; ++seed) {

@@ -161,7 +161,7 @@ TEST(MacroIdentification, DegenerateRecordings_AreRefusedWithoutACrash) {
     }
 }
 
-TEST(MacroIdentification, NoiseInPlaceOfARecording_NeitherCrashesNorYieldsNonsense) {
+TEST(SlowMacroIdentification, NoiseInPlaceOfARecording_NeitherCrashesNorYieldsNonsense) {
     const Rig rig = macro_rig();
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         SCOPED_TRACE(::testing::Message() << "seed " << seed);

@@ -47,7 +47,7 @@ std::vector<cv::Mat> wedge(const Camera& camera, int frames, std::uint64_t seed,
     return burst;
 }
 
-TEST(PhotonTransfer, OfAKnownCamera_IsItsNoiseWithinItsErrors) {
+TEST(SlowPhotonTransfer, OfAKnownCamera_IsItsNoiseWithinItsErrors) {
     for (const Camera& camera :
          {Camera{10000.0, 5.0, 0.0}, Camera{10000.0, 40.0, 0.01}, Camera{3000.0, 12.0, 0.004}}) {
         constexpr int seeds = 6;

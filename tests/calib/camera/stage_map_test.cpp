@@ -65,7 +65,7 @@ TEST(StageMap, LargeRotation_NeedsNoGuess) {
     EXPECT_NEAR(map->camera.rotation_rad, 2.9, 1e-4);
 }
 
-TEST(StageMap, ErrorsOverSeeds_AreAsLargeAsTheirCovarianceSays) {
+TEST(SlowStageMap, ErrorsOverSeeds_AreAsLargeAsTheirCovarianceSays) {
     const Truth truth;
     constexpr int seeds = 60;
     const Eigen::Vector2d from_px(150.0, 120.0), to_px(1100.0, 700.0);
