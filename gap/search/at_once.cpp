@@ -240,6 +240,7 @@ void explain_carriage_by_one(Search& search, Chain& chain, Aside& aside, std::ve
         !search.is_real(one.fitted, trials.front().fitted))
         return;
     one = grown(search, std::move(one), std::move(trials));
+    search.limit(true);
     if (!is_better(search, one, chain)) return;
     chain = std::move(one);
     aside.by_forces.reset();

@@ -194,7 +194,10 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
             return true;
         };
         const double ratio = best.gain / place->expected_gain;
-        const bool is_linear = place->expected_gain > 0.0 && ratio > as_expected && ratio < 1.0 / as_expected;
+        // Other values of its sizes may suit another shape.
+        const bool has_no_shape = candidate.shapes.size() == 1;
+        const bool is_linear =
+            has_no_shape && place->expected_gain > 0.0 && ratio > as_expected && ratio < 1.0 / as_expected;
         if (!is_linear) {
             improves(part_of_steps(*place, shorter));
             // Far from the optimum the linear step is much too short: lengthen it as long as that helps.

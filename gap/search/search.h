@@ -88,8 +88,8 @@ class Search {
     /// these candidates. They are the last settings of the fit, in the order of `candidates`. A Hall reading
     /// that is off its floor is explained first, without the tags, which show what moves the platform and
     /// what the camera sees of it. Where it is at its floor, the tags are explained first by what the camera
-    /// alone can see. Where that leaves something in the tags, both signals are explained together, unless the
-    /// reason may be a carriage that is still to be explained.
+    /// alone can see. Where that leaves something in the tags, both signals are explained together, unless
+    /// the reason may be a carriage that is still to be explained.
     struct Together {
         std::vector<const Candidate*> candidates;
         std::vector<double> worth;  ///< loss that each saves beside the others
