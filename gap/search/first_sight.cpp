@@ -183,6 +183,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         Promise best;
     };
     std::vector<Seen> seen;
+    seen.reserve(places.size());
     for (const Place& place : places) seen.push_back({&place, part_of_steps(place, 1.0)});
     std::ranges::stable_sort(seen, std::greater{}, [](const Seen& one) { return one.best.gain; });
     seen.resize(std::min(seen.size(), most_starts));
