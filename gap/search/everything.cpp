@@ -25,7 +25,7 @@ constexpr double expected_sizes = 3.0;
 
 Fit fitted_closely(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
                    const Hypothesis& start, FitOptions options) {
-    constexpr double tolerance = 1e-6, hardly_worth = 0.01 * least_worth;
+    constexpr double tolerance = 1e-6;
     options.tolerance = tolerance;
     options.least_improvement = hardly_worth;
     options.with_covariance = true;

@@ -120,8 +120,7 @@ Search::Together Search::everything_beside(const CrossFit& base) {
 }
 
 Search::Together Search::tags_beside(const CrossFit& base) {
-    const EverythingBeside all = everything_of(base, SmoothSignals::hall_and_tags);
-    return needed_of(all, IfFar::gives_up);
+    return needed_of(everything_of(base, SmoothSignals::hall_and_tags), IfFar::gives_up);
 }
 
 Hypothesis Search::waves_of_reading(const CrossFit& base,

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -78,7 +79,7 @@ class Subset {
   public:
     Subset(std::span<const Candidate* const> candidates, const Fit& fitted, const Demand& demand,
            bool spares_held)
-        : sizes_(candidates, fitted), rest_(candidates.size()) {
+        : sizes_(std::make_shared<const Sizes>(candidates, fitted)), rest_(candidates.size()) {
         std::iota(rest_.begin(), rest_.end(), std::size_t{0});
         for (std::size_t c = 0; c < candidates.size(); ++c) {
             demanded_.push_back(demand.worth_of(*candidates[c]));
@@ -102,7 +103,7 @@ class Subset {
                 if (is_spared_[rest_[k]] || rest_[k] == stays) continue;
                 std::vector<std::size_t> without = left_out_;
                 without.push_back(rest_[k]);
-                const double worth = sizes_.worth(without);
+                const double worth = sizes_->worth(without);
                 const double share = (worth - lost_) / demanded_[rest_[k]];
                 if (share >= least) continue;
                 least = share;
@@ -120,7 +121,7 @@ class Subset {
     /// @return whether there was one
     bool exchange() {
         const Subset now = *this;
-        double least = cost() - hardly_any;
+        double least = cost() - hardly_worth;
         bool is_better = false;
         for (std::size_t k = 0; k < now.left_out_.size(); ++k) {
             Subset other = now;
@@ -135,8 +136,6 @@ class Subset {
     }
 
   private:
-    static constexpr double hardly_any = 0.01 * least_worth;
-
     /// What is lost, and what is demanded of each that remains.
     double cost() const {
         return std::accumulate(rest_.begin(), rest_.end(), lost_,
@@ -146,11 +145,11 @@ class Subset {
     void put_back(std::size_t k) {
         rest_.push_back(left_out_[k]);
         left_out_.erase(left_out_.begin() + static_cast<std::ptrdiff_t>(k));
-        lost_ = sizes_.worth(left_out_);
+        lost_ = sizes_->worth(left_out_);
     }
 
-    Sizes sizes_;
-    std::vector<double> demanded_;  ///< of each candidate
+    std::shared_ptr<const Sizes> sizes_;  ///< of all candidates, the same for every subset
+    std::vector<double> demanded_;        ///< of each candidate
     std::vector<bool> is_spared_;
     std::vector<std::size_t> rest_, left_out_;
     double lost_ = 0.0;  ///< by all that are left out

@@ -25,6 +25,9 @@ namespace fidservo::gap {
 /// that chance exceeds once in 200 cases.
 inline constexpr double least_worth = 4.0;
 
+/// A change of the loss that makes no difference beside the least worth.
+inline constexpr double hardly_worth = 0.01 * least_worth;
+
 /// The loss that a candidate has to save. A discrepancy is shared by the windows of a recording, which then
 /// count as fewer independent ones (gap/fit/predictive_density.h); the demand is larger by that factor.
 class Demand {
