@@ -6,6 +6,7 @@
 #include "gap/fit/score.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -14,33 +15,26 @@
 namespace fidservo::gap {
 namespace {
 
-double median_square(const std::vector<double>& all, const Wanted& leading) {
-    std::vector<double> squares;
-    for (std::size_t w = 0; w < all.size(); ++w)
-        if (leading[w] != 0 && !std::isnan(all[w])) squares.push_back(all[w]);
-    return squares.empty() ? 0.0 : median_of(std::move(squares));
-}
-
+/// The median of the signal that is furthest off.
 double median_square(const Evidence& evidence, const Errors& errors, const Wanted& leading) {
-    return median_square(mean_squares(evidence.windows(), errors), leading);
+    const std::vector<Window>& windows = evidence.windows();
+    const std::vector<double> all = mean_squares(windows, errors);
+    std::array<std::vector<double>, signal_count> squares;
+    for (std::size_t w = 0; w < all.size(); ++w)
+        if (leading[w] != 0 && !std::isnan(all[w])) squares[index_of(windows[w].signal)].push_back(all[w]);
+    double most = 0.0;
+    for (std::vector<double>& of_signal : squares)
+        if (!of_signal.empty()) most = std::max(most, median_of(std::move(of_signal)));
+    return most;
 }
 
-/// See Approach::median_square. Windows in which nothing moves are predicted by any hypothesis.
+/// Windows in which nothing moves are predicted by any hypothesis.
 Wanted windows_off(const Evidence& evidence, const Wanted& wanted, const Errors& errors) {
-    const std::vector<Window>& windows = evidence.windows();
-    const std::vector<double> squares = mean_squares(windows, errors);
-    Wanted furthest(windows.size(), 0);
-    double most = 0.0;
-    for (const Signal signal : {Signal::encoder, Signal::hall, Signal::tag}) {
-        Wanted leading = only_of(windows, wanted, only(signal));
-        for (std::size_t w = 0; w < windows.size(); ++w)
-            if (!(squares[w] > Approach::near_square)) leading[w] = 0;
-        const double square = median_square(squares, leading);
-        if (square <= most) continue;
-        most = square;
-        furthest = std::move(leading);
-    }
-    return furthest;
+    const std::vector<double> squares = mean_squares(evidence.windows(), errors);
+    Wanted are_off = wanted;
+    for (std::size_t w = 0; w < squares.size(); ++w)
+        if (!(squares[w] > Approach::near_square)) are_off[w] = 0;
+    return are_off;
 }
 
 Hypothesis best_within_counts(const Evidence& evidence, std::span<const Candidate* const> candidates,
@@ -60,13 +54,20 @@ Hypothesis best_within_counts(const Evidence& evidence, std::span<const Candidat
     return best;
 }
 
+Hypothesis without_effect(const Hypothesis& settings) {
+    Hypothesis none;
+    for (const plant::EffectSetting& setting : settings)
+        none.push_back(plant::vanishing_setting(*setting.effect));
+    return none;
+}
+
 }  // namespace
 
 Approach approach(const Evidence& evidence, std::span<const Candidate* const> candidates,
                   const Predict& predict, const Wanted& wanted, Hypothesis start, FitOptions options) {
     constexpr int most_levels = 6, iterations_a_level = 8;
     constexpr double hardly_less = 0.5, tolerance = 0.02;
-    const Wanted leading = windows_off(evidence, wanted, predict(start));
+    const Wanted leading = windows_off(evidence, wanted, predict(without_effect(start)));
     options.most_iterations = iterations_a_level;
     options.tolerance = tolerance;
     const auto square_of = [&] { return median_square(evidence, predict(start), leading); };

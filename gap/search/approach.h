@@ -15,8 +15,8 @@ namespace fidservo::gap {
 /// How far an approach came.
 struct Approach {
     Hypothesis settings;
-    /// Median mean square, in floors^2, over the windows that tell how far it is to the optimum: of the
-    /// signal that is furthest off, those whose predictions are off at the start.
+    /// Median mean square, in floors^2, over the windows that tell how far it is to the optimum: those that
+    /// are off where the candidates have no effect. Of several signals, that of the one furthest off.
     double median_square;
 
     /// Whether at least half of these windows are predicted nearly to their floors.
@@ -25,8 +25,9 @@ struct Approach {
     static constexpr double near_square = 2.0;
 };
 
-/// Fits in several steps, until nothing improves. A scale error of the encoder, whose fits end at the nearest
-/// count, begins each step with its best value within counts (settings_within_counts()).
+/// Fits in several steps, until nothing improves; none from a start that is near. A scale error of the
+/// encoder, whose fits end at the nearest count, begins each step with its best value within counts
+/// (settings_within_counts()).
 /// @param candidates  of the settings, in their order
 /// @param predict     errors in the windows that are wanted
 /// @param options     of each step, but for its end and its noise

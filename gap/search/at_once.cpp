@@ -72,8 +72,10 @@ bool add_shapes_of(Search& search, Chain& chain, Signal signal) {
 
 /// add_shapes_of() the Hall reading and then the tags. A Hall reading that is explained so far lets smooth
 /// effects of the tags show.
-void add_shapes(Search& search, Chain& chain) {
-    if (add_shapes_of(search, chain, Signal::hall) && is_off(search, chain, Signal::tag)) {
+/// @param tags_wait  whether the tags have waited for the carriage to be explained
+void add_shapes(Search& search, Chain& chain, bool tags_wait) {
+    const bool are_any = add_shapes_of(search, chain, Signal::hall);
+    if ((are_any || tags_wait) && is_off(search, chain, Signal::tag)) {
         Chain whole = with_everything(chain, search.tags_beside(chain.fitted));
         if (is_better(search, whole, chain)) chain = std::move(whole);
         search.throw_if_over();
@@ -83,10 +85,10 @@ void add_shapes(Search& search, Chain& chain) {
 
 /// add_shapes() to another chain. If the search ends meanwhile, the one with the smaller loss is kept as
 /// `chain`.
-void add_shapes_beside(Search& search, Chain& chain, Chain& other) {
+void add_shapes_beside(Search& search, Chain& chain, Chain& other, bool tags_wait) {
     try {
         search.throw_if_over();
-        add_shapes(search, other);
+        add_shapes(search, other, tags_wait);
     } catch (...) {
         if (other.fitted.loss < chain.fitted.loss) chain = std::move(other);
         throw;
@@ -198,11 +200,13 @@ bool hears_of_carriage(const Search& search, const Chain& chain) {
 /// Explains Hall reading and tags. Their causes can stand in for each other, so that all are looked at
 /// together.
 /// @param all  the chain, or the chain with all smooth effects
+/// @param tags_wait  whether the tags have waited for the carriage to be explained
 /// @return whether effects found at once were accepted
-bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, std::vector<Trial>* alone) {
+bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, bool tags_wait,
+                                   std::vector<Trial>* alone) {
     if (!is_view_or_wire_off(search, chain)) return false;
     const Signal signal = is_off(search, chain, Signal::hall) ? Signal::hall : Signal::tag;
-    add_shapes_beside(search, chain, all);
+    add_shapes_beside(search, chain, all, tags_wait);
     const bool is_tried = is_off(search, chain, Signal::hall) && !hears_of_carriage(search, chain);
     if (all.choices.size() == chain.choices.size() && !is_tried) all = with_all_that_is_smooth(search, chain);
     return explain_by_one_or(search, chain, std::move(all), signal, alone);
@@ -282,7 +286,7 @@ bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
     search.look_for_causes_in(all_signals, 1.0);
     if (!is_off(search, chain, Signal::hall)) return are_several;
     Chain whole = with_all_that_is_smooth(search, chain);
-    add_shapes_beside(search, chain, whole);
+    add_shapes_beside(search, chain, whole, false);
     if (is_better(search, whole, chain)) chain = std::move(whole);
     return are_several;
 }
@@ -321,6 +325,7 @@ Chain joined(const Search& search, const Chain& chain, const Chain& other) {
 }
 
 AtOnce explain_at_once(Search& search, Chain& chain, Aside& aside, std::vector<Trial>& alone) {
+    const bool tags_wait = is_off(search, chain, Signal::encoder);
     aside.smooth = is_view_or_wire_off(search, chain) ? with_all_that_is_smooth(search, chain) : chain;
     const bool are_many = explain_by_many(search, chain, *aside.smooth);
     search.throw_if_over();
@@ -329,7 +334,8 @@ AtOnce explain_at_once(Search& search, Chain& chain, Aside& aside, std::vector<T
     const bool was_read_otherwise = reads_otherwise(chain);
     Chain smooth = joined(search, chain, *aside.smooth);
     aside.smooth.reset();
-    const bool is_known = explain_view_and_wire_at_once(search, chain, std::move(smooth), &alone) || are_many;
+    const bool is_known =
+        explain_view_and_wire_at_once(search, chain, std::move(smooth), tags_wait, &alone) || are_many;
     bool are_several = is_known || is_balanced;
     if (!is_known) are_several = explain_hall(search, chain, &alone) || are_several;
     if (reads_otherwise(chain) && !was_read_otherwise && is_off(search, chain, Signal::encoder)) {

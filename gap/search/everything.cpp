@@ -15,6 +15,7 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace fidservo::gap {
@@ -84,20 +85,20 @@ class Elimination {
           options_(options),
           now_{std::move(chosen), {}, {}} {}
 
-    NeededCandidates needed(IfFar if_far) {
+    NeededCandidates needed(IfFar if_far, const Hypothesis& known) {
         // Most candidates that are not needed show before the values are known precisely.
         constexpr int at_first = 4, at_last = 4;
         if (!comes_near() && if_far == IfFar::gives_up) return {};
         fit_first_half(expected_sizes, at_first);
         find_worth();
         now_.chosen.keep(kept(now_.chosen.candidates, now_.fitted, now_.demand, true));
-        if (is_empty()) return {};
+        if (none_but(known)) return {};
         std::optional<Ended> ended;
         try {
             for (bool is_all = false; !is_all;) {
                 fit_and_prune();
-                if (is_empty()) return {};
-                try_other_choices();
+                if (none_but(known)) return {};
+                try_changes();
                 is_all = test_on_other_half(most_iterations);
                 if (is_empty()) return {};
             }
@@ -141,6 +142,12 @@ class Elimination {
     }
 
     bool is_empty() const { return now_.chosen.candidates.empty(); }
+
+    bool none_but(const Hypothesis& known) const {
+        return std::ranges::all_of(now_.chosen.settings, [&](const plant::EffectSetting& setting) {
+            return std::ranges::find(known, setting.effect, &plant::EffectSetting::effect) != known.end();
+        });
+    }
 
     Fit fitted_to(std::size_t side, double sizes, int iterations) const {
         FitOptions options = options_;
@@ -211,13 +218,11 @@ class Elimination {
         return all;
     }
 
-    /// Tries the other alternative of a choice: with the wrong one a second candidate makes up for what the
-    /// two differ by.
-    bool try_other_choice(std::size_t c, std::size_t parameter) {
+    /// Fits and prunes after a change of what is chosen, which is undone unless it turns out better.
+    template <class Change>
+    bool try_change(const Change& change) {
         const State before = now_;
-        const plant::EffectParameter& choice = now_.chosen.settings[c].effect->parameters[parameter];
-        double& value = now_.chosen.settings[c].values[parameter];
-        value = choice.is_high(value) ? choice.low : choice.high;
+        change(now_.chosen);
         try {
             fit_and_prune();
         } catch (...) {
@@ -229,9 +234,52 @@ class Elimination {
         return is_better;
     }
 
-    /// The first alternative that is better is kept.
-    void try_other_choices() {
+    /// Tries the other alternative of a choice: with the wrong one a second candidate makes up for what the
+    /// two differ by.
+    bool try_other_choice(std::size_t c, std::size_t parameter) {
+        return try_change([&](Chosen& chosen) {
+            const plant::EffectParameter& choice = chosen.settings[c].effect->parameters[parameter];
+            double& value = chosen.settings[c].values[parameter];
+            value = choice.is_high(value) ? choice.low : choice.high;
+        });
+    }
+
+    bool try_without(std::size_t c) {
+        return try_change([&](Chosen& chosen) {
+            std::vector<std::size_t> rest(chosen.candidates.size());
+            std::iota(rest.begin(), rest.end(), std::size_t{0});
+            rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(c));
+            chosen.keep(rest);
+        });
+    }
+
+    /// Tries the next values of each shape's grid on both sides, where what is left in the signals of the
+    /// candidate is more than their noise: a fit ends on the way through a narrow valley of size and shape.
+    bool try_other_shapes(std::size_t c) {
+        const Candidate& candidate = *now_.chosen.candidates[c];
+        if (now_.demand.worth_of(candidate) < 2.0 * least_worth) return false;
+        const std::vector<double>& values = now_.chosen.settings[c].values;
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            std::set<double> grid;
+            for (const std::vector<double>& shape : candidate.shapes) grid.insert(shape[k]);
+            if (grid.size() < 2) continue;
+            const auto above = grid.upper_bound(values[k]), at_least = grid.lower_bound(values[k]);
+            std::vector<double> next;
+            if (above != grid.end()) next.push_back(*above);
+            if (at_least != grid.begin()) next.push_back(*std::prev(at_least));
+            for (const double value : next)
+                if (try_change([&](Chosen& chosen) { chosen.settings[c].values[k] = value; })) return true;
+        }
+        return false;
+    }
+
+    /// Tries what the loss near the optimum cannot tell: the other alternatives of choices, other shapes, and
+    /// to do without a scale error of the encoder, whose loss has a minimum at every count and keeps the
+    /// values of other candidates beside it. The first change that is better is kept.
+    void try_changes() {
         for (std::size_t c = 0; c < now_.chosen.settings.size(); ++c) {
+            if (now_.chosen.candidates[c]->step_within_counts != 0.0 && try_without(c)) return;
+            if (try_other_shapes(c)) return;
             const plant::Effect& effect = *now_.chosen.settings[c].effect;
             for (std::size_t k = 0; k < effect.parameters.size(); ++k)
                 if (effect.parameters[k].is_choice() && !moves_carriage(effect) && try_other_choice(c, k))
@@ -284,10 +332,12 @@ bool is_smooth_of_carriage(const Candidate& candidate) {
 
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
-                                      const std::array<Wanted, 2>& wanted, IfFar if_far) {
+                                      const Hypothesis& known, const std::array<Wanted, 2>& wanted,
+                                      IfFar if_far) {
     FitOptions options = smooth_where_it_can_be(evidence, wanted[0]);
     options.expected_sizes = expected_sizes;
-    return Elimination(evidence, beside, wanted, begun_with(candidates, begun), options).needed(if_far);
+    return Elimination(evidence, beside, wanted, begun_with(candidates, begun), options)
+        .needed(if_far, known);
 }
 
 Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,

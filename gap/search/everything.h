@@ -49,10 +49,12 @@ enum class IfFar : std::uint8_t { gives_up, goes_on };
 /// @param candidates  one of each class
 /// @param beside      other settings of each half, which keep their values
 /// @param begun       settings of candidates that were found before, from which their fits start
+/// @param known       settings of an explanation that is there already: empty if none but these are needed
 /// @param wanted      the windows that are fitted in each half
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
-                                      const std::array<Wanted, 2>& wanted, IfFar if_far);
+                                      const Hypothesis& known, const std::array<Wanted, 2>& wanted,
+                                      IfFar if_far);
 
 /// Settings of those candidates with a shape of their own that are not in `begun` and promise anything beside
 /// all others (gap/search/shape_screening.h), the one that saves most first.

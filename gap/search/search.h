@@ -87,9 +87,10 @@ class Search {
     /// fitted at once on both halves (gap/search/everything.h), starting from the base's own settings of
     /// these candidates. They are the last settings of the fit, in the order of `candidates`. A Hall reading
     /// that is off its floor is explained first, without the tags, which show what moves the platform and
-    /// what the camera sees of it. Where it is at its floor, the tags are explained first by what the camera
-    /// alone can see. Where that leaves something in the tags, both signals are explained together, unless
-    /// the reason may be a carriage that is still to be explained.
+    /// what the camera sees of it: by sizes, or, where these do not come near, with shapes that promise
+    /// anything. Where it is not far off any more, the tags are explained next by what the camera alone can
+    /// see. Where that leaves something in the tags, both signals are explained together, unless the reason
+    /// may be a carriage that is still to be explained.
     struct Together {
         std::vector<const Candidate*> candidates;
         std::vector<double> worth;  ///< loss that each saves beside the others
@@ -97,8 +98,9 @@ class Search {
     };
     Together everything_beside(const CrossFit& base);
 
-    /// everything_beside() of both signals together. No candidates where the fit does not come near its
-    /// optimum.
+    /// everything_beside() of the tags: what the camera alone sees, unless the Hall reading is far off, and
+    /// then of both signals together where the tags are still off. No candidates where that does not come
+    /// near its optimum.
     Together tags_beside(const CrossFit& base);
 
     /// An explanation like that of everything_beside(), with further effects that have shapes of their own:
@@ -219,6 +221,16 @@ class Search {
     enum class SmoothSignals { hall_and_tags, hall_alone, tags_alone };
     EverythingBeside everything_of(const CrossFit& base, SmoothSignals of) const;
     Together needed_of(const EverythingBeside& all, IfFar if_far);
+    /// Where no sizes alone come near an optimum of the Hall reading: with the shapes that promise anything,
+    /// or, if none does, as near as sizes come.
+    Together hall_from_afar(const CrossFit& base);
+    /// What was found of the Hall reading, with what the camera alone sees; or, where that leaves something
+    /// in the tags, both anew.
+    Together view_and_wire(Together of_hall, bool is_of_view_alone);
+    /// Both signals together. No candidates where the fit does not come near its optimum.
+    Together hall_and_tags(const CrossFit& base);
+    /// shaped_beside(), with effects that are estimated from these signals.
+    Together shaped_among(SmoothSignals of, const CrossFit& base, Signal signal);
     /// Those of all smooth candidates and of some shapes that are needed beside a base's other effects.
     /// @param all  of Hall reading and tags beside this base
     Together needed_with(const CrossFit& base, const EverythingBeside& all, const Hypothesis& shapes);

@@ -246,9 +246,10 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
             if (!(best.fitted.loss < base.loss)) return {{}, {}, base};
         }
         if (!is_off()) return best;
-        Together whole = together(
-            base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_), base.of_half,
-                                               settings_of_model(best)[0], wanted, IfFar::goes_on));
+        Together whole =
+            together(base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_),
+                                                        base.of_half, settings_of_model(best)[0],
+                                                        settings_of_model(best)[0], wanted, IfFar::goes_on));
         // Many effects that leave most of the gap stand in for something else.
         const bool explains = nearly_clears(base, whole.fitted, share_explained);
         return explains && whole.fitted.loss < best.fitted.loss ? whole : best;

@@ -58,18 +58,19 @@ bool is_told_by_hall(const Candidate* candidate) {
 
 }  // namespace
 
-/// The candidates that are fitted at once, settings that stay as they are, start values, and windows.
+/// The candidates that are fitted at once, settings that stay as they are, start values, those candidates'
+/// settings in the base, and windows.
 struct Search::EverythingBeside {
     std::vector<const Candidate*> candidates;
     std::array<Hypothesis, 2> beside;
-    Hypothesis begun;
+    Hypothesis begun, known;
     std::array<Wanted, 2> wanted;
 };
 
 Search::EverythingBeside Search::everything_of(const CrossFit& base, SmoothSignals of) const {
     SignalFlags smooth = smooth_signals(fitter_.evidence().windows());
     EverythingBeside everything{
-        smooth_ones(candidates_, base.of_half[0], smooth), base.of_half, base.of_half[0], {}};
+        smooth_ones(candidates_, base.of_half[0], smooth), base.of_half, base.of_half[0], {}, {}};
     if (of == SmoothSignals::tags_alone) {
         std::erase_if(everything.candidates, is_told_by_hall);
         smooth = only(Signal::tag);
@@ -83,6 +84,7 @@ Search::EverythingBeside Search::everything_of(const CrossFit& base, SmoothSigna
     };
     for (Hypothesis& hypothesis : everything.beside) std::erase_if(hypothesis, is_among);
     std::erase_if(everything.begun, [&](const plant::EffectSetting& setting) { return !is_among(setting); });
+    everything.known = everything.begun;
     for (std::size_t side = 0; side < 2; ++side)
         everything.wanted[side] = only_of(fitter_.evidence().windows(), fitter_.half(side), smooth);
     return everything;
@@ -94,8 +96,8 @@ void Search::end(Ended how) {
 }
 
 Search::Together Search::needed_of(const EverythingBeside& all, IfFar if_far) {
-    NeededCandidates needed =
-        needed_of_everything(fitter_.evidence(), all.candidates, all.beside, all.begun, all.wanted, if_far);
+    NeededCandidates needed = needed_of_everything(fitter_.evidence(), all.candidates, all.beside, all.begun,
+                                                   all.known, all.wanted, if_far);
     if (needed.ended) end(*needed.ended);
     const bool is_of_one_half = needed.ended && needed.of_half[0] == needed.of_half[1];
     Together found = together(all.beside, std::move(needed));
@@ -105,21 +107,45 @@ Search::Together Search::needed_of(const EverythingBeside& all, IfFar if_far) {
 
 Search::Together Search::everything_beside(const CrossFit& base) {
     if (options_.tell) options_.tell("all that is smooth at once");
-    const SignalFlags are_off = off(base);
-    if (!are_off[index_of(Signal::hall)]) {
-        Together of_view = needed_of(everything_of(base, SmoothSignals::tags_alone), IfFar::gives_up);
-        const bool is_enough = !of_view.candidates.empty() && !off(of_view.fitted)[index_of(Signal::tag)];
-        return over_ || is_enough || are_off[index_of(Signal::encoder)] ? of_view : tags_beside(base);
-    }
-    Together of_hall = needed_of(everything_of(base, SmoothSignals::hall_alone), IfFar::goes_on);
+    const bool is_carriage_off = off(base)[index_of(Signal::encoder)];
+    if (!off(base)[index_of(Signal::hall)]) return view_and_wire({{}, {}, base}, is_carriage_off);
+    Together of_hall = needed_of(everything_of(base, SmoothSignals::hall_alone), IfFar::gives_up);
+    if (of_hall.candidates.empty() && !over_) of_hall = hall_from_afar(base);
     if (over_) return of_hall;
-    if (of_hall.candidates.empty()) return tags_beside(base);
+    if (of_hall.candidates.empty()) return hall_and_tags(base);
     if (!off(of_hall.fitted)[index_of(Signal::tag)]) return of_hall;
-    Together found = tags_beside(of_hall.fitted);
+    if (!far_off(of_hall.fitted)[index_of(Signal::hall)])
+        return view_and_wire(std::move(of_hall), is_carriage_off);
+    Together found = hall_and_tags(of_hall.fitted);
     return found.candidates.empty() ? of_hall : found;
 }
 
+Search::Together Search::hall_from_afar(const CrossFit& base) {
+    Together shaped = shaped_beside(base, Signal::hall);
+    if (over_ || !shaped.candidates.empty()) return shaped;
+    return needed_of(everything_of(base, SmoothSignals::hall_alone), IfFar::goes_on);
+}
+
+Search::Together Search::view_and_wire(Together of_hall, bool is_of_view_alone) {
+    Together found = std::move(of_hall);
+    Together of_view = needed_of(everything_of(found.fitted, SmoothSignals::tags_alone), IfFar::gives_up);
+    if (of_view.candidates.empty() && !is_of_view_alone && !over_)
+        of_view = shaped_among(SmoothSignals::tags_alone, found.fitted, Signal::tag);
+    if (!of_view.candidates.empty()) {
+        std::ranges::move(of_view.candidates, std::back_inserter(found.candidates));
+        std::ranges::move(of_view.worth, std::back_inserter(found.worth));
+        found.fitted = std::move(of_view.fitted);
+    }
+    if (over_ || is_of_view_alone || !off(found.fitted)[index_of(Signal::tag)]) return found;
+    Together of_both = hall_and_tags(found.fitted);
+    return of_both.candidates.empty() ? found : of_both;
+}
+
 Search::Together Search::tags_beside(const CrossFit& base) {
+    return far_off(base)[index_of(Signal::hall)] ? hall_and_tags(base) : view_and_wire({{}, {}, base}, false);
+}
+
+Search::Together Search::hall_and_tags(const CrossFit& base) {
     return needed_of(everything_of(base, SmoothSignals::hall_and_tags), IfFar::gives_up);
 }
 
@@ -152,8 +178,12 @@ Hypothesis Search::waves_of_reading(const CrossFit& base,
 }
 
 Search::Together Search::shaped_beside(const CrossFit& base, Signal signal) {
-    const EverythingBeside all = everything_of(
-        base, signal == Signal::hall ? SmoothSignals::hall_alone : SmoothSignals::hall_and_tags);
+    return shaped_among(signal == Signal::hall ? SmoothSignals::hall_alone : SmoothSignals::hall_and_tags,
+                        base, signal);
+}
+
+Search::Together Search::shaped_among(SmoothSignals of, const CrossFit& base, Signal signal) {
+    const EverythingBeside all = everything_of(base, of);
     const Wanted wanted = only_of(fitter_.evidence().windows(), all.wanted[0], only(signal));
     const Hypothesis shapes =
         promising_shapes(fitter_.evidence(), all.candidates, waves_of_reading(base, all.candidates),

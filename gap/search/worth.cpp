@@ -18,20 +18,20 @@
 namespace fidservo::gap {
 namespace {
 
-/// The sizes of some candidates that were fitted together, in standard deviations of all parameters, and
-/// their correlations where the shapes keep their values: an effect of size zero has no shape that could make
-/// up for it.
+using Indices = std::vector<Eigen::Index>;
+
+/// The sizes of some candidates that were fitted together, in standard deviations of all parameters, and the
+/// correlations of these.
 class Sizes {
   public:
-    Sizes(std::span<const Candidate* const> candidates, const Fit& fitted) : at_(candidates.size()) {
+    Sizes(std::span<const Candidate* const> candidates, const Fit& fitted) : of_(candidates.size()) {
         std::vector<double> all;
-        std::vector<Eigen::Index> shapes;
         for (std::size_t c = 0; c < candidates.size(); ++c) {
             const plant::EffectSetting& setting = fitted.hypothesis[c];
             for (std::size_t k = 0; k < setting.values.size(); ++k) {
                 const plant::EffectParameter& parameter = setting.effect->parameters[k];
                 const bool is_size = std::ranges::find(candidates[c]->sizes, k) != candidates[c]->sizes.end();
-                (is_size ? at_[c] : shapes).push_back(static_cast<Eigen::Index>(all.size()));
+                (is_size ? of_[c].sizes : of_[c].shapes).push_back(static_cast<Eigen::Index>(all.size()));
                 all.push_back(setting.values[k] - parameter.vanishing);
             }
         }
@@ -41,25 +41,34 @@ class Sizes {
         sizes_ = Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()))
                      .cwiseProduct(per_deviation);
         correlations_ = per_deviation.asDiagonal() * fitted.curvature_covariance * per_deviation.asDiagonal();
-        if (shapes.empty()) return;
-        const Eigen::MatrixXd with_shapes = correlations_(Eigen::all, shapes);
-        correlations_ -=
-            with_shapes * minimum_norm_solutions(correlations_(shapes, shapes), with_shapes.transpose());
     }
 
     /// Loss that some candidates together save beside the others.
     double worth(const std::vector<std::size_t>& left_out) const {
-        std::vector<Eigen::Index> places;
-        for (const std::size_t c : left_out) places.insert(places.end(), at_[c].begin(), at_[c].end());
-        if (places.empty()) return 0.0;
-        const Eigen::VectorXd sizes = sizes_(places);
-        const Eigen::MatrixXd own = correlations_(places, places);
-        return 0.5 * sizes.dot(minimum_norm_solution(own, sizes));
+        Indices sizes, shapes;
+        for (const std::size_t c : left_out) {
+            sizes.insert(sizes.end(), of_[c].sizes.begin(), of_[c].sizes.end());
+            shapes.insert(shapes.end(), of_[c].shapes.begin(), of_[c].shapes.end());
+        }
+        if (sizes.empty()) return 0.0;
+        Eigen::MatrixXd own = correlations_(sizes, sizes);
+        if (!shapes.empty()) {
+            const Eigen::MatrixXd with_shapes = correlations_(sizes, shapes);
+            own -=
+                with_shapes * minimum_norm_solutions(correlations_(shapes, shapes), with_shapes.transpose());
+        }
+        const Eigen::VectorXd values = sizes_(sizes);
+        return 0.5 * values.dot(minimum_norm_solution(own, values));
     }
 
   private:
-    std::vector<std::vector<Eigen::Index>> at_;  ///< each candidate's sizes among all parameters
-    Eigen::VectorXd sizes_;                      ///< of all parameters
+    /// Where a candidate's parameters are among all.
+    struct Parameters {
+        Indices sizes, shapes;
+    };
+
+    std::vector<Parameters> of_;  ///< each candidate's
+    Eigen::VectorXd sizes_;       ///< of all parameters
     Eigen::MatrixXd correlations_;
 };
 

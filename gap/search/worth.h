@@ -4,13 +4,14 @@
 //
 // The loss that effects save beside the others (their worth) follows without another fit, from the loss to
 // second order: with t their sizes, and C the inverse of the matrix of second derivatives with respect to all
-// parameters but the shapes, which keep their values (C_tt: its block for t),
+// parameters but the shapes of these effects, which keep their values (C_tt: its block for t),
 //
 //     worth = 1/2 t' C_tt^-1 t
 //
 // (Wald's statistic; Hosmer, Jovanovic, Lemeshow, Biometrics 45, 1989, for the choice of subsets by it).
-// Shapes that were free to move would make up for a smaller size as long as there is one, but at size zero
-// they have no effect (Davies, Biometrika 64, 1977).
+// Their own shapes would, if free to move, make up for a smaller size as long as there is one, but at size
+// zero they have no effect (Davies, Biometrika 64, 1977). The shapes of the effects that remain may make up
+// for what is left out.
 #include "gap/candidates/candidate.h"
 #include "gap/fit/fit.h"
 

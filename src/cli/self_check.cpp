@@ -56,7 +56,8 @@ void add_self_check_options(CLI::App& diagnose, SelfCheckRequest& request) {
     add("--kinds", request.kinds,
         "Cases of these kinds only: none, one, two, withheld, unlisted; "
         "or, with rendered frames: frames (an effect of the image), frames-none, frames-withheld; "
-        "or, with many causes at once: three, messy, messy-none")
+        "or, with many causes at once: three, messy, messy-none; or, far off the floor whatever explains it: "
+        "rough")
         ->type_name("A,B,..")
         ->delimiter(',')
         ->check(CLI::IsMember(names));

@@ -12,6 +12,7 @@
 #include "src/selfcheck/draw/crowded_draw.h"
 #include "src/selfcheck/draw/filmed_campaign.h"
 #include "src/selfcheck/draw/frames_draw.h"
+#include "src/selfcheck/draw/rough_draw.h"
 #include "src/selfcheck/ties.h"
 
 #include <algorithm>
@@ -106,9 +107,12 @@ struct Family {
 
 constexpr std::array families{
     Family{"none, one, two, withheld, unlisted",
-           [](CaseKind kind) { return !has_frames(kind) && !is_crowded(kind); }, kind_of_case, draw_case},
+           [](CaseKind kind) { return !has_frames(kind) && !is_crowded(kind) && kind != CaseKind::rough; },
+           kind_of_case, draw_case},
     Family{"frames, frames-none, frames-withheld", has_frames, kind_of_frames_case, draw_frames_case},
-    Family{"three, messy, messy-none", is_crowded, kind_of_crowded_case, draw_crowded_case}};
+    Family{"three, messy, messy-none", is_crowded, kind_of_crowded_case, draw_crowded_case},
+    Family{"rough", [](CaseKind kind) { return kind == CaseKind::rough; }, kind_of_rough_case,
+           draw_rough_case}};
 
 /// The first one where no kinds are given. Throws InputError where they are of several.
 const Family& family_of(const std::vector<CaseKind>& kinds) {

@@ -114,6 +114,23 @@ TEST(Tally, MessyRigs_AreJudgedByTheirDominantEffect) {
     EXPECT_FALSE(keeps_all_limits(got));
 }
 
+TEST(Tally, RoughRigs_AreJudgedByBothEffects) {
+    Outcome both = outcome(CaseKind::rough, 500.0, true), one = both,
+            other = outcome(CaseKind::messy, 50.0, true);
+    both.score.dominant_place = 0;
+    both.score.truths_named = 2;
+    one.score.truths_named = 1;
+    one.score.named.front().is_true = false;
+    one.score.is_confident_wrong = true;
+    const Tally got = tally(std::vector{both, one, other});
+    EXPECT_EQ(share(got, "rough_dominant_first").share.hits, 1u);
+    EXPECT_EQ(share(got, "rough_all").share.hits, 1u);
+    EXPECT_EQ(share(got, "rough_not_confident").share.hits, 1u);
+    EXPECT_EQ(share(got, "rough_not_confident").share.of, 2u);
+    // Of two claims of 0.9 one is true.
+    EXPECT_NEAR(value(got, "rough_calibration_error"), 0.4, 1e-12);
+}
+
 TEST(Tally, ThreeEffects_CountWhereEachShows) {
     Outcome all = outcome(CaseKind::three, 5.0, true), two = all, small = all;
     all.score.truths_named = 3;

@@ -7,8 +7,8 @@ namespace fidservo::selfcheck {
 
 std::string_view name_of(CaseKind kind) {
     constexpr std::array<std::string_view, kind_count> names{
-        "none",  "one",   "two",       "withheld", "unlisted", "frames", "frames-none", "frames-withheld",
-        "three", "messy", "messy-none"};
+        "none",  "one",   "two",        "withheld", "unlisted", "frames", "frames-none", "frames-withheld",
+        "three", "messy", "messy-none", "rough"};
     return names.at(static_cast<std::size_t>(kind));
 }
 

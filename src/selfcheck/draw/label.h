@@ -25,11 +25,12 @@ enum class CaseKind : std::uint8_t {
     /// catalogue.
     messy,
     messy_none,  ///< the same without the dominant one
+    rough,       ///< two large effects and a discrepancy of many floors, of one stage
 };
-inline constexpr std::size_t kind_count = 11;
+inline constexpr std::size_t kind_count = 12;
 
 /// "none", "one", "two", "withheld", "unlisted", "frames", "frames-none", "frames-withheld", "three",
-/// "messy", "messy-none".
+/// "messy", "messy-none", "rough".
 std::string_view name_of(CaseKind kind);
 
 struct TrueEffect {
@@ -58,7 +59,7 @@ struct TrueDiscrepancy {
 
 struct Label {
     CaseKind kind = CaseKind::none;
-    std::vector<TrueEffect> effects;  ///< for a messy rig the dominant one is first
+    std::vector<TrueEffect> effects;  ///< for a messy or rough rig the dominant one is first
     std::optional<TrueDiscrepancy> discrepancy = {};
 };
 

@@ -30,6 +30,16 @@ double dominant_probability(const Score& score) {
     return score.dominant_place ? score.named[*score.dominant_place].probability : 0.0;
 }
 
+/// Of every name of one kind of case.
+double calibration_error_of(CaseKind kind, std::span<const Outcome> outcomes) {
+    std::vector<Claim> claims;
+    for (const Outcome& outcome : outcomes)
+        if (outcome.label.kind == kind)
+            for (const NamedEffect& named : outcome.score.named)
+                claims.push_back({named.probability, named.is_true});
+    return reliability_of(std::move(claims)).expected_error;
+}
+
 }  // namespace
 
 std::vector<ShareFigure> crowded_shares(std::span<const Outcome> outcomes) {
@@ -42,7 +52,7 @@ std::vector<ShareFigure> crowded_shares(std::span<const Outcome> outcomes) {
         shares.push_back({std::move(name), std::move(text), share, at_least});
     };
     const Figure three = is_of(CaseKind::three), messy = is_of(CaseKind::messy),
-                 messy_none = is_of(CaseKind::messy_none);
+                 messy_none = is_of(CaseKind::messy_none), rough = is_of(CaseKind::rough);
     const Figure all_named = [](const Outcome& outcome) { return outcome.score.truths_named == 3; };
     const Figure all_right = [](const Outcome& outcome) { return outcome.score.all_right; };
     add("three_all", "three effects: all named", is_three_judged, all_named, 0.80);
@@ -69,18 +79,21 @@ std::vector<ShareFigure> crowded_shares(std::span<const Outcome> outcomes) {
             return std::ranges::all_of(outcome.score.named, &NamedEffect::is_true);
         },
         {});
+    add("rough_dominant_first", "rough: larger effect named first", rough,
+        [](const Outcome& outcome) { return outcome.score.dominant_place == 0; }, {});
+    add("rough_all", "rough: both effects named", rough,
+        [](const Outcome& outcome) { return outcome.score.truths_named == 2; }, {});
+    add("rough_not_confident", "rough: no confident wrong name", rough, is_not_confident_wrong, 0.97);
     return shares;
 }
 
 std::vector<LimitFigure> crowded_limits(std::span<const Outcome> outcomes) {
     std::vector<double> probabilities, not_removed;
-    std::vector<Claim> claims;
     for (const Outcome& outcome : outcomes) {
         if (outcome.label.kind != CaseKind::messy) continue;
         const Score& score = outcome.score;
         probabilities.push_back(dominant_probability(score));
         if (score.removed_of_true) not_removed.push_back(1.0 - *score.removed_of_true);
-        for (const NamedEffect& named : score.named) claims.push_back({named.probability, named.is_true});
     }
     const double mean_not_removed = std::accumulate(not_removed.begin(), not_removed.end(), 0.0) /
                                     static_cast<double>(not_removed.size());
@@ -92,7 +105,11 @@ std::vector<LimitFigure> crowded_limits(std::span<const Outcome> outcomes) {
         {"messy_not_removed", "messy: of what the true effects would remove, what the named leave, mean",
          mean_not_removed, 0.15},
         {"messy_calibration_error", "messy: expected calibration error of every name's probability",
-         reliability_of(std::move(claims)).expected_error, 0.05},
+         calibration_error_of(CaseKind::messy, outcomes), 0.05},
+        {"rough_calibration_error",
+         "rough: expected calibration error of every name's probability",
+         calibration_error_of(CaseKind::rough, outcomes),
+         {}},
     };
 }
 

@@ -43,6 +43,7 @@ bool is_right(const Label& label, const Score& score) {
         case CaseKind::three:
             return score.all_right;
         case CaseKind::messy:
+        case CaseKind::rough:
             return score.dominant_place == 0 && !score.is_confident_wrong;
         case CaseKind::messy_none:
             return !score.is_confident_wrong;

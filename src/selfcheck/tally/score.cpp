@@ -68,10 +68,13 @@ class Pairing {
     std::size_t pairs_ = 0;
 };
 
+bool has_dominant(CaseKind kind) {
+    return kind == CaseKind::messy || kind == CaseKind::rough;
+}
+
 double confidence_limit(CaseKind kind) {
-    const bool is_crowded =
-        kind == CaseKind::three || kind == CaseKind::messy || kind == CaseKind::messy_none;
-    return is_crowded ? confident_of_crowded : confident;
+    const bool has_many = kind == CaseKind::three || kind == CaseKind::messy_none || has_dominant(kind);
+    return has_many ? confident_of_crowded : confident;
 }
 
 /// What is left of a gap in squares, of which a share in excess of the floor is removed.
@@ -116,7 +119,7 @@ Score score(const Label& label, const gap::Diagnosis& diagnosis, const gap::Evid
         gap_before = gap_after;
         score.any_right = score.any_right || is_right;
         score.is_confident_wrong = score.is_confident_wrong || (!is_right && found.probability >= limit);
-        if (label.kind == CaseKind::messy && !score.dominant_place &&
+        if (has_dominant(label.kind) && !score.dominant_place &&
             sets.back().contains(label.effects.front().class_name))
             score.dominant_place = sets.size() - 1;
     }

@@ -53,6 +53,25 @@ TEST(Approach, ToWhatNoSizePredicts_IsNotNear_AndSaysHowFarItIs) {
     EXPECT_NEAR(end.median_square, 400.0, 4.0);
 }
 
+/// Some windows are beyond any prediction, as those in which friction lets the carriage go by chance.
+TEST(Approach, FromAStartThatPredictsMostWindows_StaysThere) {
+    const OfOneSize of;
+    const Candidate& candidate = of.named("drive_gain");
+    const std::vector<Window>& windows = of.evidence.windows();
+    const Predict predict = [&](const Hypothesis& settings) {
+        Errors errors(windows.back().end,
+                      static_cast<float>(4000.0 * (settings.front().values.front() - 1.1)));
+        for (std::size_t w = 0; w < windows.size(); w += 5)
+            for (std::size_t k = windows[w].begin; k < windows[w].end; ++k) errors[k] += 20.0F;
+        return errors;
+    };
+    const Hypothesis start{{candidate.effect, {1.1}}};
+    const Approach end = approach(of.evidence, std::vector{&candidate}, predict, everything(of.evidence),
+                                  start, {.expected_sizes = 3.0});
+    EXPECT_TRUE(end.is_near()) << end.median_square;
+    EXPECT_EQ(end.settings.front().values, start.front().values);
+}
+
 /// Counts make minima at every fourth step of the scale.
 TEST(Approach, OfAScaleErrorBeyondACount_DoesNotEndAtTheNearestOne) {
     const OfOneSize of;

@@ -56,7 +56,7 @@ Found needed_of(const Evidence& evidence) {
     for (std::size_t w = 0; w < half.size(); ++w)
         for (std::size_t side = 0; side < 2; ++side)
             if (half[w] != side || evidence.windows()[w].signal != Signal::hall) wanted[side][w] = 0;
-    Found found{{}, needed_of_everything(evidence, smooth, {}, {}, wanted, IfFar::gives_up)};
+    Found found{{}, needed_of_everything(evidence, smooth, {}, {}, {}, wanted, IfFar::gives_up)};
     for (const Candidate* candidate : found.needed.candidates) found.names.push_back(candidate->class_name);
     std::ranges::sort(found.names);
     return found;

@@ -83,6 +83,22 @@ TEST(Worth, OfAnEffectWhoseShapeIsNotDetermined_IsWhatItsSizeSavesWithThatShape)
     EXPECT_THAT(kept(one.candidates, one.fit, {}, false), ElementsAre(0));
 }
 
+/// The size of the one does what a longer time constant of the other does: without it nothing is lost.
+TEST(Worth, OfWhatTheShapeOfAnotherEffectDoesAsWell_IsSmall) {
+    const Hypothesis both = effects({"stroke_change:factor=1.02", "second_thermal_mass:conductance=0.2"});
+    const auto count = 1 + static_cast<Eigen::Index>(both[1].values.size());
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(count);
+    gradient(0) = gradient(2) = 1e3;  // the time constant is the second parameter of the thermal mass
+    Eigen::MatrixXd second_derivatives =
+        gradient * gradient.transpose() + 1e-3 * Eigen::MatrixXd::Identity(count, count);
+    second_derivatives(1, 1) = 1e6;
+    const Fitted fitted(both, second_derivatives);
+    const std::vector<double> worth = worth_of_each(fitted.candidates, fitted.fit);
+    EXPECT_LT(worth[0], least_worth);
+    EXPECT_NEAR(worth[1], 0.5 * 1e6 * 0.2 * 0.2, 1.0);
+    EXPECT_THAT(kept(fitted.candidates, fitted.fit, {}, false), ElementsAre(1));
+}
+
 TEST(Worth, OfWhatABoundHolds_IsNothing_AndMayBeSpared) {
     Fitted held(effects({"heater_delay:delay_ms=0"}), Eigen::MatrixXd::Identity(1, 1));
     held.fit.curvature_covariance.setZero();
