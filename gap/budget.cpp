@@ -35,12 +35,20 @@ void Budget::prolong(double extra_s) const {
     whole_end_s_.store(std::max(end_s, now_s()) + extra_s, std::memory_order_relaxed);
 }
 
+Budget::Share::Share(const Budget& budget, double share) : budget_(budget) {
+    const double now_s = budget.now_s();
+    budget.share_end_s_.store(now_s + share * (budget.search_end_s_ - now_s), std::memory_order_relaxed);
+}
+
 void Budget::check() const {
     const Part part = part_.load(std::memory_order_relaxed);
     if (part == Part::over) return;
     if (is_interrupted()) throw BudgetEnded(Ended::interrupted);
     const double end_s = part == Part::search ? search_end_s_ : whole_end_s_.load(std::memory_order_relaxed);
-    if (end_s != never && now_s() > end_s) throw BudgetEnded(Ended::budget);
+    if (end_s == never) return;
+    const double now = now_s();
+    if (now > end_s) throw BudgetEnded(Ended::budget);
+    if (part == Part::search && now > share_end_s_.load(std::memory_order_relaxed)) throw ShareEnded();
 }
 
 }  // namespace fidservo::gap

@@ -37,6 +37,15 @@ class BudgetEnded : public std::exception {
     Ended how_;
 };
 
+/// Thrown by Budget::check() after the end of a share of the search's time (Budget::Share).
+class ShareEnded : public std::exception {
+  public:
+    /// The message.
+    const char* what() const noexcept override {
+        return "this part of the search has had its share of the time";
+    }
+};
+
 /// How the seconds of a budget are measured.
 enum class Seconds {
     by_clock,   ///< by the wall clock
@@ -57,7 +66,23 @@ class Budget {
     Budget(double search_s, double whole_s, std::function<bool()> interrupted,
            Seconds seconds = Seconds::by_clock);
 
-    /// Throws BudgetEnded after the end of the present part.
+    /// As long as it lives, the search may take no more than a share of the time that was left to it: one
+    /// part of a search that comes to nothing leaves time for the others. Without an end of the search there
+    /// is no end of its shares. One at a time.
+    class Share {
+      public:
+        /// @param budget  outlives it
+        /// @param share   of the time that is left, 0 to 1
+        Share(const Budget& budget, double share);
+        ~Share() { budget_.share_end_s_.store(never, std::memory_order_relaxed); }
+        Share(const Share&) = delete;
+        Share& operator=(const Share&) = delete;
+
+      private:
+        const Budget& budget_;
+    };
+
+    /// Throws BudgetEnded after the end of the present part, and ShareEnded after that of a share.
     void check() const;
     /// Counts predicted rows.
     void count(std::uint64_t rows) const { rows_.fetch_add(rows, std::memory_order_relaxed); }
@@ -81,7 +106,7 @@ class Budget {
 
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     double search_end_s_ = never;
-    mutable std::atomic<double> whole_end_s_ = never;
+    mutable std::atomic<double> whole_end_s_ = never, share_end_s_ = never;
     std::function<bool()> interrupted_;
     Seconds seconds_ = Seconds::by_clock;
     mutable std::atomic<std::uint64_t> rows_ = 0;

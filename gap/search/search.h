@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <set>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -221,15 +222,16 @@ class Search {
     enum class SmoothSignals { hall_and_tags, hall_alone, tags_alone };
     EverythingBeside everything_of(const CrossFit& base, SmoothSignals of) const;
     Together needed_of(const EverythingBeside& all, IfFar if_far);
-    /// Where no sizes alone come near an optimum of the Hall reading: with the shapes that promise anything,
-    /// or, if none does, as near as sizes come.
-    Together hall_from_afar(const CrossFit& base);
+    /// Where no sizes alone come near an optimum of a signal: with the shapes that promise anything, or, if
+    /// none does, as near as sizes come.
+    Together from_afar(SmoothSignals of, const CrossFit& base, Signal signal);
     /// What was found of the Hall reading, with what the camera alone sees; or, where that leaves something
     /// in the tags, both anew.
     Together view_and_wire(Together of_hall, bool is_of_view_alone);
     /// Both signals together. No candidates where the fit does not come near its optimum.
     Together hall_and_tags(const CrossFit& base);
-    /// shaped_beside(), with effects that are estimated from these signals.
+    /// shaped_beside(), with effects that are estimated from these signals. Beside effects that were all that
+    /// an earlier look at the Hall reading found to be needed, nothing is looked for again.
     Together shaped_among(SmoothSignals of, const CrossFit& base, Signal signal);
     /// Those of all smooth candidates and of some shapes that are needed beside a base's other effects.
     /// @param all  of Hall reading and tags beside this base
@@ -349,6 +351,8 @@ class Search {
     CrossFitter fitter_;
     SearchMemory memory_;
     SignalExcess first_excess_;  ///< before any effect
+    /// The smooth effects beside which no shape that promises anything in the Hall reading is needed.
+    std::optional<std::set<const plant::Effect*>> hall_screened_beside_;
     int trials_ = 0;
 };
 

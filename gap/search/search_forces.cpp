@@ -14,13 +14,11 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace fidservo::gap {
 namespace {
-
-/// Share of a search's effort after which the model from the balance of forces is given up.
-constexpr double share_for_forces = 0.3;
 
 std::size_t place_of_least(const std::vector<double>& values) {
     return static_cast<std::size_t>(std::ranges::min_element(values) - values.begin());
@@ -86,15 +84,11 @@ std::vector<const Candidate*> smooth_beside(const BalancedModel& model,
 }
 
 /// One half of the encoder's windows, predicted by simulating the carriage with a model's effects in addition
-/// to known ones. Once the effort is spent, results are worthless.
+/// to known ones.
 class FollowedHalf {
   public:
-    FollowedHalf(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted, double most_effort)
-        : evidence_(evidence),
-          known_(known),
-          wanted_(wanted),
-          most_effort_(most_effort),
-          predict_(predictor(wanted)) {}
+    FollowedHalf(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted)
+        : evidence_(evidence), known_(known), wanted_(wanted), predict_(predictor(wanted)) {}
 
     double loss(const Hypothesis& settings) const {
         return total_loss(evidence_.windows(), wanted_, predict_(settings));
@@ -159,7 +153,6 @@ class FollowedHalf {
   private:
     Predict predictor(const Wanted& wanted) const {
         return [this, &wanted](const Hypothesis& settings) {
-            if (evidence_.effort() > most_effort_) return Errors{};
             Hypothesis whole = known_;
             whole.insert(whole.end(), settings.begin(), settings.end());
             return evidence_.errors(whole, wanted);
@@ -169,7 +162,6 @@ class FollowedHalf {
     const Evidence& evidence_;
     const Hypothesis& known_;
     const Wanted& wanted_;
-    double most_effort_;
     Predict predict_;
 };
 
@@ -208,7 +200,7 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
         return settings;
     };
     constexpr int most_rounds = 4;
-    constexpr double share_explained = 0.9;
+    constexpr double share_explained = 0.9, most_of_time = 0.5;
     constexpr std::size_t most_drawn = 3;  // effects; with more, a generation has too few draws
     const Evidence& evidence = fitter_.evidence();
     std::vector<const Candidate*> all;
@@ -219,43 +211,43 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
     std::array<Wanted, 2> wanted;
     for (std::size_t side = 0; side < 2; ++side)
         wanted[side] = only_of(evidence.windows(), fitter_.half(side), only(Signal::encoder));
-    const double most_effort = evidence.effort() + share_for_forces * options_.most_effort;
-    const FollowedHalf first(evidence, base.of_half[0], wanted[0], most_effort),
-        second(evidence, base.of_half[1], wanted[1], most_effort);
-    const BalancedModel model = first.best_form(
-        forms_of(models[place_of_least(first.losses(models))], candidates_, evidence.rig().macro),
-        options_.tail);
-    NeededCandidates itself{model.candidates,
-                            {model.settings, second.fitted(model.settings).hypothesis},
-                            first.worth(model.settings)};
-    if (evidence.effort() > most_effort) return {{}, {}, base};
-    Together best = together(base.of_half, itself);
-    const auto is_off = [&] { return off(best.fitted)[index_of(Signal::encoder)]; };
-    const bool is_in_valleys = itself.candidates.size() <= most_drawn &&
-                               std::ranges::any_of(itself.candidates, [](const Candidate* candidate) {
-                                   return has_valleys(*candidate);
-                               });
+    const FollowedHalf first(evidence, base.of_half[0], wanted[0]),
+        second(evidence, base.of_half[1], wanted[1]);
+    std::optional<Together> best;
     try {
+        const Budget::Share share(*evidence.budget(), most_of_time);
+        const BalancedModel model = first.best_form(
+            forms_of(models[place_of_least(first.losses(models))], candidates_, evidence.rig().macro),
+            options_.tail);
+        NeededCandidates itself{model.candidates,
+                                {model.settings, second.fitted(model.settings).hypothesis},
+                                first.worth(model.settings)};
+        best = together(base.of_half, itself);
+        const auto is_off = [&] { return off(best->fitted)[index_of(Signal::encoder)]; };
+        const bool is_in_valleys = itself.candidates.size() <= most_drawn &&
+                                   std::ranges::any_of(itself.candidates, [](const Candidate* candidate) {
+                                       return has_valleys(*candidate);
+                                   });
         for (int round = 0; is_in_valleys && is_off() && round < most_rounds; ++round) {
-            itself.of_half = drawn_around(first, second, settings_of_model(best), options_.windows);
-            if (evidence.effort() > most_effort) break;
+            itself.of_half = drawn_around(first, second, settings_of_model(*best), options_.windows);
             itself.worth = first.worth(itself.of_half[0]);
             Together drawn = together(base.of_half, itself);
-            if (!(drawn.fitted.loss < best.fitted.loss)) break;
+            if (!(drawn.fitted.loss < best->fitted.loss)) break;
             best = std::move(drawn);
-            if (!(best.fitted.loss < base.loss)) return {{}, {}, base};
+            if (!(best->fitted.loss < base.loss)) return {{}, {}, base};
         }
-        if (!is_off()) return best;
-        Together whole =
-            together(base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_),
-                                                        base.of_half, settings_of_model(best)[0],
-                                                        settings_of_model(best)[0], wanted, IfFar::goes_on));
+        if (!is_off()) return *best;
+        Together whole = together(
+            base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_), base.of_half,
+                                               settings_of_model(*best)[0], {}, wanted, IfFar::goes_on));
         // Many effects that leave most of the gap stand in for something else.
         const bool explains = nearly_clears(base, whole.fitted, share_explained);
-        return explains && whole.fitted.loss < best.fitted.loss ? whole : best;
+        return explains && whole.fitted.loss < best->fitted.loss ? whole : *best;
+    } catch (const ShareEnded&) {
     } catch (const BudgetEnded&) {
-        return best;
+        if (!best) throw;
     }
+    return best ? *best : Together{{}, {}, base};
 }
 
 }  // namespace fidservo::gap

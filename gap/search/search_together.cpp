@@ -12,6 +12,7 @@
 #include <functional>
 #include <iterator>
 #include <numbers>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -49,6 +50,12 @@ std::vector<const Candidate*> smooth_ones(const std::vector<Candidate>& all, con
             *same = &candidate;
     }
     return found;
+}
+
+std::set<const plant::Effect*> effects_of(const Hypothesis& hypothesis) {
+    std::set<const plant::Effect*> effects;
+    for (const plant::EffectSetting& setting : hypothesis) effects.insert(setting.effect);
+    return effects;
 }
 
 /// Whether a candidate is estimated from the Hall reading, which tells more of it than tags do.
@@ -110,7 +117,8 @@ Search::Together Search::everything_beside(const CrossFit& base) {
     const bool is_carriage_off = off(base)[index_of(Signal::encoder)];
     if (!off(base)[index_of(Signal::hall)]) return view_and_wire({{}, {}, base}, is_carriage_off);
     Together of_hall = needed_of(everything_of(base, SmoothSignals::hall_alone), IfFar::gives_up);
-    if (of_hall.candidates.empty() && !over_) of_hall = hall_from_afar(base);
+    if (of_hall.candidates.empty() && !over_)
+        of_hall = from_afar(SmoothSignals::hall_alone, base, Signal::hall);
     if (over_) return of_hall;
     if (of_hall.candidates.empty()) return hall_and_tags(base);
     if (!off(of_hall.fitted)[index_of(Signal::tag)]) return of_hall;
@@ -120,17 +128,17 @@ Search::Together Search::everything_beside(const CrossFit& base) {
     return found.candidates.empty() ? of_hall : found;
 }
 
-Search::Together Search::hall_from_afar(const CrossFit& base) {
-    Together shaped = shaped_beside(base, Signal::hall);
+Search::Together Search::from_afar(SmoothSignals of, const CrossFit& base, Signal signal) {
+    Together shaped = shaped_among(of, base, signal);
     if (over_ || !shaped.candidates.empty()) return shaped;
-    return needed_of(everything_of(base, SmoothSignals::hall_alone), IfFar::goes_on);
+    return needed_of(everything_of(base, of), IfFar::goes_on);
 }
 
 Search::Together Search::view_and_wire(Together of_hall, bool is_of_view_alone) {
     Together found = std::move(of_hall);
     Together of_view = needed_of(everything_of(found.fitted, SmoothSignals::tags_alone), IfFar::gives_up);
     if (of_view.candidates.empty() && !is_of_view_alone && !over_)
-        of_view = shaped_among(SmoothSignals::tags_alone, found.fitted, Signal::tag);
+        of_view = from_afar(SmoothSignals::tags_alone, found.fitted, Signal::tag);
     if (!of_view.candidates.empty()) {
         std::ranges::move(of_view.candidates, std::back_inserter(found.candidates));
         std::ranges::move(of_view.worth, std::back_inserter(found.worth));
@@ -184,14 +192,17 @@ Search::Together Search::shaped_beside(const CrossFit& base, Signal signal) {
 
 Search::Together Search::shaped_among(SmoothSignals of, const CrossFit& base, Signal signal) {
     const EverythingBeside all = everything_of(base, of);
+    const bool is_of_hall = of == SmoothSignals::hall_alone;
+    if (is_of_hall && hall_screened_beside_ == effects_of(all.known)) return {{}, {}, base};
     const Wanted wanted = only_of(fitter_.evidence().windows(), all.wanted[0], only(signal));
     const Hypothesis shapes =
         promising_shapes(fitter_.evidence(), all.candidates, waves_of_reading(base, all.candidates),
                          all.beside[0], all.begun, wanted);
-    if (shapes.empty()) return {{}, {}, base};
-    Together found = needed_with(base, all, shapes);
+    Together found{{}, {}, base};
+    if (!shapes.empty()) found = needed_with(base, all, shapes);
     if (found.candidates.empty() && shapes.size() > 1 && !over_)
         found = needed_with(base, all, {shapes.front()});
+    if (is_of_hall) hall_screened_beside_ = effects_of(everything_of(found.fitted, of).known);
     return found;
 }
 

@@ -35,8 +35,26 @@ TEST(Budget, ProlongedAfterItsEnd_GoesOnFromThere) {
     EXPECT_THROW(budget.check(), BudgetEnded);
 }
 
+TEST(Budget, ShareOfWhatIsLeft_EndsBeforeTheSearch_AndOnlyWhileItLives) {
+    const Budget budget(10.0, 12.0, {}, Seconds::by_effort);
+    budget.count(2 * rows_of_a_second);
+    {
+        const Budget::Share half(budget, 0.5);
+        budget.count(4 * rows_of_a_second);
+        EXPECT_NO_THROW(budget.check());
+        budget.count(1);
+        EXPECT_THROW(budget.check(), ShareEnded);
+    }
+    EXPECT_NO_THROW(budget.check());
+    const Budget::Share half(budget, 0.5);
+    budget.end_search();
+    budget.count(5 * rows_of_a_second);
+    EXPECT_NO_THROW(budget.check()) << "what follows the search has no shares";
+}
+
 TEST(Budget, OfNoLimit_NeverEnds) {
     const Budget budget;
+    const Budget::Share none(budget, 0.0);
     budget.count(1000 * rows_of_a_second);
     EXPECT_NO_THROW(budget.check());
 }
