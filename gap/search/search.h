@@ -230,8 +230,8 @@ class Search {
     Together view_and_wire(Together of_hall, bool is_of_view_alone);
     /// Both signals together. No candidates where the fit does not come near its optimum.
     Together hall_and_tags(const CrossFit& base);
-    /// shaped_beside(), with effects that are estimated from these signals. Beside effects that were all that
-    /// an earlier look at the Hall reading found to be needed, nothing is looked for again.
+    /// shaped_beside(), with effects that are estimated from these signals. Beside effects of the Hall
+    /// reading beside which no shape was needed before, none is looked for again.
     Together shaped_among(SmoothSignals of, const CrossFit& base, Signal signal);
     /// Those of all smooth candidates and of some shapes that are needed beside a base's other effects.
     /// @param all  of Hall reading and tags beside this base
@@ -351,7 +351,7 @@ class Search {
     CrossFitter fitter_;
     SearchMemory memory_;
     SignalExcess first_excess_;  ///< before any effect
-    /// The smooth effects beside which no shape that promises anything in the Hall reading is needed.
+    /// Effects of the Hall reading beside which no shape was needed.
     std::optional<std::set<const plant::Effect*>> hall_screened_beside_;
     int trials_ = 0;
 };
