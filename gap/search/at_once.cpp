@@ -223,7 +223,11 @@ bool explain_carriage_at_once(Search& search, Chain& chain, Aside& aside, std::v
     if (!is_off(search, whole, Signal::encoder))
         return explain_by_one_or(search, chain, std::move(whole), Signal::encoder, alone);
     if (whole.choices.size() > chain.choices.size() && is_better(search, whole, chain)) {
-        aside.is_by_forces_mostly = search.nearly_clears(chain.fitted, whole.fitted, most_of_it);
+        aside.is_by_forces_mostly =
+            search.nearly_clears(chain.fitted, whole.fitted, most_of_it) &&
+            std::ranges::all_of(whole.choices, [&](const Choice& choice) {
+                return !moves_carriage(*choice.candidate->effect) || search.is_force(*choice.candidate);
+            });
         aside.by_forces = chain = whole;
     }
     return false;

@@ -19,8 +19,8 @@ struct Aside {
     /// chain itself then loses its effects on the carriage's motion, so that the search for these can begin
     /// afresh.
     std::optional<Chain> by_forces;
-    /// Whether that model removes most of the encoder's excess. Many effects that leave most of it stand in
-    /// for something else.
+    /// Whether that model removes most of the encoder's excess by forces alone. Many effects that leave most
+    /// of it stand in for something else, and so do forces beside a late command.
     bool is_by_forces_mostly = false;
     /// While the carriage is explained: the smooth effects of Hall reading and tags, to be joined to the
     /// chain afterwards, or where the search ends meanwhile.

@@ -4,6 +4,8 @@
 #include "tests/gap/effects.h"
 #include "tests/gap/simulated_campaign.h"
 
+#include <functional>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -33,6 +35,28 @@ TEST(SlowAtOnce, PlayThatHidesForces_IsFound_AndTheForcesBesideIt) {
     for (const Choice& choice : chain.choices) names.push_back(choice.candidate->effect->name);
     EXPECT_THAT(names, IsSupersetOf({"backlash", "payload", "viscous_friction"}));
     EXPECT_FALSE(search.far_off(chain.fitted)[index_of(Signal::encoder)]);
+}
+
+/// Play is no force: no model balances it, however long it is sought.
+TEST(SlowAtOnce, ForcesThatBalanceNothing_LeaveHalfOfTheTimeToTheRest) {
+    constexpr double search_s = 4.0;
+    const auto budget =
+        std::make_shared<const Budget>(search_s, 1e6, std::function<bool()>(), Seconds::by_effort);
+    const Evidence evidence(
+        reference_rig(),
+        testing::recordings_of(effects({"backlash:width_um=800", "cogging:amplitude_V=0.002,period_mm=4.6",
+                                        "presliding:level_V=0.002"}),
+                               {"macro-sweep", "macro-square", "macro-pulses"}),
+        budget);
+    const std::vector<Candidate> all = candidates(evidence, {}, {});
+    Search search(evidence, all, {});
+    const CrossFit nothing = search.nothing();
+    const auto spent_s = [&] { return static_cast<double>(budget->rows()) / rows_a_second; };
+    const double before_s = spent_s();
+    search.forces_beside(nothing);
+    constexpr double one_prediction_s = 0.1;
+    EXPECT_LT(spent_s() - before_s, 0.5 * (search_s - before_s) + one_prediction_s);
+    EXPECT_NO_THROW(budget->check());
 }
 
 TEST(FurthestOff, IsTheSignalWithTheLargestGap_AndNoneAtTheFloor) {

@@ -48,7 +48,7 @@ TEST(SlowTogether, HallReadingThatNeedsAShape_IsExplainedWithIt_AndWithWhatIsSma
     const Search::Together found = search.everything_beside(search.nothing());
     EXPECT_THAT(names_of(found), UnorderedElementsAre("second_thermal_mass", "hall_offset",
                                                       AnyOf("ambient_temperature", "stress_shift")));
-    EXPECT_FALSE(search.off(found.fitted)[index_of(Signal::hall)]);
+    EXPECT_FALSE(search.far_off(found.fitted)[index_of(Signal::hall)]);
 }
 
 /// A view that only a tilt explains is explained with it, not by all effects of wire and view.
