@@ -4,6 +4,7 @@
 #include "core/median.h"
 #include "gap/candidates/coupling.h"
 #include "gap/fit/score.h"
+#include "plant/effects/catalogue.h"
 
 #include <algorithm>
 #include <array>
