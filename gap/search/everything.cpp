@@ -207,15 +207,22 @@ class Elimination {
         }
     }
 
-    /// Indices of all candidates but the one that saves least, relative to what is demanded of it.
+    /// Indices of all candidates but one.
+    static std::vector<std::size_t> all_but(std::size_t left_out, const Chosen& chosen) {
+        std::vector<std::size_t> rest(chosen.candidates.size());
+        std::iota(rest.begin(), rest.end(), std::size_t{0});
+        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(left_out));
+        return rest;
+    }
+
+    /// The one that saves least, relative to what is demanded of it, is left out.
     static std::vector<std::size_t> all_but_least(const State& state) {
         const Chosen& chosen = state.chosen;
-        std::vector<std::size_t> all(chosen.candidates.size());
-        std::iota(all.begin(), all.end(), std::size_t{0});
-        all.erase(std::ranges::min_element(all, {}, [&](std::size_t c) {
-            return chosen.worth[c] / state.demand.worth_of(*chosen.candidates[c]);
-        }));
-        return all;
+        std::vector<double> shares;
+        for (std::size_t c = 0; c < chosen.candidates.size(); ++c)
+            shares.push_back(chosen.worth[c] / state.demand.worth_of(*chosen.candidates[c]));
+        const auto least = std::ranges::min_element(shares) - shares.begin();
+        return all_but(static_cast<std::size_t>(least), chosen);
     }
 
     /// Fits and prunes after a change of what is chosen, which is undone unless it turns out better.
@@ -245,12 +252,7 @@ class Elimination {
     }
 
     bool try_without(std::size_t c) {
-        return try_change([&](Chosen& chosen) {
-            std::vector<std::size_t> rest(chosen.candidates.size());
-            std::iota(rest.begin(), rest.end(), std::size_t{0});
-            rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(c));
-            chosen.keep(rest);
-        });
+        return try_change([&](Chosen& chosen) { chosen.keep(all_but(c, chosen)); });
     }
 
     /// Tries the next values of each shape's grid on both sides, where what is left in the signals of the

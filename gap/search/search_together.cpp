@@ -202,10 +202,11 @@ Search::Together Search::shaped_among(SmoothSignals of, const CrossFit& base, Si
     if (!shapes.empty()) found = needed_with(base, all, shapes);
     if (found.candidates.empty() && shapes.size() > 1 && !over_)
         found = needed_with(base, all, {shapes.front()});
+    if (!is_of_hall) return found;
     const std::set<const plant::Effect*> needed = effects_of(everything_of(found.fitted, of).known);
     const bool is_any_needed = std::ranges::any_of(
         shapes, [&](const plant::EffectSetting& shape) { return needed.contains(shape.effect); });
-    if (is_of_hall && !is_any_needed) hall_screened_beside_ = needed;
+    if (!is_any_needed) hall_screened_beside_ = needed;
     return found;
 }
 
