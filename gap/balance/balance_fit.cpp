@@ -3,9 +3,8 @@
 
 namespace fidservo::gap {
 
-BalanceFit::BalanceFit(const ForceBalance& balance, std::span<const Window> windows, const Wanted& wanted,
-                       const Hypothesis& base)
-    : windows_(windows), wanted_(wanted), predict_([&](const Hypothesis& settings) {
+BalanceFit::BalanceFit(const ForceBalance& balance, const Wanted& wanted, const Hypothesis& base)
+    : balance_(balance), wanted_(wanted), predict_([&](const Hypothesis& settings) {
           Hypothesis whole = base;
           whole.insert(whole.end(), settings.begin(), settings.end());
           return balance.excess_in_own_deviations(whole);

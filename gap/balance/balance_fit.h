@@ -4,8 +4,6 @@
 #include "gap/balance/force_balance.h"
 #include "gap/fit/fit.h"
 
-#include <span>
-
 namespace fidservo::gap {
 
 /// Fits effects' settings, in addition to a base hypothesis, to the balance of forces, with residuals in
@@ -13,14 +11,15 @@ namespace fidservo::gap {
 class BalanceFit {
   public:
     /// @param wanted  the windows to be used, as in gap/fit/score.h
-    BalanceFit(const ForceBalance& balance, std::span<const Window> windows, const Wanted& wanted,
-               const Hypothesis& base);
+    BalanceFit(const ForceBalance& balance, const Wanted& wanted, const Hypothesis& base);
 
     Errors errors(const Hypothesis& settings) const { return predict_(settings); }
-    Fit fit(const Hypothesis& settings) const { return gap::fit(predict_, windows_, wanted_, settings); }
+    Fit fit(const Hypothesis& settings) const {
+        return gap::fit(predict_, balance_.windows(), wanted_, settings);
+    }
 
   private:
-    std::span<const Window> windows_;
+    const ForceBalance& balance_;
     const Wanted& wanted_;
     Predict predict_;
 };

@@ -41,8 +41,8 @@ std::vector<plant::EffectSetting> balanced_springs(const Evidence& evidence, con
                                                    const Hypothesis& base, const Candidate& candidate) {
     if (!is_spring(*candidate.effect)) return {};
     const ForceBalance balance(evidence, wanted, base);
-    if (balance.supports().empty()) return {};
-    const BalanceFit balanced(balance, evidence.windows(), wanted, base);
+    if (balance.supports() == 0) return {};
+    const BalanceFit balanced(balance, wanted, base);
     std::vector<Hypothesis> starts;
     for (const std::vector<double>& shape : candidate.shapes) starts.push_back({{candidate.effect, shape}});
     const plant::EffectSetting plain = best_balanced(balanced, starts).hypothesis.front();

@@ -47,8 +47,8 @@ std::vector<plant::EffectSetting> balanced_waves(const Evidence& evidence, const
     constexpr double most_of_harmonic = 0.5;  // of the wave; a stronger one is noise, as a rule
     if (!candidate.wave || !candidate.wave->is_force) return {};
     const ForceBalance balance(evidence, wanted, base);
-    if (balance.supports().empty()) return {};
-    const BalanceFit balanced(balance, evidence.windows(), wanted, base);
+    if (balance.supports() == 0) return {};
+    const BalanceFit balanced(balance, wanted, base);
     std::vector<Fit> fits(std::min(most_fitted, periods.size()));
     parallel_for(fits.size(),
                  [&](std::size_t k) { fits[k] = balanced.fit({wave_at(candidate, periods[k])}); });

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <Eigen/Dense>
@@ -87,7 +86,7 @@ bool slides(const MacroParameters& macro, const SlidingRow& row, double edge_V) 
 
 CarriageForces::CarriageForces(const Evidence& evidence, const Errors& errors, std::size_t half_support,
                                double edge_V)
-    : budget_(evidence.budget()), lacking_(errors.size(), std::numeric_limits<float>::quiet_NaN()) {
+    : budget_(evidence.budget()) {
     const MacroParameters& macro = evidence.rig().macro;
     const double floor_mm = evidence.floor(Signal::encoder) * macro.encoder_resolution_mm;
     find_weights(evidence.rig(), floor_mm, half_support);
@@ -96,6 +95,8 @@ CarriageForces::CarriageForces(const Evidence& evidence, const Errors& errors, s
     const Smoothing smoothing;
     const std::size_t support_rows = 2 * half_support + 1, every = half_support / 2;
     for (const Window& window : evidence.windows()) {
+        Window& of_supports = windows_.emplace_back(window);
+        of_supports.begin = of_supports.end = supports_.size();
         if (window.signal != Signal::encoder) continue;
         std::size_t sliding = 0;  // rows without a break, up to this one
         for (std::size_t k = 0; k < window.rows; ++k) {
@@ -114,12 +115,13 @@ CarriageForces::CarriageForces(const Evidence& evidence, const Errors& errors, s
             if (sliding > 0 && rows_.back().direction != here.direction) sliding = 0;
             rows_.push_back(here);
             if (++sliding < support_rows || (sliding - support_rows) % every != 0) continue;
-            const Support support{window.begin + k - half_support, rows_.size() - support_rows};
+            const std::size_t first = window.begin + k + 1 - support_rows;
             double sum = 0.0;
             for (std::size_t i = 0; i < support_rows; ++i)
-                sum += of_reading_[i] * static_cast<double>(errors[support.slot - half_support + i]);
-            lacking_[support.slot] = static_cast<float>(sum * floor_mm);
-            supports_.push_back(support);
+                sum += of_reading_[i] * static_cast<double>(errors[first + i]);
+            supports_.push_back(rows_.size() - support_rows);
+            lacking_.push_back(static_cast<float>(sum * floor_mm));
+            of_supports.end = lacking_.size();
         }
     }
 }
@@ -152,11 +154,11 @@ Column CarriageForces::column(int group, const std::vector<double>& weights,
     budget_->check();
     std::vector<double> values(rows_.size());
     std::ranges::transform(rows_, values.begin(), quantity);
-    Column column{group, std::vector<float>(lacking_.size(), 0.0F)};
-    for (const Support& support : supports_)
-        column.values[support.slot] = static_cast<float>(
-            std::inner_product(weights.begin(), weights.end(),
-                               values.begin() + static_cast<std::ptrdiff_t>(support.first), 0.0));
+    Column column{group, {}};
+    column.values.reserve(supports_.size());
+    for (const std::size_t first_row : supports_)
+        column.values.push_back(static_cast<float>(std::inner_product(
+            weights.begin(), weights.end(), values.begin() + static_cast<std::ptrdiff_t>(first_row), 0.0)));
     return column;
 }
 
@@ -186,19 +188,16 @@ std::vector<float> CarriageForces::values(const std::function<double(const Slidi
     return found;
 }
 
-std::vector<double> support_weights(const Evidence& evidence,
-                                    std::span<const CarriageForces::Support> supports, const Errors& values) {
-    std::vector<double> weights;
-    weights.reserve(supports.size());
-    for (const Window& window : evidence.windows()) {
-        std::size_t end = weights.size();
+std::vector<double> support_weights(std::span<const Window> windows, const Errors& values) {
+    std::vector<double> weights(values.size());
+    for (const Window& window : windows) {
         double squares = 0.0;
-        for (; end < supports.size() && supports[end].slot < window.end; ++end) {
-            const double value = values[supports[end].slot];
-            squares += value * value;
-        }
-        const auto count = static_cast<double>(end - weights.size());
-        weights.resize(end, 1.0 / std::sqrt(count + squares));
+        for (std::size_t k = window.begin; k < window.end; ++k)
+            squares += static_cast<double>(values[k]) * values[k];
+        const auto count = static_cast<double>(window.end - window.begin);
+        std::fill(weights.begin() + static_cast<std::ptrdiff_t>(window.begin),
+                  weights.begin() + static_cast<std::ptrdiff_t>(window.end),
+                  1.0 / std::sqrt(count + squares));
     }
     return weights;
 }

@@ -53,10 +53,14 @@ class CarriageForces {
                    double edge_V = usual_edge_V);
 
     /// The mean force that is lacking in each support, over its standard deviation from the readings' noise
-    /// floor. The layout is that of Errors, with the value at the support's middle row and NaN elsewhere.
+    /// floor.
     const Errors& lacking() const { return lacking_; }
 
-    /// The same for a given force in V, which the prediction has and the recording lacks.
+    /// For each of Evidence::windows(), the window with the range of its supports, which may be empty, in
+    /// place of that of its rows.
+    const std::vector<Window>& windows() const { return windows_; }
+
+    /// The same as lacking() for a given force in V, which the prediction has and the recording lacks.
     Column of_force(int group, const std::function<double(const SlidingRow&)>& force_V) const;
 
     /// The same for a given error of the reading, mm, which the prediction has and the recording lacks.
@@ -78,11 +82,8 @@ class CarriageForces {
     /// The values of a quantity in all rows.
     std::vector<float> values(const std::function<double(const SlidingRow&)>& quantity) const;
 
-    struct Support {
-        std::size_t slot;   ///< index in Errors of its middle row
-        std::size_t first;  ///< index in rows() of its first row
-    };
-    const std::vector<Support>& supports() const { return supports_; }
+    /// For each support, the index in rows() of its first row.
+    const std::vector<std::size_t>& supports() const { return supports_; }
     const std::vector<SlidingRow>& rows() const { return rows_; }
     /// The weights with which a support's rows enter.
     const std::vector<double>& force_weights() const { return of_force_; }
@@ -97,15 +98,16 @@ class CarriageForces {
     /// A support's weights, row by row, for a force in V and for a reading in mm.
     std::vector<double> of_force_, of_reading_;
     std::vector<double> of_velocity_, of_acceleration_;  ///< weights for a reading in mm
-    std::vector<SlidingRow> rows_;  ///< rows of all sliding stretches, one after the other
-    std::vector<Support> supports_;
+    std::vector<SlidingRow> rows_;       ///< rows of all sliding stretches, one after the other
+    std::vector<std::size_t> supports_;  ///< indices of their first rows
+    std::vector<Window> windows_;
     Errors lacking_;
 };
 
 /// For each support, 1 / sqrt(n + sum of squares) over the n supports of its window, which weights windows as
 /// in gap/fit/score.h.
-/// @param values  at the supports' middle rows
-std::vector<double> support_weights(const Evidence& evidence,
-                                    std::span<const CarriageForces::Support> supports, const Errors& values);
+/// @param windows  of CarriageForces::windows()
+/// @param values  one for each support
+std::vector<double> support_weights(std::span<const Window> windows, const Errors& values);
 
 }  // namespace fidservo::gap

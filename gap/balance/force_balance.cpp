@@ -185,11 +185,11 @@ Errors ForceBalance::excess(const plant::PlantParameters& parameters) const {
         return driving_V - friction_V(axis, command_V(row), at, driving_V);
     });
     const Needed needs = needed_by(axis, stretch);
-    Errors excess(column.values.size(), not_a_number);
-    for (const CarriageForces::Support& support : supports()) {
-        const double needed_V = needs.V_per_mm_per_s2 * acceleration_.values[support.slot] +
-                                needs.V_per_mm_per_s * velocity_.values[support.slot];
-        excess[support.slot] = static_cast<float>((column.values[support.slot] - needed_V) / deviations);
+    Errors excess(supports());
+    for (std::size_t k = 0; k < excess.size(); ++k) {
+        const double needed_V =
+            needs.V_per_mm_per_s2 * acceleration_.values[k] + needs.V_per_mm_per_s * velocity_.values[k];
+        excess[k] = static_cast<float>((column.values[k] - needed_V) / deviations);
     }
     return excess;
 }
@@ -199,8 +199,7 @@ Errors ForceBalance::excess_in_own_deviations(const Hypothesis& hypothesis) cons
     const Needed needs = needed_by(parameters.axis, stretch_of(evidence_.rig(), parameters));
     const double deviation = forces_.deviation_of(needs.V_per_mm_per_s2, needs.V_per_mm_per_s);
     Errors all = excess(parameters);
-    for (const CarriageForces::Support& support : supports())
-        all[support.slot] /= static_cast<float>(deviation);
+    for (float& excess : all) excess /= static_cast<float>(deviation);
     return all;
 }
 

@@ -33,8 +33,7 @@ class ForceBalance {
                  std::size_t half_support = short_half_support);
 
     /// The force in excess in each support, over `deviations` standard deviations from the readings' noise
-    /// floor under the rig file. The layout is that of Errors, with the value at the support's middle row and
-    /// NaN elsewhere.
+    /// floor under the rig file.
     Errors excess(const Hypothesis& hypothesis) const;
 
     /// The same in standard deviations under the hypothesis, whose moving mass multiplies the noise of the
@@ -44,8 +43,11 @@ class ForceBalance {
     /// Length of the rail, mm, on which the carriage slides.
     double way_mm() const;
 
-    /// The supports' middle rows in Errors.
-    const std::vector<CarriageForces::Support>& supports() const { return forces_.supports(); }
+    /// How many supports there are.
+    std::size_t supports() const { return forces_.supports().size(); }
+
+    /// The windows with the ranges of their supports (CarriageForces::windows).
+    const std::vector<Window>& windows() const { return forces_.windows(); }
 
   private:
     Errors excess(const plant::PlantParameters& parameters) const;

@@ -129,25 +129,27 @@ std::vector<ForceGroup> groups_of(const Rig& rig, std::span<const Candidate* con
 /// What all groups do to the balance of every support, and what is in excess there, of the opposite sign.
 class Columns {
   public:
-    Columns(const Evidence& evidence, const ForceBalance& balance, const Hypothesis& base,
-            std::span<const ForceGroup> groups, std::span<const std::uint8_t> halves)
-        : evidence_(evidence), supports_(balance.supports()) {
+    Columns(const ForceBalance& balance, const Hypothesis& base, std::span<const ForceGroup> groups,
+            std::span<const std::uint8_t> halves)
+        : windows_count_(balance.windows().size()) {
         std::vector<const plant::EffectSetting*> units;
         for (const ForceGroup& group : groups)
             for (const plant::EffectSetting& unit : group.units) units.push_back(&unit);
         const Errors excess = balance.excess(base);
-        const auto rows = static_cast<Eigen::Index>(supports_.size());
+        const auto rows = static_cast<Eigen::Index>(balance.supports());
         values_.resize(rows, static_cast<Eigen::Index>(units.size()));
         excess_.resize(rows);
-        for (Eigen::Index i = 0; i < rows; ++i) excess_(i) = -static_cast<double>(excess[slot(i)]);
+        for (Eigen::Index i = 0; i < rows; ++i)
+            excess_(i) = -static_cast<double>(excess[static_cast<std::size_t>(i)]);
         parallel_for(units.size(), [&](std::size_t unit) {
             Hypothesis whole = base;
             whole.push_back(*units[unit]);
             const Errors with = balance.excess(whole);
             for (Eigen::Index i = 0; i < rows; ++i)
-                values_(i, static_cast<Eigen::Index>(unit)) = static_cast<double>(with[slot(i)]) + excess_(i);
+                values_(i, static_cast<Eigen::Index>(unit)) =
+                    static_cast<double>(with[static_cast<std::size_t>(i)]) + excess_(i);
         });
-        find_windows(halves);
+        find_windows(balance.windows(), halves);
         left_ = excess_;
         weigh();
     }
@@ -195,7 +197,7 @@ class Columns {
 
     /// Mean squares of windows, in those of the noise, predicted by what the other half teaches.
     std::vector<double> held_out_squares(std::span<const Eigen::Index> in) const {
-        std::vector<double> squares(evidence_.windows().size(), 0.0), count = squares;
+        std::vector<double> squares(windows_count_, 0.0), count = squares;
         for (std::uint8_t half = 0; half < 2; ++half) {
             Eigen::VectorXd left = excess_;
             if (!in.empty()) left -= values_(Eigen::all, in) * solve(in, static_cast<std::uint8_t>(1 - half));
@@ -228,15 +230,10 @@ class Columns {
     }
 
   private:
-    std::size_t slot(Eigen::Index support) const { return supports_[static_cast<std::size_t>(support)].slot; }
-
-    void find_windows(std::span<const std::uint8_t> halves) {
-        const std::vector<Window>& windows = evidence_.windows();
-        for (const CarriageForces::Support& support : supports_) {
-            const auto after = std::ranges::upper_bound(windows, support.slot, {}, &Window::begin);
-            const auto window = static_cast<std::size_t>(after - windows.begin()) - 1;
-            window_of_.push_back(window);
-            half_of_.push_back(halves[window]);
+    void find_windows(std::span<const Window> windows, std::span<const std::uint8_t> halves) {
+        for (std::size_t window = 0; window < windows.size(); ++window) {
+            window_of_.resize(windows[window].end, window);
+            half_of_.resize(windows[window].end, halves[window]);
         }
     }
 
@@ -251,9 +248,8 @@ class Columns {
     /// Standard deviation of an excess.
     static constexpr double noise_ = 1.0 / ForceBalance::deviations;
 
-    const Evidence& evidence_;
-    std::span<const CarriageForces::Support> supports_;
-    std::vector<std::size_t> window_of_;
+    std::size_t windows_count_;
+    std::vector<std::size_t> window_of_;  ///< each support
     std::vector<std::uint8_t> half_of_;
     Eigen::MatrixXd values_;
     Eigen::VectorXd excess_, left_, weights_;
@@ -325,17 +321,15 @@ std::vector<BalancedModel> balanced_models(const Evidence& evidence, std::span<c
     const std::vector<Window>& windows = evidence.windows();
     const Wanted wanted = only_of(windows, everything(evidence), only(Signal::encoder));
     const ForceBalance balance(evidence, wanted, base, balanced_half_support);
-    if (balance.supports().empty()) return {};
+    if (balance.supports() == 0) return {};
     std::vector<const Candidate*> unknown(candidates.begin(), candidates.end());
-    std::erase_if(unknown, [&](const Candidate* candidate) {
-        return std::ranges::find(base, candidate->effect, &plant::EffectSetting::effect) != base.end();
-    });
+    std::erase_if(unknown, [&](const Candidate* candidate) { return has_effect(base, *candidate->effect); });
     const std::vector<ForceGroup> groups = groups_of(evidence.rig(), unknown, balance.way_mm());
-    Columns columns(evidence, balance, base, groups, halves);
+    Columns columns(balance, base, groups, halves);
     Wanted first_half = wanted;
     for (std::size_t w = 0; w < windows.size(); ++w)
         if (halves[w] != 0) first_half[w] = 0;
-    const BalanceFit balanced(balance, windows, first_half, base);
+    const BalanceFit balanced(balance, first_half, base);
     std::vector<BalancedModel> models;
     Taken taken;
     std::vector<double> squares = columns.held_out_squares({});

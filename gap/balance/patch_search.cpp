@@ -22,9 +22,9 @@ constexpr Eigen::Index placeless = 3;
 /// Lacking forces of all supports with a bell's beside the placeless ones, windows weighted.
 class PatchFit {
   public:
-    PatchFit(const Evidence& evidence, const CarriageForces& forces) : forces_(forces) {
+    explicit PatchFit(const CarriageForces& forces) : forces_(forces) {
         const auto count = static_cast<Eigen::Index>(forces.supports().size());
-        const std::vector<double> weights = support_weights(evidence, forces.supports(), forces.lacking());
+        const std::vector<double> weights = support_weights(forces.windows(), forces.lacking());
         weights_ = Eigen::Map<const Eigen::VectorXd>(weights.data(), count);
         lacking_ = weighted(forces.lacking());
         placeless_.resize(count, placeless);
@@ -52,13 +52,10 @@ class PatchFit {
         return weighted(forces_.of_force(0, force_V).values);
     }
 
-    /// @param values  at the supports' middles
+    /// @param values  one for each support
     Eigen::VectorXd weighted(const std::vector<float>& values) const {
-        Eigen::VectorXd product(weights_.size());
-        for (Eigen::Index k = 0; k < product.size(); ++k)
-            product(k) = weights_(k) *
-                         static_cast<double>(values[forces_.supports()[static_cast<std::size_t>(k)].slot]);
-        return product;
+        return weights_.cwiseProduct(
+            Eigen::Map<const Eigen::VectorXf>(values.data(), weights_.size()).cast<double>());
     }
 
     const CarriageForces& forces_;
@@ -89,7 +86,7 @@ std::vector<FrictionPatch> strongest_patches(const Evidence& evidence, const Err
     const CarriageForces forces(evidence, errors, short_half_support);
     if (forces.supports().size() <= static_cast<std::size_t>(placeless)) return {};
     const RailStretch places = most_visited(forces.rows());
-    const PatchFit fit(evidence, forces);
+    const PatchFit fit(forces);
     std::vector<FrictionPatch> all;
     for (const double width_mm : widths_mm)
         for (double centre_mm = places.low_mm; centre_mm <= places.high_mm; centre_mm += width_mm) {

@@ -27,8 +27,7 @@ struct Lacking {
     double weight = 0.0;
 };
 
-std::vector<Lacking> by_window(const Evidence& evidence, const CarriageForces& forces,
-                               const RailStretch& places) {
+std::vector<Lacking> by_window(const CarriageForces& forces, const RailStretch& places) {
     std::vector<Lacking> all;
     std::vector<double> values;
     const auto close = [&] {
@@ -38,19 +37,18 @@ std::vector<Lacking> by_window(const Evidence& evidence, const CarriageForces& f
         last.weight = 1.0 / (static_cast<double>(values.size()) + last.of_support.squaredNorm());
         values.clear();
     };
-    std::size_t w = 0, of_last = evidence.windows().size();
+    std::size_t w = 0, of_last = forces.windows().size();
     for (std::size_t k = 0; k < forces.supports().size(); ++k) {
-        const CarriageForces::Support& support = forces.supports()[k];
-        const std::size_t last = support.first + forces.force_weights().size() - 1;
-        if (!places.holds(forces.rows()[support.first]) || !places.holds(forces.rows()[last])) continue;
-        while (support.slot >= evidence.windows()[w].end) ++w;
+        const std::size_t first = forces.supports()[k], last = first + forces.force_weights().size() - 1;
+        if (!places.holds(forces.rows()[first]) || !places.holds(forces.rows()[last])) continue;
+        while (k >= forces.windows()[w].end) ++w;
         if (w != of_last) {
             close();
             all.emplace_back();
             of_last = w;
         }
-        all.back().first.push_back(support.first);
-        values.push_back(forces.lacking()[support.slot]);
+        all.back().first.push_back(first);
+        values.push_back(forces.lacking()[k]);
     }
     close();
     return all;
@@ -106,7 +104,7 @@ class Periodogram {
   public:
     Periodogram(const Evidence& evidence, const CarriageForces& forces, const RailStretch& places)
         : evidence_(evidence),
-          windows_(by_window(evidence, forces, places)),
+          windows_(by_window(forces, places)),
           reading_weights_(in_floats(forces.reading_weights())),
           force_weights_(in_floats(forces.force_weights())),
           half_support_(forces.force_weights().size() / 2),

@@ -24,8 +24,7 @@ WaveOfForce strongest_wave(const CarriageForces& forces,
     if (span < 2.0 * shortest) return {};
     double squares = 0.0;
     const auto weight = [](double lacking) { return 1.0 / (1.0 + lacking * lacking); };
-    for (const CarriageForces::Support& support : forces.supports()) {
-        const double lacking = forces.lacking()[support.slot];
+    for (const double lacking : forces.lacking()) {
         squares += weight(lacking) * lacking * lacking;
     }
     const double lowest = 1.0 / std::min(longest, span), step = 1.0 / (steps_in_a_turn * span);
@@ -40,9 +39,9 @@ WaveOfForce strongest_wave(const CarriageForces& forces,
         const Column sine = column(0.0), cosine = column(0.5 * std::numbers::pi);
         Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
         Eigen::Vector2d right = Eigen::Vector2d::Zero();
-        for (const CarriageForces::Support& support : forces.supports()) {
-            const double lacking = forces.lacking()[support.slot];
-            const Eigen::Vector2d row(sine.values[support.slot], cosine.values[support.slot]);
+        for (std::size_t support = 0; support < forces.supports().size(); ++support) {
+            const double lacking = forces.lacking()[support];
+            const Eigen::Vector2d row(sine.values[support], cosine.values[support]);
             normal += weight(lacking) * row * row.transpose();
             right += weight(lacking) * lacking * row;
         }

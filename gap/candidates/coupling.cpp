@@ -36,6 +36,10 @@ bool moves_carriage(const plant::Effect& effect) {
     return effect.part == plant::Part::carriage || effect.part == plant::Part::encoder;
 }
 
+bool has_effect(const Hypothesis& hypothesis, const plant::Effect& effect) {
+    return std::ranges::find(hypothesis, &effect, &plant::EffectSetting::effect) != hypothesis.end();
+}
+
 Hypothesis moving_carriage(Hypothesis hypothesis) {
     std::erase_if(hypothesis,
                   [](const plant::EffectSetting& setting) { return !moves_carriage(*setting.effect); });

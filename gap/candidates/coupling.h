@@ -19,7 +19,10 @@ SignalFlags only(Signal signal);
 /// Whether an effect changes the carriage's motion or its encoder's reading.
 bool moves_carriage(const plant::Effect& effect);
 
-/// The settings of a hypothesis whose effects do that.
+/// Whether one of a hypothesis' settings is of an effect.
+bool has_effect(const Hypothesis& hypothesis, const plant::Effect& effect);
+
+/// The settings of a hypothesis whose effects change the carriage's motion or its encoder's reading.
 Hypothesis moving_carriage(Hypothesis hypothesis);
 
 /// Signals from which the parameters of an effect are estimated: those whose prediction it changes directly.

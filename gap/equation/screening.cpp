@@ -31,6 +31,7 @@ struct PortResponses {
     Signal signal = Signal::encoder;
     std::vector<Column> columns;  ///< group: index of the term; one column for each of its texts, or none
     Errors errors;
+    std::vector<Window> windows;  ///< with their ranges among the errors
     /// The coefficient of a term, divided by the factor that the regression gives its column.
     double coefficient_per_factor = -1.0;
 };
@@ -51,6 +52,7 @@ PortResponses carriage_responses(const Evidence& evidence, const Errors& errors,
     const DeadZone& zone = evidence.rig().macro.dead_zone;
     PortResponses responses;
     responses.errors = forces.lacking();
+    responses.windows = forces.windows();
     const bool is_friction = port == plant::Port::friction, is_reading = port == plant::Port::encoder;
     if (is_friction) responses.coefficient_per_factor = 1.0;
     for (std::size_t t = 0; t < terms.size(); ++t)
@@ -118,6 +120,7 @@ PortResponses simulated_responses(const Evidence& evidence, const Hypothesis& ba
         where_most_is_lost(evidence, responses.signal, mean_squares(evidence.windows(), errors), nearly_all,
                            few, evidence.recordings().size());
     responses.errors = errors;
+    responses.windows = evidence.windows();
     for (std::size_t w = 0; w < wanted.size(); ++w) {
         const Window& window = evidence.windows()[w];
         if (wanted[w] == 0)
@@ -278,8 +281,7 @@ PortScreening::PortScreening(const Evidence& evidence, const Hypothesis& base, c
                              plant::Port port, std::vector<Term> terms) {
     PortResponses responses = responses_of(evidence, base, errors, port, terms);
     const std::vector<std::uint8_t> half = halves(evidence);
-    Regression regression(evidence.windows(), responses.signal, responses.errors, responses.columns, {},
-                          half);
+    Regression regression(responses.windows, responses.signal, responses.errors, responses.columns, {}, half);
     parts_ = std::make_unique<Parts>(
         Parts{evidence, port, std::move(terms), std::move(responses), std::move(regression)});
 }

@@ -3,12 +3,14 @@
 
 #include "core/parallel.h"
 #include "gap/candidates/scaled_parameters.h"
+#include "gap/fit/counted_rows.h"
 #include "gap/fit/minimum_norm.h"
 #include "gap/fit/score.h"
 #include "gap/fit/slopes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -34,11 +36,8 @@ struct WindowProducts {
 class Linearised : public ceres::EvaluationCallback {
   public:
     Linearised(const Predict& predict, const ScaledParameters& parameters, std::span<const Window> windows,
-               const Wanted& counted, const FitOptions& options)
-        : predict_(predict), parameters_(parameters), windows_(windows), options_(options) {
-        for (std::size_t w = 0; w < windows.size(); ++w)
-            if (counted[w] != 0) counted_.push_back(w);
-    }
+               const FitOptions& options)
+        : predict_(predict), parameters_(parameters), windows_(windows), options_(options) {}
 
     void PrepareForEvaluation(bool with_derivatives, bool at_new_point) override {
         if (at_new_point && parameters_.values != values_) {
@@ -75,45 +74,37 @@ class Linearised : public ceres::EvaluationCallback {
     }
 
     Errors errors;
-    std::vector<WindowProducts> condensed;  ///< one for each counted window
+    std::vector<WindowProducts> condensed;  ///< one for each window
 
   private:
     void find_slopes() {
-        slopes_.resize(parameters_.size());
+        slopes_ = {values_, errors, std::vector<Errors>(parameters_.size())};
         parallel_for(parameters_.size(), [&](std::size_t k) {
-            slopes_[k] = slope(predict_, parameters_, k, errors, options_.step_scales);
+            slopes_.by_parameter[k] = slope(predict_, parameters_, k, errors, options_.step_scales);
         });
         is_exact_ = true;
     }
 
     /// Returns false where no derivatives are known that predict how the errors have changed.
     bool take_slopes_over() {
-        if (!options_.keeps_slopes || kept_.by_parameter.empty()) return false;
-        std::optional<std::vector<Errors>> updated =
-            updated_slopes(kept_, values_, errors, windows_, counted_);
-        if (!updated) return false;
-        slopes_ = *std::move(updated);
+        if (slopes_.by_parameter.empty() || !move_slopes(slopes_, values_, errors)) return false;
         is_exact_ = false;
         return true;
     }
 
     void use_slopes() {
-        condense(slopes_);
+        condense(slopes_.by_parameter);
         for (std::size_t k = 0; k < parameters_.size(); ++k)
             if (is_held(k)) let_go(k);
         has_derivatives_ = true;
-        if (!options_.keeps_slopes) {
-            slopes_.clear();
-            return;
-        }
-        kept_ = {values_, errors, std::move(slopes_)};
+        if (!options_.keeps_slopes) slopes_ = {};
     }
 
     void condense(const std::vector<Errors>& by_parameter) {
-        condensed.assign(counted_.size(), {});
+        condensed.assign(windows_.size(), {});
         if (errors.empty()) return;
-        parallel_for(counted_.size(), [&](std::size_t c) {
-            const Window& window = windows_[counted_[c]];
+        parallel_for(windows_.size(), [&](std::size_t w) {
+            const Window& window = windows_[w];
             const std::size_t width = by_parameter.size() + 1;
             Eigen::MatrixXd rows(window.end - window.begin, width);
             Eigen::Index count = 0;
@@ -126,7 +117,7 @@ class Linearised : public ceres::EvaluationCallback {
                 rows(count++, static_cast<Eigen::Index>(width) - 1) =
                     std::isfinite(errors[row]) ? errors[row] : 0.0F;
             }
-            WindowProducts& here = condensed[c];
+            WindowProducts& here = condensed[w];
             here.count = static_cast<double>(count);
             here.products = rows.topRows(count).transpose() * rows.topRows(count);
             here.squares = here.products(here.products.rows() - 1, here.products.cols() - 1);
@@ -158,11 +149,9 @@ class Linearised : public ceres::EvaluationCallback {
     const ScaledParameters& parameters_;
     std::span<const Window> windows_;
     FitOptions options_;
-    std::vector<std::size_t> counted_;
     std::vector<double> values_;  ///< at which the errors were computed
     bool has_derivatives_ = false, is_exact_ = false;
-    std::vector<Errors> slopes_;  ///< one for each parameter
-    KnownSlopes kept_;
+    KnownSlopes slopes_;
 };
 
 /// A window as one residual for each parameter and one more: the triangular factor of its matrix of inner
@@ -276,13 +265,19 @@ void find_covariances(const Linearised& at, const ScaledParameters& parameters, 
 Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
         const Hypothesis& start, const FitOptions& options) {
     constexpr double least_loss = 1.0;  // improvements are relative to the loss, or to this if it is less
+    const CountedRows rows(windows, counted);
+    const Predict predict_counted = [&](const Hypothesis& settings) { return rows.of(predict(settings)); };
+    const auto loss_of = [&](const Errors& errors) {
+        return errors.empty() ? std::numeric_limits<double>::infinity()
+                              : total_loss(mean_squares(rows.windows(), errors));
+    };
     ScaledParameters parameters(start);
     const std::vector<double> values_at_start = parameters.values;
-    Linearised linearised(predict, parameters, windows, counted, options);
+    Linearised linearised(predict_counted, parameters, rows.windows(), options);
     linearised.PrepareForEvaluation(false, true);
     const auto size = static_cast<Eigen::Index>(parameters.size());
     const Eigen::MatrixXd unknown = Eigen::MatrixXd::Zero(size, size);
-    Fit result{start, total_loss(windows, counted, linearised.errors), unknown, unknown};
+    Fit result{start, loss_of(linearised.errors), unknown, unknown};
     if (parameters.size() == 0 || linearised.errors.empty()) return result;
     const double loss_at_start = linearised.loss();
 
@@ -318,7 +313,7 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
     linearised.PrepareForEvaluation(false, true);
     if (!linearised.errors.empty() && linearised.loss() < loss_at_start) {
         result.hypothesis = parameters.at(parameters.values);
-        result.loss = total_loss(windows, counted, linearised.errors);
+        result.loss = loss_of(linearised.errors);
     } else {
         parameters.values = values_at_start;
     }

@@ -83,7 +83,7 @@ void drop_gross_windows(std::vector<CondensedWindow>& windows) {
 
 }  // namespace
 
-Regression::Regression(std::span<const Window> windows, Signal signal, const Errors& errors,
+Regression::Regression(const std::vector<Window>& windows, Signal signal, const Errors& errors,
                        std::span<const Column> columns, std::span<const Column> nuisances,
                        std::span<const std::uint8_t> half)
     : windows_(windows) {

@@ -36,7 +36,7 @@ struct CondensedWindow {
 class Regression {
   public:
     /// @param columns, nuisances  with one value for each error
-    Regression(std::span<const Window> windows, Signal signal, const Errors& errors,
+    Regression(const std::vector<Window>& windows, Signal signal, const Errors& errors,
                std::span<const Column> columns, std::span<const Column> nuisances,
                std::span<const std::uint8_t> half);
 
@@ -68,7 +68,7 @@ class Regression {
                                     const Eigen::VectorXd& values) const;
     Eigen::VectorXd solve(std::span<const Eigen::Index> columns, std::uint8_t half) const;
 
-    std::span<const Window> windows_;
+    std::vector<Window> windows_;
     std::vector<int> group_of_;
     std::vector<CondensedWindow> condensed_;
 };

@@ -22,9 +22,7 @@ Errors slope(const Predict& predict, const ScaledParameters& parameters, std::si
     return change;
 }
 
-std::optional<std::vector<Errors>> updated_slopes(const KnownSlopes& known, std::span<const double> values,
-                                                  const Errors& errors, std::span<const Window> windows,
-                                                  std::span<const std::size_t> counted) {
+bool move_slopes(KnownSlopes& known, std::span<const double> values, const Errors& errors) {
     constexpr double well = 0.1;  // share of the change's sum of squares that may be mispredicted
     // Mispredictions up to four times the rounding of errors are no reason for an update, in which they
     // would be divided by a step that may be tiny.
@@ -35,34 +33,32 @@ std::optional<std::vector<Errors>> updated_slopes(const KnownSlopes& known, std:
         step[k] = static_cast<float>(values[k] - known.values[k]);
         way += static_cast<double>(step[k]) * step[k];
     }
-    if (!(way > 0.0)) return {};
+    if (!(way > 0.0)) return false;
     Errors missed(errors.size(), 0.0F);
     double missed_squares = 0.0, changed_squares = 0.0, rounding_squares = 0.0;
-    for (const std::size_t w : counted)
-        for (std::size_t row = windows[w].begin; row < windows[w].end; ++row) {
-            const float change = errors[row] - known.errors[row];
-            float expected = 0.0F;
-            for (std::size_t k = 0; k < step.size(); ++k)
-                if (std::isfinite(known.by_parameter[k][row]))
-                    expected += known.by_parameter[k][row] * step[k];
-            if (!std::isfinite(change)) continue;
-            missed[row] = change - expected;
-            missed_squares += static_cast<double>(missed[row]) * missed[row];
-            changed_squares += static_cast<double>(change) * change;
-            const double rounding =
-                std::numeric_limits<float>::epsilon() * std::max(std::abs(errors[row]), 1.0F);
-            rounding_squares += rounding * rounding;
-        }
-    if (missed_squares <= most_rounding * rounding_squares) return known.by_parameter;
-    if (missed_squares > well * changed_squares) return {};
-    std::vector<Errors> slopes = known.by_parameter;
-    parallel_for(step.size(), [&](std::size_t k) {
-        const float share = step[k] / static_cast<float>(way);
-        for (const std::size_t w : counted)
-            for (std::size_t row = windows[w].begin; row < windows[w].end; ++row)
-                slopes[k][row] += share * missed[row];
-    });
-    return slopes;
+    for (std::size_t row = 0; row < errors.size(); ++row) {
+        const float change = errors[row] - known.errors[row];
+        float expected = 0.0F;
+        for (std::size_t k = 0; k < step.size(); ++k)
+            if (std::isfinite(known.by_parameter[k][row])) expected += known.by_parameter[k][row] * step[k];
+        if (!std::isfinite(change)) continue;
+        missed[row] = change - expected;
+        missed_squares += static_cast<double>(missed[row]) * missed[row];
+        changed_squares += static_cast<double>(change) * change;
+        const double rounding = std::numeric_limits<float>::epsilon() * std::max(std::abs(errors[row]), 1.0F);
+        rounding_squares += rounding * rounding;
+    }
+    if (missed_squares > most_rounding * rounding_squares) {
+        if (missed_squares > well * changed_squares) return false;
+        parallel_for(step.size(), [&](std::size_t k) {
+            const float share = step[k] / static_cast<float>(way);
+            for (std::size_t row = 0; row < missed.size(); ++row)
+                known.by_parameter[k][row] += share * missed[row];
+        });
+    }
+    known.values.assign(values.begin(), values.end());
+    known.errors = errors;
+    return true;
 }
 
 }  // namespace fidservo::gap

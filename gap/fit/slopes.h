@@ -5,7 +5,6 @@
 #include "gap/fit/fit.h"
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,12 +23,10 @@ struct KnownSlopes {
 Errors slope(const Predict& predict, const ScaledParameters& parameters, std::size_t k, const Errors& errors,
              double step_scales = usual_step);
 
-/// The derivatives at other values of the same parameters, by Broyden's rank-one update of those known. Empty
-/// if these mispredict how the errors have changed.
-/// @param errors   at the other values
-/// @param counted  the windows whose errors count
-std::optional<std::vector<Errors>> updated_slopes(const KnownSlopes& known, std::span<const double> values,
-                                                  const Errors& errors, std::span<const Window> windows,
-                                                  std::span<const std::size_t> counted);
+/// Moves known derivatives to other values of the same parameters, by Broyden's rank-one update. Leaves them
+/// as they are if they mispredict how the errors have changed.
+/// @param errors  at the other values
+/// @return whether they were moved
+bool move_slopes(KnownSlopes& known, std::span<const double> values, const Errors& errors);
 
 }  // namespace fidservo::gap

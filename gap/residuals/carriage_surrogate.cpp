@@ -134,6 +134,7 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, dou
     const CarriageForces forces(evidence, errors, half_support, edge_V);
     Surrogate surrogate{Signal::encoder, {}, {}};
     surrogate.errors = forces.lacking();
+    surrogate.windows = forces.windows();
     surrogate.as_good = 0.95;
     std::vector<Column>& columns = surrogate.columns;
     const Quantity share_passed = [](const SlidingRow& at) { return at.passed; };

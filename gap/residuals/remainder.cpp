@@ -64,9 +64,10 @@ struct Model {
     }
 };
 
-Model model_of(const Evidence& evidence, Signal signal, const Surrogate& surrogate, const Errors& errors,
+/// @param errors, windows  that the surrogate is to explain
+Model model_of(const Surrogate& surrogate, const Errors& errors, const std::vector<Window>& windows,
                std::span<const std::uint8_t> half) {
-    return {Regression(evidence.windows(), signal, errors, surrogate.columns, surrogate.nuisances, half),
+    return {Regression(windows, surrogate.signal, errors, surrogate.columns, surrogate.nuisances, half),
             surrogate.as_good, surrogate.period_mm};
 }
 
@@ -96,7 +97,7 @@ Dependences dependences_of_carriage(const Evidence& evidence, const Errors& erro
         for (std::size_t k = 0; k < edges_V.size(); ++k) {
             if (k == models.size()) {
                 const Surrogate surrogate = carriage_surrogate(evidence, errors, edges_V[k], period);
-                models.push_back(model_of(evidence, Signal::encoder, surrogate, surrogate.errors, half));
+                models.push_back(model_of(surrogate, surrogate.errors, surrogate.windows, half));
             }
             found = models[k].dependences(tail);
             if (!found.groups.empty()) return found;
@@ -117,10 +118,11 @@ Dependences dependences(const Evidence& evidence, Signal signal, const Errors& e
         case Signal::hall:
             if (only_minor_loops_are_off(evidence, errors))
                 return {{static_cast<int>(Dependence::minor_loops)}};
-            return first_found(model_of(evidence, signal, platform_surrogate(evidence), errors, half), tails);
+            return first_found(model_of(platform_surrogate(evidence), errors, evidence.windows(), half),
+                               tails);
         case Signal::tag:
             if (tags_are_sheared(evidence, errors)) return {{static_cast<int>(Dependence::motion_by_row)}};
-            return first_found(model_of(evidence, signal, tag_surrogate(evidence, errors), errors, half),
+            return first_found(model_of(tag_surrogate(evidence, errors), errors, evidence.windows(), half),
                                tails);
         case Signal::macro_command:
         case Signal::micro_command:

@@ -59,8 +59,11 @@ struct Surrogate {
     Signal signal;
     std::vector<Column> columns;    ///< the columns' groups are values of Dependence
     std::vector<Column> nuisances;  ///< columns for the initial state of each window
-    Errors errors{};                ///< the errors to be explained, where they are not the signal's
-    double period_mm = 0.0;         ///< period of Dependence::position_period and reading_period
+    /// The errors to be explained and the windows with their ranges among these, where they are not the
+    /// signal's.
+    Errors errors{};
+    std::vector<Window> windows{};
+    double period_mm = 0.0;  ///< period of Dependence::position_period and reading_period
     /// Groups that explain at least this fraction of what the best one explains count as equally good, as its
     /// lead may be chance; of those the one with the fewest columns is preferred.
     double as_good = 0.8;

@@ -2,7 +2,9 @@
 #include "gap/search/at_once.h"
 
 #include "gap/search/everything.h"
+#include "gap/search/exchange.h"
 #include "gap/search/growth.h"
+#include "gap/search/scatter.h"
 
 #include <algorithm>
 #include <functional>
@@ -33,9 +35,7 @@ bool is_off(const Search& search, const Chain& chain, Signal signal) {
 /// fitted anew are replaced by the candidates of `together`.
 Chain with_everything(const Chain& chain, Search::Together together) {
     const auto stays = [&](const Choice& choice) {
-        const Hypothesis& found = together.fitted.of_half[0];
-        return std::ranges::find(found, choice.candidate->effect, &plant::EffectSetting::effect) !=
-                   found.end() &&
+        return has_effect(together.fitted.of_half[0], *choice.candidate->effect) &&
                std::ranges::find(together.candidates, choice.candidate) == together.candidates.end();
     };
     Chain rest;
@@ -70,11 +70,19 @@ bool add_shapes_of(Search& search, Chain& chain, Signal signal) {
     return is_any;
 }
 
+/// Whether tags are better not explained before the carriage is: its place when a frame was taken is known
+/// within a count only where its motion is predicted.
+bool should_tags_wait(const Search& search, const Chain& chain) {
+    return search.far_off(chain.fitted)[index_of(Signal::encoder)] &&
+           search.furthest_off(chain.fitted) == Signal::encoder;
+}
+
 /// add_shapes_of() the Hall reading and then the tags. A Hall reading that is explained so far lets smooth
 /// effects of the tags show.
 /// @param tags_wait  whether the tags have waited for the carriage to be explained
 void add_shapes(Search& search, Chain& chain, bool tags_wait) {
     const bool are_any = add_shapes_of(search, chain, Signal::hall);
+    if (should_tags_wait(search, chain)) return;
     if ((are_any || tags_wait) && is_off(search, chain, Signal::tag)) {
         Chain whole = with_everything(chain, search.tags_beside(chain.fitted));
         if (is_better(search, whole, chain)) chain = std::move(whole);
@@ -258,6 +266,33 @@ void explain_carriage_by_one(Search& search, Chain& chain, Aside& aside, std::ve
     if (is_better(search, whole, chain)) chain = std::move(whole);
 }
 
+/// Continues from a model of the balance of forces that leaves the encoder off its floor: adds what is best
+/// beside it and tests each effect, with half of the effort and of the time.
+/// @return whether the encoder comes to its floor
+bool goes_on_to_the_floor(Search& search, Chain& chain) {
+    constexpr double half = 0.5;
+    constexpr std::size_t most_added = 2;
+    const Growth growth{.most_effects = chain.choices.size() + most_added, .scans = false};
+    search.look_for_causes_in(only(Signal::encoder), half);
+    search.limit(true);
+    try {
+        const Budget::Share share(search.budget(), half);
+        const Candidate& last = *chain.choices.back().candidate;
+        if (!is_long(chain) && moves_carriage(*last.effect) && !has_valleys(last)) {
+            CrossFit closer = search.closer(search.nothing(), chain.fitted, last);
+            if (closer.loss < chain.fitted.loss) chain.fitted = std::move(closer);
+        }
+        grow(search, chain, growth, nullptr);
+        if (!is_long(chain)) exchange(search, chain, false);
+    } catch (const ShareEnded&) {
+    } catch (const SearchExhausted&) {
+        if (search.over()) throw;
+    }
+    search.limit(false);
+    search.look_for_causes_in(all_signals, 1.0);
+    return !is_off(search, chain, Signal::encoder);
+}
+
 /// explain_carriage_at_once() where an effect of the encoder's reading has been found since: it makes the
 /// motion known better, and with it the forces.
 bool explain_carriage_again(Search& search, Chain& chain, Aside& aside, std::vector<Trial>* alone) {
@@ -335,7 +370,12 @@ AtOnce explain_at_once(Search& search, Chain& chain, Aside& aside, std::vector<T
     search.throw_if_over();
     bool is_balanced = explain_carriage_at_once(search, chain, aside, &alone);
     if (!is_balanced && !aside.is_by_forces_mostly) explain_carriage_by_one(search, chain, aside, alone);
-    const bool was_read_otherwise = reads_otherwise(chain);
+    if (aside.by_forces && aside.is_by_forces_mostly) {
+        is_balanced = goes_on_to_the_floor(search, *aside.by_forces);
+        chain = *aside.by_forces;
+        if (is_balanced) aside.by_forces.reset();
+    }
+    const bool was_read_otherwise = reads_otherwise(chain), do_tags_wait = should_tags_wait(search, chain);
     Chain smooth = joined(search, chain, *aside.smooth);
     aside.smooth.reset();
     const bool is_known =
@@ -350,7 +390,14 @@ AtOnce explain_at_once(Search& search, Chain& chain, Aside& aside, std::vector<T
         aside.by_forces = chain;
         chain = without_carriage(search, chain);
     }
-    return {is_balanced, are_several};
+    return {is_balanced, are_several, do_tags_wait};
+}
+
+void explain_waiting_tags(Search& search, Chain& chain) {
+    if (should_tags_wait(search, chain)) return;
+    Chain whole = chain;
+    add_shapes_beside(search, chain, whole, true);
+    if (is_better(search, whole, chain)) chain = std::move(whole);
 }
 
 }  // namespace fidservo::gap

@@ -11,6 +11,9 @@ namespace fidservo::gap {
 struct AtOnce {
     bool is_balanced;  ///< the model from the balance of forces brings the encoder to its floor and is kept
     bool are_several;  ///< more than one effect was accepted in one step
+    /// Tags wait for a carriage that is still far off, as its place when frames were taken is known within a
+    /// count only where its motion is predicted.
+    bool do_tags_wait;
 };
 
 /// Chains that are kept aside.
@@ -33,6 +36,10 @@ struct Aside {
 /// found then, by which motion and forces are known better, the carriage is explained once more.
 /// @param alone  trials of single effects; those made here are added
 AtOnce explain_at_once(Search& search, Chain& chain, Aside& aside, std::vector<Trial>& alone);
+
+/// Explains tags that are off their floor by effects that have shapes of their own, with all smooth effects
+/// that are then needed, unless the carriage is still far off.
+void explain_waiting_tags(Search& search, Chain& chain);
 
 /// A chain with those effects of another one that it lacks. What Hall reading and tags tell is refitted, as
 /// the carriage's motion shows in them.

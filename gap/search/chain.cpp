@@ -93,7 +93,10 @@ Chain in_plain_forms(const Search& search, Chain chain) {
         if (plain.choices[k].candidate == chain.choices[k].candidate) continue;
         Choice& choice = plain.choices[k];
         search.fit_again(plain.fitted, teachers_of(*choice.candidate->effect));
-        if (search.is_real(plain.fitted, chain.fitted)) continue;
+        const bool is_undecided = meet(search.off(chain.fitted), teachers_of(*choice.candidate->effect));
+        if (search.is_real(plain.fitted, chain.fitted) ||
+            (is_undecided && search.is_no_chance(plain.fitted, chain.fitted)))
+            continue;
         Trial itself{.candidate = choice.candidate,
                      .gain = choice.loss_without - plain.fitted.loss,
                      .is_leader = true,

@@ -46,7 +46,8 @@ Chain grown(const Search& search, Chain chain, std::vector<Trial> trials);
 Chain without(const Search& search, const Chain& chain, std::size_t left_out);
 
 /// A chain whose effects are replaced by their simpler forms where what is richer about them is not real
-/// (Search::is_real), as where friction is found to be the same in both directions.
+/// (Search::is_real), as where friction is found to be the same in both directions; or may be chance, where
+/// signals that it changes are off their floors, beside which no small part of an effect is real.
 Chain in_plain_forms(const Search& search, Chain chain);
 
 /// The chain without the effects that are estimated from any of the given signals.

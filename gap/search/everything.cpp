@@ -145,7 +145,7 @@ class Elimination {
 
     bool none_but(const Hypothesis& known) const {
         return std::ranges::all_of(now_.chosen.settings, [&](const plant::EffectSetting& setting) {
-            return std::ranges::find(known, setting.effect, &plant::EffectSetting::effect) != known.end();
+            return has_effect(known, *setting.effect);
         });
     }
 
@@ -260,7 +260,7 @@ class Elimination {
     bool try_other_shapes(std::size_t c) {
         const Candidate& candidate = *now_.chosen.candidates[c];
         if (now_.demand.worth_of(candidate) < 2.0 * least_worth) return false;
-        const std::vector<double>& values = now_.chosen.settings[c].values;
+        const std::vector<double> values = now_.chosen.settings[c].values;  // changes replace those
         for (std::size_t k = 0; k < values.size(); ++k) {
             std::set<double> grid;
             for (const std::vector<double>& shape : candidate.shapes) grid.insert(shape[k]);

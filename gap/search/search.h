@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One step of a search: which effect, added to those known, predicts best the windows that were not fitted.
+#include "gap/budget.h"
 #include "gap/candidates/candidate.h"
 #include "gap/fit/cross_fit.h"
 #include "gap/search/everything.h"
@@ -118,6 +119,9 @@ class Search {
 
     /// Whether the balance of forces can show a candidate (gap/balance/force_regression.h).
     bool is_force(const Candidate& candidate) const;
+
+    /// The time budget.
+    const Budget& budget() const { return *fitter_.evidence().budget(); }
 
     /// How the budget ended, if it did during a refinement; what had been found until then was kept.
     std::optional<Ended> over() const { return over_; }

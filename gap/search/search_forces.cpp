@@ -87,8 +87,14 @@ std::vector<const Candidate*> smooth_beside(const BalancedModel& model,
 /// to known ones.
 class FollowedHalf {
   public:
-    FollowedHalf(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted)
-        : evidence_(evidence), known_(known), wanted_(wanted), predict_(predictor(wanted)) {}
+    /// @param windows  how many windows fits are made to
+    FollowedHalf(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted, std::size_t windows)
+        : evidence_(evidence),
+          known_(known),
+          wanted_(wanted),
+          predict_(predictor(wanted)),
+          windows_(windows),
+          telling_(telling_beside({})) {}
 
     double loss(const Hypothesis& settings) const {
         return total_loss(evidence_.windows(), wanted_, predict_(settings));
@@ -101,20 +107,19 @@ class FollowedHalf {
     }
 
     Fit fitted(const Hypothesis& settings) const {
-        return fit(predict_, evidence_.windows(), wanted_, settings);
+        return fit(predictor(telling_), evidence_.windows(), telling_, settings);
     }
 
     /// The best of many values drawn around some settings, because the loss of forces along the rail has many
     /// local minima.
-    /// @param windows  how many windows are predicted
-    Hypothesis scattered(const Hypothesis& settings, std::size_t windows) const {
+    Hypothesis scattered(const Hypothesis& settings) const {
         constexpr double spread = 0.25;  // the balance of forces is a much better start than a guess
         Places all(settings.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
         const std::vector<Window>& from = evidence_.windows();
-        const Wanted telling = instructive(from, wanted_, mean_squares(from, predict_(settings)), windows);
-        const Fit drawn = scatter(predictor(telling), from, telling, settings, all, spread);
-        return polish(predictor(telling), from, telling, drawn.hypothesis, all).hypothesis;
+        const Wanted wanted = telling_beside(settings);
+        const Fit drawn = scatter(predictor(wanted), from, wanted, settings, all, spread);
+        return polish(predictor(wanted), from, wanted, drawn.hypothesis, all).hypothesis;
     }
 
     /// The first of some forms of a model, fitted; or the best of those others that have the least loss
@@ -151,6 +156,12 @@ class FollowedHalf {
     }
 
   private:
+    /// The windows that tell most, with these settings in addition to the known ones.
+    Wanted telling_beside(const Hypothesis& settings) const {
+        return instructive(evidence_.windows(), wanted_,
+                           mean_squares(evidence_.windows(), predict_(settings)), windows_);
+    }
+
     Predict predictor(const Wanted& wanted) const {
         return [this, &wanted](const Hypothesis& settings) {
             Hypothesis whole = known_;
@@ -163,14 +174,16 @@ class FollowedHalf {
     const Hypothesis& known_;
     const Wanted& wanted_;
     Predict predict_;
+    std::size_t windows_;
+    Wanted telling_;  ///< with the known settings alone
 };
 
 /// Settings for both halves, each drawn around those of the two halves' settings that predict it better: the
 /// other half may have found a deeper minimum.
 std::array<Hypothesis, 2> drawn_around(const FollowedHalf& first, const FollowedHalf& second,
-                                       const std::array<Hypothesis, 2>& settings, std::size_t windows) {
+                                       const std::array<Hypothesis, 2>& settings) {
     const auto of = [&](const FollowedHalf& half, const Hypothesis& own, const Hypothesis& other) {
-        return half.scattered(half.loss(other) < half.loss(own) ? other : own, windows);
+        return half.scattered(half.loss(other) < half.loss(own) ? other : own);
     };
     return {of(first, settings[0], settings[1]), of(second, settings[1], settings[0])};
 }
@@ -211,14 +224,15 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
     std::array<Wanted, 2> wanted;
     for (std::size_t side = 0; side < 2; ++side)
         wanted[side] = only_of(evidence.windows(), fitter_.half(side), only(Signal::encoder));
-    const FollowedHalf first(evidence, base.of_half[0], wanted[0]),
-        second(evidence, base.of_half[1], wanted[1]);
+    const FollowedHalf first(evidence, base.of_half[0], wanted[0], options_.windows),
+        second(evidence, base.of_half[1], wanted[1], options_.windows);
     std::optional<Together> best;
     try {
         const Budget::Share share(*evidence.budget(), most_of_time);
-        const BalancedModel model = first.best_form(
-            forms_of(models[place_of_least(first.losses(models))], candidates_, evidence.rig().macro),
-            options_.tail);
+        BalancedModel model = models[place_of_least(first.losses(models))];
+        best = together(base.of_half,
+                        {model.candidates, {model.settings, model.settings}, first.worth(model.settings)});
+        model = first.best_form(forms_of(model, candidates_, evidence.rig().macro), options_.tail);
         NeededCandidates itself{model.candidates,
                                 {model.settings, second.fitted(model.settings).hypothesis},
                                 first.worth(model.settings)};
@@ -229,7 +243,7 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
                                        return has_valleys(*candidate);
                                    });
         for (int round = 0; is_in_valleys && is_off() && round < most_rounds; ++round) {
-            itself.of_half = drawn_around(first, second, settings_of_model(*best), options_.windows);
+            itself.of_half = drawn_around(first, second, settings_of_model(*best));
             itself.worth = first.worth(itself.of_half[0]);
             Together drawn = together(base.of_half, itself);
             if (!(drawn.fitted.loss < best->fitted.loss)) break;

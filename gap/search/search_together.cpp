@@ -35,9 +35,7 @@ SignalFlags smooth_signals(std::span<const Window> windows) {
 /// has, if any.
 std::vector<const Candidate*> smooth_ones(const std::vector<Candidate>& all, const Hypothesis& known,
                                           const SignalFlags& signals) {
-    const auto is_known = [&](const Candidate& candidate) {
-        return std::ranges::find(known, candidate.effect, &plant::EffectSetting::effect) != known.end();
-    };
+    const auto is_known = [&](const Candidate& candidate) { return has_effect(known, *candidate.effect); };
     std::vector<const Candidate*> found;
     for (const Candidate& candidate : all) {
         if (!is_smooth(candidate) || !meet(teachers_of(*candidate.effect), signals)) continue;

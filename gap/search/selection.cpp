@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/selection.h"
 
+#include "gap/fit/gap_size.h"
 #include "gap/fit/incremental_prediction.h"
 #include "gap/search/at_once.h"
+#include "gap/search/exchange.h"
 #include "gap/search/growth.h"
-#include "gap/search/scatter.h"
 
 #include <algorithm>
 #include <functional>
@@ -13,79 +14,6 @@
 
 namespace fidservo::gap {
 namespace {
-
-/// Whether another effect explains better in place of the one at an index. If it is that one's simpler form
-/// it does so unless the richer effect's gain is real.
-bool replaces(const Search& search, const Trial& other, const Chain& chain, std::size_t at) {
-    if (is_limit_of(*other.candidate->effect, *chain.choices[at].candidate->effect))
-        return !search.is_real(other.fitted, chain.fitted);
-    return other.fitted.loss < chain.fitted.loss - least_gain;
-}
-
-/// The rest of a chain without one effect, with an effect that is new to the chain instead, and without a
-/// second one of the chain's: returned if it explains as well as the chain, since the two may have been
-/// accepted in place of the new one.
-std::optional<Chain> shorter_with_another(const Search& search, const Chain& chain, const Chain& rest,
-                                          const std::vector<Trial>& trials) {
-    constexpr double as_good = 0.75;  // share of the gain, before the other effect is fitted closely
-    if (rest.choices.size() < 2) return {};
-    for (const Trial& trial : trials) {
-        const bool is_known =
-            std::ranges::find(chain.choices, trial.candidate, &Choice::candidate) != chain.choices.end();
-        if (!trial.is_leader || is_known || trial.gain < as_good * (rest.fitted.loss - chain.fitted.loss))
-            continue;
-        const Chain other = grown(search, rest, {trial});
-        for (std::size_t k = 0; k < rest.choices.size(); ++k) {
-            Chain shorter = without(search, other, k);
-            if (search.is_real(shorter.fitted, other.fitted)) continue;
-            shorter.fitted = search.closer(search.nothing(), std::move(shorter.fitted), *trial.candidate);
-            if (!search.is_real(shorter.fitted, chain.fitted)) return shorter;
-        }
-    }
-    return {};
-}
-
-/// Tests each effect, since one that was accepted first may be a compromise of two others: it is given up if
-/// the rest does as well without it, and otherwise exchanged for what is best beside the rest. As long as
-/// nothing has changed, the last effect needs no test: it was found beside this very rest.
-/// @param changed  whether the chain was changed before
-/// @return whether it was changed before or here
-bool exchange(Search& search, Chain& chain, bool changed) {
-    constexpr int most_exchanges = 4;
-    int exchanges = 0;
-    const auto tested = [&] { return changed ? chain.choices.size() : chain.choices.size() - 1; };
-    std::size_t k = 0;
-    const auto start_over_with = [&](Chain other) {
-        chain = std::move(other);
-        changed = true;
-        k = 0;
-    };
-    while (chain.choices.size() > 1 && k < tested()) {
-        Chain rest = without(search, chain, k);
-        if (!search.is_real(rest.fitted, chain.fitted)) {
-            start_over_with(std::move(rest));
-            continue;
-        }
-        if (search.leaves_little(chain.fitted))
-            search.remember(rest.fitted, *chain.choices[k].candidate, chain.fitted, k);
-        std::vector<Trial> trials = search.try_all(rest.fitted, rest.candidates());
-        if (std::optional<Chain> shorter = shorter_with_another(search, chain, rest, trials)) {
-            start_over_with(*std::move(shorter));
-            continue;
-        }
-        const bool is_other = has_leader(trials) && trials.front().candidate != chain.choices[k].candidate;
-        if (!is_other) {
-            // The same effect again: its alternatives are now those beside the whole rest.
-            if (has_leader(trials)) chain.choices[k] = choice_of(search, rest.fitted, std::move(trials));
-            ++k;
-        } else if (replaces(search, trials.front(), chain, k) && exchanges++ < most_exchanges) {
-            start_over_with(grown(search, std::move(rest), std::move(trials)));
-        } else {
-            ++k;
-        }
-    }
-    return changed;
-}
 
 /// Whether two effects explain well enough what no single effect was accepted for: two wrong ones fit most
 /// data a little, and a little more than by chance.
@@ -144,31 +72,6 @@ bool begin_otherwise(Search& search, Chain& chain, std::size_t most_effects) {
     return changed;
 }
 
-/// Continues from a model of the balance of forces that leaves the encoder off its floor: adds what is best
-/// beside it and tests each effect, with half of the effort.
-/// @return whether the encoder comes to its floor
-bool goes_on_to_the_floor(Search& search, Chain& chain) {
-    constexpr double half = 0.5;
-    constexpr std::size_t most_added = 2;
-    const Growth growth{.most_effects = chain.choices.size() + most_added, .scans = false};
-    search.look_for_causes_in(only(Signal::encoder), half);
-    search.limit(true);
-    try {
-        const Candidate& last = *chain.choices.back().candidate;
-        if (!is_long(chain) && moves_carriage(*last.effect) && !has_valleys(last)) {
-            CrossFit closer = search.closer(search.nothing(), chain.fitted, last);
-            if (closer.loss < chain.fitted.loss) chain.fitted = std::move(closer);
-        }
-        grow(search, chain, growth, nullptr);
-        if (!is_long(chain)) exchange(search, chain, false);
-    } catch (const SearchExhausted&) {
-        if (search.over()) throw;
-    }
-    search.limit(false);
-    search.look_for_causes_in(all_signals, 1.0);
-    return !search.off(chain.fitted)[index_of(Signal::encoder)];
-}
-
 std::vector<const Candidate*> limits_in(const Chain& chain) {
     std::vector<const Candidate*> limits;
     for (const Choice& choice : chain.choices)
@@ -183,15 +86,47 @@ Chain nameable(const Search& search, Chain chain) {
     return chain;
 }
 
-/// The explanation without one of a chain's effects; in a long chain the rest is not refitted.
-CrossFit left_out_of(const Search& search, const Chain& chain, std::size_t left_out) {
-    if (chain.choices.size() == 1) return search.nothing();
-    if (!is_long(chain)) return without(search, chain, left_out).fitted;
+/// The explanation without one of a chain's effects, the others as they were fitted beside it.
+CrossFit without_refit(const Search& search, const Chain& chain, std::size_t left_out) {
     CrossFit rest = chain.fitted;
     for (Hypothesis& hypothesis : rest.of_half)
         hypothesis.erase(hypothesis.begin() + static_cast<std::ptrdiff_t>(left_out));
     search.judge(rest);
     return rest;
+}
+
+/// The explanation without one of a chain's effects; in a long chain the rest is not refitted.
+CrossFit left_out_of(const Search& search, const Chain& chain, std::size_t left_out) {
+    if (chain.choices.size() == 1) return search.nothing();
+    return is_long(chain) ? without_refit(search, chain, left_out) : without(search, chain, left_out).fitted;
+}
+
+/// Whether an error of any signal that an effect changes is above its floor.
+bool leaves_a_gap(const Evidence& evidence, const CrossFit& fitted, const plant::EffectSetting& effect) {
+    const SignalFlags reached = reached_by({effect});
+    return std::ranges::any_of(
+        signal_gaps(evidence, fitted.mean_squares, fitted.mean_squares), [&](const SignalGap& signal) {
+            return reached[index_of(signal.signal)] && signal.after > least_floors * signal.floor;
+        });
+}
+
+/// A chain without those effects without which, once the rest is fitted again, no gap is left in the signals
+/// that they change: a shorter explanation does as well. Those that matter least are tested first, up to the
+/// first that is needed.
+Chain without_needless(const Search& search, const Evidence& evidence, Chain chain) {
+    while (chain.choices.size() > 1) {
+        const Hypothesis& settings = chain.fitted.of_half[0];
+        std::vector<std::pair<double, std::size_t>> order;  // by the loss without them
+        for (std::size_t k = 0; k < settings.size(); ++k)
+            if (!leaves_a_gap(evidence, chain.fitted, settings[k]))
+                order.emplace_back(without_refit(search, chain, k).loss, k);
+        if (order.empty()) break;
+        const std::size_t least = std::ranges::min(order).second;
+        Chain rest = without(search, chain, least);
+        if (leaves_a_gap(evidence, rest.fitted, settings[least])) break;
+        chain = std::move(rest);
+    }
+    return chain;
 }
 
 /// Sorts the effects by the gap that each alone would make, largest first.
@@ -247,10 +182,6 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     try {
         const AtOnce at_once = explain_at_once(search, chain, aside, selection.alone);
         bool are_several = at_once.are_several;
-        if (by_forces && aside.is_by_forces_mostly && goes_on_to_the_floor(search, *by_forces)) {
-            chain = *std::exchange(by_forces, std::nullopt);
-            are_several = true;
-        }
         const std::size_t most_effects = chain.choices.size() + options.most_effects;
         std::vector<Trial> tried;
         const Growth growth{.most_effects = most_effects, .scans = !at_once.is_balanced};
@@ -261,6 +192,8 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
             are_several = begin_otherwise(search, chain, most_effects) || are_several;
         // The effects of a long chain were tested when they were fitted together.
         if (!is_long(chain) && exchange(search, chain, are_several)) grow(search, chain, growth, nullptr);
+        search.limit(false);
+        if (at_once.do_tags_wait) explain_waiting_tags(search, chain);
     } catch (const SearchExhausted&) {
         selection.ended = search.over().value_or(Ended::budget);
     } catch (const BudgetEnded& ended) {
@@ -287,7 +220,7 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     try {
         if (search.is_at_floor(chain.fitted)) selection.limits = limits_in(chain);
-        chain = nameable(search, chain);
+        chain = without_needless(search, evidence, nameable(search, std::move(chain)));
         put_largest_first(search, chain);
         for (std::size_t k = 0; k < chain.choices.size(); ++k)
             chain.choices[k].left_out = left_out_of(search, chain, k);

@@ -28,9 +28,9 @@ double relative_force_error(const Evidence& evidence, const Hypothesis& hypothes
     const CarriageForces forces(evidence, errors, short_half_support, 0.0);
     const Column motor = forces.of_force(0, [](const SlidingRow& at) { return at.command_V; });
     double lacking = 0.0, all = 0.0;
-    for (const CarriageForces::Support& support : forces.supports()) {
-        lacking += std::pow(forces.lacking()[support.slot], 2.0);
-        all += std::pow(motor.values[support.slot], 2.0);
+    for (std::size_t support = 0; support < motor.values.size(); ++support) {
+        lacking += std::pow(forces.lacking()[support], 2.0);
+        all += std::pow(motor.values[support], 2.0);
     }
     return std::sqrt(lacking / all);
 }

@@ -9,8 +9,10 @@
 #include "tests/gap/simulated_campaign.h"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -33,9 +35,9 @@ CarriageForces lacking_of_file(const Evidence& evidence) {
 /// The factor on a column of a unit quantity that fits the difference between the true rig and the file.
 double fitted(const CarriageForces& forces, const Column& column) {
     double product = 0.0, square = 0.0;
-    for (const CarriageForces::Support& support : forces.supports()) {
-        const double value = column.values[support.slot];
-        product -= value * static_cast<double>(forces.lacking()[support.slot]);
+    for (std::size_t support = 0; support < column.values.size(); ++support) {
+        const double value = column.values[support];
+        product -= value * static_cast<double>(forces.lacking()[support]);
         square += value * value;
     }
     return product / square;
@@ -43,8 +45,7 @@ double fitted(const CarriageForces& forces, const Column& column) {
 
 double mean_square(const CarriageForces& forces) {
     double sum = 0.0;
-    for (const CarriageForces::Support& support : forces.supports())
-        sum += std::pow(forces.lacking()[support.slot], 2);
+    for (const double lacking : forces.lacking()) sum += std::pow(lacking, 2);
     return sum / static_cast<double>(forces.supports().size());
 }
 
@@ -70,6 +71,28 @@ TEST(CarriageForces, FrictionOnTheMotion_ComesBackInVolts_WhetherTheDrivePushesO
     EXPECT_NEAR(found, truth, 0.03 * truth);
 }
 
+TEST(CarriageForces, Windows_HaveTheirSupportsOneAfterTheOther) {
+    const Evidence evidence = campaign({}, {"macro-sweep", "micro-steps"});
+    const CarriageForces forces = lacking_of_file(evidence);
+    ASSERT_EQ(forces.windows().size(), evidence.windows().size());
+    std::size_t next = 0;
+    for (std::size_t w = 0; w < forces.windows().size(); ++w) {
+        const Window &window = evidence.windows()[w], &of_supports = forces.windows()[w];
+        EXPECT_EQ(of_supports.begin, next);
+        next = of_supports.end;
+        if (window.signal != Signal::encoder) {
+            EXPECT_EQ(of_supports.begin, of_supports.end);
+        }
+        for (std::size_t support = of_supports.begin; support < of_supports.end; ++support) {
+            const SlidingRow& first = forces.rows()[forces.supports()[support]];
+            EXPECT_EQ(first.run, window.run);
+            EXPECT_GE(first.row, window.first_row);
+            EXPECT_LE(first.row + 2 * half_support, window.first_row + window.rows - 1);
+        }
+    }
+    EXPECT_EQ(next, forces.supports().size());
+}
+
 TEST(CarriageForces, StateAtAWindowsStart_IsNoForce) {
     const Evidence evidence = campaign({}, {"macro-sweep"});
     const double decay = evidence.rig().macro.velocity_pole;
@@ -83,8 +106,15 @@ TEST(CarriageForces, StateAtAWindowsStart_IsNoForce) {
     }
     const CarriageForces after(evidence, errors, half_support);
     ASSERT_FALSE(after.supports().empty());
-    for (const CarriageForces::Support& support : after.supports())
-        EXPECT_NEAR(after.lacking()[support.slot], before.lacking()[support.slot], 0.05);
+    const auto start_of = [](const CarriageForces& forces, std::size_t support) {
+        const SlidingRow& row = forces.rows()[forces.supports()[support]];
+        return std::pair(row.run, row.row);
+    };
+    std::map<std::pair<std::size_t, std::size_t>, double> known;
+    for (std::size_t support = 0; support < before.supports().size(); ++support)
+        known[start_of(before, support)] = before.lacking()[support];
+    for (std::size_t support = 0; support < after.supports().size(); ++support)
+        EXPECT_NEAR(after.lacking()[support], known.at(start_of(after, support)), 0.05);
 }
 
 /// As accurate as the start of a fit needs: a fifth of the amplitude, a tenth of a period over half the rail.

@@ -31,6 +31,12 @@ TEST(Coupling, WhatMovesTheCarriage_ShowsInTheTags_ButIsNotLearntThere) {
     EXPECT_TRUE(teachers_of(effect("encoder_scale"))[tag]);
 }
 
+TEST(Coupling, AHypothesisHasTheEffectsOfItsSettings) {
+    EXPECT_TRUE(has_effect(effects({"airflow:factor=0.9", "hall_gain"}), effect("hall_gain")));
+    EXPECT_FALSE(has_effect(effects({"airflow:factor=0.9"}), effect("hall_gain")));
+    EXPECT_FALSE(has_effect({}, effect("hall_gain")));
+}
+
 TEST(Coupling, GoesFromEffectToEffect) {
     const Hypothesis chain =
         effects({"airflow:factor=0.9", "hall_gain:factor=1.1", "encoder_scale:factor=1.01"});

@@ -143,32 +143,35 @@ TEST(Fit, SlopesThatAreKept_LeadToTheSameValues_WithFewerPredictions) {
     EXPECT_LT(with_some, with_all);
 }
 
-TEST(UpdatedSlopes, PredictTheChangeThatWasSeen_AndAreNotChangedByRounding) {
+TEST(MoveSlopes, PredictsTheChangeThatWasSeen_AndIsNotMisledByRounding) {
     const auto errors_at = [&](double gain, double offset_V) {
         Hypothesis hypothesis = gain_and_offset;
         hypothesis[0].values[0] = gain;
         hypothesis[1].values[0] = offset_V;
         return bent_a_little(hypothesis);
     };
-    const std::vector<std::size_t> counted{0, 1, 2};
-    const Errors errors = errors_at(1.02, 0.03);
-    KnownSlopes known{{1.02, 0.03}, errors, {errors, errors}};
+    const std::vector<double> here{1.02, 0.03}, there{1.028, 0.034}, hardly_away{1.02 + 1e-9, 0.03};
+    const Errors errors = errors_at(here[0], here[1]), errors_there = errors_at(there[0], there[1]);
+    KnownSlopes known{here, errors, {errors, errors}};
     for (std::size_t row = 0; row < errors.size(); ++row) {
         known.by_parameter[0][row] = (errors_at(1.021, 0.03)[row] - errors[row]) / 1e-3F;
         known.by_parameter[1][row] = (errors_at(1.02, 0.031)[row] - errors[row]) / 1e-3F;
     }
-    const Errors there = errors_at(1.028, 0.034);
-    const auto updated = updated_slopes(known, std::vector{1.028, 0.034}, there, windows, counted);
-    ASSERT_TRUE(updated);
-    for (std::size_t row = 0; row < 3 * values; ++row)
-        EXPECT_NEAR((*updated)[0][row] * 0.008F + (*updated)[1][row] * 0.004F, there[row] - errors[row],
-                    1e-3);
-    const auto same = updated_slopes(known, std::vector{1.02 + 1e-9, 0.03}, errors, windows, counted);
-    ASSERT_TRUE(same);
-    EXPECT_EQ(*same, known.by_parameter);
+    KnownSlopes moved = known;
+    ASSERT_TRUE(move_slopes(moved, there, errors_there));
+    EXPECT_EQ(moved.values, there);
+    EXPECT_EQ(moved.errors, errors_there);
+    for (std::size_t row = 0; row < errors.size(); ++row)
+        EXPECT_NEAR(moved.by_parameter[0][row] * 0.008F + moved.by_parameter[1][row] * 0.004F,
+                    errors_there[row] - errors[row], 1e-3);
+    KnownSlopes same = known;
+    ASSERT_TRUE(move_slopes(same, hardly_away, errors));
+    EXPECT_EQ(same.by_parameter, known.by_parameter);
     Errors other = errors;
     for (float& error : other) error += 5.0F;
-    EXPECT_FALSE(updated_slopes(known, std::vector{1.0201, 0.03}, other, windows, counted));
+    EXPECT_FALSE(move_slopes(same, std::vector{1.0201, 0.03}, other));
+    EXPECT_EQ(same.values, hardly_away);
+    EXPECT_EQ(same.by_parameter, known.by_parameter);
 }
 
 // With a value at the start and none in a window, the least squares problem has an empty block.

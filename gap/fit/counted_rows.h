@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Errors of the windows that count, without the rows of all others: a fit keeps them for each parameter.
+#include "gap/evidence.h"
+
+#include <span>
+#include <vector>
+
+namespace fidservo::gap {
+
+/// The counted ones of some windows, with their errors one after the other.
+class CountedRows {
+  public:
+    /// @param counted  one flag for each window
+    CountedRows(std::span<const Window> windows, const Wanted& counted);
+
+    /// The counted windows in order; their ranges are those in what of() returns.
+    const std::vector<Window>& windows() const { return windows_; }
+
+    /// The errors of the counted windows; empty for errors of a hypothesis that the plant refused.
+    /// @param errors  of all windows
+    Errors of(const Errors& errors) const;
+
+  private:
+    std::vector<Window> windows_;
+    std::vector<std::size_t> begins_;  ///< of each counted window among the errors of all
+    std::size_t rows_ = 0;
+};
+
+}  // namespace fidservo::gap

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gap/search/exchange.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace fidservo::gap {
+namespace {
+
+/// Whether another effect explains better in place of the one at an index. If it is that one's simpler form
+/// it does so unless the richer effect's gain is real.
+bool replaces(const Search& search, const Trial& other, const Chain& chain, std::size_t at) {
+    if (is_limit_of(*other.candidate->effect, *chain.choices[at].candidate->effect))
+        return !search.is_real(other.fitted, chain.fitted);
+    return other.fitted.loss < chain.fitted.loss - least_gain;
+}
+
+/// The rest of a chain without one effect, with an effect that is new to the chain instead, and without a
+/// second one of the chain's: returned if it explains as well as the chain, since the two may have been
+/// accepted in place of the new one.
+std::optional<Chain> shorter_with_another(const Search& search, const Chain& chain, const Chain& rest,
+                                          const std::vector<Trial>& trials) {
+    constexpr double as_good = 0.75;  // share of the gain, before the other effect is fitted closely
+    if (rest.choices.size() < 2) return {};
+    for (const Trial& trial : trials) {
+        const bool is_known =
+            std::ranges::find(chain.choices, trial.candidate, &Choice::candidate) != chain.choices.end();
+        if (!trial.is_leader || is_known || trial.gain < as_good * (rest.fitted.loss - chain.fitted.loss))
+            continue;
+        const Chain other = grown(search, rest, {trial});
+        for (std::size_t k = 0; k < rest.choices.size(); ++k) {
+            Chain shorter = without(search, other, k);
+            if (search.is_real(shorter.fitted, other.fitted)) continue;
+            shorter.fitted = search.closer(search.nothing(), std::move(shorter.fitted), *trial.candidate);
+            if (!search.is_real(shorter.fitted, chain.fitted)) return shorter;
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+bool exchange(Search& search, Chain& chain, bool changed) {
+    constexpr int most_exchanges = 4;
+    int exchanges = 0;
+    const auto tested = [&] { return changed ? chain.choices.size() : chain.choices.size() - 1; };
+    std::size_t k = 0;
+    const auto start_over_with = [&](Chain other) {
+        chain = std::move(other);
+        changed = true;
+        k = 0;
+    };
+    while (chain.choices.size() > 1 && k < tested()) {
+        Chain rest = without(search, chain, k);
+        if (!search.is_real(rest.fitted, chain.fitted)) {
+            start_over_with(std::move(rest));
+            continue;
+        }
+        if (search.leaves_little(chain.fitted))
+            search.remember(rest.fitted, *chain.choices[k].candidate, chain.fitted, k);
+        std::vector<Trial> trials = search.try_all(rest.fitted, rest.candidates());
+        if (std::optional<Chain> shorter = shorter_with_another(search, chain, rest, trials)) {
+            start_over_with(*std::move(shorter));
+            continue;
+        }
+        const bool is_other = has_leader(trials) && trials.front().candidate != chain.choices[k].candidate;
+        if (!is_other) {
+            // The same effect again: its alternatives are now those beside the whole rest.
+            if (has_leader(trials)) chain.choices[k] = choice_of(search, rest.fitted, std::move(trials));
+            ++k;
+        } else if (replaces(search, trials.front(), chain, k) && exchanges++ < most_exchanges) {
+            start_over_with(grown(search, std::move(rest), std::move(trials)));
+        } else {
+            ++k;
+        }
+    }
+    return changed;
+}
+
+}  // namespace fidservo::gap

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The test of each effect of an explanation.
+#include "gap/search/chain.h"
+
+namespace fidservo::gap {
+
+/// Tests each effect, since one that was accepted first may be a compromise of two others: it is given up if
+/// the rest does as well without it, and otherwise exchanged for what is best beside the rest. As long as
+/// nothing has changed, the last effect needs no test: it was found beside this very rest.
+/// @param changed  whether the chain was changed before
+/// @return whether it was changed before or here
+bool exchange(Search& search, Chain& chain, bool changed);
+
+}  // namespace fidservo::gap
