@@ -57,15 +57,20 @@ bool is_view_or_wire_off(const Search& search, const Chain& chain) {
 /// Adds effects with shapes of their own to explain a signal that is off its floor, each time together with
 /// all smooth effects that are then needed, as long as the longer chain is better.
 /// @param chain  each change is an improvement, so that it may be used whenever this ends
+/// @param share  of the time that is left, which this may take
 /// @return whether any was added
-bool add_shapes_of(Search& search, Chain& chain, Signal signal) {
+bool add_shapes_of(Search& search, Chain& chain, Signal signal, double share = 1.0) {
     bool is_any = false;
-    while (is_off(search, chain, signal)) {
-        Chain longer = with_everything(chain, search.shaped_beside(chain.fitted, signal));
-        if (!is_better(search, longer, chain)) break;
-        chain = std::move(longer);
-        is_any = true;
-        search.throw_if_over();
+    try {
+        const Budget::Share part(search.budget(), share);
+        while (is_off(search, chain, signal)) {
+            Chain longer = with_everything(chain, search.shaped_beside(chain.fitted, signal));
+            if (!is_better(search, longer, chain)) break;
+            chain = std::move(longer);
+            is_any = true;
+            search.throw_if_over();
+        }
+    } catch (const ShareEnded&) {
     }
     return is_any;
 }
@@ -77,11 +82,13 @@ bool should_tags_wait(const Search& search, const Chain& chain) {
            search.furthest_off(chain.fitted) == Signal::encoder;
 }
 
-/// add_shapes_of() the Hall reading and then the tags. A Hall reading that is explained so far lets smooth
-/// effects of the tags show.
+/// add_shapes_of() the Hall reading, which leaves half of the time to tags that are off as well, and then of
+/// the tags. A Hall reading that is explained so far lets smooth effects of the tags show.
 /// @param tags_wait  whether the tags have waited for the carriage to be explained
 void add_shapes(Search& search, Chain& chain, bool tags_wait) {
-    const bool are_any = add_shapes_of(search, chain, Signal::hall);
+    constexpr double half = 0.5;
+    const bool are_tags_off = is_off(search, chain, Signal::tag) && !should_tags_wait(search, chain);
+    const bool are_any = add_shapes_of(search, chain, Signal::hall, are_tags_off ? half : 1.0);
     if (should_tags_wait(search, chain)) return;
     if ((are_any || tags_wait) && is_off(search, chain, Signal::tag)) {
         Chain whole = with_everything(chain, search.tags_beside(chain.fitted));
@@ -243,7 +250,8 @@ bool explain_carriage_at_once(Search& search, Chain& chain, Aside& aside, std::v
 
 /// Where the encoder is further off than any other signal and no forces balance what the carriage does, looks
 /// for one effect on it that is no force: play, a belt, or a late command. Beside it forces show that did not
-/// before. A force that the balance does not show is left to a search for places and periods.
+/// before. A force that the balance does not show is left to a search for places and periods, unless the time
+/// for the search is over.
 /// @param aside  loses the model from the balance of forces if the one effect explains better
 void explain_carriage_by_one(Search& search, Chain& chain, Aside& aside, std::vector<Trial>& alone) {
     if (search.furthest_off(chain.fitted) != Signal::encoder) return;
@@ -252,7 +260,7 @@ void explain_carriage_by_one(Search& search, Chain& chain, Aside& aside, std::ve
     std::vector<Trial> trials = search.try_all(one.fitted, one.candidates(), {.scatters = false});
     search.look_for_causes_in(all_signals, 1.0);
     add_tried(alone, trials);
-    if (!has_leader(trials) || search.is_force(*trials.front().candidate) ||
+    if (!has_leader(trials) || (search.is_force(*trials.front().candidate) && !search.over()) ||
         !search.is_real(one.fitted, trials.front().fitted))
         return;
     one = grown(search, std::move(one), std::move(trials));

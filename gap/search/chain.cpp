@@ -81,6 +81,14 @@ Chain without(const Search& search, const Chain& chain, std::size_t left_out) {
     return shorter;
 }
 
+CrossFit without_refit(const Search& search, const Chain& chain, std::size_t left_out) {
+    CrossFit rest = chain.fitted;
+    for (Hypothesis& hypothesis : rest.of_half)
+        hypothesis.erase(hypothesis.begin() + static_cast<std::ptrdiff_t>(left_out));
+    search.judge(rest);
+    return rest;
+}
+
 Chain in_plain_forms(const Search& search, Chain chain) {
     for (std::size_t k = 0; k < chain.choices.size(); ++k) {
         Chain plain = chain;

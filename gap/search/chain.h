@@ -45,6 +45,9 @@ Chain grown(const Search& search, Chain chain, std::vector<Trial> trials);
 /// The chain without one of its effects; those that depend on it are refitted.
 Chain without(const Search& search, const Chain& chain, std::size_t left_out);
 
+/// The explanation without one of a chain's effects, the others as they were fitted beside it.
+CrossFit without_refit(const Search& search, const Chain& chain, std::size_t left_out);
+
 /// A chain whose effects are replaced by their simpler forms where what is richer about them is not real
 /// (Search::is_real), as where friction is found to be the same in both directions; or may be chance, where
 /// signals that it changes are off their floors, beside which no small part of an effect is real.

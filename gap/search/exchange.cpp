@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/exchange.h"
 
+#include "gap/fit/gap_size.h"
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -40,6 +42,15 @@ std::optional<Chain> shorter_with_another(const Search& search, const Chain& cha
     return {};
 }
 
+/// Whether an error of any signal that an effect changes is above its floor.
+bool leaves_a_gap(const Evidence& evidence, const CrossFit& fitted, const plant::EffectSetting& effect) {
+    const SignalFlags reached = reached_by({effect});
+    return std::ranges::any_of(
+        signal_gaps(evidence, fitted.mean_squares, fitted.mean_squares), [&](const SignalGap& signal) {
+            return reached[index_of(signal.signal)] && signal.after > least_floors * signal.floor;
+        });
+}
+
 }  // namespace
 
 bool exchange(Search& search, Chain& chain, bool changed) {
@@ -77,6 +88,22 @@ bool exchange(Search& search, Chain& chain, bool changed) {
         }
     }
     return changed;
+}
+
+Chain without_needless(const Search& search, const Evidence& evidence, Chain chain) {
+    while (chain.choices.size() > 1) {
+        const Hypothesis& settings = chain.fitted.of_half[0];
+        std::vector<std::pair<double, std::size_t>> order;  // by the loss without them
+        for (std::size_t k = 0; k < settings.size(); ++k)
+            if (!leaves_a_gap(evidence, chain.fitted, settings[k]))
+                order.emplace_back(without_refit(search, chain, k).loss, k);
+        if (order.empty()) break;
+        const std::size_t least = std::ranges::min(order).second;
+        Chain rest = without(search, chain, least);
+        if (leaves_a_gap(evidence, rest.fitted, settings[least])) break;
+        chain = std::move(rest);
+    }
+    return chain;
 }
 
 }  // namespace fidservo::gap

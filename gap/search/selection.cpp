@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/selection.h"
 
-#include "gap/fit/gap_size.h"
 #include "gap/fit/incremental_prediction.h"
 #include "gap/search/at_once.h"
 #include "gap/search/exchange.h"
@@ -86,47 +85,10 @@ Chain nameable(const Search& search, Chain chain) {
     return chain;
 }
 
-/// The explanation without one of a chain's effects, the others as they were fitted beside it.
-CrossFit without_refit(const Search& search, const Chain& chain, std::size_t left_out) {
-    CrossFit rest = chain.fitted;
-    for (Hypothesis& hypothesis : rest.of_half)
-        hypothesis.erase(hypothesis.begin() + static_cast<std::ptrdiff_t>(left_out));
-    search.judge(rest);
-    return rest;
-}
-
 /// The explanation without one of a chain's effects; in a long chain the rest is not refitted.
 CrossFit left_out_of(const Search& search, const Chain& chain, std::size_t left_out) {
     if (chain.choices.size() == 1) return search.nothing();
     return is_long(chain) ? without_refit(search, chain, left_out) : without(search, chain, left_out).fitted;
-}
-
-/// Whether an error of any signal that an effect changes is above its floor.
-bool leaves_a_gap(const Evidence& evidence, const CrossFit& fitted, const plant::EffectSetting& effect) {
-    const SignalFlags reached = reached_by({effect});
-    return std::ranges::any_of(
-        signal_gaps(evidence, fitted.mean_squares, fitted.mean_squares), [&](const SignalGap& signal) {
-            return reached[index_of(signal.signal)] && signal.after > least_floors * signal.floor;
-        });
-}
-
-/// A chain without those effects without which, once the rest is fitted again, no gap is left in the signals
-/// that they change: a shorter explanation does as well. Those that matter least are tested first, up to the
-/// first that is needed.
-Chain without_needless(const Search& search, const Evidence& evidence, Chain chain) {
-    while (chain.choices.size() > 1) {
-        const Hypothesis& settings = chain.fitted.of_half[0];
-        std::vector<std::pair<double, std::size_t>> order;  // by the loss without them
-        for (std::size_t k = 0; k < settings.size(); ++k)
-            if (!leaves_a_gap(evidence, chain.fitted, settings[k]))
-                order.emplace_back(without_refit(search, chain, k).loss, k);
-        if (order.empty()) break;
-        const std::size_t least = std::ranges::min(order).second;
-        Chain rest = without(search, chain, least);
-        if (leaves_a_gap(evidence, rest.fitted, settings[least])) break;
-        chain = std::move(rest);
-    }
-    return chain;
 }
 
 /// Sorts the effects by the gap that each alone would make, largest first.

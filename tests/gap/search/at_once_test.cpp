@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -57,6 +58,43 @@ TEST(SlowAtOnce, ForcesThatBalanceNothing_LeaveHalfOfTheTimeToTheRest) {
     constexpr double one_prediction_s = 0.1;
     EXPECT_LT(spent_s() - before_s, 0.5 * (search_s - before_s) + one_prediction_s);
     EXPECT_NO_THROW(budget->check());
+}
+
+/// It is better than none, although nothing was fitted to predictions yet.
+TEST(SlowAtOnce, ModelThatNoTimeIsLeftToFit_IsKeptAsForcesBalance) {
+    constexpr double search_s = 3.0;
+    const auto budget =
+        std::make_shared<const Budget>(search_s, 1e6, std::function<bool()>(), Seconds::by_effort);
+    const Evidence evidence(
+        reference_rig(),
+        testing::recordings_of(
+            effects({"drive_offset:offset_V=0.009", "rail_patch:level_V=0.4,centre_mm=80,width_mm=8"}),
+            {"macro-sweep", "macro-square", "macro-pulses"}),
+        budget);
+    const std::vector<Candidate> all = candidates(evidence, {}, {});
+    Search search(evidence, all, {});
+    const CrossFit nothing = search.nothing();
+    const Search::Together found = search.forces_beside(nothing);
+    ASSERT_FALSE(found.candidates.empty());
+    EXPECT_EQ(found.candidates.front()->effect->name, "rail_patch");
+    EXPECT_LT(found.fitted.loss, nothing.loss);
+}
+
+/// Nothing that is tried moves the carriage as this wave does.
+TEST(SlowAtOnce, TagsBesideACarriageThatIsFarOff_Wait) {
+    const Evidence evidence =
+        testing::campaign(effects({"cogging:amplitude_V=0.1,period_mm=6"}), {"integrated", "macro-pulses"});
+    const std::vector<std::string> without{"cogging"};
+    const std::vector<Candidate> all = candidates(evidence, {}, without);
+    Search search(evidence, all, {});
+    Chain chain{{}, search.nothing()};
+    ASSERT_TRUE(search.off(chain.fitted)[index_of(Signal::tag)]);
+    Aside aside;
+    std::vector<Trial> alone;
+    EXPECT_TRUE(explain_at_once(search, chain, aside, alone).do_tags_wait);
+    const Hypothesis before = chain.fitted.of_half[0];
+    explain_waiting_tags(search, chain);
+    EXPECT_EQ(chain.fitted.of_half[0], before);
 }
 
 TEST(FurthestOff, IsTheSignalWithTheLargestGap_AndNoneAtTheFloor) {

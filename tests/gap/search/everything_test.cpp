@@ -39,6 +39,15 @@ Evidence wire_campaign(const Hypothesis& truth, std::shared_ptr<const Budget> bu
     return {reference_rig(), std::move(recordings), std::move(budget)};
 }
 
+std::array<Wanted, 2> hall_of_halves(const Evidence& evidence) {
+    const std::vector<std::uint8_t> half = halves(evidence);
+    std::array<Wanted, 2> wanted{everything(evidence), everything(evidence)};
+    for (std::size_t w = 0; w < half.size(); ++w)
+        for (std::size_t side = 0; side < 2; ++side)
+            if (half[w] != side || evidence.windows()[w].signal != Signal::hall) wanted[side][w] = 0;
+    return wanted;
+}
+
 struct Found {
     std::vector<std::string> names;
     NeededCandidates needed;
@@ -51,12 +60,8 @@ Found needed_of(const Evidence& evidence) {
         if (is_smooth(candidate) &&
             std::ranges::find(smooth, candidate.class_name, &Candidate::class_name) == smooth.end())
             smooth.push_back(&candidate);
-    const std::vector<std::uint8_t> half = halves(evidence);
-    std::array<Wanted, 2> wanted{everything(evidence), everything(evidence)};
-    for (std::size_t w = 0; w < half.size(); ++w)
-        for (std::size_t side = 0; side < 2; ++side)
-            if (half[w] != side || evidence.windows()[w].signal != Signal::hall) wanted[side][w] = 0;
-    Found found{{}, needed_of_everything(evidence, smooth, {}, {}, {}, wanted, IfFar::gives_up)};
+    Found found{
+        {}, needed_of_everything(evidence, smooth, {}, {}, {}, hall_of_halves(evidence), IfFar::gives_up)};
     for (const Candidate* candidate : found.needed.candidates) found.names.push_back(candidate->class_name);
     std::ranges::sort(found.names);
     return found;
@@ -157,6 +162,22 @@ TEST(Everything, NominalRig_NeedsNothing) {
 TEST(Everything, WhatIsFarOff_ForAnotherReason_IsLeftToOthers) {
     const Evidence evidence = wire_campaign(effects({"second_thermal_mass:conductance=0.4,mass_tau_s=8"}));
     EXPECT_TRUE(needed_of(evidence).names.empty());
+}
+
+/// Something else is left, so that other shapes are tried, which do no better.
+TEST(Everything, ShapeOfWhatIsThere_StaysAsItWasFitted_BesideWhatIsNoCandidate) {
+    const double mass_tau_s = 4.0;
+    const Evidence evidence = wire_campaign(
+        effects({"second_thermal_mass:conductance=0.4,mass_tau_s=4", "hall_nonlinearity:cubic_shift=0.02"}));
+    const std::vector<Candidate> all =
+        candidates(evidence, std::array<std::string, 1>{"second_thermal_mass"}, {});
+    const std::vector<const Candidate*> one{&all.front()};
+    const NeededCandidates found =
+        needed_of_everything(evidence, one, {}, effects({"second_thermal_mass:conductance=0.4,mass_tau_s=4"}),
+                             {}, hall_of_halves(evidence), IfFar::goes_on);
+    ASSERT_EQ(found.candidates, one);
+    for (const Hypothesis& half : found.of_half)
+        EXPECT_NEAR(half.front().values[1], mass_tau_s, 0.25 * mass_tau_s);
 }
 
 TEST(Everything, IsOfWireSensorsAndView_NotOfTheCarriage) {
