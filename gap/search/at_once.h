@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Explanations by several effects fitted at once, made before effects are looked for one by one.
-#include "gap/search/chain.h"
+#include "gap/search/carriage_at_once.h"
 
-#include <optional>
 #include <vector>
 
 namespace fidservo::gap {
@@ -16,24 +15,12 @@ struct AtOnce {
     bool do_tags_wait;
 };
 
-/// Chains that are kept aside.
-struct Aside {
-    /// The whole chain with a model from the balance of forces that leaves the encoder off its floor. The
-    /// chain itself then loses its effects on the carriage's motion, so that the search for these can begin
-    /// afresh.
-    std::optional<Chain> by_forces;
-    /// Whether that model removes most of the encoder's excess by forces alone. Many effects that leave most
-    /// of it stand in for something else, and so do forces beside a late command.
-    bool is_by_forces_mostly = false;
-    /// While the carriage is explained: the smooth effects of Hall reading and tags, to be joined to the
-    /// chain afterwards, or where the search ends meanwhile.
-    std::optional<Chain> smooth;
-};
-
 /// Explains Hall reading and tags by all smooth effects at once, the encoder by a model from the balance of
 /// the carriage's forces, and what is left of Hall reading and tags by effects with a shape of their own;
-/// each of these by a single effect where that does as well. Where an effect of the encoder's reading is
-/// found then, by which motion and forces are known better, the carriage is explained once more.
+/// each of these by a single effect where that does as well. A Hall reading that is further off than all
+/// else, and that nothing found at once explains, is explained before the carriage. Where an effect of the
+/// encoder's reading is found then, by which motion and forces are known better, the carriage is explained
+/// once more.
 /// @param alone  trials of single effects; those made here are added
 AtOnce explain_at_once(Search& search, Chain& chain, Aside& aside, std::vector<Trial>& alone);
 
@@ -44,11 +31,5 @@ void explain_waiting_tags(Search& search, Chain& chain);
 /// A chain with those effects of another one that it lacks. What Hall reading and tags tell is refitted, as
 /// the carriage's motion shows in them.
 Chain joined(const Search& search, const Chain& chain, const Chain& other);
-
-/// A chain whose effects on the carriage's motion or its encoder are replaced by those of another chain.
-Chain with_carriage_of(const Search& search, const Chain& chain, const Chain& other);
-
-/// Adds later trials: of candidates that were not tried before, or with a larger gain. Sorts all, best first.
-void add_tried(std::vector<Trial>& alone, std::vector<Trial> later);
 
 }  // namespace fidservo::gap

@@ -81,6 +81,15 @@ Chain without(const Search& search, const Chain& chain, std::size_t left_out) {
     return shorter;
 }
 
+void add_choices(Chain& to, const Chain& from, const std::function<bool(const plant::Effect&)>& wants) {
+    for (std::size_t k = 0; k < from.choices.size(); ++k) {
+        if (!wants(*from.choices[k].candidate->effect)) continue;
+        to.choices.push_back(from.choices[k]);
+        for (std::size_t side = 0; side < 2; ++side)
+            to.fitted.of_half[side].push_back(from.fitted.of_half[side][k]);
+    }
+}
+
 CrossFit without_refit(const Search& search, const Chain& chain, std::size_t left_out) {
     CrossFit rest = chain.fitted;
     for (Hypothesis& hypothesis : rest.of_half)

@@ -4,6 +4,7 @@
 #include "gap/search/search.h"
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace fidservo::gap {
@@ -44,6 +45,9 @@ Chain grown(const Search& search, Chain chain, std::vector<Trial> trials);
 
 /// The chain without one of its effects; those that depend on it are refitted.
 Chain without(const Search& search, const Chain& chain, std::size_t left_out);
+
+/// Appends those choices of a chain, with their settings, whose effects satisfy `wants`.
+void add_choices(Chain& to, const Chain& from, const std::function<bool(const plant::Effect&)>& wants);
 
 /// The explanation without one of a chain's effects, the others as they were fitted beside it.
 CrossFit without_refit(const Search& search, const Chain& chain, std::size_t left_out);

@@ -91,17 +91,24 @@ bool exchange(Search& search, Chain& chain, bool changed) {
 }
 
 Chain without_needless(const Search& search, const Evidence& evidence, Chain chain) {
+    constexpr std::size_t most_tested = 3;
     while (chain.choices.size() > 1) {
         const Hypothesis& settings = chain.fitted.of_half[0];
         std::vector<std::pair<double, std::size_t>> order;  // by the loss without them
         for (std::size_t k = 0; k < settings.size(); ++k)
             if (!leaves_a_gap(evidence, chain.fitted, settings[k]))
                 order.emplace_back(without_refit(search, chain, k).loss, k);
-        if (order.empty()) break;
-        const std::size_t least = std::ranges::min(order).second;
-        Chain rest = without(search, chain, least);
-        if (leaves_a_gap(evidence, rest.fitted, settings[least])) break;
-        chain = std::move(rest);
+        std::ranges::sort(order);
+        if (order.size() > most_tested) order.resize(most_tested);
+        std::optional<Chain> shorter;
+        for (const auto& [loss, k] : order) {
+            Chain rest = without(search, chain, k);
+            if (leaves_a_gap(evidence, rest.fitted, settings[k])) continue;
+            shorter = std::move(rest);
+            break;
+        }
+        if (!shorter) break;
+        chain = *std::move(shorter);
     }
     return chain;
 }

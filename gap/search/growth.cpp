@@ -48,7 +48,8 @@ bool grow(Search& search, Chain& chain, const Growth& growth, std::vector<Trial>
     const auto is_far_off = [&] { return search.far_off(chain.fitted)[index_of(Signal::encoder)]; };
     while (chain.choices.size() < growth.most_effects) {
         const Chain before = chain;
-        std::vector<Trial> trials = search.try_all(chain.fitted, chain.candidates(), {.scatters = false});
+        std::vector<Trial> trials =
+            search.try_all(chain.fitted, chain.candidates(), {.fits = growth.fits, .scatters = false});
         if (first_step != nullptr) *first_step = trials;
         first_step = nullptr;
         if (!has_leader(trials) || !search.is_real(chain.fitted, trials.front().fitted)) {

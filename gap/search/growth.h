@@ -11,6 +11,8 @@ struct Growth {
     std::size_t most_effects;  ///< the largest number of effects of the chain
     /// Whether a weak wave is scanned for where the first effect on the carriage leaves the encoder far off.
     bool scans = true;
+    /// How many of the most promising candidates each step fits.
+    std::size_t fits = Effort{}.fits;
 };
 
 /// Accepts the best effect beside the chain, one after the other, as long as its gain is real

@@ -4,6 +4,7 @@
 #include "gap/budget.h"
 #include "gap/candidates/candidate.h"
 #include "gap/fit/cross_fit.h"
+#include "gap/fit/gap_size.h"
 #include "gap/search/everything.h"
 #include "gap/search/search_memory.h"
 
@@ -199,6 +200,11 @@ class Search {
 
     /// The signal that is the largest number of floors off its own; empty where all are at their floors.
     std::optional<Signal> furthest_off(const CrossFit& fitted) const;
+
+    /// A signal's typical error (gap/fit/gap_size.h), floors.
+    double typical_floors(const CrossFit& fitted, Signal signal) const {
+        return gap::typical_floors(fitter_.evidence().windows(), fitted.mean_squares)[index_of(signal)];
+    }
 
     /// The gap over all signals, in floors (gap/fit/gap_size.h), that a setting alone would make in the rig
     /// as its file describes it: by how much it changes the predictions.

@@ -66,10 +66,11 @@ std::vector<BalancedModel> forms_of(const BalancedModel& model, const std::vecto
     return forms;
 }
 
-/// A model's candidates, followed by other smooth ones of the carriage that are neither forms of one of these
-/// nor of each other.
+/// A model's candidates, followed by other forces without a place that are neither forms of one of these nor
+/// of each other. A late command, which has no shape either, is no force: it is looked for like play and a
+/// belt, for which it can stand in.
 std::vector<const Candidate*> smooth_beside(const BalancedModel& model,
-                                            const std::vector<Candidate>& candidates) {
+                                            const std::vector<Candidate>& candidates, const Rig& rig) {
     std::vector<const Candidate*> all = model.candidates;
     for (const Candidate& candidate : candidates) {
         const auto is_a_form = [&](const Candidate* other) {
@@ -77,7 +78,8 @@ std::vector<const Candidate*> smooth_beside(const BalancedModel& model,
                    is_limit_of(*other->effect, *candidate.effect) ||
                    is_limit_of(*candidate.effect, *other->effect);
         };
-        if (is_smooth_of_carriage(candidate) && std::ranges::none_of(all, is_a_form))
+        if (is_smooth_of_carriage(candidate) && is_force(rig, candidate) &&
+            std::ranges::none_of(all, is_a_form))
             all.push_back(&candidate);
     }
     return all;
@@ -87,14 +89,8 @@ std::vector<const Candidate*> smooth_beside(const BalancedModel& model,
 /// to known ones.
 class FollowedHalf {
   public:
-    /// @param windows  how many windows fits are made to
-    FollowedHalf(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted, std::size_t windows)
-        : evidence_(evidence),
-          known_(known),
-          wanted_(wanted),
-          predict_(predictor(wanted)),
-          windows_(windows),
-          telling_(telling_beside({})) {}
+    FollowedHalf(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted)
+        : evidence_(evidence), known_(known), wanted_(wanted), predict_(predictor(wanted)) {}
 
     double loss(const Hypothesis& settings) const {
         return total_loss(evidence_.windows(), wanted_, predict_(settings));
@@ -107,19 +103,20 @@ class FollowedHalf {
     }
 
     Fit fitted(const Hypothesis& settings) const {
-        return fit(predictor(telling_), evidence_.windows(), telling_, settings);
+        return fit(predict_, evidence_.windows(), wanted_, settings);
     }
 
     /// The best of many values drawn around some settings, because the loss of forces along the rail has many
     /// local minima.
-    Hypothesis scattered(const Hypothesis& settings) const {
+    /// @param windows  how many windows are predicted
+    Hypothesis scattered(const Hypothesis& settings, std::size_t windows) const {
         constexpr double spread = 0.25;  // the balance of forces is a much better start than a guess
         Places all(settings.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
         const std::vector<Window>& from = evidence_.windows();
-        const Wanted wanted = telling_beside(settings);
-        const Fit drawn = scatter(predictor(wanted), from, wanted, settings, all, spread);
-        return polish(predictor(wanted), from, wanted, drawn.hypothesis, all).hypothesis;
+        const Wanted telling = instructive(from, wanted_, mean_squares(from, predict_(settings)), windows);
+        const Fit drawn = scatter(predictor(telling), from, telling, settings, all, spread);
+        return polish(predictor(telling), from, telling, drawn.hypothesis, all).hypothesis;
     }
 
     /// The first of some forms of a model, fitted; or the best of those others that have the least loss
@@ -156,12 +153,6 @@ class FollowedHalf {
     }
 
   private:
-    /// The windows that tell most, with these settings in addition to the known ones.
-    Wanted telling_beside(const Hypothesis& settings) const {
-        return instructive(evidence_.windows(), wanted_,
-                           mean_squares(evidence_.windows(), predict_(settings)), windows_);
-    }
-
     Predict predictor(const Wanted& wanted) const {
         return [this, &wanted](const Hypothesis& settings) {
             Hypothesis whole = known_;
@@ -174,16 +165,14 @@ class FollowedHalf {
     const Hypothesis& known_;
     const Wanted& wanted_;
     Predict predict_;
-    std::size_t windows_;
-    Wanted telling_;  ///< with the known settings alone
 };
 
 /// Settings for both halves, each drawn around those of the two halves' settings that predict it better: the
 /// other half may have found a deeper minimum.
 std::array<Hypothesis, 2> drawn_around(const FollowedHalf& first, const FollowedHalf& second,
-                                       const std::array<Hypothesis, 2>& settings) {
+                                       const std::array<Hypothesis, 2>& settings, std::size_t windows) {
     const auto of = [&](const FollowedHalf& half, const Hypothesis& own, const Hypothesis& other) {
-        return half.scattered(half.loss(other) < half.loss(own) ? other : own);
+        return half.scattered(half.loss(other) < half.loss(own) ? other : own, windows);
     };
     return {of(first, settings[0], settings[1]), of(second, settings[1], settings[0])};
 }
@@ -224,8 +213,8 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
     std::array<Wanted, 2> wanted;
     for (std::size_t side = 0; side < 2; ++side)
         wanted[side] = only_of(evidence.windows(), fitter_.half(side), only(Signal::encoder));
-    const FollowedHalf first(evidence, base.of_half[0], wanted[0], options_.windows),
-        second(evidence, base.of_half[1], wanted[1], options_.windows);
+    const FollowedHalf first(evidence, base.of_half[0], wanted[0]),
+        second(evidence, base.of_half[1], wanted[1]);
     std::optional<Together> best;
     try {
         const Budget::Share share(*evidence.budget(), most_of_time);
@@ -243,7 +232,7 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
                                        return has_valleys(*candidate);
                                    });
         for (int round = 0; is_in_valleys && is_off() && round < most_rounds; ++round) {
-            itself.of_half = drawn_around(first, second, settings_of_model(*best));
+            itself.of_half = drawn_around(first, second, settings_of_model(*best), options_.windows);
             itself.worth = first.worth(itself.of_half[0]);
             Together drawn = together(base.of_half, itself);
             if (!(drawn.fitted.loss < best->fitted.loss)) break;
@@ -252,8 +241,9 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
         }
         if (!is_off()) return *best;
         Together whole = together(
-            base.of_half, needed_of_everything(evidence, smooth_beside(model, candidates_), base.of_half,
-                                               settings_of_model(*best)[0], {}, wanted, IfFar::goes_on));
+            base.of_half,
+            needed_of_everything(evidence, smooth_beside(model, candidates_, evidence.rig()), base.of_half,
+                                 settings_of_model(*best)[0], {}, wanted, IfFar::goes_on));
         // Many effects that leave most of the gap stand in for something else.
         const bool explains = nearly_clears(base, whole.fitted, share_explained);
         return explains && whole.fitted.loss < best->fitted.loss ? whole : *best;
