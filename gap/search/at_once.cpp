@@ -127,13 +127,13 @@ bool hears_of_carriage(const Search& search, const Chain& chain) {
 /// @param tags_wait  whether the tags have waited for the carriage to be explained
 /// @return whether effects found at once were accepted
 bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, bool tags_wait,
-                                   std::vector<Trial>* alone) {
+                                   std::vector<Trial>& alone) {
     if (!is_view_or_wire_off(search, chain)) return false;
     const Signal signal = is_off(search, chain, Signal::hall) ? Signal::hall : Signal::tag;
     add_shapes_beside(search, chain, all, tags_wait);
     const bool is_tried = is_off(search, chain, Signal::hall) && !hears_of_carriage(search, chain);
     if (all.choices.size() == chain.choices.size() && !is_tried) all = with_all_that_is_smooth(search, chain);
-    return explain_by_one_or(search, chain, std::move(all), signal, *alone);
+    return explain_by_one_or(search, chain, std::move(all), signal, alone);
 }
 
 /// Where no effects found at once explain the Hall reading, looks for effects one by one, and then again for
@@ -141,7 +141,7 @@ bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, bool
 /// signals are off, each search gets half of the effort, and this one no more than half of the time.
 /// @param alone  receives the trials of the first step
 /// @return whether several effects were accepted in one step
-bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
+bool explain_hall(Search& search, Chain& chain, std::vector<Trial>& alone) {
     constexpr double equal_share = 0.5;
     if (!is_off(search, chain, Signal::hall)) return false;
     bool are_several = false;
@@ -153,7 +153,7 @@ bool explain_hall(Search& search, Chain& chain, std::vector<Trial>* alone) {
         // of its grid.
         constexpr auto all = std::numeric_limits<std::size_t>::max();
         const Growth growth{.most_effects = chain.choices.size() + most_one_by_one, .fits = all};
-        are_several = grow(search, chain, growth, alone);
+        are_several = grow(search, chain, growth, &alone);
     } catch (const ShareEnded&) {
     } catch (const SearchExhausted&) {
         if (search.over()) throw;
@@ -188,15 +188,15 @@ AtOnce explain_at_once(Search& search, Chain& chain, Aside& aside, std::vector<T
     search.throw_if_over();
     const bool is_hall_first = search.furthest_off(aside.smooth->fitted) == Signal::hall &&
                                search.far_off(aside.smooth->fitted)[index_of(Signal::hall)];
-    bool are_several = is_hall_first && explain_hall(search, chain, &alone);
+    bool are_several = is_hall_first && explain_hall(search, chain, alone);
     bool is_balanced = explain_carriage(search, chain, aside, alone);
     const bool was_read_otherwise = reads_otherwise(chain), do_tags_wait = should_tags_wait(search, chain);
     Chain smooth = joined(search, chain, *aside.smooth);
     aside.smooth.reset();
     const bool is_known =
-        explain_view_and_wire_at_once(search, chain, std::move(smooth), tags_wait, &alone) || are_many;
+        explain_view_and_wire_at_once(search, chain, std::move(smooth), tags_wait, alone) || are_many;
     are_several = are_several || is_known || is_balanced;
-    if (!is_known && !is_hall_first) are_several = explain_hall(search, chain, &alone) || are_several;
+    if (!is_known && !is_hall_first) are_several = explain_hall(search, chain, alone) || are_several;
     if (reads_otherwise(chain) && !was_read_otherwise && is_off(search, chain, Signal::encoder)) {
         is_balanced = explain_carriage_again(search, chain, aside, alone);
         are_several = are_several || is_balanced;

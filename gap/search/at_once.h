@@ -8,7 +8,9 @@
 namespace fidservo::gap {
 
 struct AtOnce {
-    bool is_balanced;  ///< the model from the balance of forces brings the encoder to its floor and is kept
+    /// A model from the balance of forces is kept: it brings the encoder to its floor, or so near that the
+    /// search starts from there.
+    bool is_balanced;
     bool are_several;  ///< more than one effect was accepted in one step
     /// Tags wait for a carriage that is still far off, as its place when frames were taken is known within a
     /// count only where its motion is predicted.
@@ -17,10 +19,9 @@ struct AtOnce {
 
 /// Explains Hall reading and tags by all smooth effects at once, the encoder by a model from the balance of
 /// the carriage's forces, and what is left of Hall reading and tags by effects with a shape of their own;
-/// each of these by a single effect where that does as well. A Hall reading that is further off than all
-/// else, and that nothing found at once explains, is explained before the carriage. Where an effect of the
-/// encoder's reading is found then, by which motion and forces are known better, the carriage is explained
-/// once more.
+/// each of these by a single effect where that does as well. A Hall reading that is still further off than
+/// all else is explained before the carriage. Where an effect of the encoder's reading is found then, by
+/// which motion and forces are known better, the carriage is explained once more.
 /// @param alone  trials of single effects; those made here are added
 AtOnce explain_at_once(Search& search, Chain& chain, Aside& aside, std::vector<Trial>& alone);
 

@@ -13,8 +13,7 @@ namespace fidservo::gap {
 bool exchange(Search& search, Chain& chain, bool changed);
 
 /// A chain without those effects without which, once the rest is fitted again, no gap is left in the signals
-/// that they change: a shorter explanation does as well. The few that matter
-/// least are tested.
+/// that they change: a shorter explanation does as well. The few that matter least are tested.
 Chain without_needless(const Search& search, const Evidence& evidence, Chain chain);
 
 }  // namespace fidservo::gap

@@ -21,8 +21,8 @@ Chain with_together(Chain chain, Search::Together together);
 /// Explains a signal that is off its floor by one effect, or by those that `whole` found at once if these do
 /// better. More than two such effects, or such as make the chain long, are not compared with a single one. A
 /// smooth effect that both ways find, and that brings the signal to its floor, is not fitted more closely.
-/// @return whether the effects of `whole` were accepted
 /// @param alone  trials of single effects; those made here are added
+/// @return whether the effects of `whole` were accepted
 bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal, std::vector<Trial>& alone);
 
 /// Adds later trials: of candidates that were not tried before, or with a larger gain. Sorts all, best first.

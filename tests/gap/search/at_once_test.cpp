@@ -21,6 +21,12 @@ using namespace gap;
 using testing::effects;
 using ::testing::IsSupersetOf;
 
+/// A budget of time for the search alone, by effort.
+std::shared_ptr<const Budget> search_of(double search_s) {
+    constexpr double endless_s = 1e6;
+    return std::make_shared<const Budget>(search_s, endless_s, std::function<bool()>(), Seconds::by_effort);
+}
+
 /// Play is no force, and while it is unknown the forces of the other effects balance nothing.
 TEST(SlowAtOnce, PlayThatHidesForces_IsFound_AndTheForcesBesideIt) {
     const Evidence evidence = testing::campaign(effects({"backlash:width_um=800", "payload:mass_factor=1.05",
@@ -41,8 +47,7 @@ TEST(SlowAtOnce, PlayThatHidesForces_IsFound_AndTheForcesBesideIt) {
 /// Play is no force: no model balances it, however long it is sought.
 TEST(SlowAtOnce, ForcesThatBalanceNothing_LeaveHalfOfTheTimeToTheRest) {
     constexpr double search_s = 4.0;
-    const auto budget =
-        std::make_shared<const Budget>(search_s, 1e6, std::function<bool()>(), Seconds::by_effort);
+    const auto budget = search_of(search_s);
     const Evidence evidence(
         reference_rig(),
         testing::recordings_of(effects({"backlash:width_um=800", "cogging:amplitude_V=0.002,period_mm=4.6",
@@ -63,8 +68,7 @@ TEST(SlowAtOnce, ForcesThatBalanceNothing_LeaveHalfOfTheTimeToTheRest) {
 /// It is better than none, although nothing was fitted to predictions yet.
 TEST(SlowAtOnce, ModelThatNoTimeIsLeftToFit_IsKeptAsForcesBalance) {
     constexpr double search_s = 3.0;
-    const auto budget =
-        std::make_shared<const Budget>(search_s, 1e6, std::function<bool()>(), Seconds::by_effort);
+    const auto budget = search_of(search_s);
     const Evidence evidence(
         reference_rig(),
         testing::recordings_of(
