@@ -275,7 +275,7 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
     bool matters_something = false;
     for (const SignalGap& signal : diagnosis.signals) {
         const std::size_t index = index_of(signal.signal);
-        left[index] = signal.after > least_floors * signal.floor;
+        left[index] = is_left(signal);
         matters_something = matters_something || (left[index] && signal.discrepancy > matters[index]);
     }
     say_what_is_named(evidence, selection, fitted, left, {}, diagnosis);
@@ -287,8 +287,7 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
 void add_what_does_not_matter(const SignalLimits& matters, Diagnosis& diagnosis) {
     for (const SignalGap& signal : diagnosis.signals) {
         const double limit = matters[index_of(signal.signal)];
-        if (limit <= 0.0 || signal.after <= least_floors * signal.floor || signal.discrepancy > limit)
-            continue;
+        if (limit <= 0.0 || !is_left(signal) || signal.discrepancy > limit) continue;
         diagnosis.notes.push_back(fmt::format(
             "{}: {:.3g} {} r.m.s. remain that no effect explains, not more than the {:.3g} {} that "
             "matter",

@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -267,17 +265,14 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
     constexpr double least_loss = 1.0;  // improvements are relative to the loss, or to this if it is less
     const CountedRows rows(windows, counted);
     const Predict predict_counted = [&](const Hypothesis& settings) { return rows.of(predict(settings)); };
-    const auto loss_of = [&](const Errors& errors) {
-        return errors.empty() ? std::numeric_limits<double>::infinity()
-                              : total_loss(mean_squares(rows.windows(), errors));
-    };
+    const Wanted all(rows.windows().size(), 1);
     ScaledParameters parameters(start);
     const std::vector<double> values_at_start = parameters.values;
     Linearised linearised(predict_counted, parameters, rows.windows(), options);
     linearised.PrepareForEvaluation(false, true);
     const auto size = static_cast<Eigen::Index>(parameters.size());
     const Eigen::MatrixXd unknown = Eigen::MatrixXd::Zero(size, size);
-    Fit result{start, loss_of(linearised.errors), unknown, unknown};
+    Fit result{start, total_loss(rows.windows(), all, linearised.errors), unknown, unknown};
     if (parameters.size() == 0 || linearised.errors.empty()) return result;
     const double loss_at_start = linearised.loss();
 
@@ -313,7 +308,7 @@ Fit fit(const Predict& predict, std::span<const Window> windows, const Wanted& c
     linearised.PrepareForEvaluation(false, true);
     if (!linearised.errors.empty() && linearised.loss() < loss_at_start) {
         result.hypothesis = parameters.at(parameters.values);
-        result.loss = loss_of(linearised.errors);
+        result.loss = total_loss(rows.windows(), all, linearised.errors);
     } else {
         parameters.values = values_at_start;
     }

@@ -74,6 +74,10 @@ std::vector<SignalGap> signal_gaps(const Evidence& evidence, std::span<const dou
     return gaps;
 }
 
+bool is_left(const SignalGap& signal) {
+    return signal.after > least_floors * signal.floor;
+}
+
 TotalGap total_gap(std::span<const SignalGap> signals) {
     MeanOverSignals mean;
     for (const SignalGap& signal : signals)

@@ -27,6 +27,9 @@ inline constexpr double least_floors = 1.1;
 std::vector<SignalGap> signal_gaps(const Evidence& evidence, std::span<const double> before,
                                    std::span<const double> after);
 
+/// Whether what remains of a signal's error is above its floor.
+bool is_left(const SignalGap& signal);
+
 TotalGap total_gap(std::span<const SignalGap> signals);
 
 /// 95 % interval of the part of the gap that is removed, by a bootstrap of blocks of three windows (400

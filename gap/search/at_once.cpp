@@ -5,7 +5,6 @@
 #include "gap/search/one_or_several.h"
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -57,12 +56,16 @@ bool add_shapes_of(Search& search, Chain& chain, Signal signal, double share = 1
     return is_any;
 }
 
+/// Whether a signal is further off than all others, and far off.
+bool is_largest_gap(const Search& search, const CrossFit& fitted, Signal signal) {
+    return search.furthest_off(fitted) == signal && search.far_off(fitted)[index_of(signal)];
+}
+
 /// Whether tags are better not explained before the carriage is: its place when a frame was taken is known
 /// within a count only where its motion is predicted.
 bool should_tags_wait(const Search& search, const Chain& chain) {
     return search.typical_floors(chain.fitted, Signal::encoder) > least_floors &&
-           search.far_off(chain.fitted)[index_of(Signal::encoder)] &&
-           search.furthest_off(chain.fitted) == Signal::encoder;
+           is_largest_gap(search, chain.fitted, Signal::encoder);
 }
 
 /// add_shapes_of() the Hall reading, which leaves half of the time to tags that are off as well, and then of
@@ -186,8 +189,7 @@ AtOnce explain_at_once(Search& search, Chain& chain, Aside& aside, std::vector<T
     aside.smooth = is_view_or_wire_off(search, chain) ? with_all_that_is_smooth(search, chain) : chain;
     const bool are_many = explain_by_many(search, chain, *aside.smooth);
     search.throw_if_over();
-    const bool is_hall_first = search.furthest_off(aside.smooth->fitted) == Signal::hall &&
-                               search.far_off(aside.smooth->fitted)[index_of(Signal::hall)];
+    const bool is_hall_first = is_largest_gap(search, aside.smooth->fitted, Signal::hall);
     bool are_several = is_hall_first && explain_hall(search, chain, alone);
     bool is_balanced = explain_carriage(search, chain, aside, alone);
     const bool was_read_otherwise = reads_otherwise(chain), do_tags_wait = should_tags_wait(search, chain);

@@ -30,6 +30,12 @@ bool refines(const Chain& richer, const Chain& plainer) {
     return more.size() == 1 && less.size() == 1 && is_limit_of(*less.front()->effect, *more.front()->effect);
 }
 
+/// Takes a setting out of both halves; the rest is not judged again.
+void erase(CrossFit& cross, std::size_t setting) {
+    for (Hypothesis& hypothesis : cross.of_half)
+        hypothesis.erase(hypothesis.begin() + static_cast<std::ptrdiff_t>(setting));
+}
+
 }  // namespace
 
 std::vector<const Candidate*> Chain::candidates() const {
@@ -74,9 +80,8 @@ Chain grown(const Search& search, Chain chain, std::vector<Trial> trials) {
 Chain without(const Search& search, const Chain& chain, std::size_t left_out) {
     Chain shorter = chain;
     const SignalFlags concerned = search.concerned_by(*chain.choices[left_out].candidate, chain.fitted);
-    const auto at = static_cast<std::ptrdiff_t>(left_out);
-    shorter.choices.erase(shorter.choices.begin() + at);
-    for (Hypothesis& hypothesis : shorter.fitted.of_half) hypothesis.erase(hypothesis.begin() + at);
+    shorter.choices.erase(shorter.choices.begin() + static_cast<std::ptrdiff_t>(left_out));
+    erase(shorter.fitted, left_out);
     search.fit_again(shorter.fitted, concerned);
     return shorter;
 }
@@ -92,8 +97,7 @@ void add_choices(Chain& to, const Chain& from, const std::function<bool(const pl
 
 CrossFit without_refit(const Search& search, const Chain& chain, std::size_t left_out) {
     CrossFit rest = chain.fitted;
-    for (Hypothesis& hypothesis : rest.of_half)
-        hypothesis.erase(hypothesis.begin() + static_cast<std::ptrdiff_t>(left_out));
+    erase(rest, left_out);
     search.judge(rest);
     return rest;
 }

@@ -46,9 +46,8 @@ std::optional<Chain> shorter_with_another(const Search& search, const Chain& cha
 bool leaves_a_gap(const Evidence& evidence, const CrossFit& fitted, const plant::EffectSetting& effect) {
     const SignalFlags reached = reached_by({effect});
     return std::ranges::any_of(
-        signal_gaps(evidence, fitted.mean_squares, fitted.mean_squares), [&](const SignalGap& signal) {
-            return reached[index_of(signal.signal)] && signal.after > least_floors * signal.floor;
-        });
+        signal_gaps(evidence, fitted.mean_squares, fitted.mean_squares),
+        [&](const SignalGap& signal) { return reached[index_of(signal.signal)] && is_left(signal); });
 }
 
 }  // namespace

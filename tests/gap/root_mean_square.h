@@ -4,15 +4,16 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 
 namespace fidservo::testing {
 
 /// R.m.s. over the values of a signal that count, of all recordings or one; NaN without any.
-inline double rms(const gap::Evidence& evidence, const gap::Errors& errors, gap::Signal signal,
+inline double rms(std::span<const gap::Window> windows, const gap::Errors& errors, gap::Signal signal,
                   std::optional<std::size_t> run = std::nullopt) {
     double sum = 0.0;
     std::size_t count = 0;
-    for (const gap::Window& window : evidence.windows()) {
+    for (const gap::Window& window : windows) {
         if (window.signal != signal || (run && window.run != *run)) continue;
         for (std::size_t k = window.begin; k < window.end; ++k) {
             if (!std::isfinite(errors[k])) continue;
@@ -21,6 +22,11 @@ inline double rms(const gap::Evidence& evidence, const gap::Errors& errors, gap:
         }
     }
     return std::sqrt(sum / static_cast<double>(count));
+}
+
+inline double rms(const gap::Evidence& evidence, const gap::Errors& errors, gap::Signal signal,
+                  std::optional<std::size_t> run = std::nullopt) {
+    return rms(evidence.windows(), errors, signal, run);
 }
 
 }  // namespace fidservo::testing

@@ -3,10 +3,9 @@
 #include "gap/balance/force_balance.h"
 
 #include "gap/candidates/coupling.h"
+#include "tests/gap/root_mean_square.h"
 #include "tests/gap/simulated_campaign.h"
 
-#include <cmath>
-#include <numeric>
 #include <string_view>
 
 #include <gtest/gtest.h>
@@ -18,6 +17,7 @@ namespace {
 using namespace gap;
 using testing::campaign;
 using testing::effects;
+using testing::rms;
 
 Wanted encoder_of(const Evidence& evidence) {
     return only_of(evidence.windows(), everything(evidence), only(Signal::encoder));
@@ -34,8 +34,7 @@ TEST_P(OfAnEffect, ForcesBalance_WhereTheHypothesisIsTheTruth) {
         const ForceBalance balance(evidence, encoder_of(evidence), hypothesis);
         const Errors excess = balance.excess_in_own_deviations(hypothesis);
         EXPECT_GT(excess.size(), 300U);
-        return std::sqrt(std::inner_product(excess.begin(), excess.end(), excess.begin(), 0.0) /
-                         static_cast<double>(excess.size()));
+        return rms(balance.windows(), excess, Signal::encoder);
     };
     const double with_file = excess_under({}), with_truth = excess_under(truth);
     EXPECT_NEAR(with_truth, 0.4, 0.1);
