@@ -4,7 +4,7 @@
 #include "gap/search/exchange.h"
 #include "gap/search/growth.h"
 #include "gap/search/one_or_several.h"
-#include "gap/search/scatter.h"
+#include "gap/starts/scatter.h"
 
 #include <algorithm>
 #include <utility>

@@ -2,8 +2,8 @@
 // The close fit of one effect: several methods, one after the other, as long as a gap is left.
 #include "core/parallel.h"
 #include "gap/search/contender.h"
-#include "gap/search/scatter.h"
 #include "gap/search/search.h"
+#include "gap/starts/scatter.h"
 
 #include <algorithm>
 #include <string_view>

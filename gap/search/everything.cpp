@@ -6,8 +6,8 @@
 #include "gap/fit/incremental_prediction.h"
 #include "gap/fit/score.h"
 #include "gap/search/approach.h"
-#include "gap/search/shape_screening.h"
 #include "gap/search/worth.h"
+#include "gap/starts/shape_screening.h"
 
 #include <algorithm>
 #include <array>

@@ -57,7 +57,7 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
                                       IfFar if_far);
 
 /// Settings of those candidates with a shape of their own that are not in `begun` and promise anything beside
-/// all others (gap/search/shape_screening.h), the one that saves most first.
+/// all others (gap/starts/shape_screening.h), the one that saves most first.
 /// @param waves  settings of waves along the rail to be screened as well; no grid contains their periods. As
 /// errors show one of many periods by chance, one has to save a fifth of the loss
 /// @param beside, wanted  of the first half; like the other parameters as in needed_of_everything()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/growth.h"
 
-#include "gap/search/scatter.h"
+#include "gap/starts/scatter.h"
 
 #include <algorithm>
 #include <utility>

@@ -3,7 +3,7 @@
 
 #include "core/parallel.h"
 #include "gap/search/contender.h"
-#include "gap/search/starts.h"
+#include "gap/starts/starts.h"
 
 #include <algorithm>
 #include <array>

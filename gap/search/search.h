@@ -136,7 +136,7 @@ class Search {
     std::vector<Trial> try_all(const CrossFit& base, std::span<const Candidate* const> added,
                                const Effort& effort = {});
 
-    /// Scans all possible weak waves of force beside a base (gap/search/wave_scan.h), in windows that are far
+    /// Scans all possible weak waves of force beside a base (gap/starts/wave_scan.h), in windows that are far
     /// off. Returns whether one promises more than the start values known before, so that try_all would come
     /// to another result.
     bool scan_for_wave(const CrossFit& base, std::span<const Candidate* const> added);
@@ -254,7 +254,7 @@ class Search {
     Together balanced_beside(const CrossFit& base) const;
     class CloserFit;
     /// The wave that a scan finds in those encoder windows of the first half that are far off without one
-    /// (gap/search/wave_scan.h). Empty unless the predicted carriage runs away in a few windows, by which
+    /// (gap/starts/wave_scan.h). Empty unless the predicted carriage runs away in a few windows, by which
     /// alone a weak wave shows; and empty for a carriage on a belt, whose predictions cost too much.
     std::optional<plant::EffectSetting> scanned_wave(const Hypothesis& beside, const Candidate& wave) const;
     /// Loss that an explanation saves in those windows of the first half in which candidates are looked at.

@@ -7,8 +7,8 @@
 #include "gap/fit/polish.h"
 #include "gap/fit/score.h"
 #include "gap/search/everything.h"
-#include "gap/search/scatter.h"
 #include "gap/search/search.h"
+#include "gap/starts/scatter.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #pragma once
 // What a search has found out about a candidate. It is used again beside another base if that differs only in
 // settings on which the candidate's fit does not depend.
-#include "gap/search/first_sight.h"
+#include "gap/starts/first_sight.h"
 
 #include <array>
 #include <deque>

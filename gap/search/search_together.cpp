@@ -4,8 +4,8 @@
 #include "gap/balance/tag_period.h"
 #include "gap/search/everything.h"
 #include "gap/search/search.h"
-#include "gap/search/shape_screening.h"
-#include "gap/search/starts.h"
+#include "gap/starts/shape_screening.h"
+#include "gap/starts/starts.h"
 #include "plant/effects/catalogue.h"
 
 #include <algorithm>

@@ -4,9 +4,9 @@
 #include "core/rig.h"
 #include "gap/fit/score.h"
 #include "gap/search/contender.h"
-#include "gap/search/scatter.h"
 #include "gap/search/search.h"
-#include "gap/search/wave_scan.h"
+#include "gap/starts/scatter.h"
+#include "gap/starts/wave_scan.h"
 #include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 

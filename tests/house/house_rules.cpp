@@ -39,9 +39,9 @@ const std::map<std::string, Rooms>& arrows() {
 /// The rooms of the diagnosis, each of which may include those before it. What lies in gap/ itself is their
 /// door: the types that all of them speak of, and the diagnosis that calls them.
 const std::vector<std::string>& rooms_of_gap() {
-    static const std::vector<std::string> order{"gap/evidence",  "gap/links",   "gap/candidates",
-                                                "gap/fit",       "gap/balance", "gap/search",
-                                                "gap/residuals", "gap/verdict", "gap/equation"};
+    static const std::vector<std::string> order{
+        "gap/evidence", "gap/links",  "gap/candidates", "gap/fit",     "gap/balance",
+        "gap/starts",   "gap/search", "gap/residuals",  "gap/verdict", "gap/equation"};
     return order;
 }
 

@@ -2,7 +2,7 @@
 // Waves of a force along the rail, from the balance of the forces along the way recorded.
 #include "gap/balance/balanced_waves.h"
 
-#include "gap/search/starts.h"
+#include "gap/starts/starts.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <algorithm>

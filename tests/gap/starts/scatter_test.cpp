@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Piecewise constant losses: no gradient leads from one local minimum to the next.
-#include "gap/search/scatter.h"
+#include "gap/starts/scatter.h"
 
 #include "core/random.h"
 #include "gap/candidates/wave.h"

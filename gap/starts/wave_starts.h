@@ -3,7 +3,7 @@
 // Waves along the rail from which a fit may begin.
 #include "gap/balance/period_search.h"
 #include "gap/candidates/candidate.h"
-#include "gap/search/first_sight.h"
+#include "gap/starts/first_sight.h"
 
 namespace fidservo::gap {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gap/search/wave_starts.h"
+#include "gap/starts/wave_starts.h"
 
 #include "gap/balance/balanced_waves.h"
 #include "gap/fit/score.h"

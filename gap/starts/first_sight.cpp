@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gap/search/first_sight.h"
+#include "gap/starts/first_sight.h"
 
 #include "core/parallel.h"
 #include "gap/fit/minimum_norm.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A weak periodic force that does not show in the balance of forces, only in the direction that the carriage
 // takes.
-#include "gap/search/wave_scan.h"
+#include "gap/starts/wave_scan.h"
 
 #include "core/rig.h"
 #include "gap/candidates/coupling.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gap/search/first_sight.h"
+#include "gap/starts/first_sight.h"
 
 #include "plant/effects/catalogue.h"
 #include "tests/gap/equal_windows.h"

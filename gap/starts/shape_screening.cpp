@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gap/search/shape_screening.h"
+#include "gap/starts/shape_screening.h"
 
 #include "core/parallel.h"
 #include "gap/fit/minimum_norm.h"

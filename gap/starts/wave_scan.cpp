@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gap/search/wave_scan.h"
+#include "gap/starts/wave_scan.h"
 
 #include "core/macro_parameters.h"
 #include "core/parallel.h"

@@ -4,7 +4,7 @@
 #include "gap/balance/patch_search.h"
 #include "gap/balance/period_search.h"
 #include "gap/candidates/candidate.h"
-#include "gap/search/first_sight.h"
+#include "gap/starts/first_sight.h"
 
 #include <span>
 #include <vector>
@@ -31,7 +31,7 @@ std::vector<PositionPeriod> periods_along_rail(const Evidence& evidence, const H
 AlongRail seen_along_rail(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted,
                           std::span<const Candidate* const> candidates);
 
-/// Start values of a candidate's fit, best first (gap/search/first_sight.h).
+/// Start values of a candidate's fit, best first (gap/starts/first_sight.h).
 std::vector<Promise> starts_of(const Candidate& candidate, const AlongRail& along, const Predict& predict,
                                std::span<const Window> windows, const Wanted& counted,
                                const Surroundings& beside);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gap/search/starts.h"
+#include "gap/starts/starts.h"
 
 #include "gap/balance/balanced_springs.h"
 #include "gap/balance/balanced_waves.h"
 #include "gap/fit/score.h"
-#include "gap/search/wave_starts.h"
+#include "gap/starts/wave_starts.h"
 
 #include <algorithm>
 #include <functional>

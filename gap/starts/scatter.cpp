@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gap/search/scatter.h"
+#include "gap/starts/scatter.h"
 
 #include "core/parallel.h"
 #include "core/random.h"
