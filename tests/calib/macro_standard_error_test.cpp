@@ -10,7 +10,7 @@
 namespace fidservo::calib {
 namespace {
 
-const int runs = testing::draws(60, 24);
+const int runs = testing::draws(60, 12);
 constexpr double tick_s = 0.001, pole = 0.95833;
 
 /// Mean square of (estimate - truth) / stated standard error over runs: 1 for right standard errors.
@@ -25,7 +25,7 @@ class Score {
     /// scatter: half as large again here, of a motion without anything else.
     void expect_true(const std::string& name) const {
         ::testing::Test::RecordProperty(name, std::to_string(squares_));
-        const double low = runs == 60 ? 0.53 : 0.337, high = runs == 60 ? 1.66 : 2.13;
+        const double low = runs == 60 ? 0.53 : 0.185, high = runs == 60 ? 1.66 : 2.74;
         constexpr double most_counted = 1.5;
         EXPECT_GT(squares_, low / (most_counted * most_counted)) << name;
         EXPECT_LT(squares_, high) << name;

@@ -4,12 +4,15 @@
 
 #include "core/rig.h"
 #include "gap/search/search.h"
+#include "tests/effort.h"
 #include "tests/gap/effect_names.h"
 #include "tests/gap/simulated_campaign.h"
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -194,7 +197,9 @@ TEST(SlowDiagnosis, WaveAlongTheRail_IsFoundWithItsPeriodAndPhase) {
         double amplitude_V, period_mm, phase_rad;
     };
     constexpr double middle_mm = 100.0;
-    for (const Truth& truth : {Truth{0.05, 5.0, 1.0}, Truth{0.1, 2.2, -2.0}}) {
+    constexpr std::array truths{Truth{0.1, 2.2, -2.0}, Truth{0.05, 5.0, 1.0}};
+    for (const Truth& truth :
+         std::span(truths).first(static_cast<std::size_t>(fidservo::testing::draws(2, 1)))) {
         const std::string text = fmt::format("cogging:amplitude_V={},period_mm={},phase_rad={}",
                                              truth.amplitude_V, truth.period_mm, truth.phase_rad);
         const Diagnosis diagnosis =

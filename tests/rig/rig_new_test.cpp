@@ -115,7 +115,8 @@ TEST(SlowRigNew, EveryOtherCommand_TakesIt) {
     const std::string recipe = FIDSERVO_SOURCE_DIR "/tests/faults/drill.yaml";
     expect_taken(folder, {"inspect", recipe, "--rig", "rig.yaml", "--out", "run", "--no-diagnosis"}, 1);
     expect_taken(folder, {"simulate", "campaign", "--rig", "rig.yaml", "--out", "campaign"});
-    for (const char* part : {"macro", "hysteresis", "heater"})
+    expect_taken(folder, {"identify", "macro", "campaign/macro-square-1", "--rig", "rig.yaml"}, 1);
+    for (const char* part : {"hysteresis", "heater"})
         expect_taken(folder, {"identify", part, "campaign", "--rig", "rig.yaml"}, 1);
     expect_taken(folder, {"calibrate", "hall", "campaign", "--rig", "rig.yaml"}, 1);
     expect_taken(folder, {"diagnose", "campaign", "--rig", "rig.yaml"});

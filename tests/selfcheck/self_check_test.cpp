@@ -68,23 +68,26 @@ TEST(SlowSelfCheck, OneEffectAndNone_AreRecordedDiagnosedAndScored) {
 }
 
 TEST(SlowSelfCheck, ManyCauses_AreDrawnAgainTheSameDiagnosedAndScored) {
-    const Outcome three = first_case(CaseKind::three);
-    EXPECT_EQ(three.label.effects.size(), 3u);
     const Outcome messy = first_case(CaseKind::messy);
     expect_same_label(messy.label, first_crowded_case(CaseKind::messy).label);
     EXPECT_GT(messy.score.before, 5.0) << line_of(messy);
     ASSERT_TRUE(messy.score.removed_of_true);
+    for (const NamedEffect& named : messy.score.named) {
+        const bool is_drawn = std::ranges::any_of(messy.label.effects, [&](const TrueEffect& effect) {
+            return effect.class_name == named.class_name;
+        });
+        EXPECT_TRUE(named.is_true || !is_drawn) << line_of(messy);
+    }
+}
+
+TEST(SlowSelfCheck, ManyCausesOfWhichNoneIsLargest_HaveNoDominantOne) {
+    if (fidservo::testing::draws(1, 0) == 0)
+        GTEST_SKIP() << "as of a rig with a dominant one: one of all draws (./run test --all-draws)";
     const Outcome without = first_case(CaseKind::messy_none);
     EXPECT_EQ(without.label.effects.size(), 8u);
     expect_same_label(without.label, first_crowded_case(CaseKind::messy_none).label);
     EXPECT_FALSE(without.score.dominant_place || without.score.removed_of_true);
-    for (const Outcome* outcome : {&three, &messy, &without})
-        for (const NamedEffect& named : outcome->score.named) {
-            const bool is_drawn = std::ranges::any_of(outcome->label.effects, [&](const TrueEffect& effect) {
-                return effect.class_name == named.class_name;
-            });
-            EXPECT_TRUE(named.is_true || !is_drawn) << line_of(*outcome);
-        }
+    EXPECT_EQ(first_case(CaseKind::three).label.effects.size(), 3u);
 }
 
 /// A case that was once diagnosed wrongly, and the result that is required of it.
