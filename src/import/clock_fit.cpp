@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/clock_fit.h"
 
+#include "src/import/lag_scan.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
 
 namespace fidservo::imports {
 namespace {
@@ -46,80 +48,6 @@ std::vector<double> on_grid(const MotionTrack& track, double step_s) {
     return values;
 }
 
-/// sums[k]: of the first k values and of their squares.
-struct RunningSums {
-    explicit RunningSums(const std::vector<double>& values) : sum(1, 0.0), square(1, 0.0) {
-        for (const double value : values) {
-            sum.push_back(sum.back() + value);
-            square.push_back(square.back() + value * value);
-        }
-    }
-    std::vector<double> sum, square;
-};
-
-/// Of y[i] with x[i + lag], summed, for every lag: element (lag + size) % size.
-std::vector<double> products_by_lag(const std::vector<double>& y, const std::vector<double>& x) {
-    const int size = cv::getOptimalDFTSize(static_cast<int>(x.size() + y.size()));
-    const auto spectrum = [&](const std::vector<double>& values) {
-        cv::Mat padded = cv::Mat::zeros(1, size, CV_64F), out;
-        std::ranges::copy(values, padded.ptr<double>());
-        cv::dft(padded, out);
-        return out;
-    };
-    cv::Mat product, back;
-    cv::mulSpectrums(spectrum(x), spectrum(y), product, 0, true);
-    cv::dft(product, back, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);
-    return {back.ptr<double>(), back.ptr<double>() + size};
-}
-
-/// Pearson's correlation at each lag that leaves enough in common; 0 where one of the two does not move.
-struct LagScan {
-    std::ptrdiff_t first = 0;  ///< lag of correlation[0]
-    std::vector<double> correlation;
-};
-
-LagScan scan_lags(const std::vector<double>& y, const std::vector<double>& x) {
-    const auto nx = static_cast<std::ptrdiff_t>(x.size()), ny = static_cast<std::ptrdiff_t>(y.size());
-    const std::ptrdiff_t least = std::min(nx, ny) / 2;
-    const std::vector<double> products = products_by_lag(y, x);
-    const RunningSums of_x(x), of_y(y);
-    LagScan scan{least - ny, {}};
-    for (std::ptrdiff_t lag = scan.first; lag <= nx - least; ++lag) {
-        const auto x0 = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, lag));
-        const auto x1 = static_cast<std::size_t>(std::min(nx, lag + ny));
-        const auto y0 = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, -lag)), y1 = y0 + (x1 - x0);
-        const double n = static_cast<double>(x1 - x0);
-        const double sx = of_x.sum[x1] - of_x.sum[x0], sy = of_y.sum[y1] - of_y.sum[y0];
-        const double xx = of_x.square[x1] - of_x.square[x0] - sx * sx / n;
-        const double yy = of_y.square[y1] - of_y.square[y0] - sy * sy / n;
-        const auto at = static_cast<std::size_t>(lag < 0 ? lag + std::ssize(products) : lag);
-        constexpr double moves = 1e-9;  // of the whole signal's energy
-        const bool both_move = xx > moves * of_x.square.back() && yy > moves * of_y.square.back();
-        scan.correlation.push_back(both_move ? (products[at] - sx * sy / n) / std::sqrt(xx * yy) : 0.0);
-    }
-    return scan;
-}
-
-/// Where |r| is largest, and where it is largest outside of the hill that the first stands on.
-struct Peaks {
-    std::size_t best = 0;
-    std::optional<std::size_t> second;
-};
-
-Peaks peaks_of(const std::vector<double>& correlation) {
-    const auto size_at = [&](std::size_t k) { return std::abs(correlation[k]); };
-    Peaks peaks;
-    for (std::size_t k = 1; k < correlation.size(); ++k)
-        if (size_at(k) > size_at(peaks.best)) peaks.best = k;
-    const double foot = 0.5 * size_at(peaks.best);
-    std::size_t low = peaks.best, high = peaks.best;
-    while (low > 0 && size_at(low - 1) > foot) --low;
-    while (high + 1 < correlation.size() && size_at(high + 1) > foot) ++high;
-    for (std::size_t k = 0; k < correlation.size(); ++k)
-        if ((k < low || k > high) && (!peaks.second || size_at(k) > size_at(*peaks.second))) peaks.second = k;
-    return peaks;
-}
-
 /// The fit's unknowns: shift in the middle of the track, rate, scale and offset of the values.
 struct Alignment {
     double middle_s = 0.0;
@@ -127,32 +55,79 @@ struct Alignment {
     Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
     double correlation = 0.0;
     double independent = 0.0;  ///< samples, after what neighbours share
+    /// What the slopes tell of the rate, in standard deviations of what noise would tell.
+    double rate_is_shown = 0.0;
 };
 
+/// Half widths of the differences from which slopes are computed, s.
+struct SlopeSteps {
+    double reference_s = 0.0, track_s = 0.0;
+};
+
+double slope_at(const MotionTrack& track, double at, double half_step_s) {
+    return (value_at(track, at + half_step_s) - value_at(track, at - half_step_s)) / (2.0 * half_step_s);
+}
+
+/// What slopes tell of the rate beside the shift: R = sum s (t - t0)^2 with s the product of the slopes in
+/// both signals and t0 their mean time. Of noise, which is independent in the two, R scatters about 0.
+class RateShown {
+  public:
+    void add(double slopes, double from_middle) {
+        double power = 1.0;
+        for (std::size_t k = 0; k < squares_.size(); ++k, power *= from_middle) {
+            if (k < sums_.size()) sums_[k] += slopes * power;
+            squares_[k] += slopes * slopes * power;
+        }
+    }
+    /// R over its standard deviation for noise.
+    double in_stds() const {
+        if (!(sums_[0] > 0.0)) return 0.0;
+        const double t0 = sums_[1] / sums_[0];
+        const auto& q = squares_;
+        const double variance = q[4] - 4.0 * t0 * q[3] + 6.0 * t0 * t0 * q[2] - 4.0 * std::pow(t0, 3) * q[1] +
+                                std::pow(t0, 4) * q[0];
+        return variance > 0.0 ? (sums_[2] - t0 * sums_[1]) / std::sqrt(variance) : 0.0;
+    }
+
+  private:
+    std::array<double, 3> sums_{};     ///< of s t^k
+    std::array<double, 5> squares_{};  ///< of s^2 t^k
+};
+
+/// Of the residuals r = x(s(t)) - a y(t) - b with their derivatives g, the equations sum h g' move = sum h r.
+/// The instruments h have the track's slopes where g has the reference's: noise, which is independent in the
+/// two, would make slopes steeper than they are, and the clock better known (instrumental variables; Fuller,
+/// Measurement Error Models, 1987, 1.4).
 struct Equations {
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Matrix4d cross = Eigen::Matrix4d::Zero();        ///< sum h g'
+    Eigen::Matrix4d instruments = Eigen::Matrix4d::Zero();  ///< sum h h'
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     std::vector<double> residuals;
     double reference_energy = 0.0;
+    RateShown rate_shown;
 };
 
 Equations equations_at(const Alignment& now, const MotionTrack& track, const MotionTrack& reference,
-                       double half_step_s) {
+                       const SlopeSteps& steps) {
     Equations all;
-    const double low = reference.time_s.front() + half_step_s, high = reference.time_s.back() - half_step_s;
+    const double low = reference.time_s.front() + steps.reference_s,
+                 high = reference.time_s.back() - steps.reference_s;
     double sum = 0.0, squares = 0.0;
     for (std::size_t k = 0; k < track.time_s.size(); ++k) {
         const double from_middle = track.time_s[k] - now.middle_s;
         const double at = track.time_s[k] + now.unknowns[0] + now.unknowns[1] * from_middle;
         if (at < low || at > high) continue;
         const double x = value_at(reference, at);
-        const double slope = (value_at(reference, at + half_step_s) - value_at(reference, at - half_step_s)) /
-                             (2.0 * half_step_s);
+        const double slope = slope_at(reference, at, steps.reference_s);
+        const double own_slope = slope_at(track, track.time_s[k], steps.track_s);
         const Eigen::Vector4d gradient(slope, slope * from_middle, -track.value[k], -1.0);
+        const Eigen::Vector4d instrument(own_slope, own_slope * from_middle, -track.value[k], -1.0);
         const double residual = x - now.unknowns[2] * track.value[k] - now.unknowns[3];
-        all.normal += gradient * gradient.transpose();
-        all.right -= gradient * residual;
+        all.cross += instrument * gradient.transpose();
+        all.instruments += instrument * instrument.transpose();
+        all.right -= instrument * residual;
         all.residuals.push_back(residual);
+        all.rate_shown.add(std::copysign(1.0, now.unknowns[2]) * own_slope * slope, from_middle);
         sum += x;
         squares += x * x;
     }
@@ -173,28 +148,52 @@ void judge(Alignment& alignment, const Equations& at_end) {
     const double count = static_cast<double>(at_end.residuals.size());
     alignment.independent = count / inflation;
     const double variance = square / std::max(1.0, count - 4.0) * inflation;
-    alignment.covariance = variance * at_end.normal.ldlt().solve(Eigen::Matrix4d::Identity());
+    const Eigen::Matrix4d inverse = at_end.cross.fullPivLu().inverse();
+    alignment.covariance = variance * inverse * at_end.instruments * inverse.transpose();
     const double explained = std::max(0.0, 1.0 - square / std::max(at_end.reference_energy, 1e-300));
     alignment.correlation = std::copysign(std::sqrt(explained), alignment.unknowns[2]);
+    alignment.rate_is_shown = at_end.rate_shown.in_stds();
 }
 
-Alignment align(const MotionTrack& track, const MotionTrack& reference, double shift_s, double step_s) {
+Alignment align(const MotionTrack& track, const MotionTrack& reference, double shift_s,
+                const SlopeSteps& steps) {
     Alignment now;
     now.middle_s = 0.5 * (track.time_s.front() + track.time_s.back());
     now.unknowns[0] = shift_s;
     constexpr int most_rounds = 50;
     for (int round = 0; round < most_rounds; ++round) {
-        const Equations equations = equations_at(now, track, reference, step_s);
+        const Equations equations = equations_at(now, track, reference, steps);
         if (equations.residuals.size() < fewest_samples) break;
         // Scale and offset follow from the first round on; the shift moves by a step at most.
-        Eigen::Vector4d move = equations.normal.ldlt().solve(equations.right);
+        Eigen::Vector4d move = equations.cross.fullPivLu().solve(equations.right);
         if (round == 0) move.head<2>().setZero();
-        move[0] = std::clamp(move[0], -step_s, step_s);
+        move[0] = std::clamp(move[0], -steps.reference_s, steps.reference_s);
         now.unknowns += move;
-        if (round > 1 && std::abs(move[0]) < 1e-6 * step_s) break;
+        if (round > 1 && std::abs(move[0]) < 1e-6 * steps.reference_s) break;
     }
-    judge(now, equations_at(now, track, reference, step_s));
+    judge(now, equations_at(now, track, reference, steps));
     return now;
+}
+
+/// Standard deviation of the shift, s, at a time of the track.
+double shift_std_s(const Alignment& alignment, double time_s) {
+    const double from_middle = time_s - alignment.middle_s;
+    const Eigen::Matrix4d& covariance = alignment.covariance;
+    return std::sqrt(std::max(0.0, covariance(0, 0) + 2.0 * from_middle * covariance(0, 1) +
+                                       from_middle * from_middle * covariance(1, 1)));
+}
+
+/// The alignment with the widest differences of the track's slopes that make the shift better known, up to
+/// half of the lag over which the motion changes.
+Alignment with_best_slopes(const MotionTrack& track, const MotionTrack& reference, Alignment best,
+                           double step_s, double change_s) {
+    const auto std_s = [](const Alignment& alignment) { return shift_std_s(alignment, alignment.middle_s); };
+    for (double wider_s = 2.0 * step_s; wider_s <= 0.5 * change_s; wider_s *= 2.0) {
+        Alignment wider = align(track, reference, best.unknowns[0], {step_s, wider_s});
+        if (std_s(wider) >= std_s(best)) break;
+        best = std::move(wider);
+    }
+    return best;
 }
 
 /// The share of the reference's energy that a fit leaves; never less than what lines between samples do.
@@ -203,19 +202,64 @@ double left_by(const Alignment& alignment) {
     return std::max(of_lines, 1.0 - alignment.correlation * alignment.correlation);
 }
 
-std::string why_no_common_motion(const Alignment& alignment, const std::optional<Alignment>& other,
-                                 std::size_t lags) {
-    const double n = std::max(4.0, alignment.independent);
-    // Fisher's z of one look, at the level of all looks together: exp(-z^2 / 2) < level / lags.
-    const double z = std::atanh(std::sqrt(1.0 - left_by(alignment))) * std::sqrt(n - 3.0);
-    if (0.5 * z * z < std::log(static_cast<double>(lags) / chance_of_error))
-        return fmt::format("the two see no common motion: their largest correlation is {:.2f}",
-                           alignment.correlation);
-    if (other && 0.5 * n * std::log(left_by(*other) / left_by(alignment)) < std::log(1.0 / chance_of_error))
-        return fmt::format(
-            "the motion repeats: correlation {:.4f}, and {:.4f} with another offset; give offset_s",
-            std::abs(alignment.correlation), std::abs(other->correlation));
-    return {};
+/// Fisher's z = artanh |r|, whose standard deviation is 1 / sqrt(n - 3) with n independent samples.
+struct FisherZ {
+    double z = 0.0, variance = 0.0;
+};
+
+FisherZ fisher_z(const Alignment& alignment) {
+    return {std::atanh(std::sqrt(1.0 - left_by(alignment))),
+            1.0 / (std::max(4.0, alignment.independent) - 3.0)};
+}
+
+/// @param lags  looked at
+std::string why_no_common_motion(const Alignment& alignment, std::size_t lags) {
+    const auto [z, variance] = fisher_z(alignment);
+    // Of one look, at the level of all looks together: exp(-z^2 / 2) < level / lags.
+    if (0.5 * z * z / variance >= std::log(static_cast<double>(lags) / chance_of_error)) return {};
+    return fmt::format("the two see no common motion: their largest correlation is {:.2f}",
+                       alignment.correlation);
+}
+
+std::string why_ambiguous(const Alignment& alignment, const Alignment& other) {
+    constexpr double one_in_a_hundred = 2.326;  // of a normal distribution, to one side
+    const auto [z, variance] = fisher_z(alignment);
+    const auto [other_z, other_variance] = fisher_z(other);
+    if (z - other_z > one_in_a_hundred * std::sqrt(variance + other_variance)) return {};
+    return fmt::format(
+        "the motion repeats: correlation {:.4f}, and {:.4f} with an offset that differs by {:+.3g} s; give "
+        "offset_s",
+        std::abs(alignment.correlation), std::abs(other.correlation),
+        other.unknowns[0] - alignment.unknowns[0]);
+}
+
+/// @param change_s  lags over which the correlation halves: beyond them, slopes say nothing
+std::string why_undetermined(const Alignment& alignment, const MotionTrack& track, double change_s) {
+    const double worst_s =
+        std::max(shift_std_s(alignment, track.time_s.front()), shift_std_s(alignment, track.time_s.back()));
+    constexpr double is_shown = 4.0;
+    if (alignment.rate_is_shown < is_shown)
+        return "the motion does not determine the clock's rate: it is too short, or drowns in noise; give "
+               "offset_s";
+    if (worst_s < change_s) return {};
+    return fmt::format(
+        "the motion does not determine the clock: the offset's standard deviation is {:.3g} s, which is not "
+        "below the {:.3g} s over which the correlation halves; give offset_s",
+        worst_s, change_s);
+}
+
+/// The highest maxima but the first, of those that stand out from the scatter of a correlation of as many
+/// samples as a lag has in common.
+std::vector<LagPeak> rivals(const LagScan& scan, const std::vector<LagPeak>& peaks) {
+    constexpr std::size_t most_rivals = 4;
+    constexpr double stands_out = 3.0;  // standard errors
+    const double scatter = 1.0 / std::sqrt(static_cast<double>(scan.common));
+    std::vector<LagPeak> chosen;
+    for (std::size_t k = 1; k < peaks.size() && chosen.size() < most_rivals; ++k) {
+        const double r = scan.correlation[peaks[k].at];
+        if (peaks[k].prominence > stands_out * (1.0 - r * r) * scatter) chosen.push_back(peaks[k]);
+    }
+    return chosen;
 }
 
 bool is_at_rest(const MotionTrack& track) {
@@ -238,24 +282,31 @@ tl::expected<ClockFit, std::string> fit_clock(const MotionTrack& track, const Mo
     if (y.size() < fewest_samples || x.size() < fewest_samples)
         return tl::make_unexpected(std::string("one of the two is too short"));
     const LagScan scan = scan_lags(y, x);
-    const Peaks peaks = peaks_of(scan.correlation);
+    const std::vector<LagPeak> peaks = peaks_of(scan);
     const double slope_step_s = std::max(median_step(track.time_s), median_step(reference.time_s));
-    const auto align_at = [&](std::size_t peak) {
-        const double lag_s = static_cast<double>(scan.first + static_cast<std::ptrdiff_t>(peak)) * step_s;
-        return align(track, reference, reference.time_s.front() + lag_s - track.time_s.front(), slope_step_s);
+    const auto align_at = [&](const LagPeak& peak) {
+        const double lag_s = static_cast<double>(scan.first + static_cast<std::ptrdiff_t>(peak.at)) * step_s;
+        return align(track, reference, reference.time_s.front() + lag_s - track.time_s.front(),
+                     {slope_step_s, slope_step_s});
     };
-    const Alignment alignment = align_at(peaks.best);
-    const auto other = peaks.second ? std::optional(align_at(*peaks.second)) : std::nullopt;
-    if (const std::string why = why_no_common_motion(alignment, other, scan.correlation.size()); !why.empty())
+    const double change_s = 0.5 * static_cast<double>(width_at_half_height(scan, peaks.front().at)) * step_s;
+    const Alignment alignment =
+        with_best_slopes(track, reference, align_at(peaks.front()), slope_step_s, change_s);
+    if (const std::string why = why_no_common_motion(alignment, scan.correlation.size()); !why.empty())
         return tl::make_unexpected(why);
-    const double back_s = track.time_s.front() - alignment.middle_s;
-    const Eigen::Matrix4d& covariance = alignment.covariance;
-    const double offset_variance =
-        covariance(0, 0) + 2.0 * back_s * covariance(0, 1) + back_s * back_s * covariance(1, 1);
-    return ClockFit{.offset_s = alignment.unknowns[0] + back_s * alignment.unknowns[1],
-                    .offset_std_s = std::sqrt(std::max(0.0, offset_variance)),
+    for (const LagPeak& rival : rivals(scan, peaks)) {
+        const Alignment other = align_at(rival);
+        if (std::abs(other.unknowns[0] - alignment.unknowns[0]) < slope_step_s) continue;
+        if (const std::string why = why_ambiguous(alignment, other); !why.empty())
+            return tl::make_unexpected(why);
+    }
+    if (const std::string why = why_undetermined(alignment, track, change_s); !why.empty())
+        return tl::make_unexpected(why);
+    return ClockFit{.offset_s = alignment.unknowns[0] +
+                                (track.time_s.front() - alignment.middle_s) * alignment.unknowns[1],
+                    .offset_std_s = shift_std_s(alignment, track.time_s.front()),
                     .rate_ppm = 1e6 * alignment.unknowns[1],
-                    .rate_std_ppm = 1e6 * std::sqrt(std::max(0.0, covariance(1, 1))),
+                    .rate_std_ppm = 1e6 * std::sqrt(std::max(0.0, alignment.covariance(1, 1))),
                     .correlation = alignment.correlation};
 }
 

@@ -28,8 +28,9 @@ struct ClockFit {
 ///
 /// Valid for rates by which the tracks drift apart by less than their motion's time scale. The error says
 /// why there is no answer: too few samples, no motion, no common motion (the correlation is not above what
-/// independent signals of as many independent samples reach once in 100 looks over all lags), or another lag
-/// that is not 100 times less likely, as in a periodic motion.
+/// independent signals of as many independent samples reach once in 100 looks over all lags), another lag
+/// whose correlation is not significantly lower (Fisher's z, one in 100), as in a periodic motion, or an
+/// offset that is less certain than the motion's time scale.
 tl::expected<ClockFit, std::string> fit_clock(const MotionTrack& track, const MotionTrack& reference);
 
 }  // namespace fidservo::imports

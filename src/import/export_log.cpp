@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
 namespace fidservo::imports {
 namespace {
@@ -156,7 +157,9 @@ std::vector<std::string> write_csv(const fs::path& file, const Recording& record
     std::string text = log.texts.at(map_text);
     if (!recording.plate.empty()) {
         write(plate, log.texts.at(plate_text));
-        text += fmt::format("plate: {}\n", plate.filename().string());
+        YAML::Emitter name;
+        name << YAML::DoubleQuoted << plate.filename().string();
+        text += fmt::format("plate: {}\n", name.c_str());
     }
     write(map, text);
     return written;
@@ -179,9 +182,13 @@ std::string csv_map(std::string map, const fs::path& file) {
     for (const std::string_view title : covariance_titles) replace_detection(title);
     replace_detection("tag_id");
     replace_detection(refined_title);
-    replace_all("signal: stage.time_ns,", fmt::format("signal: '{}:timestamp',", file.stem().string()));
-    replace_all("signal: detections.time_ns,",
-                fmt::format("signal: '{}:timestamp',", beside(file, "-detections.csv").stem().string()));
+    const auto times_of = [](const fs::path& table) {
+        YAML::Emitter name;
+        name << YAML::DoubleQuoted << table.stem().string() + ":timestamp";
+        return fmt::format("signal: {},", name.c_str());
+    };
+    replace_all("signal: stage.time_ns,", times_of(file));
+    replace_all("signal: detections.time_ns,", times_of(beside(file, "-detections.csv")));
     return map;
 }
 

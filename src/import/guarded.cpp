@@ -2,13 +2,16 @@
 #include "src/import/guarded.h"
 
 #include "core/input_error.h"
+#include "src/import/interrupted.h"
 #include "src/import/log_bytes.h"
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <thread>
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -110,6 +113,18 @@ class Descriptor {
     int number_;
 };
 
+/// Waits for a process, and ends it where the user interrupts.
+int status_at_end(pid_t child) {
+    constexpr auto pause = std::chrono::milliseconds(5);
+    int status = 0;
+    for (pid_t ended = 0; ended != child; ended = ::waitpid(child, &status, WNOHANG)) {
+        if (ended < 0 && errno != EINTR) break;
+        if (interrupt_requested()) ::kill(child, SIGKILL);
+        std::this_thread::sleep_for(pause);
+    }
+    return status;
+}
+
 }  // namespace
 
 Log read_guarded(const std::filesystem::path& file, LogReader reader, const ReadingLimits& limits) {
@@ -119,8 +134,8 @@ Log read_guarded(const std::filesystem::path& file, LogReader reader, const Read
     if (child < 0)
         throw RunFault(
             fmt::format("{}: no process can be made to read it: {}", file.string(), std::strerror(errno)));
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+    const int status = status_at_end(child);
+    end_if_interrupted();
     const auto fail = [&](std::string_view why) {
         throw InputError(fmt::format("{}: {}", file.string(), why));
     };

@@ -5,7 +5,7 @@
 #include "src/files/disk/durable_file.h"
 #include "src/files/recording/row_format.h"
 #include "src/files/rig/plate_file.h"
-#include "src/process/interrupt.h"
+#include "src/import/interrupted.h"
 #include "vision/images/image_file.h"
 
 #include <string_view>
@@ -30,8 +30,7 @@ void write_frames(const fs::path& folder, const Assembled& made) {
     make_folder(folder / "data");
     std::string index = frames_header();
     for (std::size_t k = 0; k < made.frame_times_ns.size(); ++k) {
-        if (interrupt_requested())
-            throw InputError(fmt::format("interrupted ({}): nothing was written", interrupt_name()));
+        end_if_interrupted();
         const auto frame = made.camera->frame(k);
         if (!frame)
             throw InputError(fmt::format("{}: frame {}: {}", made.camera->name, k + 1, frame.error()));
@@ -55,6 +54,7 @@ void write_files(const fs::path& folder, const Assembled& made) {
     write_or_throw(folder / "recording.yaml", description_yaml(recording, made.origin));
     if (!recording.plate.empty()) write_or_throw(folder / "plate.yaml", plate_yaml(recording.plate));
     if (!recording.rows.empty()) {
+        end_if_interrupted();
         make_folder(folder / "stage0");
         write_or_throw(folder / "stage0/data.csv", stage_text(recording, made.decimals));
     }

@@ -13,6 +13,13 @@ enum class Between { line, hold };
 /// The median interval of increasing times, ns; 0 for fewer than two.
 TimeNs median_interval(std::span<const TimeNs> time_ns);
 
+/// Whether 99 % of the intervals are a whole number of ticks, within 1 % of a tick.
+bool is_steady(std::span<const TimeNs> time_ns, TimeNs tick_ns);
+
+/// The tick that a clock of a usual rate has, if one is within a tenth of a per cent of an interval: a whole
+/// number of hertz, or a number of seconds with three digits, whichever is nearer; otherwise the interval, s.
+double nearby_tick_s(TimeNs interval_ns);
+
 /// An interval longer than this many median intervals is a gap.
 inline constexpr double gap_in_intervals = 1.5;
 

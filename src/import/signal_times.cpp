@@ -37,17 +37,42 @@ MotionTrack track_of(const std::vector<TimeNs>& times, const std::vector<double>
 SignalSource::SignalSource(const std::vector<Log>& logs, const ImportMap& map) : logs_(&logs), map_(&map) {
     for (const ClockChoice& clock : map.clocks) shifts_.push_back({clock.offset_s, clock.rate_ppm, {}});
     for (std::size_t k = 0; k < map.clocks.size(); ++k)
-        if (map.clocks[k].fit) fit(k);
+        if (map.clocks[k].fit)
+            fit(k);
+        else if (map.clocks[k].rate_ppm != 0.0)
+            find_first_time(k);
+}
+
+const ClockChoice* SignalSource::clock_of(const std::string& name) const {
+    return name.empty() && !map_->clocks.empty() ? &map_->clocks.front() : map_->clock(name);
+}
+
+void SignalSource::find_first_time(std::size_t k) {
+    const ClockChoice& clock = map_->clocks[k];
+    std::optional<TimeNs>& first_ns = shifts_[k].first_ns;
+    const auto consider = [&](const std::vector<TimeNs>& times) {
+        if (!times.empty()) first_ns = std::min(first_ns.value_or(times.front()), times.front());
+    };
+    for (const auto* choices : {&map_->columns, &map_->detections})
+        for (const auto& [name, choice] : *choices)
+            if (clock_of(choice.clock) == &clock)
+                consider(raw_times(find(choice.signal, *choice.where), &clock, *choice.where));
+    if (!map_->camera || clock_of(map_->camera->clock) != &clock) return;
+    for (const Log& log : *logs_)
+        for (const LoggedCamera& camera : log.cameras)
+            if (camera.name == map_->camera->images) consider(camera.times_ns);
 }
 
 SignalSource::Found SignalSource::find(const std::string& name, const YamlValue& where) const {
     std::vector<Found> found;
     std::vector<std::string> names;
     for (const Log& log : *logs_) {
-        const std::string file = log.file.filename().string(), stem = log.file.stem().string();
+        const std::string path = log.file.string(), file = log.file.filename().string(),
+                          stem = log.file.stem().string();
         for (const LoggedSignal& signal : log.signals) {
             names.push_back(signal.name);
-            if (signal.name == name || file + ":" + signal.name == name || stem + ":" + signal.name == name)
+            if (signal.name == name || path + ":" + signal.name == name || file + ":" + signal.name == name ||
+                stem + ":" + signal.name == name)
                 found.push_back({&log, &signal});
         }
     }
@@ -56,10 +81,14 @@ SignalSource::Found SignalSource::find(const std::string& name, const YamlValue&
         where.fail(fmt::format("{}: there is no such signal{}; fidservo import FILE without --map lists them",
                                name, meant.empty() ? "" : fmt::format(", did you mean {}?", meant)));
     }
-    if (found.size() > 1)
-        where.fail(fmt::format("{0}: is in {1} and in {2}; say which, as {1}:{0}", name,
-                               found[0].log->file.filename().string(),
-                               found[1].log->file.filename().string()));
+    if (found.size() > 1) {
+        const std::filesystem::path &one = found[0].log->file, &other = found[1].log->file;
+        const bool tells = one.filename() != other.filename();
+        where.fail(fmt::format("{}: is in {} and in {}; say which, as {}:{}", name,
+                               (tells ? one.filename() : one).string(),
+                               (tells ? other.filename() : other).string(),
+                               (tells ? one.filename() : one).string(), found[0].signal->name));
+    }
     if (!found.front().signal->fault.empty())
         throw InputError(
             fmt::format("{}: {}: {}", found.front().log->file.string(), name, found.front().signal->fault));
@@ -70,6 +99,10 @@ std::vector<TimeNs> SignalSource::raw_times(const Found& found, const ClockChoic
                                             const YamlValue& where) const {
     const LoggedSignal& signal = *found.signal;
     if (clock != nullptr && clock->rate_hz) {
+        if (!signal.times.empty())
+            clock->times.where->fail(fmt::format(
+                "rate_hz: {}: {} of {} has times of its own, {}: rate_hz is for signals that have none",
+                *clock->rate_hz, signal.name, found.log->file.string(), signal.times));
         std::vector<TimeNs> times(signal.values.size());
         for (std::size_t k = 0; k < times.size(); ++k)
             times[k] = nanoseconds(static_cast<double>(k) / *clock->rate_hz);
@@ -91,15 +124,13 @@ std::vector<TimeNs> SignalSource::raw_times(const Found& found, const ClockChoic
 }
 
 std::vector<TimeNs> SignalSource::on_recording_clock(std::vector<TimeNs> times, const std::string& name) {
-    const ClockChoice* clock =
-        name.empty() && !map_->clocks.empty() ? &map_->clocks.front() : map_->clock(name);
+    const ClockChoice* clock = clock_of(name);
     if (clock == nullptr || times.empty()) return times;
     ClockShift& shift = shifts_[static_cast<std::size_t>(clock - map_->clocks.data())];
-    if (!shift.first_ns) shift.first_ns = times.front();
     const TimeNs offset_ns = nanoseconds(shift.offset_s);
     for (TimeNs& time : times) {
         const auto drift_ns =
-            std::llround(static_cast<double>(time - *shift.first_ns) * shift.rate_ppm * 1e-6);
+            std::llround(static_cast<double>(time - shift.first_ns.value_or(time)) * shift.rate_ppm * 1e-6);
         time += offset_ns + drift_ns;
     }
     return times;
@@ -109,8 +140,7 @@ TimedSignal SignalSource::timed(const SignalChoice& choice, std::string_view tar
     const Found found = find(choice.signal, *choice.where);
     if (found.signal->values.empty())
         throw InputError(fmt::format("{}: {}: is empty", found.log->file.string(), choice.signal));
-    const ClockChoice* clock = choice.clock.empty() ? (map_->clocks.empty() ? nullptr : map_->clocks.data())
-                                                    : map_->clock(choice.clock);
+    const ClockChoice* clock = clock_of(choice.clock);
     std::vector<TimeNs> times = raw_times(found, clock, *choice.where);
     demand_rising(times, *found.log, choice.signal, may_repeat);
     return {found.signal, found.log, on_recording_clock(std::move(times), choice.clock),

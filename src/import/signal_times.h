@@ -22,7 +22,7 @@ struct TimedSignal {
 /// The transformation of a clock's times: t + offset + rate 1e-6 (t - first).
 struct ClockShift {
     double offset_s = 0.0, rate_ppm = 0.0;
-    std::optional<TimeNs> first_ns;  ///< time of the clock's first signal that was used
+    std::optional<TimeNs> first_ns;  ///< earliest time of what the map takes from the clock
 };
 
 /// The logs of one run with the map.
@@ -46,7 +46,10 @@ class SignalSource {
     };
     Found find(const std::string& name, const YamlValue& where) const;
     std::vector<TimeNs> raw_times(const Found& found, const ClockChoice* clock, const YamlValue& where) const;
+    /// The map's clock for a choice; nullptr: its own times, or none.
+    const ClockChoice* clock_of(const std::string& name) const;
     void fit(std::size_t clock);
+    void find_first_time(std::size_t clock);
 
     const std::vector<Log>* logs_;
     const ImportMap* map_;

@@ -5,6 +5,7 @@
 #include "src/files/table/clock_time.h"
 #include "src/files/table/plain_table.h"
 #include "src/identify/column_units.h"
+#include "src/import/interrupted.h"
 
 #include <algorithm>
 #include <charconv>
@@ -132,6 +133,7 @@ Log read_table_log(const std::filesystem::path& file, const TableOptions& option
     make_names_unique(columns);
     std::uint64_t values = 0;
     table.for_each_row([&](const TableRow& row) {
+        end_if_interrupted();
         values += columns.size();
         if (values > most_values)
             throw InputError(fmt::format("{}: more than {} numbers: are not read from one file",

@@ -3,6 +3,7 @@
 #include "core/input_error.h"
 #include "src/import/guarded.h"
 #include "src/import/read_log.h"
+#include "src/process/interrupt.h"
 #include "tests/import/made_files.h"
 #include "tests/src/message_of.h"
 #include "tests/src/run_program.h"
@@ -11,6 +12,8 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <random>
 
@@ -167,6 +170,19 @@ TEST(GuardedReading, WhatHappensInIt_IsOneLine) {
     EXPECT_THAT(message_of([] { read_guarded("bad.mat", take_all_memory); }),
                 HasSubstr("takes more memory than the 8 GiB"));
 #endif
+}
+
+TEST(InterruptedReading, OfATable_EndsWithOneLine) {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("log.csv", "t [s],x [mm]\n0,1\n1,2\n");
+    EXPECT_EXIT(
+        {
+            request_interrupt();
+            const std::string message = message_of([&] { read_log(file, {}); });
+            std::fputs(message.c_str(), stderr);
+            std::_Exit(2);
+        },
+        ::testing::ExitedWithCode(2), "^interrupted \\(SIGINT\\): nothing was written$");
 }
 
 }  // namespace

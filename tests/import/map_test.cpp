@@ -2,6 +2,7 @@
 // What a map may say, and what a log and a map have to agree on.
 #include "src/import/assemble.h"
 #include "src/import/import_map.h"
+#include "src/import/resample.h"
 #include "tests/import/made_files.h"
 #include "tests/src/message_of.h"
 #include "tests/src/temporary_folder.h"
@@ -126,6 +127,77 @@ TEST(Resampling, RowsInAGap_AreLeftOutAndCounted) {
     EXPECT_THAT(made.notes.back(), HasSubstr("27 of 251 rows left out"));
 }
 
+const std::string columns_of_small_log = "time: t\ncolumns: { position: x, macro_command: 'u [V]' }\n";
+
+TEST(Resampling, ReadingsWithoutANumber_AreLeftOutAndCounted) {
+    Log log = small_log();
+    for (const std::size_t k : {10u, 50u, 51u}) log.signals[1].values[k] = std::nan("");
+    const Assembled made = assembled(columns_of_small_log, {log});
+    EXPECT_EQ(made.recording.rows.size(), 98u);
+    for (const StageRow& row : made.recording.rows)
+        EXPECT_EQ(row.macro_command_V, std::fmod(std::round(seconds(row.time_ns) / 0.01), 10.0));
+    EXPECT_THAT(made.notes[2], HasSubstr("98 samples at 100 Hz (3 more have no number), as they are"));
+    EXPECT_THAT(made.notes[3], HasSubstr("3 of 101 rows left out"));
+}
+
+TEST(Resampling, ReadingOfASlowerRate_IsDrawnBetweenItsSamples) {
+    Log log = small_log();
+    for (std::size_t k = 0; k < 101; ++k)
+        if (k % 10 != 0) log.signals[1].values[k] = std::nan("");
+    const Assembled made = assembled(columns_of_small_log, {log});
+    ASSERT_EQ(made.recording.rows.size(), 101u);
+    EXPECT_NEAR(made.recording.rows[7].position_mm, 1e3 * 0.03 * 7, 1e-6);
+    EXPECT_THAT(made.notes[2],
+                HasSubstr("11 samples at 10 Hz (90 more have no number), resampled to 100 Hz"));
+}
+
+TEST(Resampling, CommandThatIsLoggedWhereItChanges_IsInForceUntilTheEnd) {
+    Log log = small_log();
+    log.signals.push_back({.name = "at", .unit = "s", .values = {0.0, 0.3}});
+    log.signals.push_back({.name = "v", .unit = "V", .values = {1.5, -2.0}, .times = "at"});
+    log.signals[1].times = "t";
+    const Assembled made = assembled("columns: { position: x, macro_command: v }\n", {log});
+    EXPECT_DOUBLE_EQ(made.recording.tick_s, 0.01);
+    ASSERT_EQ(made.recording.rows.size(), 101u);
+    EXPECT_EQ(made.recording.rows[29].macro_command_V, 1.5);
+    EXPECT_EQ(made.recording.rows[100].macro_command_V, -2.0);
+}
+
+TEST(Resampling, TimesThatAreNotSteady_AreResampled) {
+    Log log = small_log();
+    for (std::size_t k = 1; k < 101; ++k)
+        log.signals[0].values[k] = log.signals[0].values[k - 1] + (k % 3 == 0 ? 0.017 : 0.01);
+    const Assembled made = assembled(columns_of_small_log, {log});
+    EXPECT_THAT(made.notes.back(), HasSubstr("rows left out"));
+    for (std::size_t k = 1; k < made.recording.rows.size(); ++k)
+        EXPECT_EQ((made.recording.rows[k].time_ns - made.recording.rows[k - 1].time_ns) % 10'000'000, 0);
+}
+
+TEST(Resampling, WhatAnotherSignalDoesNotCover_IsSaid) {
+    Log log = small_log();
+    LoggedSignal s{.name = "s", .unit = "s"}, v{.name = "v", .unit = "V", .times = "s"};
+    for (int k = 0; k < 51; ++k) {
+        s.values.push_back(0.01 * k);
+        v.values.push_back(1.0);
+    }
+    log.signals[1].times = "t";
+    log.signals.push_back(s);
+    log.signals.push_back(v);
+    const Assembled made = assembled("columns: { position: x, macro_command: v }\n", {log});
+    EXPECT_EQ(made.recording.rows.size(), 51u);
+    EXPECT_THAT(made.notes.back(),
+                HasSubstr("0.49 s of it left out, in which another signal has no samples"));
+}
+
+TEST(NearbyTick, OfARateOrOfThreeDigits_IsTheNearerOne) {
+    EXPECT_DOUBLE_EQ(nearby_tick_s(976'562), 1.0 / 1024.0);
+    EXPECT_DOUBLE_EQ(nearby_tick_s(3'333'333), 1.0 / 300.0);
+    EXPECT_DOUBLE_EQ(nearby_tick_s(1'000'400), 0.001);
+    EXPECT_DOUBLE_EQ(nearby_tick_s(30'000'000), 0.03);
+    EXPECT_DOUBLE_EQ(nearby_tick_s(3'330'000), 0.00333);
+    EXPECT_DOUBLE_EQ(nearby_tick_s(37'453'000), 0.037453);
+}
+
 TEST(Resampling, SignalsOfTwoClocks_ShareTheTimeThatBothHave) {
     Log log = small_log();
     LoggedSignal s{.name = "s", .unit = "ms"}, y{.name = "y", .unit = "um"};
@@ -149,6 +221,46 @@ TEST(Resampling, SignalsOfTwoClocks_ShareTheTimeThatBothHave) {
         "clock: a }\n"
         "  position: { signal: y, clock: b }\n";
     EXPECT_THAT(message_of([&] { assembled(apart, {log}); }), HasSubstr("the signals share no time"));
+}
+
+TEST(ImportMap, FilesOfTheSameName_AreToldApartByTheirFolders) {
+    Log one = small_log(), other = small_log();
+    one.file = "monday/log.csv";
+    other.file = "tuesday/log.csv";
+    EXPECT_THAT(message_of([&] {
+                    assembled("columns: { position: x }\ntime: t\n", {one, other});
+                }),
+                HasSubstr("x: is in monday/log.csv and in tuesday/log.csv; say which, as monday/log.csv:x"));
+    const Assembled made =
+        assembled("columns: { position: 'tuesday/log.csv:x' }\ntime: 'tuesday/log.csv:t'\n", {one, other});
+    EXPECT_EQ(made.recording.rows.size(), 101u);
+}
+
+TEST(ImportMap, RateOfASignalThatHasTimes_IsRefused) {
+    Log log = small_log();
+    log.signals[1].times = "t";
+    EXPECT_THAT(message_of([&] { assembled("columns: { position: x }\ntime: { rate_hz: 1000 }\n", {log}); }),
+                HasSubstr("rate_hz: 1000: x of log.csv has times of its own, t"));
+}
+
+/// Whatever else the map takes from the clock.
+TEST(ImportMap, RateOfAClock_CountsFromItsEarliestTime) {
+    Log log = small_log();
+    LoggedSignal late{.name = "late", .unit = "s"}, y{.name = "y", .unit = "mm", .times = "late"};
+    for (int k = 0; k < 50; ++k) {
+        late.values.push_back(0.5 + 0.01 * k);
+        y.values.push_back(k);
+    }
+    log.signals[1].times = log.signals[2].times = "t";
+    log.signals.push_back(late);
+    log.signals.push_back(y);
+    const auto last_of = [&](const std::string& columns) {
+        return assembled("clocks: { all: { rate_ppm: 10000 } }\ncolumns: { " + columns + " }\n", {log})
+            .recording.rows.back()
+            .time_ns;
+    };
+    EXPECT_EQ(last_of("position: y"), 990'000'000 + 4'900'000);
+    EXPECT_EQ(last_of("position: y, macro_command: 'u [V]'"), 990'000'000 + 9'900'000);
 }
 
 TEST(ImportMap, ClockThatIsFitted_IsSaidWithItsStd) {

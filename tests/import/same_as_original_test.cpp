@@ -136,11 +136,14 @@ TEST(ExportedRecording, ComesBackFromEveryFormat) {
     folder.write("ramps.yaml", experiment);
     ASSERT_EQ(run_program({"simulate", "ramps.yaml", "--out", "original"}, folder.path()).exit_code, 0);
     for (const std::string format : {"mat", "hdf5", "csv"}) {
+        const std::string exported = "bob's: run." + format;
         const auto out =
-            run_program({"export", "original", "--to", format, "--out", "e." + format}, folder.path());
+            run_program({"export", "original", "--to", format, "--out", exported}, folder.path());
         ASSERT_EQ(out.exit_code, 0) << out.err;
-        std::vector<std::string> command{"import", "e." + format, "--out", "back-" + format};
-        if (format == "csv") command.insert(command.begin() + 2, {"e-detections.csv", "--map", "e.map.yaml"});
+        std::vector<std::string> command{"import", exported, "--out", "back-" + format};
+        if (format == "csv")
+            command.insert(command.begin() + 2,
+                           {"bob's: run-detections.csv", "--map", "bob's: run.map.yaml"});
         const auto back = run_program(command, folder.path());
         ASSERT_EQ(back.exit_code, 0) << format << ": " << back.err;
         for (const char* file : {"stage0/data.csv", "cam0/detections.csv"})
@@ -152,7 +155,8 @@ TEST(ExportedRecording, ComesBackFromEveryFormat) {
         EXPECT_EQ(made.is_seen, first.is_seen);
         EXPECT_EQ(made.name, first.name);
     }
-    const auto again = run_program({"export", "original", "--to", "mat", "--out", "e.mat"}, folder.path());
+    const auto again =
+        run_program({"export", "original", "--to", "mat", "--out", "bob's: run.mat"}, folder.path());
     EXPECT_EQ(again.exit_code, 2);
     EXPECT_THAT(again.err, HasSubstr("exists already"));
 }
