@@ -74,24 +74,24 @@ class RateShown {
   public:
     void add(double slopes, double from_middle) {
         double power = 1.0;
-        for (std::size_t k = 0; k < squares_.size(); ++k, power *= from_middle) {
+        for (std::size_t k = 0; k < powers_.size(); ++k, power *= from_middle) {
             if (k < sums_.size()) sums_[k] += slopes * power;
-            squares_[k] += slopes * slopes * power;
+            powers_[k] += power;
         }
     }
-    /// R over its standard deviation for noise.
-    double in_stds() const {
+    /// R over its standard deviation where s is noise of a standard deviation.
+    double in_stds(double slopes_std) const {
         if (!(sums_[0] > 0.0)) return 0.0;
         const double t0 = sums_[1] / sums_[0];
-        const auto& q = squares_;
-        const double variance = q[4] - 4.0 * t0 * q[3] + 6.0 * t0 * t0 * q[2] - 4.0 * std::pow(t0, 3) * q[1] +
-                                std::pow(t0, 4) * q[0];
-        return variance > 0.0 ? (sums_[2] - t0 * sums_[1]) / std::sqrt(variance) : 0.0;
+        const auto& p = powers_;
+        const double fourth = p[4] - 4.0 * t0 * p[3] + 6.0 * t0 * t0 * p[2] - 4.0 * std::pow(t0, 3) * p[1] +
+                              std::pow(t0, 4) * p[0];
+        return (sums_[2] - t0 * sums_[1]) / (slopes_std * std::sqrt(fourth));
     }
 
   private:
-    std::array<double, 3> sums_{};     ///< of s t^k
-    std::array<double, 5> squares_{};  ///< of s^2 t^k
+    std::array<double, 3> sums_{};    ///< of s t^k
+    std::array<double, 5> powers_{};  ///< of t^k
 };
 
 /// Of the residuals r = x(s(t)) - a y(t) - b with their derivatives g, the equations sum h g' move = sum h r.
@@ -136,7 +136,7 @@ Equations equations_at(const Alignment& now, const MotionTrack& track, const Mot
     return all;
 }
 
-void judge(Alignment& alignment, const Equations& at_end) {
+void judge(Alignment& alignment, const Equations& at_end, const SlopeSteps& steps) {
     double square = 0.0, neighbours = 0.0;
     for (std::size_t k = 0; k < at_end.residuals.size(); ++k) {
         square += at_end.residuals[k] * at_end.residuals[k];
@@ -152,14 +152,21 @@ void judge(Alignment& alignment, const Equations& at_end) {
     alignment.covariance = variance * inverse * at_end.instruments * inverse.transpose();
     const double explained = std::max(0.0, 1.0 - square / std::max(at_end.reference_energy, 1e-300));
     alignment.correlation = std::copysign(std::sqrt(explained), alignment.unknowns[2]);
-    alignment.rate_is_shown = at_end.rate_shown.in_stds();
+    // Of white noise in x and a y, whose variances have the product var(r)^2 / 4 at most.
+    const double most_product = 0.5 * square / std::max(1.0, count - 4.0) / std::abs(alignment.unknowns[2]);
+    alignment.rate_is_shown =
+        at_end.rate_shown.in_stds(most_product / (2.0 * steps.reference_s * steps.track_s));
 }
 
-Alignment align(const MotionTrack& track, const MotionTrack& reference, double shift_s,
-                const SlopeSteps& steps) {
+enum class Rate { fitted, held };
+
+/// @param begin  the shift in the middle of the track and the rate at first
+Alignment align(const MotionTrack& track, const MotionTrack& reference, const Eigen::Vector2d& begin,
+                const SlopeSteps& steps, Rate rate = Rate::fitted) {
+    constexpr double fastest = 0.1;
     Alignment now;
     now.middle_s = 0.5 * (track.time_s.front() + track.time_s.back());
-    now.unknowns[0] = shift_s;
+    now.unknowns.head<2>() = begin;
     constexpr int most_rounds = 50;
     for (int round = 0; round < most_rounds; ++round) {
         const Equations equations = equations_at(now, track, reference, steps);
@@ -167,11 +174,13 @@ Alignment align(const MotionTrack& track, const MotionTrack& reference, double s
         // Scale and offset follow from the first round on; the shift moves by a step at most.
         Eigen::Vector4d move = equations.cross.fullPivLu().solve(equations.right);
         if (round == 0) move.head<2>().setZero();
+        if (rate == Rate::held) move[1] = 0.0;
         move[0] = std::clamp(move[0], -steps.reference_s, steps.reference_s);
         now.unknowns += move;
+        now.unknowns[1] = std::clamp(now.unknowns[1], -fastest, fastest);
         if (round > 1 && std::abs(move[0]) < 1e-6 * steps.reference_s) break;
     }
-    judge(now, equations_at(now, track, reference, steps));
+    judge(now, equations_at(now, track, reference, steps), steps);
     return now;
 }
 
@@ -189,7 +198,7 @@ Alignment with_best_slopes(const MotionTrack& track, const MotionTrack& referenc
                            double step_s, double change_s) {
     const auto std_s = [](const Alignment& alignment) { return shift_std_s(alignment, alignment.middle_s); };
     for (double wider_s = 2.0 * step_s; wider_s <= 0.5 * change_s; wider_s *= 2.0) {
-        Alignment wider = align(track, reference, best.unknowns[0], {step_s, wider_s});
+        Alignment wider = align(track, reference, best.unknowns.head<2>(), {step_s, wider_s});
         if (std_s(wider) >= std_s(best)) break;
         best = std::move(wider);
     }
@@ -221,11 +230,11 @@ std::string why_no_common_motion(const Alignment& alignment, std::size_t lags) {
                        alignment.correlation);
 }
 
+/// Were the other as right, its correlation would scatter as that of the first.
 std::string why_ambiguous(const Alignment& alignment, const Alignment& other) {
     constexpr double one_in_a_hundred = 2.326;  // of a normal distribution, to one side
     const auto [z, variance] = fisher_z(alignment);
-    const auto [other_z, other_variance] = fisher_z(other);
-    if (z - other_z > one_in_a_hundred * std::sqrt(variance + other_variance)) return {};
+    if (z - fisher_z(other).z > one_in_a_hundred * std::sqrt(2.0 * variance)) return {};
     return fmt::format(
         "the motion repeats: correlation {:.4f}, and {:.4f} with an offset that differs by {:+.3g} s; give "
         "offset_s",
@@ -284,18 +293,20 @@ tl::expected<ClockFit, std::string> fit_clock(const MotionTrack& track, const Mo
     const LagScan scan = scan_lags(y, x);
     const std::vector<LagPeak> peaks = peaks_of(scan);
     const double slope_step_s = std::max(median_step(track.time_s), median_step(reference.time_s));
-    const auto align_at = [&](const LagPeak& peak) {
+    const auto shift_at = [&](const LagPeak& peak) {
         const double lag_s = static_cast<double>(scan.first + static_cast<std::ptrdiff_t>(peak.at)) * step_s;
-        return align(track, reference, reference.time_s.front() + lag_s - track.time_s.front(),
-                     {slope_step_s, slope_step_s});
+        return reference.time_s.front() + lag_s - track.time_s.front();
     };
+    const SlopeSteps steps{slope_step_s, slope_step_s};
     const double change_s = 0.5 * static_cast<double>(width_at_half_height(scan, peaks.front().at)) * step_s;
     const Alignment alignment =
-        with_best_slopes(track, reference, align_at(peaks.front()), slope_step_s, change_s);
+        with_best_slopes(track, reference, align(track, reference, {shift_at(peaks.front()), 0.0}, steps),
+                         slope_step_s, change_s);
     if (const std::string why = why_no_common_motion(alignment, scan.correlation.size()); !why.empty())
         return tl::make_unexpected(why);
     for (const LagPeak& rival : rivals(scan, peaks)) {
-        const Alignment other = align_at(rival);
+        const Alignment other =
+            align(track, reference, {shift_at(rival), alignment.unknowns[1]}, steps, Rate::held);
         if (std::abs(other.unknowns[0] - alignment.unknowns[0]) < slope_step_s) continue;
         if (const std::string why = why_ambiguous(alignment, other); !why.empty())
             return tl::make_unexpected(why);

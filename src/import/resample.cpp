@@ -9,13 +9,23 @@
 
 namespace fidservo::imports {
 
-TimeNs median_interval(std::span<const TimeNs> time_ns) {
+namespace {
+
+/// The interval that a share of all do not exceed; 0 for fewer than two times.
+TimeNs interval_of_share(std::span<const TimeNs> time_ns, double share) {
     if (time_ns.size() < 2) return 0;
     std::vector<TimeNs> intervals(time_ns.size() - 1);
     for (std::size_t k = 0; k < intervals.size(); ++k) intervals[k] = time_ns[k + 1] - time_ns[k];
-    const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-    std::ranges::nth_element(intervals, middle);
-    return *middle;
+    const auto at =
+        intervals.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(intervals.size()));
+    std::ranges::nth_element(intervals, at);
+    return *at;
+}
+
+}  // namespace
+
+TimeNs median_interval(std::span<const TimeNs> time_ns) {
+    return interval_of_share(time_ns, 0.5);
 }
 
 bool is_steady(std::span<const TimeNs> time_ns, TimeNs tick_ns) {
@@ -45,7 +55,7 @@ Resampler::Resampler(const std::vector<TimeNs>& time_ns, const std::vector<doubl
     : time_ns_(&time_ns),
       values_(&values),
       between_(between),
-      longest_ns_(gap_in_intervals * static_cast<double>(median_interval(time_ns))) {}
+      longest_ns_(gap_in_intervals * static_cast<double>(interval_of_share(time_ns, usual_share))) {}
 
 RowValue Resampler::at(TimeNs at_ns) {
     const std::vector<TimeNs>& times = *time_ns_;

@@ -20,8 +20,8 @@ bool is_steady(std::span<const TimeNs> time_ns, TimeNs tick_ns);
 /// number of hertz, or a number of seconds with three digits, whichever is nearer; otherwise the interval, s.
 double nearby_tick_s(TimeNs interval_ns);
 
-/// An interval longer than this many median intervals is a gap.
-inline constexpr double gap_in_intervals = 1.5;
+/// An interval longer than this many usual ones is a gap; usual is what this share of all do not exceed.
+inline constexpr double gap_in_intervals = 1.5, usual_share = 0.95;
 
 /// A signal's value at a row's time.
 struct RowValue {

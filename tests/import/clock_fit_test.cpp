@@ -101,14 +101,43 @@ MotionTrack wandering(double length_s, double from_s, double noise, unsigned see
 }
 
 TEST(ClockFit, MotionThatWanders_DoesNotRepeat) {
-    for (unsigned seed = 1; seed <= 8; ++seed) {
+    for (unsigned seed = 1; seed <= 6; ++seed) {
         SCOPED_TRACE(seed);
-        const auto fit = fit_clock(wandering(60.0, 3.0, 0.02, seed, 2 * seed),
-                                   wandering(60.0, 0.0, 0.02, seed, 2 * seed + 1));
+        const double noise = seed % 2 == 0 ? 0.02 : 0.3;
+        const auto fit = fit_clock(wandering(60.0, 3.0, noise, seed, 2 * seed),
+                                   wandering(60.0, 0.0, noise, seed, 2 * seed + 1));
         ASSERT_TRUE(fit) << fit.error();
         EXPECT_NEAR(fit->offset_s, 3.0, 5.0 * fit->offset_std_s);
-        EXPECT_LT(fit->offset_std_s, 0.002);
+        EXPECT_LT(fit->offset_std_s, 0.1 * noise);
     }
+}
+
+/// Steps at irregular times: few samples move, and these tell.
+TEST(ClockFit, MotionInSharpSteps_TellsOffsetAndRate) {
+    constexpr double offset_s = 0.25, rate_ppm = 100.0;
+    const auto place = [](double t_s) {
+        double sum = 0.0;
+        for (const double at_s : {2.0, 4.5, 5.2, 9.0, 13.7, 15.1})
+            sum += (at_s < 6.0 ? 1.0 : -1.0) * std::tanh((t_s - at_s) / 0.02);
+        return 10.0 * sum;
+    };
+    std::mt19937 generator(3);
+    std::normal_distribution<double> draw(0.0, 0.01);
+    MotionTrack reference, track;
+    for (int k = 0; k < 17'000; ++k) {
+        reference.time_s.push_back(0.001 * k);
+        reference.value.push_back(place(0.001 * k) + draw(generator));
+    }
+    for (int k = 0; k < 700; ++k) {
+        const double t_s = 0.0227 * k;
+        track.time_s.push_back(t_s);
+        track.value.push_back(place(offset_s + t_s * (1.0 + 1e-6 * rate_ppm)) + draw(generator));
+    }
+    const auto fit = fit_clock(track, reference);
+    ASSERT_TRUE(fit) << fit.error();
+    EXPECT_NEAR(fit->offset_s, offset_s, 5.0 * fit->offset_std_s);
+    EXPECT_NEAR(fit->rate_ppm, rate_ppm, 5.0 * fit->rate_std_ppm);
+    EXPECT_LT(fit->offset_std_s, 0.001);
 }
 
 /// One short pulse tells where the clocks stand in it, not how fast they run.

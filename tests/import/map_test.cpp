@@ -168,9 +168,9 @@ TEST(Resampling, TimesThatAreNotSteady_AreResampled) {
     for (std::size_t k = 1; k < 101; ++k)
         log.signals[0].values[k] = log.signals[0].values[k - 1] + (k % 3 == 0 ? 0.017 : 0.01);
     const Assembled made = assembled(columns_of_small_log, {log});
-    EXPECT_THAT(made.notes.back(), HasSubstr("rows left out"));
+    ASSERT_EQ(made.recording.rows.size(), 124u);
     for (std::size_t k = 1; k < made.recording.rows.size(); ++k)
-        EXPECT_EQ((made.recording.rows[k].time_ns - made.recording.rows[k - 1].time_ns) % 10'000'000, 0);
+        EXPECT_EQ(made.recording.rows[k].time_ns - made.recording.rows[k - 1].time_ns, 10'000'000);
 }
 
 TEST(Resampling, WhatAnotherSignalDoesNotCover_IsSaid) {
