@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -59,11 +60,6 @@ struct Alignment {
     double rate_is_shown = 0.0;
 };
 
-/// Half widths of the differences from which slopes are computed, s.
-struct SlopeSteps {
-    double reference_s = 0.0, track_s = 0.0;
-};
-
 double slope_at(const MotionTrack& track, double at, double half_step_s) {
     return (value_at(track, at + half_step_s) - value_at(track, at - half_step_s)) / (2.0 * half_step_s);
 }
@@ -97,10 +93,11 @@ class RateShown {
 /// Of the residuals r = x(s(t)) - a y(t) - b with their derivatives g, the equations sum h g' move = sum h r.
 /// The instruments h have the track's slopes where g has the reference's: noise, which is independent in the
 /// two, would make slopes steeper than they are, and the clock better known (instrumental variables; Fuller,
-/// Measurement Error Models, 1987, 1.4).
+/// Measurement Error Models, 1987, 1.4). Their covariance counts each residual where it is, since the tracks
+/// differ most where they move (White, Econometrica 48, 1980).
 struct Equations {
-    Eigen::Matrix4d cross = Eigen::Matrix4d::Zero();        ///< sum h g'
-    Eigen::Matrix4d instruments = Eigen::Matrix4d::Zero();  ///< sum h h'
+    Eigen::Matrix4d cross = Eigen::Matrix4d::Zero();    ///< sum h g'
+    Eigen::Matrix4d scatter = Eigen::Matrix4d::Zero();  ///< sum h h' r^2
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     std::vector<double> residuals;
     double reference_energy = 0.0;
@@ -108,23 +105,22 @@ struct Equations {
 };
 
 Equations equations_at(const Alignment& now, const MotionTrack& track, const MotionTrack& reference,
-                       const SlopeSteps& steps) {
+                       double half_step_s) {
     Equations all;
-    const double low = reference.time_s.front() + steps.reference_s,
-                 high = reference.time_s.back() - steps.reference_s;
+    const double low = reference.time_s.front() + half_step_s, high = reference.time_s.back() - half_step_s;
     double sum = 0.0, squares = 0.0;
     for (std::size_t k = 0; k < track.time_s.size(); ++k) {
         const double from_middle = track.time_s[k] - now.middle_s;
         const double at = track.time_s[k] + now.unknowns[0] + now.unknowns[1] * from_middle;
         if (at < low || at > high) continue;
         const double x = value_at(reference, at);
-        const double slope = slope_at(reference, at, steps.reference_s);
-        const double own_slope = slope_at(track, track.time_s[k], steps.track_s);
+        const double slope = slope_at(reference, at, half_step_s);
+        const double own_slope = slope_at(track, track.time_s[k], half_step_s);
         const Eigen::Vector4d gradient(slope, slope * from_middle, -track.value[k], -1.0);
         const Eigen::Vector4d instrument(own_slope, own_slope * from_middle, -track.value[k], -1.0);
         const double residual = x - now.unknowns[2] * track.value[k] - now.unknowns[3];
         all.cross += instrument * gradient.transpose();
-        all.instruments += instrument * instrument.transpose();
+        all.scatter += residual * residual * instrument * instrument.transpose();
         all.right -= instrument * residual;
         all.residuals.push_back(residual);
         all.rate_shown.add(std::copysign(1.0, now.unknowns[2]) * own_slope * slope, from_middle);
@@ -136,7 +132,7 @@ Equations equations_at(const Alignment& now, const MotionTrack& track, const Mot
     return all;
 }
 
-void judge(Alignment& alignment, const Equations& at_end, const SlopeSteps& steps) {
+void judge(Alignment& alignment, const Equations& at_end, double half_step_s) {
     double square = 0.0, neighbours = 0.0;
     for (std::size_t k = 0; k < at_end.residuals.size(); ++k) {
         square += at_end.residuals[k] * at_end.residuals[k];
@@ -147,40 +143,39 @@ void judge(Alignment& alignment, const Equations& at_end, const SlopeSteps& step
     const double inflation = (1.0 + rho) / (1.0 - rho);
     const double count = static_cast<double>(at_end.residuals.size());
     alignment.independent = count / inflation;
-    const double variance = square / std::max(1.0, count - 4.0) * inflation;
     const Eigen::Matrix4d inverse = at_end.cross.fullPivLu().inverse();
-    alignment.covariance = variance * inverse * at_end.instruments * inverse.transpose();
+    alignment.covariance = inflation * inverse * at_end.scatter * inverse.transpose();
     const double explained = std::max(0.0, 1.0 - square / std::max(at_end.reference_energy, 1e-300));
     alignment.correlation = std::copysign(std::sqrt(explained), alignment.unknowns[2]);
     // Of white noise in x and a y, whose variances have the product var(r)^2 / 4 at most.
     const double most_product = 0.5 * square / std::max(1.0, count - 4.0) / std::abs(alignment.unknowns[2]);
-    alignment.rate_is_shown =
-        at_end.rate_shown.in_stds(most_product / (2.0 * steps.reference_s * steps.track_s));
+    alignment.rate_is_shown = at_end.rate_shown.in_stds(most_product / (2.0 * half_step_s * half_step_s));
 }
 
 enum class Rate { fitted, held };
 
-/// @param begin  the shift in the middle of the track and the rate at first
+/// @param begin        the shift in the middle of the track and the rate at first
+/// @param half_step_s  half width of the differences from which slopes are computed
 Alignment align(const MotionTrack& track, const MotionTrack& reference, const Eigen::Vector2d& begin,
-                const SlopeSteps& steps, Rate rate = Rate::fitted) {
+                double half_step_s, Rate rate = Rate::fitted) {
     constexpr double fastest = 0.1;
     Alignment now;
     now.middle_s = 0.5 * (track.time_s.front() + track.time_s.back());
     now.unknowns.head<2>() = begin;
     constexpr int most_rounds = 50;
     for (int round = 0; round < most_rounds; ++round) {
-        const Equations equations = equations_at(now, track, reference, steps);
+        const Equations equations = equations_at(now, track, reference, half_step_s);
         if (equations.residuals.size() < fewest_samples) break;
         // Scale and offset follow from the first round on; the shift moves by a step at most.
         Eigen::Vector4d move = equations.cross.fullPivLu().solve(equations.right);
         if (round == 0) move.head<2>().setZero();
         if (rate == Rate::held) move[1] = 0.0;
-        move[0] = std::clamp(move[0], -steps.reference_s, steps.reference_s);
+        move[0] = std::clamp(move[0], -half_step_s, half_step_s);
         now.unknowns += move;
         now.unknowns[1] = std::clamp(now.unknowns[1], -fastest, fastest);
-        if (round > 1 && std::abs(move[0]) < 1e-6 * steps.reference_s) break;
+        if (round > 1 && std::abs(move[0]) < 1e-6 * half_step_s) break;
     }
-    judge(now, equations_at(now, track, reference, steps), steps);
+    judge(now, equations_at(now, track, reference, half_step_s), half_step_s);
     return now;
 }
 
@@ -192,17 +187,22 @@ double shift_std_s(const Alignment& alignment, double time_s) {
                                        from_middle * from_middle * covariance(1, 1)));
 }
 
-/// The alignment with the widest differences of the track's slopes that make the shift better known, up to
-/// half of the lag over which the motion changes.
-Alignment with_best_slopes(const MotionTrack& track, const MotionTrack& reference, Alignment best,
-                           double step_s, double change_s) {
+constexpr double rate_is_shown = 4.0;
+
+/// The alignment by those differences that make the shift best known, from one step to half of the lag over
+/// which the motion changes. Where none shows the rate, that by one step with the rate held at 0.
+Alignment align_by_best_slopes(const MotionTrack& track, const MotionTrack& reference, double shift_s,
+                               double step_s, double change_s) {
     const auto std_s = [](const Alignment& alignment) { return shift_std_s(alignment, alignment.middle_s); };
-    for (double wider_s = 2.0 * step_s; wider_s <= 0.5 * change_s; wider_s *= 2.0) {
-        Alignment wider = align(track, reference, best.unknowns.head<2>(), {step_s, wider_s});
-        if (std_s(wider) >= std_s(best)) break;
-        best = std::move(wider);
+    std::optional<Alignment> best;
+    for (double half_step_s = step_s; half_step_s <= std::max(step_s, 0.5 * change_s); half_step_s *= 4.0) {
+        const Alignment held = align(track, reference, {shift_s, 0.0}, half_step_s, Rate::held);
+        if (held.rate_is_shown < rate_is_shown) continue;
+        const Alignment fitted = align(track, reference, held.unknowns.head<2>(), half_step_s);
+        if (fitted.rate_is_shown < rate_is_shown) continue;
+        if (!best || std_s(fitted) < std_s(*best)) best = fitted;
     }
-    return best;
+    return best ? *best : align(track, reference, {shift_s, 0.0}, step_s, Rate::held);
 }
 
 /// The share of the reference's energy that a fit leaves; never less than what lines between samples do.
@@ -246,8 +246,7 @@ std::string why_ambiguous(const Alignment& alignment, const Alignment& other) {
 std::string why_undetermined(const Alignment& alignment, const MotionTrack& track, double change_s) {
     const double worst_s =
         std::max(shift_std_s(alignment, track.time_s.front()), shift_std_s(alignment, track.time_s.back()));
-    constexpr double is_shown = 4.0;
-    if (alignment.rate_is_shown < is_shown)
+    if (alignment.rate_is_shown < rate_is_shown)
         return "the motion does not determine the clock's rate: it is too short, or drowns in noise; give "
                "offset_s";
     if (worst_s < change_s) return {};
@@ -297,16 +296,14 @@ tl::expected<ClockFit, std::string> fit_clock(const MotionTrack& track, const Mo
         const double lag_s = static_cast<double>(scan.first + static_cast<std::ptrdiff_t>(peak.at)) * step_s;
         return reference.time_s.front() + lag_s - track.time_s.front();
     };
-    const SlopeSteps steps{slope_step_s, slope_step_s};
     const double change_s = 0.5 * static_cast<double>(width_at_half_height(scan, peaks.front().at)) * step_s;
     const Alignment alignment =
-        with_best_slopes(track, reference, align(track, reference, {shift_at(peaks.front()), 0.0}, steps),
-                         slope_step_s, change_s);
+        align_by_best_slopes(track, reference, shift_at(peaks.front()), slope_step_s, change_s);
     if (const std::string why = why_no_common_motion(alignment, scan.correlation.size()); !why.empty())
         return tl::make_unexpected(why);
     for (const LagPeak& rival : rivals(scan, peaks)) {
         const Alignment other =
-            align(track, reference, {shift_at(rival), alignment.unknowns[1]}, steps, Rate::held);
+            align(track, reference, {shift_at(rival), alignment.unknowns[1]}, slope_step_s, Rate::held);
         if (std::abs(other.unknowns[0] - alignment.unknowns[0]) < slope_step_s) continue;
         if (const std::string why = why_ambiguous(alignment, other); !why.empty())
             return tl::make_unexpected(why);
