@@ -58,6 +58,7 @@ struct Alignment {
     double independent = 0.0;  ///< samples, after what neighbours share
     /// What the slopes tell of the rate, in standard deviations of what noise would tell.
     double rate_is_shown = 0.0;
+    double spread_s = 0.0;  ///< standard deviation of the times of motion
 };
 
 double slope_at(const MotionTrack& track, double at, double half_step_s) {
@@ -83,6 +84,13 @@ class RateShown {
         const double fourth = p[4] - 4.0 * t0 * p[3] + 6.0 * t0 * t0 * p[2] - 4.0 * std::pow(t0, 3) * p[1] +
                               std::pow(t0, 4) * p[0];
         return (sums_[2] - t0 * sums_[1]) / (slopes_std * std::sqrt(fourth));
+    }
+
+    /// Standard deviation of the times at which the signals move, s.
+    double spread_s() const {
+        if (!(sums_[0] > 0.0)) return 0.0;
+        const double t0 = sums_[1] / sums_[0];
+        return std::sqrt(std::max(0.0, sums_[2] / sums_[0] - t0 * t0));
     }
 
   private:
@@ -149,6 +157,7 @@ void judge(Alignment& alignment, const Equations& at_end, double half_step_s) {
     alignment.correlation = std::copysign(std::sqrt(explained), alignment.unknowns[2]);
     // Of white noise in x and a y, whose variances have the product var(r)^2 / 4 at most.
     const double most_product = 0.5 * square / std::max(1.0, count - 4.0) / std::abs(alignment.unknowns[2]);
+    alignment.spread_s = at_end.rate_shown.spread_s();
     alignment.rate_is_shown = at_end.rate_shown.in_stds(most_product / (2.0 * half_step_s * half_step_s));
 }
 
@@ -246,7 +255,9 @@ std::string why_ambiguous(const Alignment& alignment, const Alignment& other) {
 std::string why_undetermined(const Alignment& alignment, const MotionTrack& track, double change_s) {
     const double worst_s =
         std::max(shift_std_s(alignment, track.time_s.front()), shift_std_s(alignment, track.time_s.back()));
-    if (alignment.rate_is_shown < rate_is_shown)
+    constexpr double furthest = 10.0;  // of the motion's spread, that the rate is extrapolated
+    const double half_length_s = 0.5 * (track.time_s.back() - track.time_s.front());
+    if (alignment.rate_is_shown < rate_is_shown || half_length_s > furthest * alignment.spread_s)
         return "the motion does not determine the clock's rate: it is too short, or drowns in noise; give "
                "offset_s";
     if (worst_s < change_s) return {};

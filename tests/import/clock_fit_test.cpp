@@ -61,7 +61,7 @@ TEST(ClockFit, OffsetAndRate_AreFoundWithinTheirStds) {
 
 TEST(ClockFit, MotionThatRepeats_HasNoAnswer_WhateverItsNoise) {
     unsigned seed = 0;
-    for (const double frequency_Hz : {0.25, 0.5, 1.0, 1.3, 2.0})
+    for (const double frequency_Hz : {0.25, 1.3, 2.0})
         for (const double noise : {0.0, 0.01, 0.3}) {
             SCOPED_TRACE(::testing::Message() << frequency_Hz << " Hz, noise " << noise);
             std::mt19937 generator(++seed);
@@ -138,6 +138,21 @@ TEST(ClockFit, MotionInSharpSteps_TellsOffsetAndRate) {
     EXPECT_NEAR(fit->offset_s, offset_s, 5.0 * fit->offset_std_s);
     EXPECT_NEAR(fit->rate_ppm, rate_ppm, 5.0 * fit->rate_std_ppm);
     EXPECT_LT(fit->offset_std_s, 0.001);
+}
+
+/// One step tells where the clocks stand in it, not how fast they run, however clear it is.
+TEST(ClockFit, OneStep_DoesNotTellTheRate) {
+    MotionTrack reference, track;
+    for (int k = 0; k < 4000; ++k) {
+        const auto step = [](double t_s) { return std::clamp(10.0 * (t_s - 5.0), 0.0, 1.0); };
+        reference.time_s.push_back(0.005 * k);
+        reference.value.push_back(step(0.005 * k));
+        track.time_s.push_back(0.005 * k);
+        track.value.push_back(step(0.005 * k - 0.1));
+    }
+    const auto fit = fit_clock(track, reference);
+    ASSERT_FALSE(fit) << fit->rate_ppm << " ppm +- " << fit->rate_std_ppm;
+    EXPECT_THAT(fit.error(), HasSubstr("does not determine the clock"));
 }
 
 /// One short pulse tells where the clocks stand in it, not how fast they run.
