@@ -17,9 +17,9 @@
 namespace fidservo::calib {
 namespace {
 
-const int tried = testing::draws(200, 40);
+const int tried = testing::draws(200, 20);
 /// For kinds in which every answer takes a dozen calibrations.
-const int tried_of_long = testing::draws(25, 8);
+const int tried_of_long = testing::draws(25, 5);
 constexpr double side_mm = 88.0, pitch_mm = 114.4;
 
 std::vector<PlateTag> small_target() {

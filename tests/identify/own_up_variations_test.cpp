@@ -16,7 +16,7 @@ using namespace testing;
 /// in standard errors, scaled up where Student's distribution is wider than the normal one.
 constexpr double far = 4.0;
 
-const int tried = draws(200, 50);
+const int tried = draws(200, 25);
 
 double draw(std::mt19937_64& random, double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -164,7 +164,7 @@ TEST(SlowOwnUpVariations, SensorsAndColumnsThatAreWrong_AreOwnedUpTo) {
 
 /// Single steps: of steady speed or not, with a carriage that is held before the step or creeps.
 TEST(SlowOwnUpVariations, ExcitationsThatFixARatioOnly_AreOwnedUpTo) {
-    expect_right_or_refused("identify macro: ratio only", draws(1000, 150), [](std::mt19937_64& random) {
+    expect_right_or_refused("identify macro: ratio only", draws(1000, 75), [](std::mt19937_64& random) {
         Carriage carriage = drawn_carriage(random);
         carriage.time_constant_s = draw(random, 0.05, 3.0);
         carriage.friction_V = random() % 2 == 0 ? 0.0 : carriage.friction_V;

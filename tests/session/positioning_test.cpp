@@ -5,6 +5,7 @@
 #include "core/random.h"
 #include "core/rig.h"
 #include "core/units.h"
+#include "tests/effort.h"
 #include "tests/session/watched_rig.h"
 
 #include <cmath>
@@ -22,7 +23,7 @@ constexpr double frame_period_s = 0.02;
 struct RigCase {
     const char* name;
     std::function<void(plant::PlantParameters&)> change;
-    int targets = 60;
+    int targets = fidservo::testing::draws(60, 20);
 };
 
 std::ostream& operator<<(std::ostream& out, const RigCase& rig_case) {
@@ -43,7 +44,7 @@ double bang_bang_s(const plant::StagePlant& plant, plant::StageState state, doub
     return std::numeric_limits<double>::infinity();
 }
 
-class Positioning : public testing::TestWithParam<RigCase> {};
+class Positioning : public ::testing::TestWithParam<RigCase> {};
 
 TEST_P(Positioning, RandomTargets_WithinFiveMicrometresInBangBangTime) {
     const int targets = GetParam().targets;
@@ -103,8 +104,8 @@ TEST_P(Positioning, RandomTargets_WithinFiveMicrometresInBangBangTime) {
 
 INSTANTIATE_TEST_SUITE_P(
     Slow, Positioning,
-    testing::Values(
-        RigCase{"nominal", [](plant::PlantParameters&) {}, 200},
+    ::testing::Values(
+        RigCase{"nominal", [](plant::PlantParameters&) {}, fidservo::testing::draws(200, 60)},
         RigCase{"stroke_up", [](plant::PlantParameters& p) { p.micro->stroke_factor *= 1.05; }},
         RigCase{"stroke_down", [](plant::PlantParameters& p) { p.micro->stroke_factor *= 0.95; }},
         RigCase{"warm_room", [](plant::PlantParameters& p) { p.micro->heater.ambient_degC += 8.0; }},
@@ -119,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
                     p.micro->hall.span_V *= 1.02;
                     p.camera->delay_s += 0.03;
                 },
-                200}),
+                fidservo::testing::draws(200, 60)}),
     [](const auto& rig_case) { return std::string(rig_case.param.name); });
 
 }  // namespace
