@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -91,9 +90,9 @@ std::optional<Shape> shape_of(std::vector<hsize_t> dims, std::vector<hsize_t> in
 Hdf5Handle memory_type(hid_t number, std::span<const hsize_t> inner, std::span<const std::string> path) {
     hid_t type = inner.empty() ? H5Tcopy(number)
                                : H5Tarray_create2(number, static_cast<unsigned>(inner.size()), inner.data());
-    for (const std::string& member : path | std::views::reverse) {
+    for (auto member = path.rbegin(); member != path.rend(); ++member) {
         const hid_t outer = H5Tcreate(H5T_COMPOUND, H5Tget_size(type));
-        H5Tinsert(outer, member.c_str(), 0, type);
+        H5Tinsert(outer, member->c_str(), 0, type);
         H5Tclose(type);
         type = outer;
     }

@@ -134,6 +134,7 @@ class Mat73Reader {
         if (names.empty() || names.size() > most_signals) return variable_without_data(MAT_C_EMPTY);
         const auto references = element_references(object, names);
         std::vector<const char*> fields;
+        fields.reserve(names.size() + 1);
         for (const std::string& name : names) fields.push_back(name.c_str());
         fields.push_back(nullptr);
         const std::array<std::size_t, 2> dims{1, references.empty() ? 1 : references.front().size()};
