@@ -12,6 +12,12 @@ const LoggedSignal* Log::find(const std::string& signal) const {
     return found == signals.end() ? nullptr : &*found;
 }
 
+std::string too_many_numbers(std::uint64_t count) {
+    return fmt::format(
+        "is passed over: with its {} numbers the file would have more than the {} that are read from one",
+        count, most_values);
+}
+
 void add_columns(Log& log, const LoggedSignal& like, std::size_t rows, std::size_t columns,
                  const std::function<void(LoggedSignal&, std::size_t row, std::size_t column)>& append) {
     for (std::size_t column = 0; column < columns; ++column) {

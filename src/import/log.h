@@ -62,6 +62,9 @@ using LogOrFault = tl::expected<Log, std::string>;
 inline constexpr const char* map_text = "fidservo_map";
 inline constexpr const char* plate_text = "fidservo_plate";
 
+/// Why an array of so many numbers is passed over: the file would have more than most_values.
+std::string too_many_numbers(std::uint64_t count);
+
 /// Adds the columns of an array as signals NAME[1], NAME[2], ..; a single column as NAME.
 /// @param at  the value of row i in column k
 void add_columns(Log& log, const LoggedSignal& like, std::size_t rows, std::size_t columns,

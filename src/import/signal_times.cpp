@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fidservo::imports {
 namespace {
@@ -77,6 +79,12 @@ SignalSource::Found SignalSource::find(const std::string& name, const YamlValue&
         }
     }
     if (found.empty()) {
+        std::vector<std::string_view> numbered;
+        std::ranges::copy_if(names, std::back_inserter(numbered),
+                             [&](const std::string& one) { return one.starts_with(name + "#"); });
+        if (!numbered.empty())
+            where.fail(fmt::format("{}: {} columns have this title; say which: {}", name, numbered.size(),
+                                   fmt::join(numbered, ", ")));
         const std::string_view meant = nearest_word(name, {names.begin(), names.end()});
         where.fail(fmt::format("{}: there is no such signal{}; fidservo import FILE without --map lists them",
                                name, meant.empty() ? "" : fmt::format(", did you mean {}?", meant)));

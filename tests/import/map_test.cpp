@@ -69,6 +69,14 @@ TEST(ImportMap, MistakesInIt_AreOneLineEach) {
                 HasSubstr("at most 1 s is allowed"));
 }
 
+TEST(ImportMap, TitleThatIsThereTwice_HasToSayWhich) {
+    Log log = small_log();
+    log.signals[1].name = "x#2";
+    log.signals[2].name = "x#3";
+    EXPECT_THAT(message_of([&] { assembled("columns: { position: 'x [mm]' }\ntime: t\n", {log}); }),
+                HasSubstr("x: 2 columns have this title; say which: x#2, x#3"));
+}
+
 TEST(ImportMap, SignalOfTwoFiles_HasToSayWhich) {
     Log other = small_log();
     other.file = "more/other.csv";

@@ -44,6 +44,7 @@ std::string hdf5_text(hid_t type, hid_t space, const auto& read) {
     return text.substr(0, text.find('\0'));
 }
 
+/// A word, without the blanks with which fixed lengths are filled; empty if the attribute is no string.
 inline std::string hdf5_attribute(hid_t object, const char* name) {
     if (H5Aexists(object, name) <= 0) return {};
     const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
@@ -51,8 +52,11 @@ inline std::string hdf5_attribute(hid_t object, const char* name) {
     const Hdf5Handle type(H5Aget_type(attribute.id()), H5Tclose),
         space(H5Aget_space(attribute.id()), H5Sclose);
     if (!type || !space) return {};
-    return hdf5_text(type.id(), space.id(),
-                     [&](hid_t memory, void* to) { return H5Aread(attribute.id(), memory, to); });
+    const std::string text = hdf5_text(
+        type.id(), space.id(), [&](hid_t memory, void* to) { return H5Aread(attribute.id(), memory, to); });
+    constexpr const char* blanks = " \t\r\n";
+    const auto first = text.find_first_not_of(blanks);
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 }  // namespace fidservo::imports

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/import/log.h"
 #include "src/import/module/mat_objects.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -16,7 +18,9 @@ namespace fidservo::imports {
 namespace {
 
 constexpr std::size_t header_bytes = 128, tag_bytes = 8;
-constexpr std::size_t looked_at = 2048;  ///< of each element
+constexpr std::size_t looked_at = 2048;  ///< the beginning of each element, which describes it
+/// Of an element: the numbers that are read from one file, and what describes them.
+constexpr std::uint64_t most_element_bytes = most_values * sizeof(double) + (std::uint64_t{1} << 20U);
 constexpr std::uint32_t matrix_element = 14, compressed_element = 15, opaque_class = 17;
 
 struct Tag {
@@ -56,35 +60,84 @@ class Elements {
     bool is_swapped_;
 };
 
-std::string inflated(const std::string& bytes) {
-    std::string out(looked_at, '\0');
-    z_stream stream{};
-    if (inflateInit(&stream) != Z_OK) return {};
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    inflate(&stream, Z_SYNC_FLUSH);
-    out.resize(out.size() - stream.avail_out);
-    inflateEnd(&stream);
-    return out;
+/// A compressed element.
+struct Inflated {
+    std::string beginning{};
+    std::uint64_t bytes = 0;
+    std::string damage{};
+};
+
+/// Decompresses count bytes at the stream's place to their end, which has the checksum, or to the largest
+/// size that is read.
+Inflated inflate_to_end(std::istream& from, std::size_t count) {
+    constexpr std::size_t chunk = std::size_t{1} << 16U;
+    constexpr std::size_t most_padding = tag_bytes - 1;
+    Inflated made;
+    z_stream zlib{};
+    if (inflateInit(&zlib) != Z_OK) return {.damage = "zlib cannot begin"};
+    std::vector<char> in(chunk), out(chunk);
+    int state = Z_OK;
+    while (state == Z_OK && made.bytes <= most_element_bytes) {
+        if (zlib.avail_in == 0 && count > 0) {
+            const std::size_t part = std::min(count, chunk);
+            if (!from.read(in.data(), static_cast<std::streamsize>(part))) break;
+            count -= part;
+            zlib.next_in = reinterpret_cast<Bytef*>(in.data());
+            zlib.avail_in = static_cast<uInt>(part);
+        }
+        zlib.next_out = reinterpret_cast<Bytef*>(out.data());
+        zlib.avail_out = static_cast<uInt>(out.size());
+        state = inflate(&zlib, Z_NO_FLUSH);
+        const std::size_t given = out.size() - zlib.avail_out;
+        if (made.beginning.size() < looked_at)
+            made.beginning.append(out.data(), std::min(given, looked_at - made.beginning.size()));
+        made.bytes += given;
+    }
+    if (state == Z_STREAM_END && count + zlib.avail_in > most_padding)
+        made.damage = "they end before the element does";
+    else if (state != Z_STREAM_END && made.bytes <= most_element_bytes)
+        made.damage = zlib.msg != nullptr ? zlib.msg : "they break off";
+    inflateEnd(&zlib);
+    return made;
 }
 
-/// Of a matrix element whose tag is at 0: flags, name, type system, class.
-void note_object(const Elements& elements, MatContents& contents) {
+/// What a matrix element begins with.
+struct Described {
+    std::uint32_t matlab_class = 0;
+    std::string name{};
+    std::string object_class{};  ///< of MATLAB's objects
+};
+
+/// Of a matrix element whose tag is at 0: flags, dimensions and name; of objects flags, name, type system,
+/// class.
+Described described(const Elements& elements) {
     constexpr std::size_t flags_element = 2 * tag_bytes;
     constexpr std::uint32_t class_mask = 0xFF;
-    if (elements.number(0) != matrix_element || (elements.number(flags_element) & class_mask) != opaque_class)
-        return;
+    if (elements.number(0) != matrix_element) return {};
+    Described made{.matlab_class = elements.number(flags_element) & class_mask};
     std::size_t at = flags_element + tag_bytes;
     std::array<std::string, 3> texts;
     for (std::string& text : texts) {
         const auto tag = elements.tag(at);
-        if (!tag) return;
+        if (!tag) break;
         text = elements.text(*tag);
         at = tag->next;
     }
-    if (!texts[0].empty()) contents.objects[texts[0]] = texts[2];
+    const bool is_object = made.matlab_class == opaque_class;
+    made.name = texts[is_object ? 0 : 1];
+    if (is_object) made.object_class = texts[2];
+    return made;
+}
+
+void note_variable(const Described& variable, std::uint64_t bytes, MatContents& contents) {
+    if (variable.name.empty()) return;
+    if (variable.matlab_class == opaque_class)
+        contents.faults[variable.name] = advice_on_object(variable.name, variable.object_class);
+    else if (bytes > most_element_bytes)
+        contents.faults[variable.name] = fmt::format(
+            "is passed over: it has more than the {} numbers that are read from one file", most_values);
+    else
+        contents.variables.push_back(variable.name);
 }
 
 }  // namespace
@@ -101,23 +154,33 @@ MatContents look_into_mat5(const char* file) {
         stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         return bytes;
     };
-    if (size < header_bytes) return {.objects = {}, .damage = "breaks off in its header"};
+    if (size < header_bytes) return {.damage = "breaks off in its header"};
     const bool is_swapped = read_at(header_bytes - 2, 2) != "IM";
     int element = 1;
     for (std::size_t at = header_bytes; at < size; ++element) {
-        const std::string beginning = read_at(at, looked_at);
+        std::string beginning = read_at(at, looked_at);
         const auto tag = Elements(beginning, is_swapped).tag(0);
-        if (!tag || std::size_t{tag->bytes} > size - at - tag_bytes) {
-            contents.damage = fmt::format("breaks off: its element {} has more bytes than the file", element);
-            return contents;
-        }
+        if (!tag || std::size_t{tag->bytes} > size - at - tag_bytes)
+            return {.damage =
+                        fmt::format("breaks off: its element {} has more bytes than the file", element)};
+        if (tag->type != matrix_element && tag->type != compressed_element)
+            return {.damage =
+                        fmt::format("is damaged: its element {} is of type {}; only {} and {}, variables "
+                                    "and compressed ones, are there in a MAT file",
+                                    element, tag->type, matrix_element, compressed_element)};
+        std::uint64_t bytes = tag->bytes;
         if (tag->type == compressed_element) {
-            const std::string data =
-                inflated(read_at(at + tag_bytes, std::min<std::size_t>(tag->bytes, looked_at)));
-            note_object(Elements(data, is_swapped), contents);
-        } else {
-            note_object(Elements(beginning, is_swapped), contents);
+            stream.clear();
+            stream.seekg(static_cast<std::streamoff>(at + tag_bytes));
+            Inflated inflated = inflate_to_end(stream, tag->bytes);
+            if (!inflated.damage.empty())
+                return {.damage = fmt::format("is damaged: the compressed data of its element {} do not pass "
+                                              "their check: {}",
+                                              element, inflated.damage)};
+            beginning = std::move(inflated.beginning);
+            bytes = inflated.bytes;
         }
+        note_variable(described(Elements(beginning, is_swapped)), bytes, contents);
         at += tag_bytes + tag->bytes;
     }
     return contents;
@@ -126,6 +189,8 @@ MatContents look_into_mat5(const char* file) {
 std::string advice_on_object(const std::string& variable, const std::string& matlab_class) {
     struct Advice {
         std::string_view matlab_class, line;
+        std::string_view what =
+            "is an object of MATLAB's class {}, which only MATLAB reads; save it there by";
     };
     constexpr std::array lines{
         Advice{"timetable",
@@ -142,13 +207,17 @@ std::string advice_on_object(const std::string& variable, const std::string& mat
                "'-v7')"},
         Advice{"Simulink.SimulationOutput",
                "t = {0}.tout; y = {0}.yout; save('numbers.mat', 't', 'y', '-v7'), with the model's output "
-               "format Array or Structure with time"}};
+               "format Array or Structure with time"},
+        Advice{"sparse", "s = full({0}); save('numbers.mat', 's', '-v7')",
+               "is a {} matrix, which is not read; save it in MATLAB as a full one by"},
+        Advice{"function_handle", "y = {0}(t); save('numbers.mat', 't', 'y', '-v7')",
+               "is a {}, which holds no numbers; save its values at times t in MATLAB by"}};
+    constexpr Advice other{"", "s = struct({0}); save('numbers.mat', 's', '-v7')"};
     const auto known = std::ranges::find(lines, matlab_class, &Advice::matlab_class);
-    const std::string line = known != lines.end()
-                                 ? fmt::format(fmt::runtime(known->line), variable)
-                                 : fmt::format("s = struct({}); save('numbers.mat', 's', '-v7')", variable);
-    return fmt::format("is an object of MATLAB's class {}, which only MATLAB reads; save it there by: {}",
-                       matlab_class.empty() ? "?" : matlab_class, line);
+    const Advice& advice = known != lines.end() ? *known : other;
+    return fmt::format("{}: {}",
+                       fmt::format(fmt::runtime(advice.what), matlab_class.empty() ? "?" : matlab_class),
+                       fmt::format(fmt::runtime(advice.line), variable));
 }
 
 }  // namespace fidservo::imports

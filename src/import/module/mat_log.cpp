@@ -2,6 +2,7 @@
 #include "src/import/module/mat_log.h"
 
 #include "src/identify/column_units.h"
+#include "src/import/module/mat73_variables.h"
 #include "src/import/module/mat_objects.h"
 
 #include <algorithm>
@@ -9,9 +10,11 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
+#include <hdf5.h>
 #include <matio.h>
 
 namespace fidservo::imports {
@@ -22,11 +25,6 @@ constexpr int most_depth = 16;
 struct CloseMat {
     void operator()(mat_t* mat) const { Mat_Close(mat); }
 };
-struct FreeVariable {
-    void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
-};
-using Variable = std::unique_ptr<matvar_t, FreeVariable>;
-
 /// The number of elements, or nothing if it is more than are read.
 std::optional<std::uint64_t> elements_of(const matvar_t& variable) {
     std::uint64_t count = variable.rank > 0 && variable.dims != nullptr ? 1 : 0;
@@ -90,9 +88,13 @@ class MatReader {
             add_cells(*variable, name, depth);
         else if (variable->class_type == MAT_C_CHAR)
             add_text(*variable, name);
+        else if (variable->class_type == MAT_C_EMPTY && depth == 0)
+            log_->signals.push_back({.name = name, .fault = "is of no class that is known, or is damaged"});
         else if (variable->class_type != MAT_C_EMPTY)
             log_->signals.push_back({.name = name, .fault = advice_on_object(name, class_name(*variable))});
     }
+
+    std::uint64_t values() const { return values_; }
 
   private:
     static std::string class_name(const matvar_t& variable) {
@@ -101,13 +103,19 @@ class MatReader {
     }
 
     void add_array(const matvar_t& variable, const std::string& name, const std::string& times) {
-        const std::uint64_t count = elements_of(variable).value_or(0);
+        const std::uint64_t count = elements_of(variable).value_or(most_values + 1);
         LoggedSignal like{
             .name = name, .unit = title_parts(name.substr(name.rfind('.') + 1)).unit, .times = times};
-        if (count == 0) return;
-        if (variable.isComplex != 0) like.fault = "is complex: save its real and imaginary parts";
-        if (variable.data == nullptr || variable.nbytes < count * Mat_SizeOfClass(variable.class_type))
-            like.fault = "has no data that libmatio can read";
+        if (count == 0) {
+            log_->signals.push_back(like);
+            return;
+        }
+        if (variable.isComplex != 0)
+            like.fault = "is complex: save its real and imaginary parts";
+        else if (count > most_values - values_)
+            like.fault = too_many_numbers(count);
+        else if (variable.data == nullptr || variable.nbytes < count * Mat_SizeOfClass(variable.class_type))
+            like.fault = "has no data that can be read";
         // Samples run along the last of three dimensions, else along the longer of two.
         std::size_t rows = variable.dims[0], columns = count / std::max<std::size_t>(1, rows);
         std::size_t row_step = 1, column_step = rows;
@@ -124,6 +132,7 @@ class MatReader {
             log_->signals.push_back(like);
             return;
         }
+        values_ += count;
         const Append append = append_of(variable);
         add_columns(*log_, like, rows, columns,
                     [&](LoggedSignal& signal, std::size_t row, std::size_t column) {
@@ -203,46 +212,59 @@ class MatReader {
     }
 
     Log* log_;
+    std::uint64_t values_ = 0;
 };
 
 void pass_over_messages(int, char*) {}
+
+/// Format 5. What is wrong with the file, or nothing.
+std::string read_mat5_variables(const char* file, const MatContents& contents, MatReader& reader, Log& log) {
+    const std::unique_ptr<mat_t, CloseMat> mat(Mat_Open(file, MAT_ACC_RDONLY));
+    if (mat == nullptr) return "libmatio cannot open it as a MAT file: it is damaged or cut off";
+    std::set<std::string> left(contents.variables.begin(), contents.variables.end());
+    while (const Variable variable{Mat_VarReadNextInfo(mat.get())}) {
+        const std::string name = variable->name == nullptr ? "" : variable->name;
+        left.erase(name);
+        if (name.empty() || contents.faults.contains(name)) continue;
+        const std::uint64_t count = elements_of(*variable).value_or(most_values + 1);
+        if (count > most_values - reader.values()) {
+            log.signals.push_back({.name = name, .fault = too_many_numbers(count)});
+            continue;
+        }
+        if (Mat_VarReadDataAll(mat.get(), variable.get()) != 0)
+            return fmt::format("{}: libmatio cannot read it: the file is damaged there", name);
+        reader.add(variable.get(), name, "", 0);
+    }
+    for (const std::string& name : left)
+        log.signals.push_back({.name = name, .fault = "libmatio does not find it: the file is damaged"});
+    return {};
+}
 
 }  // namespace
 
 LogOrFault read_mat_file(const char* file) {
     Mat_LogInitFunc("fidservo", pass_over_messages);
-    const std::unique_ptr<mat_t, CloseMat> mat(Mat_Open(file, MAT_ACC_RDONLY));
-    if (mat == nullptr)
-        return tl::make_unexpected(
-            std::string("libmatio cannot open it as a MAT file: it is damaged or cut off"));
-    const bool is_hdf5 = Mat_GetVersion(mat.get()) == MAT_FT_MAT73;
+    const bool is_hdf5 = H5Fis_hdf5(file) > 0;
     const MatContents contents = is_hdf5 ? look_into_mat73(file) : look_into_mat5(file);
     if (!contents.damage.empty()) return tl::make_unexpected(contents.damage);
     Log log;
-    for (const auto& [variable, matlab_class] : contents.objects)
-        log.signals.push_back({.name = variable, .fault = advice_on_object(variable, matlab_class)});
+    for (const auto& [variable, fault] : contents.faults)
+        log.signals.push_back({.name = variable, .fault = fault});
     MatReader reader(log);
-    std::uint64_t values = 0;
-    while (const Variable variable{Mat_VarReadNextInfo(mat.get())}) {
-        const std::string name = variable->name == nullptr ? "" : variable->name;
-        if (name.empty() || contents.objects.contains(name)) continue;
-        const auto count = elements_of(*variable);
-        values += count.value_or(most_values + 1);
-        if (values > most_values)
-            return tl::make_unexpected(
-                fmt::format("{}: more than {} numbers: are not read from one file", name, most_values));
-        if (Mat_VarReadDataAll(mat.get(), variable.get()) != 0)
-            return tl::make_unexpected(
-                fmt::format("{}: libmatio cannot read it: the file is damaged there", name));
-        reader.add(variable.get(), name, "", 0);
-    }
+    const std::string damage =
+        is_hdf5 ? read_mat73_variables(file,
+                                       [&](const std::string& name, const matvar_t& variable) {
+                                           if (!contents.faults.contains(name))
+                                               reader.add(&variable, name, "", 0);
+                                       })
+                : read_mat5_variables(file, contents, reader, log);
+    if (!damage.empty()) return tl::make_unexpected(damage);
     if (log.signals.empty() && log.texts.empty())
         return tl::make_unexpected(std::string("holds no variable that can be read"));
-    const bool is_only_objects =
-        !contents.objects.empty() &&
+    const bool is_of_no_use =
+        log.texts.empty() &&
         std::ranges::all_of(log.signals, [](const LoggedSignal& signal) { return !signal.fault.empty(); });
-    if (is_only_objects)
-        return tl::make_unexpected(log.signals.front().name + ": " + log.signals.front().fault);
+    if (is_of_no_use) return tl::make_unexpected(log.signals.front().name + ": " + log.signals.front().fault);
     return log;
 }
 
