@@ -44,8 +44,7 @@ int run_import(const ImportOptions& options) {
     std::optional<imports::ImportMap> map;
     if (!options.map_file.empty()) map = imports::load_import_map(options.map_file);
     const TableOptions table = map ? map->table : TableOptions{.are_offered = false};
-    std::vector<imports::Log> logs;
-    for (const std::filesystem::path& file : options.files) logs.push_back(imports::read_log(file, table));
+    const std::vector<imports::Log> logs = imports::read_logs(options.files, table);
     if (!map) map = carried_map(logs);
     if (!map) {
         fmt::print("{}", imports::draft_map(logs));

@@ -3,16 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace fidservo {
 
-namespace {
-
-/// The first few, without their folders.
 std::string first_names(std::span<const std::string> names) {
     constexpr std::size_t most = 5;
     std::vector<std::string> first;
@@ -20,8 +16,6 @@ std::string first_names(std::span<const std::string> names) {
         first.push_back(std::filesystem::path(name).filename().string());
     return fmt::format("{}{}", fmt::join(first, ", "), names.size() > most ? ", ..." : "");
 }
-
-}  // namespace
 
 void ImageTally::add(const ImageFrame& frame) {
     if (!frame.damage.empty()) {

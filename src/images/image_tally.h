@@ -4,10 +4,14 @@
 #include "src/images/image_frame.h"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace fidservo {
+
+/// The first few names, without their folders.
+std::string first_names(std::span<const std::string> names);
 
 /// Counts frames that were read and names those that were left out. A frame is damaged as one of a live
 /// camera's (vision/camera.h): cut short, or not to be decoded.

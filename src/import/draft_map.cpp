@@ -32,8 +32,8 @@ constexpr std::array hints{
     Hint{"encoder", "count", {"encoder", "enc", "counts", "ticks", "", ""}},
     Hint{"position", "mm", {"position", "pos", "qm", "displacement", "x", "y"}}};
 
-constexpr std::array<std::string_view, 7> time_words{"time",    "timestamp", "t",    "tout",
-                                                     "seconds", "clock",     "stamp"};
+constexpr std::array<std::string_view, 8> time_words{"time",    "timestamp", "t",     "tout",
+                                                     "seconds", "clock",     "stamp", "received"};
 
 /// The letters of a name between those that are none, in small letters.
 std::set<std::string> words_of(std::string_view name) {
@@ -168,7 +168,7 @@ std::string draft_map(const std::vector<Log>& logs) {
     const bool have_own = !made.columns.empty() && !made.columns.front().second->times.empty();
     if (!have_own && made.time != nullptr)
         text += fmt::format("time: {{ signal: {}, unit: {} }}  # GUESS\n", quoted(made.time->name),
-                            made.time->unit.empty() ? "s" : made.time->unit);
+                            made.time->unit.empty() ? "s" : quoted(made.time->unit));
     if (!have_own && made.time == nullptr)
         text += "time: { rate_hz: 1000 }  # SAY: samples a second, or signal and unit\n";
     if (made.columns.empty()) {

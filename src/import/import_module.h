@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The libraries for other programs' formats (libmatio, libhdf5, SQLite), in a module that is loaded when the
-// first such file is opened, as loading their dependencies takes longer than loading the program.
+// The libraries for other programs' formats (libmatio, libhdf5, SQLite, libzstd), in a module that is loaded
+// when the first such file is opened, as loading their dependencies takes longer than loading the program.
 #include "src/import/log.h"
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace fidservo::imports {
 
@@ -14,7 +15,7 @@ namespace fidservo::imports {
 struct ImportModule {
     LogOrFault (*read_mat)(const char* file);
     LogOrFault (*read_hdf5)(const char* file);
-    LogOrFault (*read_rosbag2)(const char* file);
+    LogOrFault (*read_rosbag2)(const std::vector<std::filesystem::path>& files);
     std::string (*write_mat)(const char* file, const Log& log);
     std::string (*write_hdf5)(const char* file, const Log& log);
 };

@@ -2,15 +2,16 @@
 #pragma once
 // The content of another program's data file in any format: signals, cameras, texts.
 #include "core/time.h"
+#include "vision/images/image_file.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include <opencv2/core/mat.hpp>
 #include <tl/expected.hpp>
 
 namespace fidservo::imports {
@@ -31,9 +32,9 @@ struct LoggedSignal {
     std::string fault{};                ///< why it cannot be used; it then has no values
 };
 
-/// A frame: a grey image, or the encoded image's bytes as in the log.
+/// A frame: a grey image of 8 or 16 bits, or the encoded image's bytes as in the log.
 struct LoggedFrame {
-    cv::Mat grey{};
+    vision::StoredImage image{};
     std::string bytes{};
     std::string ending{};  ///< file ending for the bytes' format: ".png", ".jpg"
 };
@@ -42,7 +43,8 @@ struct LoggedCamera {
     std::string name{};
     std::vector<TimeNs> times_ns{};  ///< rising
     std::function<tl::expected<LoggedFrame, std::string>(std::size_t)> frame{};
-    std::string info{};  ///< intrinsics as the text of a camera_info file; empty: none
+    bool is_deep = false;  ///< its frames may have 16 bits: full scale is decided for all of them together
+    std::string info{};    ///< intrinsics as the text of a camera_info file; empty: none
 };
 
 struct Log {
@@ -64,6 +66,9 @@ inline constexpr const char* plate_text = "fidservo_plate";
 
 /// Why an array of so many numbers is passed over: the file would have more than most_values.
 std::string too_many_numbers(std::uint64_t count);
+
+/// The text with control characters, which move a terminal's cursor or break a line, written as \x1B.
+std::string with_visible_controls(std::string_view text);
 
 /// Adds the columns of an array as signals NAME[1], NAME[2], ..; a single column as NAME.
 /// @param at  the value of row i in column k

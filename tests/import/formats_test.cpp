@@ -131,7 +131,6 @@ TEST(BagLog, TopicsAreSignalsOnTheirStamps) {
     const Log log = read_log(folder / "b.db3", no_options);
     ASSERT_NE(log.find("/js/position[b]"), nullptr);
     EXPECT_THAT(log.find("/js/position[b]")->values, ElementsAre(7, 2));
-    EXPECT_TRUE(std::isnan(log.find("/js/position[a]")->values[0]));
     EXPECT_THAT(log.find("/js/stamp")->whole, ElementsAre(10, 20));
     EXPECT_EQ(log.find("/u")->times, "/u/received");
     EXPECT_THAT(log.notes, ::testing::Contains(
@@ -198,7 +197,7 @@ TEST(EurocFolder, GivesItsCameraAndItsTables) {
     const Log log = read_log(folder.path(), no_options);
     ASSERT_EQ(log.cameras.size(), 1u);
     EXPECT_THAT(log.cameras[0].times_ns, ElementsAre(1403636579763555584));
-    EXPECT_EQ(log.cameras[0].frame(0)->grey.at<unsigned char>(2, 2), 33);
+    EXPECT_EQ(log.cameras[0].frame(0)->image.grey.at<unsigned char>(2, 2), 33);
     ASSERT_NE(log.find("imu0/a"), nullptr);
     EXPECT_EQ(log.find("imu0/a")->times, "imu0/timestamp");
 }

@@ -95,7 +95,7 @@ TEST(HostileFiles, WithWrongBytes_AreReadOrRefused) {
 
 TEST(HostileFiles, OfOtherKinds_AreToldByWhatTheyAre) {
     const TemporaryFolder folder;
-    EXPECT_THAT(answer_of(folder.write("a.mcap", "\x89MCAP0\r\n")), HasSubstr("is an MCAP file"));
+    EXPECT_THAT(answer_of(folder.write("a.mcap", "\x89MCAP0\r\n")), HasSubstr("is a bag in the format MCAP"));
     EXPECT_THAT(answer_of(folder.write("a.bag", "#ROSBAG V2.0\n")), HasSubstr("a bag of ROS 1"));
     EXPECT_THAT(answer_of(folder.write("a.tdms", "TDSm....")), HasSubstr("a TDMS file"));
     EXPECT_THAT(answer_of(folder.write("a.mat", "hello")), HasSubstr("save it again with -v7"));

@@ -37,7 +37,8 @@ void make_bag(const std::filesystem::path& file, const std::vector<BagTopic>& to
     const auto run = [&](const char* sql) {
         ASSERT_EQ(sqlite3_exec(bag, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(bag);
     };
-    run("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
+    run("PRAGMA synchronous = OFF; CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT "
+        "NOT NULL, "
         "serialization_format TEXT NOT NULL, "
         "offered_qos_profiles TEXT NOT NULL);"
         "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT "

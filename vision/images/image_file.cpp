@@ -96,8 +96,7 @@ Result<StoredImage> read_unnamed(const std::filesystem::path& file, std::uint64_
     const std::string content = bytes_of(file, most_file_bytes);
     const auto bytes = std::as_bytes(std::span(content));
     if (content.empty()) return failure(Reason::device, "it is empty or cannot be opened");
-    if (is_png(bytes)) return decode_png(bytes);
-    if (is_jpeg(bytes)) return decode_jpeg(bytes);
+    if (is_png(bytes) || is_jpeg(bytes)) return decode_stored(content);
     return decode_other(file, content);
 }
 
@@ -109,6 +108,13 @@ Result<StoredImage> read_stored(const std::filesystem::path& file, std::uint64_t
         return failure(Reason::device,
                        fmt::format("{}: cannot be read as an image: {}", file.string(), image.error().text));
     return image;
+}
+
+Result<StoredImage> decode_stored(std::string_view content) {
+    const auto bytes = std::as_bytes(std::span(content));
+    if (is_png(bytes)) return decode_png(bytes);
+    if (is_jpeg(bytes)) return decode_jpeg(bytes);
+    return failure(Reason::device, "it is neither PNG nor JPEG");
 }
 
 int bits_of(const StoredImage& stored) {

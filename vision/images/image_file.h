@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <opencv2/core/mat.hpp>
@@ -55,6 +56,9 @@ struct StoredImage {
 /// Thread-safe.
 /// @param page  the place of a TIFF's page in its file, as list_pages() gives it; 0: its first image
 Result<StoredImage> read_stored(const std::filesystem::path& file, std::uint64_t page = 0);
+
+/// The image of a PNG's or a JPEG's bytes. Fails as read_stored() does, without a file's name.
+Result<StoredImage> decode_stored(std::string_view bytes);
 
 /// The number of bits, from 8 to 16, that hold a value.
 constexpr int bits_for(unsigned largest) {

@@ -13,7 +13,7 @@
 namespace fidservo::imports {
 namespace {
 
-constexpr std::uint32_t longest_side_px = (1U << 14U) - 1;
+constexpr std::uint32_t longest_side_px = vision::most_side_px;
 
 struct Encoding {
     std::string_view name;
@@ -68,15 +68,25 @@ LoggedFrame frame_of_image(std::string_view message) {
     const cv::Mat raw(static_cast<int>(height), static_cast<int>(width), encoding->type,
                       const_cast<char*>(data.data()), step);
     LoggedFrame frame;
+    cv::Mat& grey = frame.image.grey;
     if (encoding->conversion < 0)
-        raw.copyTo(frame.grey);
+        raw.copyTo(grey);
     else if (encoding->type == CV_8UC1 && (width < 3 || height < 3))
         throw CdrError("a Bayer pattern of fewer than 3 x 3 px");
     else
-        cv::cvtColor(raw, frame.grey, encoding->conversion);
+        cv::cvtColor(raw, grey, encoding->conversion);
     if (encoding->type == CV_16UC1 && is_big == (std::endian::native == std::endian::little))
-        swap_bytes_of_16(frame.grey);
+        swap_bytes_of_16(grey);
     return frame;
+}
+
+bool is_deep_image(std::string_view message) {
+    CdrReader cdr(message);
+    read_header(cdr);
+    cdr.number<std::uint32_t>();
+    cdr.number<std::uint32_t>();
+    const auto encoding = std::ranges::find(encodings, cdr.text(), &Encoding::name);
+    return encoding != encodings.end() && encoding->type == CV_16UC1;
 }
 
 LoggedFrame frame_of_compressed(std::string_view message) {
@@ -84,8 +94,8 @@ LoggedFrame frame_of_compressed(std::string_view message) {
     read_header(cdr);
     const std::string format = cdr.text();
     const std::string_view data = cdr.octets();
-    if (data.starts_with("\x89PNG")) return {.grey = {}, .bytes = std::string(data), .ending = ".png"};
-    if (data.starts_with("\xFF\xD8\xFF")) return {.grey = {}, .bytes = std::string(data), .ending = ".jpg"};
+    if (data.starts_with("\x89PNG")) return {.image = {}, .bytes = std::string(data), .ending = ".png"};
+    if (data.starts_with("\xFF\xD8\xFF")) return {.image = {}, .bytes = std::string(data), .ending = ".jpg"};
     throw CdrError(fmt::format("format '{}': is neither PNG nor JPEG", format.substr(0, 40)));
 }
 

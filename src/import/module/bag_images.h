@@ -10,8 +10,11 @@
 namespace fidservo::imports {
 
 /// sensor_msgs/Image as grey: mono8, mono16, 8UC1, 16UC1, rgb8, bgr8, rgba8, bgra8 and bayer_*8; colour
-/// becomes luma. Throws CdrError.
+/// becomes luma, 16 bits stay. Throws CdrError.
 LoggedFrame frame_of_image(std::string_view message);
+
+/// Whether sensor_msgs/Image states an encoding of 16 bits. Throws CdrError.
+bool is_deep_image(std::string_view message);
 
 /// sensor_msgs/CompressedImage: its PNG or JPEG as it is. Throws CdrError.
 LoggedFrame frame_of_compressed(std::string_view message);

@@ -9,7 +9,7 @@ namespace fidservo::imports {
 
 extern "C" {
 extern const ImportModule fidservo_import_module;
-const ImportModule fidservo_import_module{read_mat_file, read_hdf5_file, read_rosbag2_file, write_mat_file,
+const ImportModule fidservo_import_module{read_mat_file, read_hdf5_file, read_rosbag2_files, write_mat_file,
                                           write_hdf5_file};
 }
 

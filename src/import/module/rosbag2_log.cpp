@@ -1,110 +1,60 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/module/rosbag2_log.h"
 
+#include "src/import/module/bag_database.h"
 #include "src/import/module/bag_images.h"
 #include "src/import/module/cdr.h"
+#include "src/import/module/message_times.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
-#include <functional>
-#include <limits>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
-#include <sqlite3.h>
 
 namespace fidservo::imports {
 namespace {
 
-struct SqliteClose {
-    void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
-    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+/// A file of the bag, and the topic's number in it.
+struct Part {
+    std::shared_ptr<const BagDatabase> database;
+    std::int64_t topic = 0;
 };
-
-class BagError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
-
-class Bag {
-  public:
-    explicit Bag(const char* file) {
-        sqlite3* opened = nullptr;
-        const int code = sqlite3_open_v2(file, &opened, SQLITE_OPEN_READONLY, nullptr);
-        database_.reset(opened);
-        if (code != SQLITE_OK) fail();
-        constexpr int most_bytes = 1 << 28;
-        sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, most_bytes);
-    }
-    /// Runs a query; calls visit for each row.
-    void each(const char* sql, std::int64_t argument, const std::function<void(sqlite3_stmt*)>& visit) const {
-        sqlite3_stmt* prepared = nullptr;
-        if (sqlite3_prepare_v2(database_.get(), sql, -1, &prepared, nullptr) != SQLITE_OK) fail();
-        const std::unique_ptr<sqlite3_stmt, SqliteClose> statement(prepared);
-        if (sqlite3_bind_parameter_count(prepared) > 0) sqlite3_bind_int64(prepared, 1, argument);
-        int code = SQLITE_ROW;
-        while ((code = sqlite3_step(prepared)) == SQLITE_ROW) visit(prepared);
-        if (code != SQLITE_DONE) fail();
-    }
-
-  private:
-    [[noreturn]] void fail() const {
-        throw BagError(
-            fmt::format("SQLite cannot read it as a bag of ROS 2: {}", sqlite3_errmsg(database_.get())));
-    }
-    std::unique_ptr<sqlite3, SqliteClose> database_;
-};
-
-/// A database of SQLite states its pages, where its header's two counters of changes agree (SQLite's file
-/// format, 1.3.7).
-void demand_all_pages(const char* file) {
-    std::array<unsigned char, 100> header{};
-    std::ifstream stream(file, std::ios::binary | std::ios::ate);
-    const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(0, stream.tellg()));
-    stream.seekg(0);
-    stream.read(reinterpret_cast<char*>(header.data()), header.size());
-    const auto number_at = [&](std::size_t at, std::size_t bytes) {
-        std::uint64_t number = 0;
-        for (std::size_t k = 0; k < bytes; ++k) number = number * 256 + header[at + k];
-        return number;
-    };
-    const std::uint64_t page_bytes = number_at(16, 2) == 1 ? 65536 : number_at(16, 2);
-    if (number_at(24, 4) == number_at(92, 4) && page_bytes * number_at(28, 4) > size)
-        throw BagError(
-            fmt::format("breaks off: it states {} bytes and has {}", page_bytes * number_at(28, 4), size));
-}
-
-std::string_view blob_of(sqlite3_stmt* row, int column) {
-    const void* bytes = sqlite3_column_blob(row, column);
-    return bytes == nullptr ? std::string_view()
-                            : std::string_view(static_cast<const char*>(bytes),
-                                               static_cast<std::size_t>(sqlite3_column_bytes(row, column)));
-}
-
-std::string text_of(sqlite3_stmt* row, int column) {
-    const unsigned char* text = sqlite3_column_text(row, column);
-    return text == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(text));
-}
 
 struct Topic {
-    std::int64_t id = 0;
     std::string name, type, serialization;
+    std::vector<Part> parts;
 };
 
-/// The signals of a topic while its messages are read: a value a message, NaN where a message lacks one.
+/// Of a signal: the messages that have a value of it, and the values.
+struct Samples {
+    std::vector<std::uint32_t> messages;
+    std::vector<double> values;
+};
+
+/// The signals of a topic while its messages are read.
 struct TopicSignals {
     std::vector<std::int64_t> stamps, received;
-    std::map<std::string, std::vector<double>> values;
+    std::map<std::string, Samples> signals;
+    std::uint64_t count = 0;  ///< of values
 
     void set(const std::string& name, double value) {
-        std::vector<double>& of = values[name];
-        of.resize(received.size(), std::numeric_limits<double>::quiet_NaN());
-        of.back() = value;
+        const auto message = static_cast<std::uint32_t>(received.size() - 1);
+        Samples& of = signals[name];
+        if (!of.messages.empty() && of.messages.back() == message) {
+            of.values.back() = value;
+            return;
+        }
+        of.messages.push_back(message);
+        of.values.push_back(value);
+        ++count;
     }
 };
 
@@ -140,101 +90,142 @@ constexpr std::array decoders{Decoder{"sensor_msgs/msg/JointState", read_joint_s
                               Decoder{"std_msgs/msg/UInt16", read_one_number<std::uint16_t>},
                               Decoder{"std_msgs/msg/Bool", read_one_number<std::uint8_t>}};
 
+/// Calls visit for each message, with its row (timestamp, data, id), its part's place and its bytes.
+template <class Visit>
+void each_message(const Topic& topic, const char* sql, const Visit& visit) {
+    std::size_t number = 0;
+    for (std::size_t part = 0; part < topic.parts.size(); ++part) {
+        const BagDatabase& database = *topic.parts[part].database;
+        try {
+            database.each(sql, topic.parts[part].topic, [&](sqlite3_stmt* row) {
+                ++number;
+                try {
+                    const BagMessage message(row, 1);
+                    visit(row, part, message.bytes());
+                } catch (const CdrError& error) {
+                    throw BagError(fmt::format("{}: message {}: {}", topic.name, number, error.what()));
+                }
+            });
+        } catch (const BagError& error) {
+            if (topic.parts.size() == 1) throw;
+            throw BagError(fmt::format("{}: {}", database.name(), error.what()));
+        }
+    }
+}
+
 constexpr const char* messages_of_topic =
     "SELECT timestamp, data, id FROM messages WHERE topic_id = ?1 ORDER BY timestamp, id";
 
-/// Signals on the stamps where all messages have one, in their order.
-void add_signals(const Topic& topic, TopicSignals& read, Log& log) {
-    const bool has_stamps = read.stamps.size() == read.received.size() &&
-                            std::ranges::none_of(read.stamps, [](auto stamp) { return stamp == 0; });
-    LoggedSignal times{.name = topic.name + (has_stamps ? "/stamp" : "/received"), .unit = "ns"};
-    const std::vector<std::int64_t>& from = has_stamps ? read.stamps : read.received;
-    std::vector<std::size_t> order(from.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, {}, [&](std::size_t k) { return from[k]; });
-    for (const std::size_t k : order) {
-        times.whole.push_back(from[k]);
-        times.values.push_back(static_cast<double>(from[k]));
-    }
-    if (!has_stamps)
-        log.notes.push_back(fmt::format(
-            "{}: its messages have no stamps: times are those at which the bag received them", topic.name));
-    for (auto& [name, values] : read.values) {
-        values.resize(from.size(), std::numeric_limits<double>::quiet_NaN());
-        LoggedSignal signal{.name = topic.name + name, .times = times.name};
-        for (const std::size_t k : order) signal.values.push_back(values[k]);
-        log.signals.push_back(std::move(signal));
-    }
-    log.signals.push_back(std::move(times));
+/// The numbers of a list at some of its places; empty if the list is.
+template <class Place>
+std::vector<std::int64_t> at_places(const std::vector<std::int64_t>& list, const std::vector<Place>& places) {
+    std::vector<std::int64_t> some;
+    if (list.empty()) return some;
+    some.reserve(places.size());
+    for (const Place place : places) some.push_back(list[place]);
+    return some;
 }
 
-void read_signals(const Bag& bag, const Topic& topic, const Decoder& decoder, Log& log,
-                  std::uint64_t& count) {
-    TopicSignals read;
-    bag.each(messages_of_topic, topic.id, [&](sqlite3_stmt* row) {
-        read.received.push_back(sqlite3_column_int64(row, 0));
-        try {
-            CdrReader cdr(blob_of(row, 1));
-            decoder.read(cdr, read);
-        } catch (const CdrError& error) {
-            throw BagError(fmt::format("{}: message {}: {}", topic.name, read.received.size(), error.what()));
+LoggedSignal signal_of_times(std::string name, std::vector<std::int64_t> ns) {
+    LoggedSignal times{.name = std::move(name), .unit = "ns", .values = {ns.begin(), ns.end()}};
+    times.whole = std::move(ns);
+    return times;
+}
+
+/// Signals that are in the same messages share their times. Times that are not of all messages are named
+/// after the first signal that has them.
+void add_signals(const Topic& topic, TopicSignals& read, Log& log) {
+    std::map<std::vector<std::uint32_t>, std::vector<std::string>> groups;
+    for (auto& [name, samples] : read.signals) groups[samples.messages].push_back(name);
+    for (const auto& [messages, names] : groups) {
+        const std::vector<std::int64_t> received = at_places(read.received, messages);
+        const MessageTimes found = times_of_messages(at_places(read.stamps, messages), received);
+        const std::string first = messages.size() == read.received.size() ? "" : names.front();
+        if (const std::string note = found.note(); !note.empty())
+            log.notes.push_back(fmt::format("{}{}: {}", topic.name, first, note));
+        LoggedSignal reception =
+            signal_of_times(topic.name + "/received" + first, at_places(received, found.order));
+        LoggedSignal times =
+            found.are_stamps ? signal_of_times(topic.name + "/stamp" + first, found.ns) : reception;
+        for (const std::string& name : names) {
+            const std::vector<double>& values = read.signals.at(name).values;
+            LoggedSignal signal{.name = topic.name + name, .times = times.name};
+            for (const std::size_t k : found.order) signal.values.push_back(values[k]);
+            log.signals.push_back(std::move(signal));
         }
-        count += 1 + read.values.size();
-        if (count > most_values || log.signals.size() + read.values.size() > most_signals)
-            throw BagError(fmt::format("more than {} numbers or {} signals: are not read from one file",
+        log.signals.push_back(std::move(times));
+        if (found.are_stamps) log.signals.push_back(std::move(reception));
+    }
+}
+
+void read_signals(const Topic& topic, const Decoder& decoder, Log& log, std::uint64_t& count) {
+    TopicSignals read;
+    each_message(topic, messages_of_topic, [&](sqlite3_stmt* row, std::size_t, std::string_view bytes) {
+        read.received.push_back(sqlite3_column_int64(row, 0));
+        CdrReader cdr(bytes);
+        decoder.read(cdr, read);
+        if (count + read.received.size() + read.count > most_values ||
+            log.signals.size() + read.signals.size() > most_signals)
+            throw BagError(fmt::format("more than {} numbers or {} signals: are not read from one bag",
                                        most_values, most_signals));
     });
+    count += read.received.size() + read.count;
     if (!read.received.empty()) add_signals(topic, read, log);
 }
 
-void read_camera_topic(const std::shared_ptr<const Bag>& bag, const Topic& topic, bool is_compressed,
-                       Log& log) {
-    struct Message {
-        TimeNs time_ns;
-        std::int64_t id;
-    };
-    std::vector<Message> messages;
-    bag->each(messages_of_topic, topic.id, [&](sqlite3_stmt* row) {
-        try {
-            CdrReader cdr(blob_of(row, 1));
-            const std::int64_t stamp = read_header(cdr);
-            messages.push_back(
-                {stamp == 0 ? sqlite3_column_int64(row, 0) : stamp, sqlite3_column_int64(row, 2)});
-        } catch (const CdrError& error) {
-            throw BagError(fmt::format("{}: message {}: {}", topic.name, messages.size() + 1, error.what()));
-        }
-    });
-    std::ranges::stable_sort(messages, {}, &Message::time_ns);
-    LoggedCamera camera{.name = topic.name};
-    for (const Message& message : messages) camera.times_ns.push_back(message.time_ns);
-    camera.frame = [bag, messages, is_compressed](std::size_t k) -> tl::expected<LoggedFrame, std::string> {
-        std::optional<LoggedFrame> frame;
-        try {
-            bag->each("SELECT data FROM messages WHERE id = ?1", messages[k].id, [&](sqlite3_stmt* row) {
-                frame =
-                    is_compressed ? frame_of_compressed(blob_of(row, 0)) : frame_of_image(blob_of(row, 0));
+/// An image message: its part's place and its number there.
+struct ImageMessage {
+    std::size_t part;
+    std::int64_t id;
+};
+
+tl::expected<LoggedFrame, std::string> read_frame(const Topic& topic, const ImageMessage& message,
+                                                  bool is_compressed) {
+    std::optional<LoggedFrame> frame;
+    try {
+        topic.parts[message.part].database->each(
+            "SELECT data FROM messages WHERE id = ?1", message.id, [&](sqlite3_stmt* row) {
+                const BagMessage bytes(row, 0);
+                frame = is_compressed ? frame_of_compressed(bytes.bytes()) : frame_of_image(bytes.bytes());
             });
-        } catch (const std::runtime_error& error) {
-            return tl::make_unexpected(std::string(error.what()));
-        }
-        if (!frame) return tl::make_unexpected(std::string("is no longer in the bag"));
-        return std::move(*frame);
+    } catch (const std::runtime_error& error) {
+        return tl::make_unexpected(std::string(error.what()));
+    }
+    if (!frame) return tl::make_unexpected(std::string("has left the bag"));
+    return std::move(*frame);
+}
+
+void read_camera_topic(const Topic& topic, bool is_compressed, Log& log) {
+    std::vector<std::int64_t> stamps, received;
+    std::vector<ImageMessage> messages;
+    LoggedCamera camera{.name = topic.name};
+    each_message(topic, messages_of_topic, [&](sqlite3_stmt* row, std::size_t part, std::string_view bytes) {
+        CdrReader cdr(bytes);
+        stamps.push_back(read_header(cdr));
+        received.push_back(sqlite3_column_int64(row, 0));
+        messages.push_back({part, sqlite3_column_int64(row, 2)});
+        if (!is_compressed && is_deep_image(bytes)) camera.is_deep = true;
+    });
+    if (messages.empty()) return;
+    const MessageTimes times = times_of_messages(stamps, received);
+    if (const std::string note = times.note(); !note.empty())
+        log.notes.push_back(fmt::format("{}: {}", topic.name, note));
+    camera.times_ns = times.ns;
+    camera.frame = [topic, messages, order = times.order, is_compressed](std::size_t k) {
+        return read_frame(topic, messages[order[k]], is_compressed);
     };
-    if (!messages.empty()) log.cameras.push_back(std::move(camera));
+    log.cameras.push_back(std::move(camera));
 }
 
-void read_camera_info(const Bag& bag, const Topic& topic, Log& log) {
-    bag.each("SELECT data FROM messages WHERE topic_id = ?1 ORDER BY timestamp, id LIMIT 1", topic.id,
-             [&](sqlite3_stmt* row) {
-                 try {
-                     log.texts[topic.name] = text_of_camera_info(blob_of(row, 0));
-                 } catch (const CdrError& error) {
-                     throw BagError(fmt::format("{}: message 1: {}", topic.name, error.what()));
-                 }
-             });
+void read_camera_info(const Topic& topic, Log& log) {
+    each_message(topic,
+                 "SELECT timestamp, data FROM messages WHERE topic_id = ?1 ORDER BY timestamp, id LIMIT 1",
+                 [&](sqlite3_stmt*, std::size_t, std::string_view bytes) {
+                     log.texts.try_emplace(topic.name, text_of_camera_info(bytes));
+                 });
 }
 
-void read_topic(const std::shared_ptr<const Bag>& bag, const Topic& topic, Log& log, std::uint64_t& count) {
+void read_topic(const Topic& topic, Log& log, std::uint64_t& count) {
     const auto decoder = std::ranges::find(decoders, topic.type, &Decoder::type);
     const bool is_image = topic.type == "sensor_msgs/msg/Image",
                is_compressed = topic.type == "sensor_msgs/msg/CompressedImage";
@@ -248,28 +239,43 @@ void read_topic(const std::shared_ptr<const Bag>& bag, const Topic& topic, Log& 
         throw BagError(fmt::format("{}: its messages are serialized as '{}', not as cdr", topic.name,
                                    topic.serialization));
     if (decoder != decoders.end())
-        read_signals(*bag, topic, *decoder, log, count);
+        read_signals(topic, *decoder, log, count);
     else if (is_info)
-        read_camera_info(*bag, topic, log);
+        read_camera_info(topic, log);
     else
-        read_camera_topic(bag, topic, is_compressed, log);
+        read_camera_topic(topic, is_compressed, log);
+}
+
+/// The topics of all files, by name.
+std::vector<Topic> topics_of(const std::vector<std::filesystem::path>& files) {
+    std::map<std::tuple<std::string, std::string, std::string>, Topic> topics;
+    for (const std::filesystem::path& file : files) try {
+            const auto database = std::make_shared<const BagDatabase>(file);
+            database->each("SELECT id, name, type, serialization_format FROM topics", 0,
+                           [&](sqlite3_stmt* row) {
+                               const std::tuple key{text_of(row, 1), text_of(row, 2), text_of(row, 3)};
+                               Topic& topic = topics[key];
+                               std::tie(topic.name, topic.type, topic.serialization) = key;
+                               topic.parts.push_back({database, sqlite3_column_int64(row, 0)});
+                           });
+        } catch (const BagError& error) {
+            if (files.size() == 1) throw;
+            throw BagError(fmt::format("{}: {}", file.filename().string(), error.what()));
+        }
+    std::vector<Topic> all;
+    all.reserve(topics.size());
+    for (auto& [key, topic] : topics) all.push_back(std::move(topic));
+    return all;
 }
 
 }  // namespace
 
-LogOrFault read_rosbag2_file(const char* file) {
+LogOrFault read_rosbag2_files(const std::vector<std::filesystem::path>& files) {
     try {
-        demand_all_pages(file);
-        const auto bag = std::make_shared<const Bag>(file);
-        std::vector<Topic> topics;
-        bag->each("SELECT id, name, type, serialization_format FROM topics ORDER BY name", 0,
-                  [&](sqlite3_stmt* row) {
-                      topics.push_back(
-                          {sqlite3_column_int64(row, 0), text_of(row, 1), text_of(row, 2), text_of(row, 3)});
-                  });
+        const std::vector<Topic> topics = topics_of(files);
         Log log;
         std::uint64_t count = 0;
-        for (const Topic& topic : topics) read_topic(bag, topic, log, count);
+        for (const Topic& topic : topics) read_topic(topic, log, count);
         if (log.signals.empty() && log.cameras.empty())
             return tl::make_unexpected(
                 fmt::format("holds no messages of a type that is read, in {} topics", topics.size()));

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/import/module/bag_database.h"
+
+#include "src/import/module/cdr.h"
+#include "src/import/module/zstd_bytes.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include <fmt/format.h>
+
+namespace fidservo::imports {
+namespace {
+
+/// Of SQLite's file format, 1.3.
+constexpr std::size_t header_bytes = 100, write_version_at = 18, read_version_at = 19;
+
+/// A database of SQLite states its pages, where its header's two counters of changes agree (SQLite's file
+/// format, 1.3.7).
+void demand_all_pages(std::string_view header, std::uint64_t size) {
+    if (header.size() < header_bytes) throw BagError("breaks off in its header");
+    const auto number_at = [&](std::size_t at, std::size_t bytes) {
+        std::uint64_t number = 0;
+        for (std::size_t k = 0; k < bytes; ++k)
+            number = number * 256 + static_cast<unsigned char>(header[at + k]);
+        return number;
+    };
+    const std::uint64_t page_bytes = number_at(16, 2) == 1 ? 65536 : number_at(16, 2);
+    if (number_at(24, 4) == number_at(92, 4) && page_bytes * number_at(28, 4) > size)
+        throw BagError(
+            fmt::format("breaks off: it states {} bytes and has {}", page_bytes * number_at(28, 4), size));
+}
+
+std::string beginning_of_bag(const std::filesystem::path& file, std::size_t most_bytes) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string bytes(most_bytes, '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(stream.gcount()));
+    return bytes;
+}
+
+constexpr int steps_of_piece = 1'000'000;
+
+}  // namespace
+
+BagDatabase::BagDatabase(const std::filesystem::path& file) : file_(file) {
+    std::error_code error;
+    std::uint64_t bytes = std::filesystem::file_size(file, error);
+    if (error) throw BagError(error.message());
+    std::string header = beginning_of_bag(file, header_bytes);
+    const bool is_compressed = is_zstd(header);
+    if (is_compressed) {
+        constexpr std::size_t most_bytes = std::size_t{1} << 31U;
+        auto content =
+            decompressed(beginning_of_bag(file, std::min<std::size_t>(bytes, most_bytes)), most_bytes);
+        if (!content)
+            throw BagError(fmt::format("{}; unzstd -o NEW.db3 FILE.db3.zstd decompresses a larger one",
+                                       content.error()));
+        content_ = *std::move(content);
+        bytes = content_.size();
+        header = content_.substr(0, header_bytes);
+    }
+    demand_all_pages(header, bytes);
+    const std::uint64_t bytes_of_changes = std::filesystem::file_size(file.string() + "-wal", error);
+    constexpr std::uint64_t least_pieces = 4, most_steps_of_byte = 20;
+    most_pieces_ =
+        least_pieces + (bytes + (error ? 0 : bytes_of_changes)) / steps_of_piece * most_steps_of_byte;
+    sqlite3* opened = nullptr;
+    const int code = sqlite3_open_v2(is_compressed ? ":memory:" : file.c_str(), &opened,
+                                     is_compressed ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY, nullptr);
+    database_.reset(opened);
+    if (code != SQLITE_OK) fail();
+    if (is_compressed) open_compressed();
+    sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, most_message_bytes);
+    sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    sqlite3_progress_handler(opened, steps_of_piece, count_steps, this);
+    demand_plain_tables();
+}
+
+void BagDatabase::open_compressed() {
+    // A log of changes beside the file does not exist in memory: the header then says that there is none.
+    content_[write_version_at] = content_[read_version_at] = 1;
+    const auto size = static_cast<sqlite3_int64>(content_.size());
+    if (sqlite3_deserialize(database_.get(), "main", reinterpret_cast<unsigned char*>(content_.data()), size,
+                            size, SQLITE_DESERIALIZE_READONLY) != SQLITE_OK)
+        fail();
+}
+
+/// What a view, a virtual table or an expression computes may never end.
+void BagDatabase::demand_plain_tables() const {
+    each("SELECT name, type, rootpage FROM sqlite_master WHERE lower(name) IN ('topics', 'messages')", 0,
+         [](sqlite3_stmt* row) {
+             if (text_of(row, 1) != "table" || sqlite3_column_int64(row, 2) <= 0)
+                 throw BagError(fmt::format("is no bag of ROS 2: {} is not a plain table", text_of(row, 0)));
+         });
+}
+
+int BagDatabase::count_steps(void* bag) {
+    std::uint64_t& left = static_cast<const BagDatabase*>(bag)->pieces_left_;
+    return left == 0 ? 1 : (--left, 0);
+}
+
+void BagDatabase::each(const char* sql, std::int64_t argument,
+                       const std::function<void(sqlite3_stmt*)>& visit) const {
+    pieces_left_ = most_pieces_;
+    sqlite3_stmt* prepared = nullptr;
+    if (sqlite3_prepare_v2(database_.get(), sql, -1, &prepared, nullptr) != SQLITE_OK) fail();
+    const std::unique_ptr<sqlite3_stmt, Close> statement(prepared);
+    if (sqlite3_bind_parameter_count(prepared) > 0) sqlite3_bind_int64(prepared, 1, argument);
+    int code = SQLITE_ROW;
+    while ((code = sqlite3_step(prepared)) == SQLITE_ROW) visit(prepared);
+    if (code == SQLITE_INTERRUPT)
+        throw BagError("is damaged: reading it takes more steps than a table of its size can need");
+    if (code != SQLITE_DONE) fail();
+}
+
+void BagDatabase::fail() const {
+    throw BagError(
+        fmt::format("SQLite cannot read it as a bag of ROS 2: {}", sqlite3_errmsg(database_.get())));
+}
+
+std::string text_of(sqlite3_stmt* row, int column) {
+    const unsigned char* text = sqlite3_column_text(row, column);
+    return text == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(text));
+}
+
+BagMessage::BagMessage(sqlite3_stmt* row, int column) {
+    const void* bytes = sqlite3_column_blob(row, column);
+    if (bytes != nullptr)
+        bytes_ = {static_cast<const char*>(bytes),
+                  static_cast<std::size_t>(sqlite3_column_bytes(row, column))};
+    if (!is_zstd(bytes_)) return;
+    auto content = decompressed(bytes_, most_message_bytes);
+    if (!content) throw CdrError(content.error());
+    decompressed_ = *std::move(content);
+    bytes_ = decompressed_;
+}
+
+}  // namespace fidservo::imports

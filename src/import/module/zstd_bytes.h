@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Decompression of zstd (RFC 8878), by which ROS 2 compresses bags.
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+namespace fidservo::imports {
+
+/// Whether bytes begin as a frame of zstd does.
+bool is_zstd(std::string_view bytes);
+
+/// What was compressed. The error is a part of a sentence: damaged, cut off, or larger than most_bytes.
+tl::expected<std::string, std::string> decompressed(std::string_view bytes, std::size_t most_bytes);
+
+}  // namespace fidservo::imports
