@@ -4,9 +4,11 @@
 // command calls, too.
 #include "core/recording.h"
 #include "core/rig.h"
+#include "src/import/assemble.h"
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,13 +24,28 @@ struct HeldRig {
     std::filesystem::path file;
 };
 
-/// A recording that arrays look into; it never changes.
-struct HeldRecording {
-    Recording recording;
-    std::filesystem::path folder;    ///< where its frames are; empty: it has none
-    std::vector<std::string> notes;  ///< how it was made
+/// A recording that arrays look into, and what a folder of it states; it never changes.
+struct HeldRecording : imports::Assembled, std::enable_shared_from_this<HeldRecording> {
+    explicit HeldRecording(imports::Assembled made, std::filesystem::path folder_ = {})
+        : imports::Assembled(std::move(made)), folder(std::move(folder_)) {}
+
+    std::filesystem::path folder;  ///< where its frames are; empty: it has none
 };
 using RecordingPointer = std::shared_ptr<HeldRecording>;
+
+/// One that was not imported.
+RecordingPointer held(Recording recording, RecordingOrigin origin, std::filesystem::path folder);
+
+/// An array as it was given.
+struct GivenArray {
+    pybind11::array values;
+    std::optional<pybind11::array_t<bool>> mask;  ///< true where a value is missing; empty: nowhere
+};
+
+/// Throws TypeError "NAME: ...", one line, on what NumPy makes no array of.
+GivenArray array_of(const std::string& name, const pybind11::object& given);
+/// The name of an object's type.
+std::string type_name(pybind11::handle given);
 
 /// Values that `owner` keeps, as a read-only array without a copy.
 template <class Value>

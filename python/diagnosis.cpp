@@ -122,11 +122,26 @@ CopiedRecordings copied(const std::vector<RecordingPointer>& held) {
     return all;
 }
 
-std::string diagnose_all(const HeldRig& rig, const std::vector<RecordingPointer>& held,
+/// Throws TypeError, one line, on what is no list of recordings.
+std::vector<RecordingPointer> recordings_of(const py::object& given) {
+    if (py::isinstance<HeldRecording>(given) || !py::isinstance<py::iterable>(given))
+        throw py::type_error("recordings: must be a list of Recordings, not " + type_name(given));
+    std::vector<RecordingPointer> all;
+    for (const py::handle one : given) {
+        if (!py::isinstance<HeldRecording>(one))
+            throw py::type_error("recordings[" + std::to_string(all.size()) + "]: must be a Recording, not " +
+                                 type_name(one));
+        all.push_back(one.cast<RecordingPointer>());
+    }
+    return all;
+}
+
+std::string diagnose_all(const HeldRig& rig, const py::object& recordings_given,
                          std::vector<std::string> effects, std::vector<std::string> without,
                          const std::optional<std::filesystem::path>& effects_file,
                          std::vector<std::string> matters, std::optional<double> effort_s,
                          const std::optional<py::function>& progress) {
+    const std::vector<RecordingPointer> held = recordings_of(recordings_given);
     static std::mutex one_at_a_time;
     const std::unique_lock lock(one_at_a_time, std::try_to_lock);
     if (!lock) throw std::runtime_error("diagnose: another thread's is under way; one at a time");

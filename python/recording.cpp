@@ -3,14 +3,16 @@
 #include "python/bindings.h"
 #include "src/files/recording/layout.h"
 #include "src/files/recording/reader.h"
-#include "src/files/recording/writer.h"
 #include "src/import/assemble.h"
 #include "src/import/draft_map.h"
 #include "src/import/export_log.h"
+#include "src/import/recording_folder.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -38,7 +40,7 @@ struct HeldDetections {
 };
 
 RecordingPointer read(const std::filesystem::path& folder) {
-    return std::make_shared<HeldRecording>(HeldRecording{read_recording(folder), folder, {}});
+    return held(read_recording(folder), read_origin(folder / "recording.yaml"), folder);
 }
 
 std::vector<RecordingPointer> read_all(const std::filesystem::path& path) {
@@ -48,37 +50,76 @@ std::vector<RecordingPointer> read_all(const std::filesystem::path& path) {
     return all;
 }
 
-/// Whole numbers of 64 bits are kept exactly, all else as doubles.
-imports::LoggedSignal signal_of(const std::string& name, const py::array& values) {
+/// The values as numbers of a type.
+template <class Value>
+std::vector<Value> numbers_in(const py::array& values) {
+    const auto numbers = py::array_t<Value, py::array::c_style | py::array::forcecast>::ensure(values);
+    if (!numbers) throw std::bad_alloc();
+    return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+/// Whether the values are whole numbers of 64 bits that all fit into signed ones.
+bool are_whole(const py::array& values) {
+    const char kind = values.dtype().kind();
+    if (values.itemsize() != sizeof(std::int64_t)) return false;
+    return kind == 'i' || (kind == 'u' && std::ranges::all_of(numbers_in<std::uint64_t>(values), [](auto n) {
+                               return std::in_range<std::int64_t>(n);
+                           }));
+}
+
+/// Whole numbers of 64 bits are kept exactly, all else as doubles; masked ones are missing.
+imports::LoggedSignal signal_of(const std::string& name, const py::object& given) {
+    const auto [values, mask] = array_of(name, given);
+    if (std::string_view("iufb").find(values.dtype().kind()) == std::string_view::npos)
+        throw py::type_error(name + ": holds " + std::string(py::str(values.dtype())) +
+                             "; must hold numbers");
     if (values.ndim() != 1)
         throw py::value_error(name + ": has " + std::to_string(values.ndim()) + " dimensions; must have one");
-    if (std::string_view("iufb").find(values.dtype().kind()) == std::string_view::npos)
-        throw py::type_error(name + ": must hold numbers");
-    imports::LoggedSignal signal{.name = name};
-    const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(values);
-    signal.values.assign(numbers.data(), numbers.data() + numbers.size());
-    if (values.dtype().kind() == 'i' && values.itemsize() == sizeof(std::int64_t)) {
-        const auto whole = py::array_t<std::int64_t, py::array::c_style>::ensure(values);
-        signal.whole.assign(whole.data(), whole.data() + whole.size());
+    imports::LoggedSignal signal{.name = name, .values = numbers_in<double>(values)};
+    if (mask) {
+        for (py::ssize_t k = 0; k < mask->size(); ++k)
+            if (mask->at(k)) signal.values[static_cast<std::size_t>(k)] = not_in_force;
+    } else if (are_whole(values)) {
+        signal.whole = numbers_in<std::int64_t>(values);
     }
     return signal;
 }
 
-std::vector<imports::Log> log_of(const std::map<std::string, py::array>& arrays) {
+/// A table of pandas is one of its columns, too.
+py::dict dict_of(const py::object& arrays) {
+    try {
+        return {arrays};
+    } catch (const py::error_already_set& error) {
+        if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
+        throw py::type_error("arrays: must be a dict of arrays by name, not " + type_name(arrays));
+    }
+}
+
+std::vector<imports::Log> log_of(const py::object& arrays) {
+    std::map<std::string, py::object> by_name;
+    for (const auto& [name, given] : dict_of(arrays)) {
+        if (!py::isinstance<py::str>(name))
+            throw py::type_error("arrays: must be a dict of arrays by name; has the name " +
+                                 std::string(py::repr(name)));
+        by_name[name.cast<std::string>()] = py::reinterpret_borrow<py::object>(given);
+    }
     imports::Log log{.file = "arrays"};
-    for (const auto& [name, values] : arrays) log.signals.push_back(signal_of(name, values));
+    for (const auto& [name, given] : by_name) log.signals.push_back(signal_of(name, given));
     return {std::move(log)};
 }
 
-RecordingPointer from_arrays(const std::map<std::string, py::array>& arrays, const std::string& map) {
-    imports::Assembled made = imports::assemble(log_of(arrays), imports::parse_import_map(map, "map"));
-    return std::make_shared<HeldRecording>(
-        HeldRecording{std::move(made.recording), {}, std::move(made.notes)});
+RecordingPointer from_arrays(const py::object& arrays, const py::object& map) {
+    if (!py::isinstance<py::str>(map))
+        throw py::type_error("map: must be the text of a map, not " + type_name(map));
+    imports::Assembled made =
+        imports::assemble(log_of(arrays), imports::parse_import_map(map.cast<std::string>(), "map"));
+    imports::make_as_read(made.recording, made.decimals);
+    return std::make_shared<HeldRecording>(std::move(made));
 }
 
 void write(const HeldRecording& held, const std::filesystem::path& folder, const HeldRig* rig) {
     const py::gil_scoped_release others_may_run;
-    write_recording(folder, held.recording, rig == nullptr ? std::nullopt : rig->rig.camera);
+    imports::write_folder(folder, held, rig == nullptr ? std::nullopt : rig->rig.camera);
 }
 
 std::vector<std::string> column_names(const HeldRecording& held) {
@@ -150,6 +191,14 @@ void bind_detections(py::module_& module) {
 
 }  // namespace
 
+RecordingPointer held(Recording recording, RecordingOrigin origin, std::filesystem::path folder) {
+    imports::Assembled made;
+    made.decimals = imports::decimals_without_log(recording);
+    made.recording = std::move(recording);
+    made.origin = std::move(origin);
+    return std::make_shared<HeldRecording>(std::move(made), std::move(folder));
+}
+
 void bind_recording(py::module_& module) {
     bind_detections(module);
     py::class_<HeldRecording, std::shared_ptr<HeldRecording>>(
@@ -161,12 +210,13 @@ void bind_recording(py::module_& module) {
         .def_static(
             "from_arrays", &from_arrays, py::arg("arrays"), py::arg("map"),
             "A recording out of arrays of one dimension, by name, as `fidservo import` makes one of a "
-            "file. `map` is the text of a map (format fidservo-map/1, docs/import.md) that says which "
+            "file. What NumPy makes an array of will do, as lists and a table of pandas; masked values are "
+            "missing. `map` is the text of a map (format fidservo-map/1, docs/import.md) that says which "
             "array is what, in which unit. Raises InputError.")
         .def("write", &write, py::arg("folder"), py::arg("rig") = nullptr,
-             "Writes a new recording folder. `rig`: whose camera saw the fiducials; its intrinsics are "
-             "written, "
-             "too. Raises InputError if the folder exists, RunFault if the disk fails.")
+             "Writes a new recording folder, without images: every number as it is, so that reading gives "
+             "the same recording. `rig`: whose camera saw the fiducials; its intrinsics are written, too. "
+             "Raises InputError if the folder exists, RunFault if the disk fails.")
         .def_property_readonly(
             "name", [](const HeldRecording& held) { return held.recording.name; }, "Of the recording.")
         .def_property_readonly(
@@ -182,7 +232,7 @@ void bind_recording(py::module_& module) {
             "time_ns", [](const py::object& self) { return rows_view(self, &StageRow::time_ns); },
             "When each row was sampled, ns, on one clock.")
         .def_property_readonly(
-            "detections", [](RecordingPointer held) { return HeldDetections{std::move(held)}; },
+            "detections", [](HeldRecording& held) { return HeldDetections{held.shared_from_this()}; },
             "The fiducials that the camera saw.")
         .def("__getitem__", &column, py::arg("column"))
         .def("__len__", [](const HeldRecording& held) { return held.recording.rows.size(); })
@@ -195,8 +245,7 @@ void bind_recording(py::module_& module) {
         "The recordings that a path stands for, by name: itself, those in it, or those of a run's folder. "
         "Raises InputError if there are none.");
     module.def(
-        "draft_map",
-        [](const std::map<std::string, py::array>& arrays) { return imports::draft_map(log_of(arrays)); },
+        "draft_map", [](const py::object& arrays) { return imports::draft_map(log_of(arrays)); },
         py::arg("arrays"),
         "A map to edit for Recording.from_arrays, under comments that list every array with its count, rate "
         "and range.");

@@ -6,7 +6,9 @@
 #include "src/replay/tag_options.h"
 #include "vision/images/image_file.h"
 
+#include <cstdint>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -26,13 +28,23 @@ struct SharedFinder {
     std::mutex in_use = {};
 };
 
+/// The array itself where the bytes of its values are in the machine's order, else a copy in which they are.
+template <class Value>
+py::array_t<Value> in_order_of_machine(const py::array& array) {
+    auto ordered = py::array_t<Value>::ensure(array);
+    if (!ordered) throw std::bad_alloc();
+    return ordered;
+}
+
 /// An image of the array's own memory where its rows are whole, else of a copy.
 struct ArrayImage {
     py::array array;
     cv::Mat image;
 };
 
-ArrayImage image_of(py::array array) {
+ArrayImage image_of(const py::object& given) {
+    auto [array, mask] = array_of("image", given);
+    if (mask) throw py::value_error("image: has masked pixels; must be filled");
     const char kind = array.dtype().kind();
     const auto bytes = array.itemsize();
     if (array.ndim() != 2 || kind != 'u' || (bytes != 1 && bytes != 2))
@@ -43,8 +55,11 @@ ArrayImage image_of(py::array array) {
     const Status is_readable =
         vision::demand_readable_size(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
     if (!is_readable) throw InputError("image: " + is_readable.error().text);
-    if (array.strides(1) != bytes || array.strides(0) < width * bytes)
+    array = bytes == 1 ? py::array(in_order_of_machine<std::uint8_t>(array))
+                       : py::array(in_order_of_machine<std::uint16_t>(array));
+    if (array.strides(1) != bytes || array.strides(0) < width * bytes || array.strides(0) % bytes != 0)
         array = py::array::ensure(array, py::array::c_style);
+    if (!array) throw std::bad_alloc();
     cv::Mat image(static_cast<int>(height), static_cast<int>(width), bytes == 1 ? CV_8UC1 : CV_16UC1,
                   const_cast<void*>(array.data()), static_cast<std::size_t>(array.strides(0)));
     return {std::move(array), std::move(image)};
@@ -70,21 +85,21 @@ std::unique_ptr<SharedFinder> make_finder(const HeldRig* rig, const std::string&
 
 /// Works on an image without Python's lock.
 template <class Work>
-auto on_image(SharedFinder& shared, py::array array, const Work& work) {
-    const ArrayImage given = image_of(std::move(array));
+auto on_image(SharedFinder& shared, const py::object& array, const Work& work) {
+    const ArrayImage given = image_of(array);
     const py::gil_scoped_release others_may_run;
     const std::lock_guard lock(shared.in_use);
     return work(in_8_bits(given.image));
 }
 
-std::vector<TagDetection> detect(SharedFinder& shared, py::array array) {
-    return on_image(shared, std::move(array), [&](const cv::Mat& image) {
+std::vector<TagDetection> detect(SharedFinder& shared, const py::object& array) {
+    return on_image(shared, array, [&](const cv::Mat& image) {
         return shared.finder.detect(image, 0, shared.is_of_machine);
     });
 }
 
-std::vector<vision::RefinedTag> measure(SharedFinder& shared, py::array array) {
-    return on_image(shared, std::move(array), [&](const cv::Mat& image) {
+std::vector<vision::RefinedTag> measure(SharedFinder& shared, const py::object& array) {
+    return on_image(shared, array, [&](const cv::Mat& image) {
         return shared.finder.measure(image, 0, shared.is_of_machine).refined;
     });
 }

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable
 from os import PathLike
 from typing import Any
 
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
 from fidservo._diagnosis import (
     BlockProbability,
@@ -109,7 +109,7 @@ def diagnose(
     """
     text = diagnose_to_json(
         rig,
-        list(recordings),
+        recordings,
         effects=list(effects),
         without=list(without),
         effects_file=effects_file,
@@ -120,11 +120,11 @@ def diagnose(
     return Diagnosis.from_json(text)
 
 
-def detect(image: NDArray[Any], **reading: Any) -> list[Detection]:
+def detect(image: ArrayLike, **reading: Any) -> list[Detection]:
     """The fiducials in a grey image: TagFinder(**reading).detect(image)."""
     return TagFinder(**reading).detect(image)
 
 
-def measure(image: NDArray[Any], **reading: Any) -> list[Tag]:
+def measure(image: ArrayLike, **reading: Any) -> list[Tag]:
     """The same, measured to some hundredths of a pixel, with their covariance: TagFinder(**reading).measure(image)."""
     return TagFinder(**reading).measure(image)

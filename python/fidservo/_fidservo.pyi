@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 __version__: str
 USUAL_EFFORT_S: float
@@ -52,7 +51,7 @@ class Recording:
     @staticmethod
     def read(folder: str | PathLike[str]) -> Recording: ...
     @staticmethod
-    def from_arrays(arrays: Mapping[str, NDArray[Any]], map: str) -> Recording: ...
+    def from_arrays(arrays: Mapping[str, ArrayLike], map: str) -> Recording: ...
     def write(self, folder: str | PathLike[str], rig: Rig | None = ...) -> None: ...
     @property
     def name(self) -> str: ...
@@ -74,7 +73,7 @@ class Recording:
     def __len__(self) -> int: ...
 
 def read_recordings(path: str | PathLike[str]) -> list[Recording]: ...
-def draft_map(arrays: Mapping[str, NDArray[Any]]) -> str: ...
+def draft_map(arrays: Mapping[str, ArrayLike]) -> str: ...
 def simulate(
     rig: Rig,
     experiment: str,
@@ -141,12 +140,12 @@ class TagFinder:
         mirrored: bool = ...,
         photograph: bool = ...,
     ) -> None: ...
-    def detect(self, image: NDArray[Any]) -> list[Detection]: ...
-    def measure(self, image: NDArray[Any]) -> list[Tag]: ...
+    def detect(self, image: ArrayLike) -> list[Detection]: ...
+    def measure(self, image: ArrayLike) -> list[Tag]: ...
 
 def diagnose_to_json(
     rig: Rig,
-    recordings: Sequence[Recording],
+    recordings: Iterable[Recording],
     *,
     effects: Sequence[str] = ...,
     without: Sequence[str] = ...,

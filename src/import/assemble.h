@@ -12,12 +12,14 @@
 
 namespace fidservo::imports {
 
+/// For each of stage_columns: digits after the decimal point in its log; -1: unknown.
+using ColumnDecimals = std::array<int, stage_columns.size()>;
+
 /// A recording and its accompanying files.
 struct Assembled {
     Recording recording;
     RecordingOrigin origin;
-    /// For each of stage_columns: digits after the decimal point in its log; -1: unknown.
-    std::array<int, stage_columns.size()> decimals{};
+    ColumnDecimals decimals{};
     const LoggedCamera* camera = nullptr;  ///< the logs' camera; nullptr: no frames
     std::vector<TimeNs> frame_times_ns;    ///< the camera's frame times on the recording's clock
     std::string camera_info;               ///< text of a file of intrinsics; empty: none

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "src/files/recording/last_digit.h"
+#include "src/files/recording/reader.h"
 #include "src/files/recording/row_format.h"
 #include "src/import/recording_folder.h"
 
@@ -7,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <string_view>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -42,21 +45,23 @@ void append_exact(std::string& text, double value, int decimals) {
         fmt::format_to(std::back_inserter(text), FMT_COMPILE("{:.{}f}"), value, decimals);
 }
 
+/// The decimals with which a column is written: those that its log has, where they give every number back.
+int decimals_of_column(const Recording& recording, const StageColumn& column, int logged) {
+    const auto all_at = [&](int count) {
+        return std::ranges::all_of(recording.rows, [&](const StageRow& row) {
+            return std::isnan(row.*column.value) || is_given_back(row.*column.value, count);
+        });
+    };
+    return logged >= 0 && all_at(logged) ? logged : exact_decimals(column.decimals, all_at);
+}
+
 }  // namespace
 
-std::string stage_text(const Recording& recording, const std::array<int, stage_columns.size()>& logged) {
-    std::array<int, stage_columns.size()> decimals{};
-    for (std::size_t k = 0; k < stage_columns.size(); ++k) {
-        const StageColumn& column = stage_columns[k];
-        if (!(recording.columns.*column.present)) continue;
-        const auto all_at = [&](int count) {
-            return std::ranges::all_of(recording.rows, [&](const StageRow& row) {
-                return std::isnan(row.*column.value) || is_given_back(row.*column.value, count);
-            });
-        };
-        decimals[k] =
-            logged[k] >= 0 && all_at(logged[k]) ? logged[k] : exact_decimals(column.decimals, all_at);
-    }
+std::string stage_text(const Recording& recording, const ColumnDecimals& logged) {
+    ColumnDecimals decimals{};
+    for (std::size_t k = 0; k < stage_columns.size(); ++k)
+        if (recording.columns.*stage_columns[k].present)
+            decimals[k] = decimals_of_column(recording, stage_columns[k], logged[k]);
     std::string text = stage_header(recording.columns);
     for (const StageRow& row : recording.rows) {
         fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), row.time_ns);
@@ -95,6 +100,32 @@ std::string detections_text(const std::vector<TagDetection>& detections) {
         text += '\n';
     }
     return text;
+}
+
+void make_as_read(Recording& recording, const ColumnDecimals& logged) {
+    give_print_of_plate(recording);
+    const StageColumn& column = stage_columns.front();
+    const int decimals = decimals_of_column(recording, column, logged.front());
+    LastDigit setpoint;
+    std::string text;
+    for (const StageRow& row : recording.rows) {
+        if (std::isnan(row.macro_setpoint_mm)) continue;
+        text.clear();
+        append_exact(text, row.macro_setpoint_mm, decimals);
+        setpoint.saw(std::string_view(text).substr(1));
+    }
+    recording.macro_setpoint_step_mm = setpoint.step().value_or(RecordingHeader().macro_setpoint_step_mm);
+}
+
+int setpoint_decimals(const Recording& recording) {
+    return static_cast<int>(std::lround(-std::log10(recording.macro_setpoint_step_mm)));
+}
+
+ColumnDecimals decimals_without_log(const Recording& recording) {
+    ColumnDecimals decimals{};
+    decimals.fill(-1);
+    decimals.front() = setpoint_decimals(recording);
+    return decimals;
 }
 
 }  // namespace fidservo::imports

@@ -11,7 +11,6 @@
 #include "src/import/recording_folder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <system_error>
 
@@ -36,11 +35,6 @@ void add_times(const auto& rows, const std::string& name, Log& log) {
         times.values.push_back(static_cast<double>(row.time_ns));
     }
     log.signals.push_back(std::move(times));
-}
-
-/// Setpoints are known to their last digit: how many there are goes into the map.
-int setpoint_decimals(const Recording& recording) {
-    return static_cast<int>(std::lround(-std::log10(recording.macro_setpoint_step_mm)));
 }
 
 void add_exported_stage(const Recording& recording, ExportFormat format, Log& log, std::string& columns) {
@@ -149,10 +143,7 @@ std::vector<std::string> write_csv(const fs::path& file, const Recording& record
         write_or_throw(path, text);
         written.push_back(path.string());
     };
-    std::array<int, stage_columns.size()> decimals{};
-    decimals.fill(-1);
-    decimals.front() = setpoint_decimals(recording);
-    if (!recording.rows.empty()) write(file, stage_text(recording, decimals));
+    if (!recording.rows.empty()) write(file, stage_text(recording, decimals_without_log(recording)));
     if (!recording.detections.empty()) write(detections, detections_text(recording.detections));
     std::string text = log.texts.at(map_text);
     if (!recording.plate.empty()) {

@@ -76,7 +76,8 @@ void write_frames(const fs::path& folder, const Assembled& made) {
     write_or_throw(folder / "data.csv", index);
 }
 
-void write_files(const fs::path& folder, const Assembled& made) {
+void write_files(const fs::path& folder, const Assembled& made,
+                 const std::optional<CameraParameters>& camera) {
     const Recording& recording = made.recording;
     make_folder(folder);
     write_or_throw(folder / "recording.yaml", description_yaml(recording, made.origin));
@@ -86,17 +87,19 @@ void write_files(const fs::path& folder, const Assembled& made) {
         make_folder(folder / "stage0");
         write_or_throw(folder / "stage0/data.csv", stage_text(recording, made.decimals));
     }
-    if (!recording.detections.empty()) {
+    if (!recording.detections.empty() || camera) {
         make_folder(folder / "cam0");
         write_or_throw(folder / "cam0/detections.csv", detections_text(recording.detections));
     }
+    if (camera) write_or_throw(folder / "cam0/sensor.yaml", sensor_yaml(*camera));
     if (made.camera != nullptr) write_frames(folder / "cam0", made);
     if (!made.camera_info.empty()) write_or_throw(folder / "camera_info.yaml", made.camera_info);
 }
 
 }  // namespace
 
-void write_folder(const fs::path& folder, const Assembled& made) {
+void write_folder(const fs::path& folder, const Assembled& made,
+                  const std::optional<CameraParameters>& camera) {
     if (is_there(folder))
         throw InputError(fmt::format("--out: {}: exists already; nothing is overwritten", folder.string()));
     fs::path unfinished = folder.lexically_normal();
@@ -105,10 +108,10 @@ void write_folder(const fs::path& folder, const Assembled& made) {
     unfinished += ".unfinished";
     if (is_there(unfinished))
         throw InputError(
-            fmt::format("--out: {}: is left of an import that was killed; remove it", unfinished.string()));
+            fmt::format("--out: {}: is left of a run that was killed; remove it", unfinished.string()));
     std::error_code error;
     try {
-        write_files(unfinished, made);
+        write_files(unfinished, made, camera);
         fs::rename(unfinished, finished, error);
         if (error) throw RunFault(fmt::format("{}: cannot be named: {}", folder.string(), error.message()));
     } catch (...) {

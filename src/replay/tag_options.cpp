@@ -27,6 +27,9 @@ vision::TagReading reading_of(const TagOptions& options, const TagPrint& print) 
             throw InputError(
                 fmt::format("--family: {}: must be one of {}", options.family, names_of_tag_families()));
     }
+    if (options.border_cells < 0 || options.border_cells > 2)
+        throw InputError(fmt::format("--border-cells: {}: must be 1 or 2; 0 stands for the rig file's",
+                                     options.border_cells));
     if (options.border_cells > 0) reading.print.border_cells = options.border_cells;
     if (reading.print.border_cells == 2 && !reading.print.family->has_plain_border())
         throw InputError(fmt::format("--border-cells: 2: must be 1: {} has no plain border to make wider",

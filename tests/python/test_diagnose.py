@@ -129,6 +129,17 @@ def test_wrong_words_raise(rig: fidservo.Rig, pulses: fidservo.Recording) -> Non
         fidservo.diagnose(rig, [])
 
 
+def test_what_is_no_list_of_recordings_raises_one_line(rig: fidservo.Rig, pulses: fidservo.Recording) -> None:
+    for wrong, says in (
+        ([pulses, None], r"recordings\[1\]: must be a Recording, not NoneType"),
+        (["run-1"], r"recordings\[0\]: must be a Recording, not str"),
+        (None, "recordings: must be a list of Recordings, not NoneType"),
+        (pulses, "recordings: must be a list of Recordings, not Recording"),
+    ):
+        with pytest.raises(TypeError, match=f"^{says}$"):
+            fidservo.diagnose(rig, wrong)  # type: ignore[arg-type]
+
+
 def test_one_diagnosis_at_a_time(rig: fidservo.Rig, pulses: fidservo.Recording) -> None:
     raised: list[BaseException] = []
 

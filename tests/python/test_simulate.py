@@ -41,6 +41,9 @@ def test_experiment_file_is_run(rig: fidservo.Rig, tmp_path: Path) -> None:
 def test_wrong_words_raise(rig: fidservo.Rig) -> None:
     with pytest.raises(fidservo.InputError, match="macro-pulse"):
         fidservo.simulate(rig, "macro-pulse")
+    with pytest.raises(fidservo.InputError, match="FILE.yaml; simulate_campaign makes all$") as error:
+        fidservo.simulate(rig, "campaign")
+    assert ", campaign" not in str(error.value)
     with pytest.raises(fidservo.InputError, match="no_such_effect"):
         fidservo.simulate(rig, "rest", effects=["no_such_effect"])
     with pytest.raises(fidservo.InputError, match="factor"):

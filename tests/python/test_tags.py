@@ -6,6 +6,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from subprocess import CompletedProcess
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +15,8 @@ from numpy.typing import NDArray
 import fidservo
 
 Image = NDArray[np.uint8]
+
+MASKED: Any = np.ma  # which has no types
 
 
 @pytest.fixture(scope="module")
@@ -84,6 +87,20 @@ def test_image_of_16_bits_is_measured_in_full_scale(cut: Image) -> None:
     np.testing.assert_allclose(tag.corners_px, expected.corners_px, atol=0.02)
 
 
+def test_order_of_bytes_does_not_matter(cut: Image) -> None:
+    native = cut.astype(np.uint16) * 16
+    (tag,), (expected,) = fidservo.measure(native.astype(">u2")), fidservo.measure(native)
+    np.testing.assert_array_equal(tag.corners_px, expected.corners_px)
+
+
+def test_rows_at_odd_bytes_are_read(cut: Image) -> None:
+    """A row of an image in a packed record may begin anywhere."""
+    rows = np.zeros(cut.shape[0], dtype=[("flag", "u1"), ("row", "<u2", cut.shape[1])])
+    rows["row"] = cut.astype(np.uint16) * 16
+    (tag,), (expected,) = fidservo.measure(rows["row"]), fidservo.measure(rows["row"].copy())
+    np.testing.assert_array_equal(tag.corners_px, expected.corners_px)
+
+
 def test_mirrored_and_inverted_tags_are_read_where_asked(cut: Image) -> None:
     turned = np.ascontiguousarray(255 - cut[:, ::-1])
     assert not fidservo.detect(turned)
@@ -94,6 +111,10 @@ def test_what_is_no_grey_image_is_refused(image: Image) -> None:
     for wrong in (image.astype(float), np.dstack([image] * 3), image[0], image.astype(np.int8)):
         with pytest.raises(TypeError, match="uint8 or uint16 of two dimensions"):
             fidservo.measure(wrong)
+    with pytest.raises(TypeError, match="^image: is None; must be an array$"):
+        fidservo.detect(None)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="image: has masked pixels"):
+        fidservo.detect(MASKED.masked_greater(image, 100))
     with pytest.raises(ValueError, match="no pixel"):
         fidservo.measure(np.zeros((0, 5), np.uint8))
     with pytest.raises(fidservo.InputError, match="16383"):
@@ -105,6 +126,9 @@ def test_wrong_reading_is_refused() -> None:
         fidservo.TagFinder(family="tag37h11")
     with pytest.raises(fidservo.InputError, match="border-cells"):
         fidservo.TagFinder(family="tagStandard41h12", border_cells=2)
+    for wrong in (-1, 3, 7):
+        with pytest.raises(fidservo.InputError, match=f"--border-cells: {wrong}: must be 1 or 2"):
+            fidservo.TagFinder(border_cells=wrong)
 
 
 def test_image_without_tags_has_none() -> None:

@@ -5,14 +5,13 @@
 #include "src/files/recording/csv_columns.h"
 #include "src/files/recording/description.h"
 #include "src/files/recording/frame_index.h"
+#include "src/files/recording/last_digit.h"
 #include "src/files/recording/layout.h"
 #include "src/files/rig/plate_file.h"
 #include "src/files/text/csv_text.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -51,40 +50,6 @@ struct StageHeader {
     std::size_t fields;
     std::size_t time_field;
     std::vector<FieldTarget> targets;
-};
-
-/// Decimals of a number as it is written, 0 in 12, 2 in 12.50 and in 125.0e-01; negative in 1e3.
-int decimals_of(std::string_view number) {
-    constexpr int beyond_any_double = 1000;
-    const std::size_t e = number.find_first_of("eE");
-    const std::string_view mantissa = number.substr(0, e);
-    const std::size_t point = mantissa.find('.');
-    const int decimals = point == std::string_view::npos ? 0 : static_cast<int>(mantissa.size() - point - 1);
-    if (e == std::string_view::npos) return decimals;
-    number.remove_prefix(e + 1);
-    if (number.starts_with('+')) number.remove_prefix(1);
-    int exponent = 0;
-    std::from_chars(number.data(), number.data() + number.size(), exponent);
-    return decimals - std::clamp(exponent, -beyond_any_double, beyond_any_double);
-}
-
-/// The step of a column's last digit, where all its fields have as many decimals. Where zeros are left away,
-/// or all numbers are whole, a short number may be as exact as a long one.
-class LastDigit {
-  public:
-    void saw(std::string_view number) {
-        const int decimals = decimals_of(number);
-        is_fixed_ = is_fixed_ && (!decimals_ || *decimals_ == decimals);
-        decimals_ = decimals;
-    }
-    std::optional<double> step() const {
-        if (!is_fixed_ || decimals_.value_or(0) < 1) return std::nullopt;
-        return std::pow(10.0, -*decimals_);
-    }
-
-  private:
-    bool is_fixed_ = true;
-    std::optional<int> decimals_;
 };
 
 StageHeader read_stage_header(const CsvText& csv, StageColumns& present) {
@@ -236,9 +201,13 @@ Recording read_recording(const fs::path& folder) {
     if (auto csv = table("stage0/data.csv")) read_stage(*std::move(csv), recording);
     if (auto csv = table("cam0/data.csv")) recording.frames = frame_names_in(*std::move(csv));
     if (auto csv = table("cam0/detections.csv")) recording.detections = detections_in(*std::move(csv));
-    if (!recording.plate.empty())
-        for (TagDetection& tag : recording.detections) tag.print = recording.plate.front().print;
+    give_print_of_plate(recording);
     return recording;
+}
+
+void give_print_of_plate(Recording& recording) {
+    if (recording.plate.empty()) return;
+    for (TagDetection& tag : recording.detections) tag.print = recording.plate.front().print;
 }
 
 std::vector<fs::path> find_recordings(const fs::path& path) {

@@ -16,6 +16,9 @@ namespace fidservo {
 /// without a whole line counts as not there.
 Recording read_recording(const std::filesystem::path& folder);
 
+/// Detections of a recording that has a plate are of tags printed as the plate's.
+void give_print_of_plate(Recording& recording);
+
 /// Expands a path to recordings: itself if it holds recording.yaml, else the folders in it that do, by name;
 /// else those in its folder "recordings", where an inspection keeps them. Throws InputError if there are
 /// none.

@@ -3,11 +3,13 @@
 
 #include "core/camera/camera_parameters.h"
 #include "src/files/recording/layout.h"
+#include "src/files/text/plain_number.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <string_view>
 #include <vector>
 
 #include <fmt/compile.h>
@@ -31,6 +33,30 @@ void append_number(std::string& text, double value, int decimals) {
     if (std::isnan(value)) return;
     fmt::format_to(std::back_inserter(text), FMT_COMPILE("{:.{}f}"),
                    std::abs(value) < zero_below[static_cast<std::size_t>(decimals)] ? 0.0 : value, decimals);
+}
+
+/// A term of a covariance.
+void append_term(std::string& text, double value) {
+    fmt::format_to(std::back_inserter(text), FMT_COMPILE(",{:.4g}"), value);
+}
+
+/// What is read of one number that was written after a comma; one that is not in force stays so.
+double read_back(std::string_view text, double unread) {
+    text.remove_prefix(1);
+    (void)parse_all(text, unread);
+    return unread;
+}
+
+double rounded_to(double value, int decimals) {
+    std::string text;
+    append_number(text, value, decimals);
+    return read_back(text, value);
+}
+
+double rounded_term(double value) {
+    std::string text;
+    append_term(text, value);
+    return read_back(text, value);
 }
 
 }  // namespace
@@ -72,8 +98,7 @@ void append_corners(std::string& text, const TagDetection& detection, CornerColu
     text += detection.is_refined ? (*detection.is_refined ? ",1" : ",0") : ",";
     if (detection.covariances_px2)
         for (const Eigen::Matrix2d& corner : *detection.covariances_px2)
-            fmt::format_to(std::back_inserter(text), FMT_COMPILE(",{:.4g},{:.4g},{:.4g}"), corner(0, 0),
-                           corner(0, 1), corner(1, 1));
+            for (const double term : {corner(0, 0), corner(0, 1), corner(1, 1)}) append_term(text, term);
     else
         text.append(covariance_titles.size(), ',');
 }
@@ -86,6 +111,21 @@ void append_detection(std::string& text, const TagDetection& detection, CornerCo
 
 void append_frame(std::string& text, const FrameName& frame) {
     fmt::format_to(std::back_inserter(text), FMT_COMPILE("{},{}\n"), frame.time_ns, frame.filename);
+}
+
+void round_as_written(Recording& recording) {
+    for (const StageColumn& column : stage_columns)
+        for (StageRow& row : recording.rows)
+            row.*column.value = rounded_to(row.*column.value, column.decimals);
+    for (TagDetection& tag : recording.detections) {
+        for (Eigen::Vector2d& corner : tag.corners_px)
+            for (double& coordinate : corner) coordinate = rounded_to(coordinate, corner_decimals);
+        if (!tag.covariances_px2) continue;
+        for (Eigen::Matrix2d& corner : *tag.covariances_px2) {
+            const double xy = rounded_term(corner(0, 1));
+            corner << rounded_term(corner(0, 0)), xy, xy, rounded_term(corner(1, 1));
+        }
+    }
 }
 
 std::string sensor_yaml(const CameraParameters& camera) {

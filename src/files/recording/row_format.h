@@ -25,6 +25,10 @@ void append_detection(std::string& text, const TagDetection& detection,
 void append_corners(std::string& text, const TagDetection& detection, CornerColumns columns);
 void append_frame(std::string& text, const FrameName& frame);
 
+/// Rounds the numbers of a recording in memory to those that are read where append_row and append_detection
+/// have written it.
+void round_as_written(Recording& recording);
+
 /// cam0/sensor.yaml.
 std::string sensor_yaml(const CameraParameters& camera);
 
