@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -90,8 +91,7 @@ Log read_folder(const fs::path& given) {
         if (!fs::exists(index)) continue;
         const std::string name = entry.filename().string();
         if (fs::is_directory(entry / "data")) {
-            ImageList list;
-            list_images(entry, NameTimes::automatic, list);
+            const ImageList list = list_images(std::span(&entry, 1), NameTimes::automatic);
             LoggedCamera camera{.name = name};
             std::vector<ImageFrame> frames = list.series.front().frames;
             for (const ImageFrame& frame : frames) camera.times_ns.push_back(frame.time_ns.value_or(0));
