@@ -8,6 +8,7 @@
 #include <deque>
 #include <filesystem>
 #include <limits>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -104,10 +105,12 @@ int next_packet(const Container& container, AVPacket& packet) {
 /// What all packets of a stream say together.
 struct Survey {
     std::size_t packets = 0;
+    std::size_t hidden = 0;  ///< further ones, of which the container says that they are not shown
     std::size_t without_time = 0;
     bool times_rise = true;
     int end = AVERROR_EOF;          ///< what ended them
     std::uint64_t bytes_short = 0;  ///< of what the file says that it has
+    bool lacks_end_mark = false;    ///< which its container puts at the end of a stream
 };
 
 /// Do times rise in the order in which frames are shown? Of H.264 and H.265 a frame may be stored up to 16
@@ -134,12 +137,15 @@ Survey survey(const Container& container, const char* file) {
     Survey survey;
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-    if (const std::uint64_t stated = stated_length(file); !error && stated > bytes)
-        survey.bytes_short = stated - bytes;
+    const StatedEnd stated = stated_end(file);
+    if (!error && stated.bytes > bytes) survey.bytes_short = stated.bytes - bytes;
+    survey.lacks_end_mark = stated.lacks_mark;
     RisingTimes times;
     const Owned<AVPacket> packet(av_packet_alloc());
     while ((survey.end = next_packet(container, *packet)) == 0) {
-        if ((packet->flags & AV_PKT_FLAG_DISCARD) == 0) {
+        if ((packet->flags & AV_PKT_FLAG_DISCARD) != 0) {
+            ++survey.hidden;
+        } else {
             ++survey.packets;
             if (packet->pts == AV_NOPTS_VALUE)
                 ++survey.without_time;
@@ -172,6 +178,34 @@ std::string reason_for_no_times(const Container& container, const Survey& survey
     return survey.times_rise ? "" : "its time stamps do not rise from frame to frame";
 }
 
+/// What the end of the file and its header say of frames that are missing; empty if nothing does. Only what
+/// was compared is said: fewer frames than a header counts are no proof that the file was cut.
+std::string missing_frames(const Container& container, const Survey& survey) {
+    const std::size_t held = survey.packets + survey.hidden;
+    const auto stated = static_cast<std::size_t>(std::max<std::int64_t>(0, container.stream->nb_frames));
+    const std::string counted = stated > held ? fmt::format(" of {}", stated) : "";
+    if (survey.bytes_short > 0)
+        return fmt::format("it is cut short after {}{} frames: {} bytes are missing", held, counted,
+                           survey.bytes_short);
+    if (survey.end != AVERROR_EOF)
+        return fmt::format("nothing can be read after {}{} frames: {}", held, counted,
+                           text_of_error(survey.end));
+    if (survey.lacks_end_mark)
+        return fmt::format(
+            "its last page is not marked as the end of a stream: frames may be missing after {}", held);
+    return counted.empty() ? "" : fmt::format("it holds {} frames where its header says {}", held, stated);
+}
+
+/// That pixels are not square; empty if they are, or if nothing says.
+std::string shape_of_pixels(const Container& container) {
+    const AVRational aspect = av_guess_sample_aspect_ratio(container.format.get(), container.stream, nullptr);
+    if (aspect.num <= 0 || aspect.den <= 0 || aspect.num == aspect.den) return {};
+    return fmt::format(
+        "its pixels are stated to be {}:{} in width and height; here they count as square, so that "
+        "um to the right and um down are of different lengths",
+        aspect.num, aspect.den);
+}
+
 std::vector<std::string> notes_of(const Container& container, const Survey& survey) {
     std::vector<std::string> notes;
     unsigned streams = 0;
@@ -184,16 +218,12 @@ std::vector<std::string> notes_of(const Container& container, const Survey& surv
         notes.push_back(fmt::format("no times are taken: {}", why));
     if (is_turned(*container.stream))
         notes.emplace_back("players turn its picture; here pixels are where the stream has them");
-    const auto stated = static_cast<std::size_t>(std::max<std::int64_t>(0, container.stream->nb_frames));
-    if (survey.end != AVERROR_EOF)
+    if (survey.hidden > 0)
         notes.push_back(
-            fmt::format("it is cut short after {} frames: {}", survey.packets, text_of_error(survey.end)));
-    else if (stated > survey.packets)
-        notes.push_back(
-            fmt::format("it is cut short: {} frames where its header says {}", survey.packets, stated));
-    else if (survey.bytes_short > 0)
-        notes.push_back(fmt::format("it is cut short after {} frames: {} bytes are missing", survey.packets,
-                                    survey.bytes_short));
+            fmt::format("passed over: {} of its {} frames, which its container marks as not shown",
+                        survey.hidden, survey.packets + survey.hidden));
+    for (std::string note : {shape_of_pixels(container), missing_frames(container, survey)})
+        if (!note.empty()) notes.push_back(std::move(note));
     return notes;
 }
 
@@ -209,12 +239,23 @@ class FfmpegVideo final : public Video {
 
     std::optional<Picture> next() override {
         while (true) {
-            av_frame_unref(frame_.get());
-            const int error = avcodec_receive_frame(decoder_.get(), frame_.get());
-            if (error == 0) return picture();
-            if (error == AVERROR_EOF) return std::nullopt;
-            if (error != AVERROR(EAGAIN)) return damaged(text_of_error(error));
-            if (const std::string damage = feed(); !damage.empty()) return damaged(damage);
+            if (!holds_frame_) {
+                const int error = avcodec_receive_frame(decoder_.get(), frame_.get());
+                holds_frame_ = error == 0;
+                if (error == AVERROR(EAGAIN)) {
+                    feed();
+                    continue;
+                }
+                if (error == AVERROR_EOF && refused_.empty()) return std::nullopt;
+                if (error == AVERROR_EOF) return given_up(refused_.begin());
+                if (error != 0) return Picture{.damage = text_of_error(error)};
+            }
+            const auto lost = std::ranges::find_if(
+                refused_, [&](const RefusedPacket& packet) { return is_before_frame(packet); });
+            if (lost != refused_.end()) return given_up(lost);
+            holds_frame_ = false;
+            if (given_up_.contains(number_of_frame())) continue;
+            return picture();
         }
     }
 
@@ -228,35 +269,75 @@ class FfmpegVideo final : public Video {
     std::vector<std::string> notes() const override { return notes_; }
 
   private:
-    /// Gives the decoder the next packet, or the end; what is wrong with that packet, if something is.
-    std::string feed() {
+    /// A packet that the decoder, or the container, says to be damaged, and whose frame has not come. Whether
+    /// it still will depends on the decoder: many give out what they could make of it.
+    struct RefusedPacket {
+        std::int64_t number;
+        std::int64_t pts;
+        std::string why;
+    };
+
+    /// Gives the decoder the next packet, or the end.
+    void feed() {
         if (next_packet(container_, *packet_) < 0) {
             avcodec_send_packet(decoder_.get(), nullptr);
-            return {};
+            return;
         }
+        decoder_->reordered_opaque = ++fed_;  // which the frame has, too
         std::string damage;
         if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) {
-            damage = "cut short";
+            damage = "its container says that it is damaged";
         } else if (const int error = avcodec_send_packet(decoder_.get(), packet_.get()); error < 0) {
             damage = text_of_error(error);
         }
+        if (!damage.empty()) {
+            note_damage_of(fed_);
+            if ((packet_->flags & AV_PKT_FLAG_DISCARD) == 0)
+                refused_.push_back({fed_, packet_->pts, std::move(damage)});
+        }
         av_packet_unref(packet_.get());
-        return damage;
+    }
+
+    /// Of the packet that the frame was decoded from; of a decoder that does not tell, the last one.
+    std::int64_t number_of_frame() const {
+        return frame_->reordered_opaque > 0 ? frame_->reordered_opaque : fed_;
+    }
+
+    /// Is the packet's frame one that was to be shown before the frame that is held?
+    bool is_before_frame(const RefusedPacket& packet) const {
+        if (packet.number == number_of_frame()) return false;
+        if (packet.pts != AV_NOPTS_VALUE && frame_->pts != AV_NOPTS_VALUE) return packet.pts < frame_->pts;
+        return packet.number < number_of_frame();
+    }
+
+    /// The frame of a packet that has none; should it come later, it has been counted.
+    Picture given_up(std::deque<RefusedPacket>::iterator packet) {
+        given_up_.insert(packet->number);
+        Picture lost{.damage = std::move(packet->why)};
+        refused_.erase(packet);
+        return lost;
+    }
+
+    void note_damage_of(std::int64_t packet) {
+        if (builds_on_others_) damaged_from_ = std::min(damaged_from_, packet);
     }
 
     Picture damaged(std::string why) {
-        builds_on_damage_ = builds_on_others_;
+        note_damage_of(number_of_frame());
         return {.damage = std::move(why)};
     }
 
     std::optional<Picture> picture() {
+        const std::int64_t number = number_of_frame();
+        const auto refused = std::ranges::find(refused_, number, &RefusedPacket::number);
+        if (refused != refused_.end()) return given_up(refused);
         if (frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0)
             return damaged("its data are damaged");
         if (frame_->width != container_.width || frame_->height != container_.height)
             return damaged(fmt::format("{} x {} px where the stream has {} x {} px", frame_->width,
                                        frame_->height, container_.width, container_.height));
-        if (frame_->key_frame != 0) builds_on_damage_ = false;
-        if (builds_on_damage_) return damaged("it builds on a damaged frame");
+        if (frame_->key_frame != 0 && number > damaged_from_) damaged_from_ = undamaged;
+        if (number > damaged_from_) return Picture{.damage = "it builds on a damaged frame"};
         Picture picture;
         if (has_times_) {
             if (frame_->pts == AV_NOPTS_VALUE || frame_->pts <= last_pts_)
@@ -277,7 +358,12 @@ class FfmpegVideo final : public Video {
     bool has_times_;
     std::vector<std::string> notes_;
     bool builds_on_others_;
-    bool builds_on_damage_ = false;
+    static constexpr std::int64_t undamaged = std::numeric_limits<std::int64_t>::max();
+    std::int64_t damaged_from_ = undamaged;  ///< frames of later packets build on one that is damaged
+    std::int64_t fed_ = 0;                   ///< packets, in the order of the stream
+    std::deque<RefusedPacket> refused_;
+    std::set<std::int64_t> given_up_;  ///< packets whose frames were counted without having come
+    bool holds_frame_ = false;
     std::int64_t last_pts_ = std::numeric_limits<std::int64_t>::min();
     Owned<AVPacket> packet_{av_packet_alloc()};
     Owned<AVFrame> frame_{av_frame_alloc()};
