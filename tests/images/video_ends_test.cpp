@@ -119,8 +119,6 @@ TEST(VideoEnds, DamagedFrame_IsCountedOnceAndMovesNoOther) {
             if (frames.size() != count) continue;  // the container's own structure is hit: it says so
             std::vector<ImageFrame> all;
             while (auto frame = frames.next()) all.push_back(*std::move(frame));
-            ASSERT_LE(all.size(), count) << "trial " << trial;
-            if (between > 0 && all.size() < count) continue;  // FFmpeg drops frames between without a word
             ASSERT_EQ(all.size(), count) << "trial " << trial;
             for (std::size_t k = whole_from; k < count; ++k) {
                 ASSERT_EQ(all[k].damage, "") << "trial " << trial << ", frame " << k;
