@@ -133,7 +133,9 @@ class StretchTasks {
         Json images = Json::array();
         const auto series = frames_.series();
         each_frame(stretch, [&](ImageFrame frame) {
-            const std::string path = series[frame.series].name;
+            // Of images given by name the series has the first one's name.
+            const std::string& whole = series[frame.series].name;
+            const std::string path = frame.file.string().starts_with(whole) ? whole : frame.file.string();
             if (load(frame)) {
                 images.push_back(frame_json(finder(std::move(frame)), ""));
                 return;

@@ -25,8 +25,9 @@ struct Stretch {
     std::string stem() const;
 };
 
-/// Cuts each folder, recording, stack or video by itself; single images that were given one after the other
-/// are taken together. That depends on nothing else: the same images give the same stretches.
+/// Cuts each folder, recording or video, and the images that were given by name, by itself; series of a
+/// single image that follow one another are taken together. That depends on nothing else: the same images
+/// give the same stretches.
 std::vector<Stretch> stretches_of(const std::vector<ImageFrames::Series>& series);
 
 }  // namespace fidservo::fleet

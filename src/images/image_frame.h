@@ -13,8 +13,8 @@
 
 namespace fidservo {
 
-/// A frame and its series: displacements are counted from the first frame of a series, and grey levels have
-/// one range in it.
+/// A frame and its series (image_list.h): displacements are counted from the first frame of a series, and
+/// grey levels have one range in it.
 struct ImageFrame {
     std::string
         name{};  ///< unique among the inputs: the file, with #0, #1 .. for frames of a stack or a video

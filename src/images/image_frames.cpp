@@ -72,7 +72,7 @@ class ImageFrames::OpenVideo {
 };
 
 ImageFrames::ImageFrames(const std::vector<fs::path>& inputs, const ImageOptions& options) {
-    for (const fs::path& input : inputs) list_images(input, options.name_times, list_);
+    list_ = list_images(inputs, options.name_times);
     open_videos();
     size_ = std::accumulate(sizes_.begin(), sizes_.end(), std::size_t{0});
     for (const ImageSeries& series : list_.series)
@@ -112,7 +112,8 @@ void ImageFrames::decide_ranges(bool one_range) {
             video_bits_[k] = decided.bits();
             videos_[k]->set_bits(decided.bits());
         }
-        if (!one_range) list_.notes.push_back(fmt::format("{}: {}", list_.series[k].name, decided.text()));
+        if (!one_range)
+            list_.notes.push_back(fmt::format("{}: {}", title_of(list_.series[k]), decided.text()));
     }
     if (!all.is_empty()) list_.notes.push_back("all images: " + all.text());
 }

@@ -33,9 +33,9 @@ class ImageFrames {
     const std::vector<std::string>& missing() const { return missing_; }
     /// Whether all frames are of one series and have times.
     bool is_one_timed_series() const { return is_one_timed_series_; }
-    /// Frames of one file or folder.
+    /// Frames of one folder or video, or all images that were given by name.
     struct Series {
-        std::string name;
+        std::string name;    ///< of images given by name the first one's file
         std::size_t frames;  ///< as size() counts them
         bool is_video;
     };

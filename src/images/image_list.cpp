@@ -6,9 +6,10 @@
 #include "src/files/recording/reader.h"
 #include "src/images/image_times.h"
 #include "vision/images/image_file.h"
+#include "vision/images/regular_file.h"
 
 #include <algorithm>
-#include <span>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -51,24 +52,9 @@ bool is_camera_folder(const std::string& name) {
            std::ranges::all_of(name.substr(prefix.size()), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Adds the pictures of a file: one frame, or one a page.
-void add_pictures(const fs::path& file, ImageFrame frame, ImageSeries& series) {
-    const auto pages = vision::list_pages(file);
-    if (!pages) throw InputError(pages.error().text);
-    for (std::size_t k = 0; k < pages->size(); ++k) {
-        const vision::PageOfFile& page = (*pages)[k];
-        frame.name = pages->size() == 1 ? file.string() : fmt::format("{}#{}", file.string(), k);
-        frame.file = file;
-        frame.page = page.page;
-        frame.damage = page.damage.empty() ? "" : fmt::format("{}: {}", frame.name, page.damage);
-        series.frames.push_back(frame);
-        if (page.is_deep) series.deep.push_back({file, page.page});
-    }
-}
-
 class Lister {
   public:
-    Lister(NameTimes name_times, ImageList& list) : name_times_(name_times), list_(list) {}
+    explicit Lister(NameTimes name_times) : name_times_(name_times) {}
 
     void add(const fs::path& input) {
         std::error_code error;
@@ -83,14 +69,50 @@ class Lister {
         add_folder(input);
     }
 
+    ImageList end() {
+        if (given_by_name_) {
+            ImageSeries& series = list_.series[*given_by_name_];
+            take_times(title_of(series), series);
+        }
+        return std::move(list_);
+    }
+
   private:
     void add_file(const fs::path& file) {
-        ImageSeries series{.name = file.string()};
-        if (is_named_as_video(file))
-            series.video = file;
-        else
-            add_pictures(file, {.series = list_.series.size()}, series);
-        list_.series.push_back(std::move(series));
+        if (const Status there = vision::demand_regular_file(file); !there)
+            throw InputError(fmt::format("{}: {}", file.string(), there.error().text));
+        if (is_named_as_video(file)) {
+            list_.series.push_back({.name = file.string(), .video = file});
+            return;
+        }
+        if (!given_by_name_) {
+            given_by_name_ = list_.series.size();
+            list_.series.push_back({.name = file.string()});
+        }
+        ImageSeries& series = list_.series[*given_by_name_];
+        ++series.files_by_name;
+        add_pictures(file, {.series = *given_by_name_}, series);
+    }
+
+    /// Adds the pictures of a file: one frame, or one a page.
+    void add_pictures(const fs::path& file, ImageFrame frame, ImageSeries& series) {
+        const auto pages = vision::list_pages(file);
+        if (!pages) throw InputError(pages.error().text);
+        for (std::size_t k = 0; k < pages->size(); ++k) {
+            const vision::PageOfFile& page = (*pages)[k];
+            frame.name = pages->size() == 1 ? file.string() : fmt::format("{}#{}", file.string(), k);
+            frame.file = file;
+            frame.page = page.page;
+            frame.damage = page.damage.empty() ? "" : fmt::format("{}: {}", frame.name, page.damage);
+            series.frames.push_back(frame);
+            if (page.is_deep) series.deep.push_back({file, page.page});
+            if (!page.note.empty()) list_.notes.push_back(fmt::format("{}: {}", file.string(), page.note));
+        }
+    }
+
+    void take_times(const std::string& whose, ImageSeries& series) {
+        if (auto note = take_times_of_names(whose, name_times_, series.frames); !note.empty())
+            list_.notes.push_back(std::move(note));
     }
 
     void add_index(const fs::path& camera, const fs::path& index) {
@@ -156,8 +178,7 @@ class Lister {
     void add_images(const fs::path& folder, const FolderOfImages& found) {
         ImageSeries series{.name = folder.string()};
         for (const fs::path& file : found.images) add_pictures(file, {.series = list_.series.size()}, series);
-        if (auto note = take_times_of_names(folder, name_times_, series.frames); !note.empty())
-            list_.notes.push_back(std::move(note));
+        take_times(folder.string(), series);
         list_.series.push_back(std::move(series));
         std::vector<std::string> passed_over = found.others;
         passed_over.insert(passed_over.end(), found.videos.begin(), found.videos.end());
@@ -201,7 +222,8 @@ class Lister {
     }
 
     NameTimes name_times_;
-    ImageList& list_;
+    ImageList list_;
+    std::optional<std::size_t> given_by_name_;  ///< which series is of the images that are given by name
 };
 
 }  // namespace
@@ -228,8 +250,15 @@ FolderOfImages look_into(const fs::path& folder) {
     return found;
 }
 
-void list_images(const fs::path& input, NameTimes name_times, ImageList& list) {
-    Lister(name_times, list).add(input);
+ImageList list_images(std::span<const fs::path> inputs, NameTimes name_times) {
+    Lister lister(name_times);
+    for (const fs::path& input : inputs) lister.add(input);
+    return lister.end();
+}
+
+std::string title_of(const ImageSeries& series) {
+    if (series.files_by_name < 2) return series.name;
+    return fmt::format("{} and {} more given by name", series.name, series.files_by_name - 1);
 }
 
 }  // namespace fidservo

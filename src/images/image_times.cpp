@@ -37,8 +37,7 @@ const ImageFrame* exception_among(const std::vector<ImageFrame>& frames,
 
 }  // namespace
 
-std::string take_times_of_names(const std::filesystem::path& folder, NameTimes unit,
-                                std::vector<ImageFrame>& frames) {
+std::string take_times_of_names(const std::string& whose, NameTimes unit, std::vector<ImageFrame>& frames) {
     if (unit == NameTimes::none) return {};
     std::vector<std::string> stems;
     std::ranges::transform(frames, std::back_inserter(stems), stem_of);
@@ -47,10 +46,9 @@ std::string take_times_of_names(const std::filesystem::path& folder, NameTimes u
     if (unit == NameTimes::none) {
         if (could_be_times(stems))
             return fmt::format(
-                "{}: names look like times: none are taken; say which by --name-times ms or us",
-                folder.string());
+                "{}: names look like times: none are taken; say which by --name-times ms or us", whose);
         if (const ImageFrame* exception = exception_among(frames, stems); exception != nullptr)
-            return fmt::format("{}: names look like times, but {} does not: none are taken", folder.string(),
+            return fmt::format("{}: names look like times, but {} does not: none are taken", whose,
                                exception->file.filename().string());
         return {};
     }
@@ -69,7 +67,7 @@ std::string take_times_of_names(const std::filesystem::path& folder, NameTimes u
         return which + ": no times are taken";
     }
     frames = std::move(timed);
-    return fmt::format("{}: times are those in the names, in {}", folder.string(), word_for(unit));
+    return fmt::format("{}: times are those in the names, in {}", whose, word_for(unit));
 }
 
 }  // namespace fidservo

@@ -3,17 +3,16 @@
 #include "src/images/image_frame.h"
 #include "src/images/image_names.h"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace fidservo {
 
-/// Sets the times and the order of a folder's frames by their names. Returns one line on what was decided, or
+/// Sets the times and the order of a series' frames by their names. Returns one line on what was decided, or
 /// nothing if names do not look like times. Frames get no times where only some names are times, two are the
 /// same one, or the unit could be ms or us. Throws InputError where `unit` says that names are times and one
 /// is not, or two are the same.
-std::string take_times_of_names(const std::filesystem::path& folder, NameTimes unit,
-                                std::vector<ImageFrame>& frames);
+/// @param whose  what the line calls the series
+std::string take_times_of_names(const std::string& whose, NameTimes unit, std::vector<ImageFrame>& frames);
 
 }  // namespace fidservo

@@ -14,6 +14,7 @@
 #include <array>
 #include <fstream>
 #include <map>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -83,8 +84,7 @@ Log read_bag(const fs::path& named, const std::vector<fs::path>& files) {
 
 /// A camera of EuRoC's folders; its images are decoded when they are asked for.
 LoggedCamera euroc_camera(const fs::path& folder, Log& log) {
-    ImageList list;
-    list_images(folder, NameTimes::automatic, list);
+    const ImageList list = list_images(std::span(&folder, 1), NameTimes::automatic);
     const ImageSeries& series = list.series.front();
     LoggedCamera camera{.name = folder.filename().string(), .is_deep = !series.deep.empty()};
     for (const ImageFrame& frame : series.frames) camera.times_ns.push_back(frame.time_ns.value_or(0));

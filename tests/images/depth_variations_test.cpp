@@ -148,8 +148,14 @@ TEST(GreyRange, AllInputsOfACalibration_HaveOne) {
     cv::imwrite((folder / "b.png").string(), cv::Mat(8, 8, CV_16UC1, cv::Scalar(4000)));
     ImageFrames together({folder / "a.png", folder / "b.png"}, {.one_range = true});
     EXPECT_NEAR(decode(*together.next()).at<unsigned char>(0, 0), 1000.0 * 255.0 / 4095.0, 0.51);
-    ImageFrames apart({folder / "a.png", folder / "b.png"});
+    for (const char* name : {"a", "b"}) {
+        fs::create_directory(folder / name);
+        fs::copy(folder / (std::string(name) + ".png"), folder / name);
+    }
+    ImageFrames apart({folder / "a", folder / "b"});
     EXPECT_NEAR(decode(*apart.next()).at<unsigned char>(0, 0), 1000.0 * 255.0 / 1023.0, 0.51);
+    ImageFrames folders({folder / "a", folder / "b"}, {.one_range = true});
+    EXPECT_NEAR(decode(*folders.next()).at<unsigned char>(0, 0), 1000.0 * 255.0 / 4095.0, 0.51);
 }
 
 TEST(GreyRange, FloatingPoint_IsRefusedInOneLine) {

@@ -20,7 +20,8 @@ void must(int result, const char* what) {
 
 AVPixelFormat pixels_of(const Film& film) {
     if (film.codec == "mjpeg") return AV_PIX_FMT_YUVJ420P;
-    if (film.codec == "mpeg4" || film.codec == "libx264") return AV_PIX_FMT_YUV420P;
+    if (film.codec == "mpeg4" || film.codec == "libx264" || film.codec == "libtheora")
+        return AV_PIX_FMT_YUV420P;
     return film.frames.front().depth() == CV_16U ? AV_PIX_FMT_GRAY16LE : AV_PIX_FMT_GRAY8;
 }
 
@@ -60,12 +61,14 @@ class Writer {
         if (film.codec != "libx264") encoder_->flags |= AV_CODEC_FLAG_QSCALE;
         if ((format_->oformat->flags & AVFMT_GLOBALHEADER) != 0)
             encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-        if (film.codec == "libx264") encoder_->max_b_frames = 3;
+        encoder_->max_b_frames = film.codec == "libx264" ? 3 : film.frames_between;
+        encoder_->sample_aspect_ratio = {film.pixel_width, film.pixel_height};
         must(avcodec_open2(encoder_, codec, nullptr), "encoder");
         stream_ = avformat_new_stream(format_, nullptr);
         must(avcodec_parameters_from_context(stream_->codecpar, encoder_), "stream");
         stream_->time_base = encoder_->time_base;
         stream_->avg_frame_rate = encoder_->framerate;
+        stream_->sample_aspect_ratio = encoder_->sample_aspect_ratio;
         if (film.is_turned) turn();
         must(avio_open(&format_->pb, file.c_str(), AVIO_FLAG_WRITE), "file");
         must(avformat_write_header(format_, nullptr), "header");

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sys/stat.h>
 
 namespace fidservo {
 namespace {
@@ -122,6 +123,50 @@ TEST(ImageFrames, FolderOfRecordings_ComesInNaturalOrder) {
         folder.write(fmt::format("run{}/cam0/data.csv", number), "#timestamp [ns],filename\n10,a.png\n");
     }
     EXPECT_THAT(greys_of(folder.path()), ElementsAre(9, 10));
+}
+
+TEST(ImageFrames, ImagesGivenByName_AreOneSequenceInTheOrderGiven) {
+    const TemporaryFolder folder;
+    write_image(folder / "b.png", 1000, CV_16UC1);
+    write_image(folder / "a.png", 4000, CV_16UC1);
+    write_image(folder / "f/c.png", 9);
+    ImageFrames frames({folder / "b.png", folder / "f", folder / "a.png"});
+    ASSERT_EQ(frames.series().size(), 2U);
+    EXPECT_EQ(frames.series().front().frames, 2U);
+    EXPECT_THAT(frames.notes(),
+                ElementsAre(HasSubstr("b.png and 1 more given by name: 12 of 16 bits are used")));
+    std::vector<std::size_t> series;
+    std::vector<int> greys;
+    while (auto frame = frames.next()) {
+        series.push_back(frame->series);
+        greys.push_back(load(*frame) ? frame->decoded.at<unsigned char>(5, 5) : -1);
+    }
+    EXPECT_THAT(series, ElementsAre(0, 0, 1));
+    EXPECT_THAT(greys, ElementsAre(62, 249, 9));
+}
+
+TEST(ImageFrames, ImagesGivenByName_HaveTheTimesOfTheirNames) {
+    const TemporaryFolder folder;
+    const std::vector<fs::path> inputs{folder / "1403636579813555584.png",
+                                       folder / "1403636579763555584.png"};
+    for (const fs::path& input : inputs) write_image(input, 1);
+    ImageFrames frames(inputs);
+    EXPECT_TRUE(frames.is_one_timed_series());
+    EXPECT_EQ(frames.next()->time_ns, 1403636579763555584);
+    EXPECT_FALSE(ImageFrames(inputs, {.name_times = NameTimes::none}).is_one_timed_series());
+}
+
+TEST(ImageFrames, Pipe_IsRefusedWithoutWaitingForIt) {
+    const TemporaryFolder folder;
+    for (const char* name : {"pipe", "pipe.mp4", "pipe.png"}) {
+        ASSERT_EQ(::mkfifo((folder / name).c_str(), 0600), 0);
+        EXPECT_THAT(message_of([&] { ImageFrames({folder / name}); }),
+                    HasSubstr(fmt::format("{}: it is a pipe, a device or a folder", name)));
+    }
+    write_image(folder / "cam0/data/a.png", 1);
+    ASSERT_EQ(::mkfifo((folder / "cam0/data/b.png").c_str(), 0600), 0);
+    folder.write("cam0/data.csv", "#timestamp [ns],filename\n10,a.png\n20,b.png\n");
+    EXPECT_THAT(greys_of(folder / "cam0"), ElementsAre(1, -1));
 }
 
 TEST(ImageFrames, OneCameraWithoutIndex_IsReadWithTheTimesOfItsNames) {

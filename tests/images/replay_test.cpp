@@ -163,6 +163,24 @@ TEST_F(ReplayOf, FolderOfManyFormats_IsReadWhole) {
         EXPECT_NEAR(rows[static_cast<std::size_t>(k)].second, k * step_um, k == 2 ? 1.0 : 0.05);
 }
 
+TEST_F(ReplayOf, ImagesGivenByName_AreMeasuredFromTheFirst) {
+    for (int k = 0; k < 3; ++k) save(fmt::format("f{}.png", k), tag_image(k));
+    EXPECT_EQ(replay("f0.png", {"f1.png", "f2.png"}).exit_code, 0);
+    expect_steps({0, 1, 2});
+}
+
+TEST_F(ReplayOf, DamagedImage_IsOneLine) {
+    save("f/a.png", tag_image(0));
+    save("f/b.bmp", tag_image(0));
+    std::string bitmap = testing::text_of(folder / "f/b.bmp");
+    constexpr std::size_t colours_at = 46;
+    bitmap[colours_at + 2] = 0x7f;  // its header counts millions of colours, which OpenCV does not bear
+    folder.write("f/b.bmp", bitmap);
+    const ProgramRun run = replay("f");
+    EXPECT_THAT(run.out, HasSubstr("1 of 2 images; 1 damaged: b.bmp"));
+    EXPECT_THAT(run.err, Not(HasSubstr("OpenCV")));
+}
+
 TEST_F(ReplayOf, FolderNamedByTimes_HasThem) {
     for (int k = 0; k < 2; ++k) save(fmt::format("k/cam0/14036365797635555{:02}.png", 84 + k), tag_image(k));
     const ProgramRun run = replay("k");

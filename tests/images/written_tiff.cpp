@@ -10,6 +10,8 @@
 namespace fidservo::testing {
 namespace {
 
+constexpr std::uint32_t metamorph_tag = 33629;
+
 /// `count` pixels of a row from a column on, as a TIFF has them; 0 beyond the image.
 std::vector<unsigned char> packed(const TiffPage& page, int row, int column, int count, int plane) {
     const int channels = page.samples.channels();
@@ -69,6 +71,12 @@ void write_page(TIFF* tiff, const TiffPage& page) {
     if (page.photometric == PHOTOMETRIC_YCBCR) TIFFSetField(tiff, TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
     if (page.orientation != 1) TIFFSetField(tiff, TIFFTAG_ORIENTATION, page.orientation);
     if (page.is_reduced) TIFFSetField(tiff, TIFFTAG_SUBFILETYPE, FILETYPE_REDUCEDIMAGE);
+    if (!page.description.empty()) TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, page.description.c_str());
+    if (page.depth != 1) TIFFSetField(tiff, TIFFTAG_IMAGEDEPTH, page.depth);
+    if (page.metamorph_planes > 0) {
+        const std::vector<float> planes(static_cast<std::size_t>(page.metamorph_planes), 1.0F);
+        TIFFSetField(tiff, metamorph_tag, page.metamorph_planes, planes.data());
+    }
     const std::uint64_t place_to_be_filled = 0;
     if (page.has_subdirectory) TIFFSetField(tiff, TIFFTAG_SUBIFD, 1, &place_to_be_filled);
     if (page.is_tiled) {
@@ -93,6 +101,10 @@ void write_tiff(const std::filesystem::path& file, const std::string& mode,
                 const std::vector<TiffPage>& pages) {
     TIFF* tiff = TIFFOpen(file.c_str(), mode.c_str());
     if (tiff == nullptr) throw std::runtime_error(file.string() + ": cannot be written");
+    std::string name = "UIC2";
+    const TIFFFieldInfo metamorph{
+        metamorph_tag, TIFF_VARIABLE2, TIFF_VARIABLE2, TIFF_RATIONAL, FIELD_CUSTOM, 1, 1, name.data()};
+    TIFFMergeFieldInfo(tiff, &metamorph, 1);
     for (const TiffPage& page : pages) write_page(tiff, page);
     TIFFClose(tiff);
 }

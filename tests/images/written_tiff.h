@@ -21,6 +21,9 @@ struct TiffPage {
     bool has_subdirectory = false;  ///< the next page is a subdirectory of it
     int orientation = 1;
     int rows_per_strip = 7;
+    std::string description{};  ///< empty: none
+    int depth = 1;              ///< its tag ImageDepth
+    int metamorph_planes = 0;   ///< how many its tag UIC2 counts; 0: it has none
 };
 
 /// @param mode  libtiff's: "w" with "l" or "b" for the order of bytes, "8" for BigTIFF

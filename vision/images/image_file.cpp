@@ -7,6 +7,8 @@
 #include "vision/images/jpeg_decoder.h"
 #include "vision/images/media.h"
 #include "vision/images/png.h"
+#include "vision/images/pnm.h"
+#include "vision/images/regular_file.h"
 #include "vision/images/stated_size.h"
 
 #include <algorithm>
@@ -21,10 +23,11 @@
 namespace fidservo::vision {
 namespace {
 
-/// The file from its beginning on, as many bytes of it as there are.
+/// The file from its beginning on, as many bytes of it as there are; none of what is no regular file.
 std::string bytes_of(const std::filesystem::path& file, std::uintmax_t most) {
-    std::ifstream in(file, std::ios::binary);
     std::string bytes;
+    if (!demand_regular_file(file)) return bytes;
+    std::ifstream in(file, std::ios::binary);
     if (!in) return bytes;
     in.seekg(0, std::ios::end);
     if (const auto size = in.tellg(); size > 0)
@@ -87,16 +90,16 @@ Result<StoredImage> decode_other(const std::filesystem::path& file, std::string_
 }
 
 Result<StoredImage> read_unnamed(const std::filesystem::path& file, std::uint64_t page) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error))
-        return failure(Reason::device, "there is no such file");
+    if (const Status there = demand_regular_file(file); !there) return tl::make_unexpected(there.error());
     if (is_tiff(beginning_of(file))) return read_tiff_page(file, page);
+    std::error_code error;
     if (const auto size = std::filesystem::file_size(file, error); !error && size > most_file_bytes)
         return failure(Reason::device, fmt::format("{} bytes: at most {} are read", size, most_file_bytes));
     const std::string content = bytes_of(file, most_file_bytes);
     const auto bytes = std::as_bytes(std::span(content));
     if (content.empty()) return failure(Reason::device, "it is empty or cannot be opened");
     if (is_png(bytes) || is_jpeg(bytes)) return decode_stored(content);
+    if (is_pnm(bytes)) return decode_pnm(bytes);
     return decode_other(file, content);
 }
 
@@ -146,8 +149,10 @@ Result<std::vector<PageOfFile>> list_pages(const std::filesystem::path& file) {
     const std::string beginning = beginning_of(file);
     if (!is_tiff(beginning)) {
         const auto bytes = std::as_bytes(std::span(beginning));
-        return std::vector<PageOfFile>{
-            {.is_deep = is_png(bytes) ? is_deep_png(bytes) : is_deep_beginning(bytes)}};
+        const bool deep = is_png(bytes)   ? is_deep_png(bytes)
+                          : is_pnm(bytes) ? is_deep_pnm(bytes)
+                                          : is_deep_beginning(bytes);
+        return std::vector<PageOfFile>{{.is_deep = deep}};
     }
     auto pages = list_tiff_pages(file);
     if (!pages) return failure(Reason::device, fmt::format("{}: {}", file.string(), pages.error().text));
@@ -156,8 +161,10 @@ Result<std::vector<PageOfFile>> list_pages(const std::filesystem::path& file) {
 
 bool begins_as_an_image(const std::filesystem::path& file) {
     const std::string beginning = beginning_of(file);
+    if (beginning.empty()) return false;
     const auto bytes = std::as_bytes(std::span(beginning));
-    return is_png(bytes) || is_jpeg(bytes) || is_tiff(beginning) || is_image_for_opencv(file);
+    return is_png(bytes) || is_jpeg(bytes) || is_pnm(bytes) || is_tiff(beginning) ||
+           is_image_for_opencv(file);
 }
 
 }  // namespace fidservo::vision

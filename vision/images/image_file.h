@@ -81,6 +81,7 @@ struct PageOfFile {
     std::uint64_t page = 0;  ///< the argument `page` of read_stored()
     bool is_deep = false;    ///< its samples may have more than 8 bits
     std::string damage{};    ///< why it cannot be read; empty if no reason is known yet
+    std::string note{};      ///< what else the file holds that is no page, in one line; mostly empty
 };
 
 /// The pictures of an image file: of a TIFF its pages, without thumbnails and masks; of any other file one.

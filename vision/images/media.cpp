@@ -3,6 +3,7 @@
 
 #include "core/failure.h"
 #include "core/loaded_module.h"
+#include "vision/images/regular_file.h"
 
 #include <fmt/format.h>
 
@@ -27,10 +28,13 @@ Answer ask(Answer (*MediaModule::*question)(Arguments...), Arguments... argument
 }  // namespace
 
 Result<std::unique_ptr<Video>> open_video(const std::filesystem::path& file) {
-    auto video = ask(&MediaModule::open_video, file.c_str());
-    if (!video)
+    const auto refused = [&](const Failure& why) {
         return failure(Reason::device,
-                       fmt::format("{}: cannot be read as a video: {}", file.string(), video.error().text));
+                       fmt::format("{}: cannot be read as a video: {}", file.string(), why.text));
+    };
+    if (const Status there = demand_regular_file(file); !there) return refused(there.error());
+    auto video = ask(&MediaModule::open_video, file.c_str());
+    if (!video) return refused(video.error());
     return video;
 }
 

@@ -16,8 +16,6 @@
 namespace fidservo::vision {
 namespace {
 
-constexpr unsigned most_of_8_bits = 255;
-
 std::uint64_t number_at(std::string_view file, std::size_t at, std::size_t count, bool least_first) {
     std::uint64_t number = 0;
     if (at > file.size() || file.size() - at < count) return 0;
@@ -39,110 +37,6 @@ Result<StatedSize> whole_if(std::string_view file, std::uint64_t wanted, StatedS
 Status demand_size(std::uint64_t width, std::uint64_t height) {
     if (width == 0 || height == 0) return failure(Reason::device, "its header is damaged");
     return demand_readable_size(width, height);
-}
-
-/// The words of a PNM header, without comments.
-class Words {
-  public:
-    explicit Words(std::string_view file) : file_(file) {}
-
-    std::string_view next() {
-        while (at_ < file_.size() && (is_blank(file_[at_]) || file_[at_] == '#')) {
-            if (file_[at_] == '#') at_ = std::min(file_.size(), file_.find('\n', at_));
-            if (at_ < file_.size()) ++at_;
-        }
-        const std::size_t begin = at_;
-        while (at_ < file_.size() && !is_blank(file_[at_])) ++at_;
-        return file_.substr(begin, at_ - begin);
-    }
-
-    std::uint64_t number() {
-        constexpr std::size_t most_digits = 10;
-        const std::string_view word = next();
-        std::uint64_t value = 0;
-        if (word.size() > most_digits) return 0;
-        for (const char digit : word) {
-            if (digit < '0' || digit > '9') return 0;
-            value = 10 * value + static_cast<std::uint64_t>(digit - '0');
-        }
-        return value;
-    }
-
-    /// After the one blank that ends the header.
-    std::size_t end_of_header() const { return std::min(file_.size(), at_ + 1); }
-
-  private:
-    static bool is_blank(char letter) { return letter == ' ' || (letter >= '\t' && letter <= '\r'); }
-
-    std::string_view file_;
-    std::size_t at_ = 0;
-};
-
-struct PnmHeader {
-    std::uint64_t width = 0, height = 0, channels = 1;
-    std::uint64_t largest = 1;
-    std::size_t end = 0;
-    bool is_text = false, is_bitmap = false;
-};
-
-PnmHeader pam_header(Words words) {
-    PnmHeader header;
-    for (std::string_view key = words.next(); !key.empty() && key != "ENDHDR"; key = words.next()) {
-        if (key == "WIDTH") header.width = words.number();
-        if (key == "HEIGHT") header.height = words.number();
-        if (key == "DEPTH") header.channels = words.number();
-        if (key == "MAXVAL") header.largest = words.number();
-    }
-    header.end = words.end_of_header();
-    return header;
-}
-
-PnmHeader pnm_header(std::string_view file) {
-    Words words(file);
-    const std::string_view magic = words.next();
-    if (magic == "P7") return pam_header(words);
-    const char kind = magic.size() == 2 ? magic[1] : '0';
-    PnmHeader header;
-    header.is_text = kind <= '3';
-    header.is_bitmap = kind == '1' || kind == '4';
-    header.channels = kind == '3' || kind == '6' ? 3 : 1;
-    header.width = words.number();
-    header.height = words.number();
-    if (!header.is_bitmap) header.largest = words.number();
-    header.end = words.end_of_header();
-    return header;
-}
-
-Result<StatedSize> pnm_size(std::string_view file) {
-    const PnmHeader header = pnm_header(file);
-    if (auto sized = demand_size(header.width, header.height); !sized)
-        return tl::make_unexpected(sized.error());
-    constexpr std::uint64_t most_channels = 4, most_largest = 65535;
-    if (header.channels == 0 || header.channels > most_channels || header.largest == 0 ||
-        header.largest > most_largest)
-        return failure(Reason::device, "its header is damaged");
-    const bool deep = header.largest > most_of_8_bits;
-    // Programs that do not know better write the largest number of 16 bits: it states nothing.
-    const bool states_bits = deep && header.largest < most_largest;
-    const StatedSize stated{deep, states_bits ? static_cast<int>(std::bit_width(header.largest)) : 0};
-    const std::uint64_t samples = header.width * header.height * header.channels;
-    if (!header.is_text) {
-        const std::uint64_t row =
-            header.is_bitmap ? (header.width + 7) / 8 : header.width * header.channels * (deep ? 2 : 1);
-        const std::uint64_t end = header.end + row * header.height;
-        if (file.size() > end && file[end] != 'P' && !std::isspace(static_cast<unsigned char>(file[end])))
-            return failure(Reason::device,
-                           fmt::format("{} bytes where its header says {}", file.size(), end));
-        return whole_if(file, end, stated);
-    }
-    std::uint64_t found = 0;
-    Words words(file.substr(header.end));
-    while (found < samples) {
-        const std::string_view word = words.next();
-        if (word.empty()) return failure(Reason::device, "cut short");
-        found += header.is_bitmap ? word.size() : 1;
-    }
-    return stated;
 }
 
 Result<StatedSize> bmp_size(std::string_view file) {
@@ -235,10 +129,6 @@ bool is_code_stream(std::string_view file) {
     return begins(file, "\xff\x4f\xff\x51");
 }
 
-bool is_pnm(std::string_view file) {
-    return file.size() > 2 && file[0] == 'P' && file[1] >= '1' && file[1] <= '7';
-}
-
 std::string_view text_of(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -250,7 +140,6 @@ Result<StatedSize> stated_size(std::span<const std::byte> bytes) {
     for (const std::string_view of_floats : {"#?RADIANCE", "#?RGBE", "PF\n", "Pf\n", "\x76\x2f\x31\x01"})
         if (begins(file, of_floats))
             return failure(Reason::device, "floating-point samples have no white: save it with 8 or 16 bits");
-    if (is_pnm(file)) return pnm_size(file);
     if (begins(file, "BM")) return bmp_size(file);
     if (begins(file, "RIFF")) return webp_size(file);
     if (is_jp2(file)) return jp2_size(file);
@@ -261,7 +150,6 @@ Result<StatedSize> stated_size(std::span<const std::byte> bytes) {
 
 bool is_deep_beginning(std::span<const std::byte> bytes) {
     const std::string_view beginning = text_of(bytes);
-    if (is_pnm(beginning)) return pnm_header(beginning).largest > most_of_8_bits;
     return is_jp2(beginning) || is_code_stream(beginning);  // the depth may come late
 }
 

@@ -14,7 +14,7 @@ struct StatedSize {
     int bits = 0;  ///< of deeper samples: how many bits the header states to be in use; 0: it does not
 };
 
-/// Of PNM and PAM, BMP, WebP, JPEG 2000 and Sun raster, from the whole file: fails with Reason::device if it
+/// Of BMP, WebP, JPEG 2000 and Sun raster, from the whole file: fails with Reason::device if it
 /// is shorter than its header says, or if that claims a side beyond most_side_px. Other formats are not
 /// checked, but floating-point ones (Radiance, PFM, OpenEXR), whose samples have no defined white, fail.
 Result<StatedSize> stated_size(std::span<const std::byte> file);

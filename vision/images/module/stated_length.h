@@ -4,8 +4,13 @@
 
 namespace fidservo::vision {
 
-/// The length in bytes of a Matroska (WebM) or AVI file by the lengths that its outermost elements state; 0
-/// if it is of another kind or does not state them.
-std::uint64_t stated_length(const char* file);
+/// Where a video's file has to end.
+struct StatedEnd {
+    std::uint64_t bytes = 0;  ///< its length; 0: nothing states it
+    bool lacks_mark = false;  ///< a stream in it has no last page
+};
+
+/// By the container's own lengths: Matroska, AVI, MP4 and its kin, Ogg; of other files nothing is known.
+StatedEnd stated_end(const char* file);
 
 }  // namespace fidservo::vision

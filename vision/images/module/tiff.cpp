@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/failure.h"
 #include "vision/images/module/parts.h"
+#include "vision/images/module/tiff_deflate.h"
 #include "vision/images/module/tiff_file.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <span>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -17,23 +17,6 @@ namespace {
 
 tl::unexpected<Failure> damaged(const Tiff& tiff) {
     return failure(Reason::device, "damaged TIFF: " + tiff.why());
-}
-
-/// Is it a smaller copy of another page, or a mask for one?
-bool is_companion(const Tiff& tiff) {
-    std::uint32_t kind = 0;
-    std::uint16_t old_kind = 0;
-    if (TIFFGetField(tiff.get(), TIFFTAG_SUBFILETYPE, &kind) == 1)
-        return (kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0;
-    return TIFFGetField(tiff.get(), TIFFTAG_OSUBFILETYPE, &old_kind) == 1 &&
-           old_kind == OFILETYPE_REDUCEDIMAGE;
-}
-
-/// Has the page directories below it, where cameras' raw files (TIFF/EP, DNG) keep the picture?
-bool has_directories_of_its_own(const Tiff& tiff) {
-    std::uint16_t count = 0;
-    const std::uint64_t* places = nullptr;
-    return TIFFGetField(tiff.get(), TIFFTAG_SUBIFD, &count, &places) == 1 && count > 0;
 }
 
 struct Layout {
@@ -302,44 +285,7 @@ Result<StoredImage> read_colours(const Tiff& tiff, const Layout& layout) {
     return image;
 }
 
-/// "images=N" of ImageJ, which writes one directory for all pictures where they do not fit another way.
-bool has_pictures_without_directory(const Tiff& tiff) {
-    const char* text = nullptr;
-    if (TIFFGetField(tiff.get(), TIFFTAG_IMAGEDESCRIPTION, &text) != 1 || text == nullptr) return false;
-    const std::string_view description(text);
-    return description.starts_with("ImageJ=") && description.find("\nimages=") != std::string_view::npos &&
-           description.find("\nimages=1\n") == std::string_view::npos && TIFFLastDirectory(tiff.get()) != 0 &&
-           TIFFCurrentDirectory(tiff.get()) == 0;
-}
-
 }  // namespace
-
-Result<std::vector<PageOfFile>> tiff_pages(const char* file) {
-    const Tiff tiff(file);
-    if (!tiff.is_open()) return std::vector<PageOfFile>{{.damage = "damaged TIFF: " + tiff.why()}};
-    std::vector<PageOfFile> pages, companions;
-    bool holds_its_picture_elsewhere = false;
-    while (true) {
-        holds_its_picture_elsewhere = holds_its_picture_elsewhere || has_directories_of_its_own(tiff);
-        const bool companion = is_companion(tiff);
-        (companion ? companions : pages)
-            .push_back({.page = TIFFCurrentDirOffset(tiff.get()),
-                        .is_deep = tiff.field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1) > 8});
-        if (pages.size() + companions.size() > most_pages)
-            return failure(Reason::device, fmt::format("more pages than the {} that are read", most_pages));
-        if (TIFFLastDirectory(tiff.get()) != 0) break;
-        if (TIFFReadDirectory(tiff.get()) == 1) continue;
-        pages.push_back(
-            {.damage = fmt::format("damaged TIFF: its list of pages is broken off here: {}", tiff.why())});
-        break;
-    }
-    if (!pages.empty()) return pages;
-    if (holds_its_picture_elsewhere)
-        return std::vector<PageOfFile>{{.damage = "only a reduced copy of its picture is a page; the picture "
-                                                  "itself (a camera's raw data, say) "
-                                                  "is not read"}};
-    return companions;
-}
 
 Result<StoredImage> tiff_page(const char* file, std::uint64_t page) {
     const Tiff tiff(file, page);
@@ -350,9 +296,10 @@ Result<StoredImage> tiff_page(const char* file, std::uint64_t page) {
     try {
         Result<StoredImage> image = layout.is_plain() ? read_plain(tiff, layout) : read_colours(tiff, layout);
         if (!image) return image;
+        if (layout.compression == COMPRESSION_DEFLATE || layout.compression == COMPRESSION_ADOBE_DEFLATE)
+            if (const Status whole = verify_deflate(tiff); !whole) return tl::make_unexpected(whole.error());
         const int orientation = tiff.field<std::uint16_t>(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
         image->orientation = orientation >= 1 && orientation <= 8 ? orientation : 1;
-        image->has_more_pictures = has_pictures_without_directory(tiff);
         return image;
     } catch (const cv::Exception&) {
         return failure(Reason::device, "there is not enough memory for it");
