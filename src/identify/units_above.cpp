@@ -36,7 +36,8 @@ class UnitSearch {
         for (std::size_t k = 0; k < lines_.size(); ++k)
             if (column_ < lines_[k]->fields.size() && can_name_columns(*lines_[k])) look_in(k);
         for (const LineAbove& line : table_->above())
-            if (line.fields.empty() || !can_name_columns(line))
+            if (line.fields.empty() || !can_name_columns(line) ||
+                !(is_of_titles(line) || is_line_of_units(line)))
                 for (const std::string& unit : units_named_in(line.text)) add_possible(unit, line, line.text);
         return std::move(unit_);
     }
@@ -55,7 +56,9 @@ class UnitSearch {
         const std::string& field = line.fields[column_];
         const std::string alone = unit_alone(field);
         const ColumnTitleParts parts = title_parts(field);
-        const bool is_below_a_title = k + 1 < lines_.size() && has_title(*lines_[k + 1], column_);
+        // Above the titles an instrument says of itself, field by field: Horizontal Units,s.
+        const bool is_below_a_title =
+            is_of_titles(line) && k + 1 < lines_.size() && has_title(*lines_[k + 1], column_);
         // A title alone may be a word that is also a unit's.
         const bool stands_for_a_unit = is_below_a_title || (lines_.size() > 1 && is_line_of_units(line));
         state(!alone.empty() && stands_for_a_unit ? alone : parts.unit, line);

@@ -81,6 +81,9 @@ TEST(UnitsAbove, InALineThatHasNoFieldForEachColumn_AreAskedAbout) {
                     AllOf(HasSubstr("table.txt:"), HasSubstr("may name its unit, um, or not"),
                           HasSubstr("output=3[um] or [mm]")));
     }
+    // An instrument's key and value are no unit of a column that stands below.
+    EXPECT_EQ(values_in(table_below("Model;MSO;\nUnits;s;\nLength;12600;\n\ntime;u;x"), "input", "V")[0],
+              2000.5);
     // What it names is of another quantity, or the usual one.
     EXPECT_EQ(values_in(table_below("Interval;0.5;ms;mm\ntime;u;x"), "output", "mm")[0], 80000.5);
 }
