@@ -64,7 +64,9 @@ MacroMotion with_parameters(MacroMotion motion, const MacroVector& parameters) {
     motion.slope_mm_per_s_per_V = parameters[macro_index::slope];
     motion.friction_mm_per_s = std::max(0.0, parameters[macro_index::friction]);
     motion.offset_V = parameters[macro_index::offset];
-    motion.time_constant_s = std::exp(parameters[macro_index::log_time_constant]);
+    constexpr double most_log = 700.0;  // whose exponential a number still holds, and that of its opposite
+    motion.time_constant_s =
+        std::exp(std::clamp(parameters[macro_index::log_time_constant], -most_log, most_log));
     return motion;
 }
 

@@ -39,7 +39,8 @@ double within(const ThresholdInterval& interval, double share) {
     return std::max(least_V, interval.above_V + share * width_V);
 }
 
-/// A first model: thresholds by what the carriage did from rest, and the best of several time constants.
+/// A first model: thresholds by what the carriage did from rest, and the best of several time constants; a
+/// time constant of 0 if none follows the recordings.
 MacroPoint first_point(const MacroEstimator& estimator, const MacroBuild& build, MacroFit& fit) {
     constexpr int iterations = 8;
     MacroMotion motion;
@@ -254,6 +255,7 @@ MacroFit fit_macro_windows(const MacroEstimator& estimator, const MacroBuild& bu
     MacroFit fit;
     fit.active = {build.dead_zone, true, true, false, true};
     fit.point = first_point(estimator, build, fit);
+    if (!(fit.point.motion.time_constant_s > 0.0)) return fit;
     if (build.dead_zone) scan_thresholds(estimator, fit);
     fit.both_ways = drives_both_ways(estimator.windows(), fit.point.motion);
     fit.active[macro_index::offset] = fit.both_ways;

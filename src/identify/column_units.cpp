@@ -9,12 +9,12 @@ namespace fidservo {
 namespace {
 
 constexpr std::array units{
-    Unit{"mm", "length", 1.0},   Unit{"um", "length", 1e-3},       Unit{"nm", "length", 1e-6},
-    Unit{"cm", "length", 10.0},  Unit{"m", "length", 1e3},         Unit{"V", "voltage", 1.0},
-    Unit{"mV", "voltage", 1e-3}, Unit{"uV", "voltage", 1e-6},      Unit{"s", "time", 1.0},
-    Unit{"ms", "time", 1e-3},    Unit{"us", "time", 1e-6},         Unit{"ns", "time", 1e-9},
-    Unit{"min", "time", 60.0},   Unit{"degC", "temperature", 1.0}, Unit{"count", "reading", 1.0},
-    Unit{"adc", "reading", 1.0}};
+    Unit{"mm", "length", 1.0},        Unit{"um", "length", 1e-3},    Unit{"nm", "length", 1e-6},
+    Unit{"cm", "length", 10.0},       Unit{"m", "length", 1e3},      Unit{"V", "voltage", 1.0},
+    Unit{"mV", "voltage", 1e-3},      Unit{"uV", "voltage", 1e-6},   Unit{"s", "time", 1.0},
+    Unit{"ms", "time", 1e-3},         Unit{"us", "time", 1e-6},      Unit{"ns", "time", 1e-9},
+    Unit{"min", "time", 60.0},        Unit{"h", "time", 3600.0},     Unit{"day", "time", 86400.0},
+    Unit{"degC", "temperature", 1.0}, Unit{"count", "reading", 1.0}, Unit{"adc", "reading", 1.0}};
 
 struct OtherSpelling {
     std::string_view text;  ///< in small letters
@@ -52,6 +52,9 @@ constexpr std::array spellings{OtherSpelling{"micron", "um"},
                                OtherSpelling{"nanosecond", "ns"},
                                OtherSpelling{"nanoseconds", "ns"},
                                OtherSpelling{"minutes", "min"},
+                               OtherSpelling{"hour", "h"},
+                               OtherSpelling{"hours", "h"},
+                               OtherSpelling{"days", "day"},
                                OtherSpelling{"\xC2\xB0"
                                              "c",
                                              "degC"},
@@ -127,12 +130,25 @@ std::string_view without_blanks_or_marks(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Text in a pair of brackets at the end of a title, and where they open.
-std::string_view bracketed(std::string_view title, char open, char close, std::size_t& begin) {
-    if (!title.ends_with(close)) return {};
-    begin = title.rfind(open);
-    if (begin == std::string_view::npos) return {};
-    return without_blanks_or_marks(title.substr(begin + 1, title.size() - begin - 2));
+constexpr std::array<std::string_view, 4> brackets{"[]", "()", "{}", "<>"};
+
+/// Text in a pair of brackets, and where these stand.
+struct Bracketed {
+    std::size_t begin, end;
+    std::string_view inner;
+};
+
+std::vector<Bracketed> all_bracketed(std::string_view text) {
+    std::vector<Bracketed> found;
+    for (const std::string_view pair : brackets)
+        for (std::size_t open = text.find(pair[0]); open != std::string_view::npos;
+             open = text.find(pair[0], open + 1)) {
+            const std::size_t close = text.find(pair[1], open);
+            if (close == std::string_view::npos) break;
+            found.push_back(
+                {open, close + 1, without_blanks_or_marks(text.substr(open + 1, close - open - 1))});
+        }
+    return found;
 }
 
 }  // namespace
@@ -152,22 +168,31 @@ std::vector<std::string_view> units_of(std::string_view quantity) {
     return names;
 }
 
-bool names_a_unit(std::string_view line) {
-    for (std::size_t open = line.find_first_of("[("); open != std::string_view::npos;
-         open = line.find_first_of("[(", open + 1)) {
-        const std::size_t close = line.find_first_of("])", open);
-        if (close != std::string_view::npos && !unit_alone(line.substr(open + 1, close - open - 1)).empty())
-            return true;
+std::vector<std::string> units_named_in(std::string_view line) {
+    std::vector<std::string> named;
+    const auto add = [&](std::string_view text) {
+        if (std::string unit = unit_alone(text);
+            !unit.empty() && std::ranges::find(named, unit) == named.end())
+            named.push_back(std::move(unit));
+    };
+    for (const Bracketed& piece : all_bracketed(line)) add(piece.inner);
+    const bool speaks_of_units = in_small_letters(std::string(line)).find("unit") != std::string::npos;
+    const std::string_view separators = speaks_of_units ? ",;|\t:= " : ",;|\t:=";
+    while (!line.empty()) {
+        const std::size_t end = std::min(line.find_first_of(separators), line.size());
+        add(line.substr(0, end));
+        line.remove_prefix(std::min(end + 1, line.size()));
     }
-    return false;
+    return named;
 }
 
 std::string unit_alone(std::string_view text) {
     text = without_blanks_or_marks(text);
-    std::size_t begin = 0;
-    for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}})
-        if (const std::string_view inner = bracketed(text, open, close, begin); !inner.empty() && begin == 0)
-            text = inner;
+    for (const Bracketed& piece : all_bracketed(text))
+        if (piece.begin == 0 && piece.end == text.size() && !piece.inner.empty()) {
+            text = piece.inner;
+            break;
+        }
     if (const Unit* unit = find_unit(text)) return std::string(unit->name);
     return std::ranges::find(other_units, text) == other_units.end() ? "" : std::string(text);
 }
@@ -178,22 +203,32 @@ ColumnTitleParts title_parts(std::string_view title) {
         return ColumnTitleParts{std::string(without_blanks_or_marks(title.substr(0, name_end))),
                                 std::move(unit), ""};
     };
-    std::size_t begin = 0;
-    if (const std::string_view unit = bracketed(title, '[', ']', begin); !unit.empty()) {
-        const Unit* known = find_unit(unit);
-        return parts(begin, std::string(known != nullptr ? known->name : unit));
-    }
-    if (std::string unit = unit_alone(bracketed(title, '(', ')', begin)); !unit.empty())
-        return parts(begin, std::move(unit));
-    for (std::size_t stroke = title.find('/'); stroke != std::string_view::npos && stroke > 0;
-         stroke = title.find('/', stroke + 1))
-        if (std::string unit = unit_alone(title.substr(stroke + 1)); !unit.empty())
-            return parts(stroke, std::move(unit));
-    const auto underscore = title.rfind('_');
-    if (underscore == std::string_view::npos || underscore == 0) return parts(title.size(), "");
-    const Unit* known = find_unit(title.substr(underscore + 1));
+    const std::vector<Bracketed> pieces = all_bracketed(title);
+    for (const Bracketed& piece : pieces)
+        if (piece.end == title.size() && title[piece.begin] == '[' && !piece.inner.empty()) {
+            const Unit* known = find_unit(piece.inner);
+            return parts(piece.begin, std::string(known != nullptr ? known->name : piece.inner));
+        }
+    for (const Bracketed& piece : pieces)
+        if (std::string unit = unit_alone(piece.inner); !unit.empty())
+            return piece.begin > 0
+                       ? parts(piece.begin, std::move(unit))
+                       : ColumnTitleParts{std::string(without_blanks_or_marks(title.substr(piece.end))),
+                                          std::move(unit), ""};
+    for (const std::string_view before : {"/", ",", " in "})
+        for (std::size_t at = title.find(before); at != std::string_view::npos && at > 0;
+             at = title.find(before, at + 1))
+            if (std::string unit = unit_alone(title.substr(at + before.size())); !unit.empty())
+                return parts(at, std::move(unit));
+    const auto last = title.find_last_of("_. \t");
+    if (last == std::string_view::npos || last == 0) return parts(title.size(), "");
+    const std::string_view word = title.substr(last + 1);
+    const Unit* known = find_unit(word);
     if (known == nullptr) return parts(title.size(), "");
-    if (known->name.size() > 1) return {std::string(title), std::string(known->name), ""};
+    // Behind a blank a whole word may be part of the name, as in "laser micrometer" and "x min".
+    const bool is_symbol = known->name == with_plain_micro(word) && known->name != "min";
+    if (known->name.size() > 1 && (title[last] == '_' || is_symbol))
+        return {std::string(title), std::string(known->name), ""};
     return {std::string(title), "", std::string(known->name)};
 }
 

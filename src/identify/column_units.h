@@ -27,12 +27,15 @@ struct ColumnTitleParts {
     std::string perhaps;  ///< a unit that the title may name: t_s may mean s, or a name that begins with s
 };
 
-/// A unit stands at the end, in square brackets; in round ones or behind a stroke if it is some quantity's:
-/// "position [mm]", "Position (mm)", "s/mm"; or behind an underscore if it has two letters: "x_mm".
+/// A unit stands at the end in square brackets. If it is some quantity's it may also stand there in others,
+/// behind a stroke, a comma or the word in, or in brackets anywhere: "position [mm]", "Position (mm)",
+/// "s/mm", "x, mm", "x in mm", "[mm] x". Behind an underscore, a point or a blank it is one if it has two
+/// letters: "x_mm", "x mm".
 ColumnTitleParts title_parts(std::string_view title);
 
-/// Whether a line holds a unit in brackets, of any quantity.
-bool names_a_unit(std::string_view line);
+/// The units that a line names: in brackets of any kind, between commas, semicolons, bars, tabs, colons or
+/// equals signs, and, if the line speaks of units, between blanks.
+std::vector<std::string> units_named_in(std::string_view line);
 
 /// The unit, of any quantity, if a text consists of nothing else, as in a line of units below the titles:
 /// find_unit()'s name, or the text; empty if it is none.

@@ -25,6 +25,9 @@ struct Source {
 
 /// A table's own units, but lengths in mm where its input is a temperature: those are the rig file's units.
 Source hysteresis_from_table(const TextTable& table) {
+    for (const auto& [role, usual] : {std::pair{"input", "degC"}, std::pair{"output", "mm"}})
+        demand_no_other_unit(
+            table, role, [](const Unit& other) { return other.quantity != "time"; }, usual);
     const TableColumn &input = *table.find("input"), &output = *table.find("output");
     Source source{{input.values, output.values}, {table.file.string()}, input.unit, output.unit};
     if (input.unit == "degC" && !output.unit.empty()) {

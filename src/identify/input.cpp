@@ -4,12 +4,36 @@
 #include "core/demand.h"
 #include "core/input_error.h"
 #include "core/rig.h"
+#include "src/identify/column_units.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fidservo {
+
+namespace {
+
+/// Throws InputError, which asks for the unit, if no unit of time is stated and the rows are not as far apart
+/// as a rig's ticks are in seconds. Units of time go by thousands: an interval within a factor of
+/// sqrt(1000) of the tick is nearer to it in seconds than in any other of them.
+void demand_plausible_seconds(const IdentifyInput& input, const std::vector<double>& times_s) {
+    const TextTable& table = input.table.value();
+    const TableColumn& time = *table.find("time");
+    if (!time.unit.empty() || times_s.size() < 2) return;
+    const double interval_s = (times_s.back() - times_s.front()) / static_cast<double>(times_s.size() - 1);
+    const double nearest = std::sqrt(1000.0);
+    if (interval_s > input.rig.tick_s / nearest && interval_s < input.rig.tick_s * nearest) return;
+    throw InputError(fmt::format(
+        "{0}: time: its unit is not stated, and rows {1:.4g} apart are hardly seconds: a tick of the rig {2} "
+        "is {3:g} s; say it in --columns, as time={4}[UNIT] with one of {5}; rows that are only counted: "
+        "--rate-hz in place of time",
+        table.file.string(), interval_s, input.rig.name, input.rig.tick_s, time.column,
+        fmt::join(units_of("time"), ", ")));
+}
+
+}  // namespace
 
 std::vector<double> table_times_s(const IdentifyInput& input) {
     const TextTable& table = input.table.value();
@@ -25,6 +49,7 @@ std::vector<double> table_times_s(const IdentifyInput& input) {
         if (times_s[k] <= times_s[k - 1])
             throw InputError(fmt::format("{}: row {}: time: {}: must be after the row before, {}",
                                          table.file.string(), k + 1, times_s[k], times_s[k - 1]));
+    demand_plausible_seconds(input, times_s);
     return times_s;
 }
 
@@ -58,6 +83,12 @@ Recording table_as_macro_recording(const IdentifyInput& input) {
     recording.tick_s = times_s.size() < 2
                            ? input.rig.tick_s
                            : (times_s.back() - times_s.front()) / static_cast<double>(times_s.size() - 1);
+    constexpr double longest_tick_s = 1.0;  // as of a rig file
+    if (recording.tick_s > longest_tick_s)
+        throw InputError(fmt::format(
+            "{}: rows are {:.4g} s apart: the carriage's motion between them is not seen; allowed: {} s "
+            "at most",
+            table.file.string(), recording.tick_s, longest_tick_s));
     recording.columns.macro_command = recording.columns.position = true;
     recording.rows.resize(times_s.size());
     for (std::size_t k = 0; k < times_s.size(); ++k) {
@@ -67,7 +98,7 @@ Recording table_as_macro_recording(const IdentifyInput& input) {
             throw InputError(
                 fmt::format("{}: row {}: time: {}: rows must be equally spaced; {:.9g} was expected",
                             table.file.string(), k + 1, times_s[k], regular_s));
-        recording.rows[k].time_ns = nanoseconds(times_s[k]);
+        recording.rows[k].time_ns = nanoseconds(times_s[k] - times_s.front());
         recording.rows[k].macro_command_V = command_V[k];
         recording.rows[k].position_mm = position_mm[k];
     }

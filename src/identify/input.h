@@ -17,7 +17,8 @@ struct IdentifyInput {
     double table_rate_hz = 0.0;  ///< rows per second; 0: the table has a column with the role time
 };
 
-/// Times in s of a table's rows. Throws InputError where time does not increase.
+/// Times in s of a table's rows. Throws InputError where time does not increase, and where its unit is not
+/// stated and seconds are not plausible.
 std::vector<double> table_times_s(const IdentifyInput& input);
 
 /// Throws InputError if rows are missing: a model that is run through a recording needs every tick.

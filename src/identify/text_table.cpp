@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
@@ -79,37 +80,6 @@ std::size_t find_column(const PlainTable& table, const ColumnChoice& choice) {
     return found.front();
 }
 
-/// The unit that the lines above the rows give a column, and one that they perhaps do.
-ColumnTitleParts unit_of_column(const PlainTable& table, std::size_t column) {
-    ColumnTitleParts unit;
-    int line_of_unit = 0;
-    const auto state = [&](const std::string& found, int line) {
-        if (found.empty()) return;
-        if (!unit.unit.empty() && unit.unit != found)
-            table.fail(line, fmt::format("column {}: unit '{}', but '{}' in line {}: say which in --columns",
-                                         column + 1, found, unit.unit, line_of_unit));
-        unit.unit = found;
-        line_of_unit = line;
-    };
-    const auto& lines = table.titles();
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-        if (column >= lines[k].fields.size()) continue;
-        const std::string& field = lines[k].fields[column];
-        // A title alone may be a word that is also a unit's.
-        const std::string alone = unit_alone(field);
-        const bool has_title_above = k + 1 < lines.size() && column < lines[k + 1].fields.size() &&
-                                     unit_alone(lines[k + 1].fields[column]).empty() &&
-                                     look_at(lines[k + 1].fields[column]).kind == FieldKind::text;
-        const ColumnTitleParts parts = title_parts(field);
-        if (!alone.empty() && has_title_above)
-            state(alone, lines[k].line);
-        else
-            state(parts.unit, lines[k].line);
-        if (unit.perhaps.empty()) unit.perhaps = parts.perhaps;
-    }
-    return unit;
-}
-
 /// Times of day in seconds from the first row's.
 class ClockColumn {
   public:
@@ -158,15 +128,9 @@ Reading reading_of(const PlainTable& table, const ColumnChoice& choice, TableCol
         column.unit = "s";
         reading.clock.emplace(table, reading.index);
     } else if (column.unit.empty()) {
-        const ColumnTitleParts found = unit_of_column(table, reading.index);
-        column.unit = found.unit;
-        column.perhaps = found.perhaps;
-        if (const auto& above = table.line_above();
-            above && column.unit.empty() && names_a_unit(above->second))
-            table.fail(above->first,
-                       fmt::format("'{}' names units, but has no title for each column; say the unit in "
-                                   "--columns, as {}={}[UNIT]",
-                                   excerpt(above->second), choice.role, choice.column));
+        UnitAbove found = unit_above(table, reading.index);
+        column.unit = std::move(found.unit);
+        column.possible = std::move(found.possible);
     }
     return reading;
 }
@@ -214,7 +178,7 @@ TextTable read_text_table(const std::filesystem::path& file, const std::vector<C
             "the last line has no end: if the file was cut off, its last number is too short");
     std::vector<Reading> readings;
     for (const ColumnChoice& choice : choices) {
-        table.columns.push_back({choice.role, "", {}});
+        table.columns.push_back({choice.role, "", {}, choice.column});
         readings.push_back(reading_of(source, choice, table.columns.back()));
     }
     source.for_each_row([&](const TableRow& row) {
@@ -227,15 +191,27 @@ TextTable read_text_table(const std::filesystem::path& file, const std::vector<C
     return table;
 }
 
+void demand_no_other_unit(const TextTable& table, std::string_view role,
+                          const std::function<bool(const Unit&)>& is_other, std::string_view usual) {
+    const TableColumn* column = table.find(role);
+    FIDSERVO_DEMAND(column != nullptr);
+    if (!column->unit.empty()) return;
+    for (const PossibleUnit& possible : column->possible)
+        if (is_other(*find_unit(possible.unit)))
+            throw InputError(fmt::format(
+                "{}:{}: {}: '{}' may name its unit, {}, or not: say it in --columns, as {}={}[{}] or [{}]",
+                table.file.string(), possible.line, role, possible.text, possible.unit, role, column->column,
+                possible.unit, usual));
+}
+
 std::vector<double> values_in(const TextTable& table, std::string_view role, std::string_view unit) {
     const TableColumn* column = table.find(role);
     const Unit* wanted = find_unit(unit);
     FIDSERVO_DEMAND(column != nullptr && wanted != nullptr);
-    if (column->unit.empty() && !column->perhaps.empty() && column->perhaps != unit &&
-        find_unit(column->perhaps)->quantity == wanted->quantity)
-        throw InputError(fmt::format(
-            "{}: {}: the title may name the unit {}: say it in --columns, as {}=COLUMN[{}] or [{}]",
-            table.file.string(), role, column->perhaps, role, column->perhaps, unit));
+    demand_no_other_unit(
+        table, role,
+        [&](const Unit& other) { return other.quantity == wanted->quantity && other.size != wanted->size; },
+        unit);
     if (column->unit.empty() || column->unit == unit) return column->values;
     const Unit* given = find_unit(column->unit);
     if (given == nullptr || given->quantity != wanted->quantity)

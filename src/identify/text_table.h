@@ -2,8 +2,11 @@
 #pragma once
 // Columns of numbers from a text table of another program.
 #include "src/files/table/table_structure.h"
+#include "src/identify/column_units.h"
+#include "src/identify/units_above.h"
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,7 +31,8 @@ struct TableColumn {
     std::string role;
     std::string unit;  ///< empty: not stated
     std::vector<double> values;
-    std::string perhaps = {};  ///< if no unit is stated: one that the title may mean, as x_m may
+    std::string column = {};                  ///< as the user chose it: its number or its title
+    std::vector<PossibleUnit> possible = {};  ///< if no unit is stated
 };
 
 struct TextTable {
@@ -42,16 +46,21 @@ struct TextTable {
 };
 
 /// Reads columns of a table that any program wrote (src/files/table/plain_table.h). A column's unit is the
-/// choice's; else that of its title (column_units.h), or of the line of units below the titles. A column with
+/// choice's; else that of the lines above the rows (units_above.h). A column with
 /// the role `time` may hold times of day (clock_time.h): they become seconds from the first row's. Throws
 /// InputError "FILE:LINE: ..." on a column that is not there or that two titles mean, units that contradict
 /// each other, a row of another length, a field of a chosen column that is no finite number or could be two.
 TextTable read_text_table(const std::filesystem::path& file, const std::vector<ColumnChoice>& choices,
                           const TableOptions& options = {});
 
-/// A column's values in a unit of the same quantity: mm um nm cm m; V mV uV; s ms us ns min; degC; count;
-/// adc. A column without unit is taken to have it already. Throws InputError, also where the title may name
-/// another one.
+/// Throws InputError, which asks for the unit, if no unit of a column is stated and a line above the rows
+/// names one that may be its, and is another than the usual one.
+void demand_no_other_unit(const TextTable& table, std::string_view role,
+                          const std::function<bool(const Unit&)>& is_other, std::string_view usual);
+
+/// A column's values in a unit of the same quantity: mm um nm cm m; V mV uV; s ms us ns min h day; degC;
+/// count; adc. A column without unit is taken to have it already. Throws InputError, also where a line above
+/// the rows may name another one.
 std::vector<double> values_in(const TextTable& table, std::string_view role, std::string_view unit);
 
 }  // namespace fidservo

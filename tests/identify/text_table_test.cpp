@@ -133,8 +133,11 @@ TEST(TextTable, UnitThatIsAnothersOrOnlyPerhapsOne_IsAskedFor) {
         return message_of([&] { values_in(table, "output", unit); });
     };
     EXPECT_THAT(message("Force (N)", "V"), HasSubstr("output: unit 'N': allowed: V, mV"));
-    EXPECT_THAT(message("x_m", "mm"),
-                HasSubstr("the title may name the unit m: say it in --columns, as output=COLUMN[m] or [mm]"));
+    EXPECT_THAT(
+        message("x_m", "mm"),
+        HasSubstr(
+            "table.txt:1: output: 'x_m' may name its unit, m, or not: say it in --columns, as output=2[m] "
+            "or [mm]"));
     EXPECT_THAT(message_of([] { table_of("t;x [mm]\ns;um\n0;1\n1;2\n", "input=1,output=2"); }),
                 HasSubstr("column 2: unit 'mm', but 'um' in line 2"));
 }
@@ -149,10 +152,12 @@ TEST(TextTable, TitlesWithBlanks_StandAboveWideGaps) {
 
 TEST(TextTable, UnitsThatBelongToNoColumn_AreAskedFor) {
     EXPECT_THAT(
-        message_of([] { table_of("# t [s] x [um]\n0.5 1.5\n1.0 2.5\n", "input=1[s],output=2"); }),
+        message_of([] {
+            values_in(table_of("# t [s] x [um]\n0.5 1.5\n1.0 2.5\n", "input=1[s],output=2"), "output", "mm");
+        }),
         HasSubstr(
-            "table.txt:1: '# t [s] x [um]' names units, but has no title for each column; say the unit in "
-            "--columns, as output=2[UNIT]"));
+            "table.txt:1: output: '# t [s] x [um]' may name its unit, um, or not: say it in --columns, as "
+            "output=2[um] or [mm]"));
     EXPECT_THAT(table_of("# t [s] x [um]\n0.5 1.5\n1.0 2.5\n", "input=1[s],output=2[um]").columns[1].values,
                 ElementsAre(1.5, 2.5));
 }
@@ -222,9 +227,9 @@ TEST(TableTimes, Backwards_IsRefused) {
 
 TEST(TableAsMacroRecording, UnequalSpacing_IsRefused) {
     const IdentifyInput input{
-        {}, {}, table_of("1,2,0\n1,2,1\n1,2,2.2\n1,2,3\n", "input=1,output=2,time=3"), 0.0};
+        {}, {}, table_of("1,2,0\n1,2,1\n1,2,2.2\n1,2,3\n", "input=1,output=2,time=3[ms]"), 0.0};
     EXPECT_THAT(message_of([&] { table_as_macro_recording(input); }),
-                HasSubstr("row 3: time: 2.2: rows must be equally spaced"));
+                HasSubstr("row 3: time: 0.0022: rows must be equally spaced"));
 }
 
 }  // namespace

@@ -142,6 +142,11 @@ TEST(CameraInfo, Mistakes_AreNamedWithWhatIsAllowed) {
               "7: camera_matrix.data: a list: skew is not supported: the 2nd and 4th number must be 0");
     EXPECT_EQ(ros_message_with("5012.25, 0., 641.5", "0, 0., 641.5"),
               "7: camera_matrix.data: a list: f_x and f_y, the 1st and 5th number, must be above 0");
+    EXPECT_EQ(
+        ros_message_with("[5012.25, 0., 641.5,\n         0., 5002.5,",
+                         "[16.2, 0., 641.5,\n         0., 16.2,"),
+        "7: camera_matrix.data: a list: a focal length of 16.2 px would see 177.1 degrees along 1280 px; "
+        "allowed: 56 px or more: it is in px, not in mm or m");
     EXPECT_EQ(ros_message_with("0., 0., 1.   ]", "0., 1., 1.   ]"),
               "7: camera_matrix.data: a list: the last row must be 0, 0, 1");
     EXPECT_EQ(ros_message_with("5002.5, 470.25,\n", "502.5, 470.25,\n"),

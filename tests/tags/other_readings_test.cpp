@@ -112,6 +112,24 @@ TEST(OtherReadings, UsualTags_HaveNoBetterReading) {
     EXPECT_FALSE(looks_unread(picture.image, picture.tags.size()));
 }
 
+/// Wider borders and small families explain part of the same squares by chance.
+TEST(OtherReadings, OfTheSameSquares_AreOneAlone) {
+    for (const TagReading& reading_of_print : {TagReading{{.inverted = true}, false}, TagReading{{}, true},
+                                               TagReading{{.inverted = true}, true}}) {
+        cv::Mat1b image(240, 320, static_cast<unsigned char>(255));
+        cv::Mat1b large;
+        cv::resize(fidservo::testing::cells_of({}, 7), large, {}, 12.0, 12.0, cv::INTER_NEAREST);
+        large.copyTo(image(cv::Rect(100, 60, large.cols, large.rows)));
+        if (reading_of_print.print.inverted) image = cv::Mat1b(255 - image);
+        if (reading_of_print.mirrored) cv::flip(image, image, 1);
+        const std::vector<cv::Mat> images{image};
+        const OtherReadings others = try_other_readings(images, {});
+        ASSERT_THAT(others.better, SizeIs(1));
+        EXPECT_TRUE(others.better.front().reading == reading_of_print);
+        EXPECT_EQ(others.better.front().tags, 1u);
+    }
+}
+
 TEST(ImagesSeen, WithoutTags_NamesOnlyWhatWasChecked) {
     const auto said = [](const cv::Mat& image) {
         const std::vector<cv::Mat> images{image};

@@ -3,6 +3,7 @@
 
 #include "core/detection.h"
 #include "core/median.h"
+#include "vision/tags/quad.h"
 #include "vision/tags/readings_screen.h"
 #include "vision/tags/square_outlines.h"
 #include "vision/tags/tag_detector.h"
@@ -55,19 +56,46 @@ double chance_of(const TagFamily& family) {
     return family.size() / std::exp2(static_cast<double>(std::ranges::count(family.layout, 'd')));
 }
 
+/// By how much a tag's pattern is likelier than chance, as a logarithm: what the pattern leaves of the
+/// variance of n cells, 1 - R^2, is of chance's with a probability that falls as its power (n - 4)/2, and 4 N
+/// patterns of the family were tried (least_explained()).
+double support_of(const cv::Mat& image, const TagDetection& tag) {
+    constexpr double least_left = 1e-6;
+    const TagPattern pattern = tag_pattern(tag.print, tag.tag_id);
+    const double left = std::max(least_left, 1.0 - explained_contrast(image, tag.corners_px, pattern));
+    const double cells = pattern.cells * pattern.cells;
+    return -0.5 * (cells - 4.0) * std::log(left) - std::log(4.0 * tag.print.family->size());
+}
+
 struct Found {
+    std::vector<std::vector<TagDetection>> of_image;
     std::size_t tags = 0;
     int last_id = 0;
+    double support = 0.0;  ///< of all tags together
 };
+
+/// Whether each tag of one reading is one of the other's, too.
+bool sees_the_same(const Found& found, const Found& other) {
+    for (std::size_t k = 0; k < found.of_image.size(); ++k)
+        for (const TagDetection& tag : found.of_image[k])
+            if (std::ranges::none_of(other.of_image[k], [&](const TagDetection& of_other) {
+                    return same_place(tag.corners_px, of_other.corners_px);
+                }))
+                return false;
+    return true;
+}
 
 Found found_as(const std::vector<cv::Mat>& images, const TagReading& reading) {
     TagDetector detector(thorough_options(reading));
     Found found;
-    for (const cv::Mat& image : images)
-        for (const TagDetection& tag : detector.detect(image, 0)) {
-            ++found.tags;
+    for (const cv::Mat& image : images) {
+        found.of_image.push_back(detector.detect(image, 0));
+        found.tags += found.of_image.back().size();
+        for (const TagDetection& tag : found.of_image.back()) {
             found.last_id = std::max(found.last_id, tag.tag_id);
+            found.support += support_of(image, tag);
         }
+    }
     return found;
 }
 
@@ -156,6 +184,7 @@ OtherReadings try_other_readings(std::span<const cv::Mat> images, const TagReadi
                          .tags = found_as(bearable, tried).tags,
                          .better = {},
                          .seen = look_at(bearable)};
+    std::vector<Found> found_better;  // as others.better
     for (const TagReading& likely : likely_readings(bearable)) {
         TagReading reading = likely;
         Found found = found_as(bearable, reading);
@@ -166,8 +195,20 @@ OtherReadings try_other_readings(std::span<const cv::Mat> images, const TagReadi
         }
         const std::size_t to_beat = others.better.empty() ? others.tags + 1 : others.better.front().tags;
         if (reading == tried || found.tags < to_beat) continue;
-        if (!others.better.empty() && found.tags > to_beat) others.better.clear();
-        others.better.push_back({reading, found.tags});
+        if (!others.better.empty() && found.tags > to_beat) {
+            others.better.clear();
+            found_better.clear();
+        }
+        // Of readings of the same squares one alone is right.
+        const auto same = std::ranges::find_if(
+            found_better, [&](const Found& other) { return sees_the_same(found, other); });
+        if (same == found_better.end()) {
+            others.better.push_back({reading, found.tags});
+            found_better.push_back(std::move(found));
+        } else if (found.support > same->support) {
+            others.better[static_cast<std::size_t>(same - found_better.begin())] = {reading, found.tags};
+            *same = std::move(found);
+        }
     }
     return others;
 }

@@ -33,7 +33,8 @@ struct ImagesSeen {
 struct OtherReadings {
     std::size_t images = 0;
     std::size_t tags = 0;  ///< number found with the reading that was asked for
-    /// The readings that find more tags than that: the best one, or several that are equally good.
+    /// The readings that find more tags than that: the best one, or several that find as many. Of readings of
+    /// the same squares it is the one whose patterns are likeliest in comparison with chance.
     std::vector<TriedReading> better;
     ImagesSeen seen;
 };

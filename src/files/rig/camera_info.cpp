@@ -65,6 +65,7 @@ void check_place_in_image(const YamlValue& value, const CameraInfo& info) {
         value.fail(fmt::format("the principal point ({:g}, {:g}) is outside the image of {} x {} px",
                                point.x(), point.y(), info.width_px, info.height_px));
     check_focal_ratio(value, info.focal_px.y() / info.focal_px.x());
+    check_focal_length(value, info.focal_px.x(), std::max(info.width_px, info.height_px));
 }
 
 /// How a program calls models.

@@ -6,6 +6,8 @@
 #include "src/files/rig/camera_info.h"
 #include "src/files/rig/capture_keys.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -18,6 +20,7 @@ constexpr NumberRange coefficients{-100.0, 100.0};
 constexpr NumberRange turn{-std::numbers::pi, std::numbers::pi};
 constexpr NumberRange tilts{-0.5, 0.5};
 constexpr NumberRange axis_angles{-0.1, 0.1};
+constexpr double widest_field_rad = 170.0 * std::numbers::pi / 180.0;
 
 Eigen::Vector2d pair_of(const YamlValue& value, const NumberRange& range) {
     const std::vector<double> numbers = value.numbers(2, range);
@@ -41,6 +44,7 @@ CameraGeometry read_own_intrinsics(const YamlValue& map) {
                           .principal_point_px = pair_of(map.at("principal_point_px"), any_number),
                           .distance_mm = 0.0};
     if (const auto ratio = map.find("focal_ratio")) camera.focal_ratio = ratio->number(focal_ratios);
+    check_focal_length(map.at("focal_px"), camera.focal_px, std::max(camera.width_px, camera.height_px));
     camera.distortion = read_lens(map);
     return camera;
 }
@@ -83,6 +87,17 @@ void check_focal_ratio(const YamlValue& value, double focal_ratio) {
     if (focal_ratio < focal_ratios.low || focal_ratio > focal_ratios.high)
         value.fail(fmt::format("f_y / f_x must be of at least {} and at most {}", focal_ratios.low,
                                focal_ratios.high));
+}
+
+void check_focal_length(const YamlValue& value, double focal_px, int longer_side_px) {
+    const double half_side_px = 0.5 * longer_side_px;
+    const double least_px = half_side_px / std::tan(0.5 * widest_field_rad);
+    if (focal_px < least_px)
+        value.fail(fmt::format(
+            "a focal length of {:g} px would see {:.1f} degrees along {} px; allowed: {:.3g} px or "
+            "more: it is in px, not in mm or m",
+            focal_px, 2.0 * std::atan(half_side_px / focal_px) * 180.0 / std::numbers::pi, longer_side_px,
+            least_px));
 }
 
 CameraParameters read_rig_camera(const YamlValue& map) {

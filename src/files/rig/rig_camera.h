@@ -23,4 +23,9 @@ CameraParameters read_rig_camera(const YamlValue& map);
 /// @param value  the value that the error names
 void check_focal_ratio(const YamlValue& value, double focal_ratio);
 
+/// Throws InputError on a focal length at which a camera without distortion would see more than 170 degrees
+/// along the image's longer side: it is given in mm or m. Fisheye lenses have longer ones for what they see.
+/// @param value  the value that the error names
+void check_focal_length(const YamlValue& value, double focal_px, int longer_side_px);
+
 }  // namespace fidservo

@@ -28,8 +28,8 @@ class PlainTable {
     std::size_t columns() const;
     FieldKind kind(std::size_t column) const { return structure_.kinds[column]; }
     const std::vector<TitleLine>& titles() const { return structure_.titles; }
-    /// The lowest line above the rows and its text, where it has no title for each column.
-    const std::optional<std::pair<int, std::string>>& line_above() const { return structure_.line_above; }
+    /// Titles and all other lines above the rows, the lowest first.
+    const std::vector<LineAbove>& above() const { return structure_.above; }
     int first_line() const { return structure_.first_row.line; }
     int last_line() const { return structure_.last_line; }
     /// Whether the last row's line is terminated.

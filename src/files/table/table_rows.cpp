@@ -115,15 +115,29 @@ void note_header(const std::vector<HeaderLine>& header, TableStructure& structur
                                                 fmt::join(lines, " and "))));
 }
 
-/// The lowest lines that can be titles, all comments or none.
+/// The lowest lines that can be titles. Other lines may stand below them, and comments between them.
 void take_titles(const std::vector<HeaderLine>& header, TableStructure& structure) {
     constexpr std::size_t most_lines = 8;
     for (auto line = header.rbegin(); line != header.rend() && structure.titles.size() < most_lines; ++line) {
-        if (!can_be_titles(*line, structure) || line->is_comment != header.back().is_comment) break;
+        if (!can_be_titles(*line, structure)) {
+            if (line->is_comment || structure.titles.empty()) continue;
+            break;
+        }
         // A number in place of a title is one of the instrument's own, unless nothing else is a title.
         if (line->has_number && !structure.titles.empty()) break;
         structure.titles.push_back({line->line, line->fields});
     }
+}
+
+std::vector<LineAbove> lowest_first(const std::vector<HeaderLine>& header, const TableStructure& structure) {
+    std::vector<LineAbove> above;
+    for (auto line = header.rbegin(); line != header.rend(); ++line) {
+        above.push_back({.line = line->line, .text = line->text});
+        if (!can_be_titles(*line, structure)) continue;
+        above.back().fields = line->fields;
+        above.back().has_number = line->has_number;
+    }
+    return above;
 }
 
 /// Lines whose last is the lowest above the rows.
@@ -213,8 +227,7 @@ void find_first_row(const TextFile& file, const TableOptions& options, const std
     note_header(above.lines(), structure);
     if (above.lines().empty()) return;
     structure.fields_above = above.lines().back().count;
-    if (structure.titles.empty())
-        structure.line_above = {above.lines().back().line, above.lines().back().text};
+    structure.above = lowest_first(above.lines(), structure);
 }
 
 }  // namespace fidservo

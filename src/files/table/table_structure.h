@@ -27,6 +27,14 @@ struct TitleLine {
     std::vector<std::string> fields;
 };
 
+/// Any line above the rows.
+struct LineAbove {
+    int line = 0;
+    std::string text = {};
+    std::vector<std::string> fields = {};  ///< one for each column, if the line has as many and text in them
+    bool has_number = false;               ///< whether some of them are numbers
+};
+
 struct TableStructure {
     char separator = ',';
     std::size_t fields = 0;             ///< number of fields in every row
@@ -35,9 +43,8 @@ struct TableStructure {
     std::size_t end = 0;                 ///< offset behind the last row
     int last_line = 0;                   ///< number of the last row's line
     std::vector<TitleLine> titles = {};  ///< the lowest first
-    /// The lowest line above the rows, if it holds no titles.
-    std::optional<std::pair<int, std::string>> line_above = {};
-    std::size_t fields_above = 0;  ///< fields of the lowest line above the rows; 0 without one
+    std::vector<LineAbove> above = {};   ///< titles and all other lines above the rows, the lowest first
+    std::size_t fields_above = 0;        ///< fields of the lowest line above the rows; 0 without one
     std::optional<DecimalSign> stated_decimal = {};  ///< stated by the user, or in a line above the rows
     std::vector<std::string> notes = {};             ///< sentences on what was skipped
 };
