@@ -15,12 +15,17 @@ constexpr int cases([[maybe_unused]] int all, [[maybe_unused]] int under_sanitiz
 #endif
 }
 
+/// Whether the environment has FIDSERVO_DRAWS=all (./run test --all-draws).
+inline bool has_all_draws() {
+    const char* const asked = std::getenv("FIDSERVO_DRAWS");
+    return asked != nullptr && std::string_view(asked) == "all";
+}
+
 /// The number of random draws of a test: usually `guard`, the few that protect against regressions; `all`, on
 /// which the documentation's figures are based, where the environment has FIDSERVO_DRAWS=all (./run test
 /// --all-draws). The few are the first ones of all.
 inline int draws(int all, int guard) {
-    const char* const asked = std::getenv("FIDSERVO_DRAWS");
-    return asked != nullptr && std::string_view(asked) == "all" ? all : guard;
+    return has_all_draws() ? all : guard;
 }
 
 }  // namespace fidservo::testing

@@ -8,11 +8,9 @@
 #include "tests/gap/effect_names.h"
 #include "tests/gap/simulated_campaign.h"
 
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <numbers>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -197,9 +195,9 @@ TEST(SlowDiagnosis, WaveAlongTheRail_IsFoundWithItsPeriodAndPhase) {
         double amplitude_V, period_mm, phase_rad;
     };
     constexpr double middle_mm = 100.0;
-    constexpr std::array truths{Truth{0.1, 2.2, -2.0}, Truth{0.05, 5.0, 1.0}};
-    for (const Truth& truth :
-         std::span(truths).first(static_cast<std::size_t>(fidservo::testing::draws(2, 1)))) {
+    if (!fidservo::testing::has_all_draws())
+        GTEST_SKIP() << "the self-check knows a wave, EffectRecovery another: one of all draws";
+    for (const Truth& truth : {Truth{0.05, 5.0, 1.0}, Truth{0.1, 2.2, -2.0}}) {
         const std::string text = fmt::format("cogging:amplitude_V={},period_mm={},phase_rad={}",
                                              truth.amplitude_V, truth.period_mm, truth.phase_rad);
         const Diagnosis diagnosis =

@@ -39,7 +39,8 @@ Session session_with(const std::shared_ptr<SimulatedRig>& rig, const Fault& faul
 std::unique_ptr<WatchedRig> homed_rig(const Plate& printed = reference_plate()) {
     static const auto homed = [] {
         WatchedRig rig(reference_physics(), reference_plate(), 5);
-        EXPECT_TRUE(rig.session.home());
+        const auto end = rig.session.home();
+        EXPECT_TRUE(end) << end.error().text;
         return std::pair(rig.rig->snapshot(), rig.session.checkpoint());
     }();
     auto rig = std::make_unique<WatchedRig>(reference_physics(), printed, 5);
@@ -49,13 +50,11 @@ std::unique_ptr<WatchedRig> homed_rig(const Plate& printed = reference_plate()) 
 }
 
 TEST(Session, Home_FindsWhereTheCameraIs) {
-    WatchedRig rig(reference_physics(), reference_plate(), 5);
-    const auto homed = rig.session.home();
-    ASSERT_TRUE(homed) << homed.error().text;
-    const auto arrival = rig.session.go_to(3, 0.25);
+    const auto rig = homed_rig();
+    const auto arrival = rig->session.go_to(3, 0.25);
     ASSERT_TRUE(arrival) << arrival.error().text;
-    EXPECT_NEAR(plant::camera_position_mm(rig.rig->truth()), 6.25, 0.002);
-    EXPECT_NEAR(rig.session.camera_mm().x(), plant::camera_position_mm(rig.rig->truth()), 0.0005);
+    EXPECT_NEAR(plant::camera_position_mm(rig->rig->truth()), 6.25, 0.002);
+    EXPECT_NEAR(rig->session.camera_mm().x(), plant::camera_position_mm(rig->rig->truth()), 0.0005);
 }
 
 TEST(SlowSession, PlatesOfOtherTags_AreMeasuredAsWell) {
