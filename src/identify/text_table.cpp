@@ -172,6 +172,7 @@ TextTable read_text_table(const std::filesystem::path& file, const std::vector<C
                           const TableOptions& options) {
     FIDSERVO_DEMAND(!choices.empty());
     const PlainTable source = PlainTable::load(file, options);
+    demand_no_factors(source);
     TextTable table{file, {}, source.notes()};
     if (!source.last_row_ends())
         table.notes.emplace_back(

@@ -4,6 +4,9 @@
 #include "src/identify/column_units.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -89,7 +92,26 @@ class UnitSearch {
     int line_of_unit_ = 0;
 };
 
+bool is_word_for_a_factor(std::string_view field) {
+    constexpr std::array<std::string_view, 5> words{"scale", "scaling", "factor", "gain", "multiplier"};
+    const auto small = [](char letter) { return std::tolower(static_cast<unsigned char>(letter)); };
+    return std::ranges::any_of(words, [&](std::string_view word) {
+        return std::ranges::equal(word, without_blanks(field), {}, {}, small);
+    });
+}
+
 }  // namespace
+
+void demand_no_factors(const PlainTable& table) {
+    for (const LineAbove& line : table.above()) {
+        const auto numbers = std::ranges::count_if(
+            line.fields, [](const std::string& field) { return look_at(field).kind == FieldKind::number; });
+        if (numbers < 2 || !is_word_for_a_factor(line.fields.front())) continue;
+        table.fail(line.line, fmt::format("'{}' gives the columns factors, which are not applied: multiply "
+                                          "the columns by them and remove the line",
+                                          excerpt(line.text)));
+    }
+}
 
 UnitAbove unit_above(const PlainTable& table, std::size_t column) {
     return UnitSearch(table, column).found();

@@ -26,4 +26,8 @@ struct UnitAbove {
 /// InputError "FILE:LINE: ..." if titles give two different ones.
 UnitAbove unit_above(const PlainTable& table, std::size_t column);
 
+/// Throws InputError "FILE:LINE: ..." where a line above the rows has factors for its columns, as
+/// "scale;0.001;0.001": they would be passed over.
+void demand_no_factors(const PlainTable& table);
+
 }  // namespace fidservo

@@ -5,6 +5,7 @@
 #include "src/files/table/clock_time.h"
 #include "src/files/table/plain_table.h"
 #include "src/identify/column_units.h"
+#include "src/identify/units_above.h"
 #include "src/import/interrupted.h"
 
 #include <algorithm>
@@ -119,6 +120,7 @@ void finish(ReadColumn& column) {
 
 Log read_table_log(const std::filesystem::path& file, const TableOptions& options) {
     const PlainTable table = PlainTable::load(file, options);
+    demand_no_factors(table);
     Log log{.file = file, .notes = table.notes()};
     if (!table.last_row_ends())
         log.notes.emplace_back(

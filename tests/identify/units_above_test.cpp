@@ -52,6 +52,13 @@ TEST(UnitsAbove, WhereverTheyStand_AreTheColumns) {
     }
 }
 
+TEST(UnitsAbove, FactorsThere_AreNotPassedOver) {
+    for (const char* header : {"scale;0.001;0.001\ntime [s];u [V];x [mm]", "Factor;1e-3;25.4\ntime;u;x"})
+        EXPECT_THAT(message_of([&] { table_below(header); }), HasSubstr("gives the columns factors"))
+            << header;
+    EXPECT_NO_THROW(table_below("rate;1000;1000\ntime [s];u [V];x [mm]"));
+}
+
 TEST(UnitsAbove, InAnyFormOfTitle_AreRead) {
     for (const char* form :
          {"{} in {}", "{}, {}", "{} {{{}}}", "{} <{}>", "[{1}] {0}", "{}.{}", "{} {}", "{} [{}] raw"}) {
