@@ -131,7 +131,7 @@ LogOrFault crash(const char*) {
     return Log{};
 }
 
-LogOrFault take_all_memory(const char*) {
+[[maybe_unused]] LogOrFault take_all_memory(const char*) {
     constexpr std::size_t gigabyte = std::size_t{1} << 30U;
     for (std::vector<std::unique_ptr<char[]>> all;;)
         all.push_back(std::make_unique_for_overwrite<char[]>(gigabyte));
