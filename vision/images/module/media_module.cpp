@@ -18,6 +18,10 @@ namespace {
 /// with it.
 class WithoutOpenCvsLines final : public std::streambuf {
   public:
+    WithoutOpenCvsLines(const WithoutOpenCvsLines&) = delete;
+    WithoutOpenCvsLines& operator=(const WithoutOpenCvsLines&) = delete;
+    ~WithoutOpenCvsLines() override { std::cerr.rdbuf(behind_); }
+
     template <class Decode>
     static auto call(Decode decode) {
         static WithoutOpenCvsLines installed;
@@ -31,7 +35,6 @@ class WithoutOpenCvsLines final : public std::streambuf {
 
   private:
     WithoutOpenCvsLines() : behind_(std::cerr.rdbuf(this)) {}
-    ~WithoutOpenCvsLines() override { std::cerr.rdbuf(behind_); }
 
     int_type overflow(int_type letter) override {
         if (is_quiet || traits_type::eq_int_type(letter, traits_type::eof()))
